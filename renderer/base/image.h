@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace rtrays {
+
+/// One attribute of the EXR header.
+using Attribute = std::variant<int, float, double, std::string>;
+
+/// A float32 image, linear Rec. 709, planar. The first three channels are "R", "G", "B" (radiance,
+/// W / (sr m^2)); further layers use dotted names: "variance.R" (variance of the MEAN per pixel),
+/// "samples" (sample count per pixel), ...
+///
+/// Rows run from the top, pixel (x, y) of a channel is at `y * width + x`.
+class Image {
+  public:
+    struct Channel {
+        std::string name;
+        std::vector<float> values;  ///< width * height
+    };
+
+    Image() = default;
+    Image(int width, int height) : width_(width), height_(height) {}
+
+    /// A black image with channels R, G, B.
+    static Image rgb(int width, int height);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    size_t pixel_count() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
+
+    const std::vector<Channel> &channels() const { return channels_; }
+    bool has(const std::string &name) const { return find(name) != nullptr; }
+
+    /// The channel's values; throws `Error` when there is none of that name.
+    const std::vector<float> &channel(const std::string &name) const;
+    std::vector<float> &channel(const std::string &name);
+
+    /// Appends a zero channel and returns its values; throws `Error` when the name is taken.
+    std::vector<float> &add_channel(const std::string &name);
+
+    std::map<std::string, Attribute> &attributes() { return attributes_; }
+    const std::map<std::string, Attribute> &attributes() const { return attributes_; }
+
+  private:
+    const Channel *find(const std::string &name) const;
+
+    int width_ = 0;
+    int height_ = 0;
+    std::vector<Channel> channels_;
+    std::map<std::string, Attribute> attributes_;
+};
+
+/// Names of the colour channels in order; `layer` prefixes them: "variance" gives "variance.R", ...
+std::vector<std::string> rgb_names(const std::string &layer = "");
+
+/// Reads all channels and the attributes of int, float, double and string type.
+/// Throws `Error` (bad input) naming the file when it is missing, truncated or not an EXR.
+Image read_exr(const std::filesystem::path &path);
+
+/// Writes the image whole or not at all (temporary file beside it, then rename), ZIP-compressed float32
+/// with the standard `chromaticities` of Rec. 709. Throws `Error` (run failed) naming the file.
+void write_exr(const Image &image, const std::filesystem::path &path);
+
+}  // namespace rtrays

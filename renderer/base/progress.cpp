@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/base/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+namespace rtrays {
+
+namespace {
+
+std::atomic<bool> interrupt_flag{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "the handler may only touch a lock-free flag");
+
+std::string format_duration(double seconds) {
+    const auto s = static_cast<uint64_t>(seconds + 0.5);
+    if (s >= 3600) {
+        return fmt::format("{}h{:02}m", s / 3600, s / 60 % 60);
+    }
+    return fmt::format("{}m{:02}s", s / 60, s % 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::string task, uint64_t total, std::string what, bool quiet)
+    : task_(std::move(task)), total_(total), what_(std::move(what)), quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+    if (drawn_) {
+        print(last_done_, "\n");
+    }
+}
+
+void Progress::update(uint64_t done) {
+    const auto now = Clock::now();
+    if (!started_) {
+        started_ = true;
+        first_done_ = done;
+        start_ = last_print_ = now;
+    }
+    last_done_ = done;
+    const auto interval = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
+    if (quiet_ || now - last_print_ < interval) {
+        return;
+    }
+    last_print_ = now;
+    drawn_ = terminal_;
+    print(done, terminal_ ? "" : "\n");
+}
+
+void Progress::print(uint64_t done, const char *end) const {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    const uint64_t advanced = done - first_done_;
+    const double left = advanced > 0 ? elapsed / static_cast<double>(advanced) * static_cast<double>(total_ - done) : 0.0;
+    fmt::print(stderr, "{}{}: {} / {} {}, {} elapsed, {} left{}{}", terminal_ ? "\r" : "", task_, done, total_, what_,
+               format_duration(elapsed), advanced > 0 ? format_duration(left) : "?", terminal_ ? "\x1b[K" : "", end);
+    std::fflush(stderr);
+}
+
+bool interrupted() { return interrupt_flag.load(std::memory_order_relaxed); }
+
+void install_interrupt_handler() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupt_flag.store(true, std::memory_order_relaxed); };
+    action.sa_flags = SA_RESETHAND;  // a second signal ends the process at once
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace rtrays

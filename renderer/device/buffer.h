@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "renderer/base/error.h"
+#include "renderer/device/context.h"
+
+namespace rtrays {
+
+/// A device array of `T`. Copies to and from the host are blocking.
+template <typename T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T>, "device records are plain data");
+
+  public:
+    Buffer() = default;
+
+    /// Uninitialized. PoCL's vectoriser may read past the end (pocl#757), hence 64 bytes of padding.
+    Buffer(DeviceContext &device, std::string name, size_t count, cl_mem_flags flags = CL_MEM_READ_WRITE)
+        : device_(&device), name_(std::move(name)), count_(count) {
+        memory_ = device.allocate(name_, bytes() + padding, flags);
+    }
+
+    Buffer(DeviceContext &device, std::string name, const std::vector<T> &values)
+        : Buffer(device, std::move(name), values.size()) {
+        write(values);
+    }
+
+    void write(const std::vector<T> &values) {
+        if (values.size() != count_) {
+            throw run_error(fmt::format("buffer '{}' holds {} items, not {}", name_, count_, values.size()));
+        }
+        if (count_ > 0) {
+            check_cl(clEnqueueWriteBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(), values.data(), 0, nullptr, nullptr),
+                     "writing buffer " + name_);
+        }
+    }
+
+    void fill(const T &value) {
+        if (count_ > 0) {
+            check_cl(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, 0, bytes(), 0, nullptr, nullptr),
+                     "filling buffer " + name_);
+        }
+    }
+
+    std::vector<T> read() const { return read(0, count_); }
+
+    std::vector<T> read(size_t first, size_t count) const {
+        std::vector<T> values(count);
+        if (count > 0) {
+            check_cl(clEnqueueReadBuffer(device_->queue(), get(), CL_TRUE, first * sizeof(T), count * sizeof(T), values.data(), 0,
+                                         nullptr, nullptr),
+                     "reading buffer " + name_);
+        }
+        return values;
+    }
+
+    cl_mem get() const { return memory_.get(); }
+    const std::string &name() const { return name_; }
+    size_t size() const { return count_; }
+    size_t bytes() const { return count_ * sizeof(T); }
+
+  private:
+    static constexpr size_t padding = 64;
+
+    DeviceContext *device_ = nullptr;
+    std::string name_;
+    size_t count_ = 0;
+    ClMemory memory_;
+};
+
+}  // namespace rtrays

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/device/context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "renderer/base/error.h"
+
+namespace rtrays {
+
+namespace {
+
+std::string device_text(cl_device_id device, cl_device_info what) {
+    size_t size = 0;
+    check_cl(clGetDeviceInfo(device, what, 0, nullptr, &size), "querying a device");
+    std::string text(size, '\0');
+    check_cl(clGetDeviceInfo(device, what, size, text.data(), nullptr), "querying a device");
+    text.resize(std::min(text.find('\0'), text.size()));
+    return text;
+}
+
+template <typename T>
+T device_value(cl_device_id device, cl_device_info what) {
+    T value{};
+    check_cl(clGetDeviceInfo(device, what, sizeof value, &value, nullptr), "querying a device");
+    return value;
+}
+
+std::string platform_name(cl_platform_id platform) {
+    char name[256] = "";
+    check_cl(clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name - 1, name, nullptr), "querying a platform");
+    return name;
+}
+
+DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
+    const std::string extensions = device_text(device, CL_DEVICE_EXTENSIONS);
+    return {platform,
+            device,
+            device_text(device, CL_DEVICE_NAME),
+            platform_name(platform),
+            device_text(device, CL_DRIVER_VERSION),
+            device_text(device, CL_DEVICE_OPENCL_C_VERSION),
+            (device_value<cl_device_type>(device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0,
+            extensions.find("cl_khr_int64_base_atomics") != std::string::npos,
+            device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS),
+            device_value<size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE),
+            device_value<cl_ulong>(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
+            device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE)};
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+DeviceInfo select_device(const std::string &spec) {
+    const std::vector<DeviceInfo> devices = list_devices();
+    if (devices.empty()) {
+        throw input_error("no OpenCL device found; install one: the CPU device is Debian's package pocl-opencl-icd "
+                          "(scripts/install does it), a GPU's comes with its driver");
+    }
+    std::string listing;
+    std::vector<std::string> index(devices.size());
+    unsigned platform = 0, number = 0;
+    for (size_t i = 0; i < devices.size(); ++i) {
+        const bool same = i > 0 && devices[i].platform == devices[i - 1].platform;
+        platform += i > 0 && !same ? 1 : 0;
+        number = same ? number + 1 : 0;
+        index[i] = fmt::format("{}:{}", platform, number);
+        listing += fmt::format("\n  {}  {}  ({})", index[i], devices[i].name, devices[i].platform_name);
+    }
+    const auto find = [&](auto &&matches) -> const DeviceInfo * {
+        for (size_t i = 0; i < devices.size(); ++i) {
+            if (matches(i)) {
+                return &devices[i];
+            }
+        }
+        return nullptr;
+    };
+    const auto is_gpu = [&](size_t i) { return !devices[i].is_cpu; };
+    const DeviceInfo *found = nullptr;
+    if (spec.empty()) {
+        found = find(is_gpu);
+        found = found != nullptr ? found : &devices.front();
+    } else if (lower(spec) == "gpu") {
+        found = find(is_gpu);
+    } else if (lower(spec) == "cpu") {
+        found = find([&](size_t i) { return devices[i].is_cpu; });
+    } else {
+        found = find([&](size_t i) { return index[i] == spec; });
+        found = found != nullptr ? found : find([&](size_t i) { return lower(devices[i].name).find(lower(spec)) != std::string::npos; });
+    }
+    if (found == nullptr) {
+        throw input_error(fmt::format("no OpenCL device matches '{}'; there are:{}", spec, listing));
+    }
+    return *found;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices() {
+    cl_uint platform_count = 0;
+    // The loader reports "no platform" as an error (-1001, cl_khr_icd); that is an empty list, not a failure.
+    if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS) {
+        return {};
+    }
+    std::vector<cl_platform_id> platforms(platform_count);
+    check_cl(clGetPlatformIDs(platform_count, platforms.data(), nullptr), "listing OpenCL platforms");
+    std::vector<DeviceInfo> devices;
+    for (const cl_platform_id platform : platforms) {
+        cl_uint count = 0;
+        const cl_int status = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count);
+        if (status == CL_DEVICE_NOT_FOUND || count == 0) {
+            continue;
+        }
+        check_cl(status, "listing OpenCL devices");
+        std::vector<cl_device_id> ids(count);
+        check_cl(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr), "listing OpenCL devices");
+        for (const cl_device_id id : ids) {
+            devices.push_back(describe(platform, id));
+        }
+    }
+    return devices;
+}
+
+DeviceContext::DeviceContext(const std::string &spec) : info_(select_device(spec)) {
+    cl_int status = CL_SUCCESS;
+    context_ = ClContext(clCreateContext(nullptr, 1, &info_.device, nullptr, nullptr, &status));
+    check_cl(status, fmt::format("creating a context on '{}'", info_.name));
+    queue_ = ClQueue(clCreateCommandQueue(context(), info_.device, CL_QUEUE_PROFILING_ENABLE, &status));
+    check_cl(status, fmt::format("creating a queue on '{}'", info_.name));
+}
+
+void DeviceContext::finish() {
+    check_cl(clFinish(queue()), "waiting for the device");
+    profiler_.collect();
+}
+
+ClMemory DeviceContext::allocate(const std::string &name, uint64_t bytes, cl_mem_flags flags) {
+    if (bytes > info_.max_allocation) {
+        throw run_error(fmt::format("buffer '{}' needs {:.1f} MiB; '{}' allocates at most {:.1f} MiB at once", name,
+                                    static_cast<double>(bytes) / 0x1p20, info_.name,
+                                    static_cast<double>(info_.max_allocation) / 0x1p20));
+    }
+    cl_int status = CL_SUCCESS;
+    ClMemory memory(clCreateBuffer(context(), flags, bytes, nullptr, &status));
+    check_cl(status, fmt::format("allocating buffer '{}' of {} bytes", name, bytes));
+    return memory;
+}
+
+}  // namespace rtrays

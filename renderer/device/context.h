@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "renderer/device/opencl.h"
+#include "renderer/device/profiler.h"
+
+namespace rtrays {
+
+/// What is known of an OpenCL device and decides defaults.
+struct DeviceInfo {
+    cl_platform_id platform;
+    cl_device_id device;
+    std::string name;
+    std::string platform_name;
+    std::string driver;           ///< driver version
+    std::string c_version;        ///< "OpenCL C 1.2 PoCL"
+    bool is_cpu;
+    bool has_int64_atomics;       ///< cl_khr_int64_base_atomics
+    uint32_t compute_units;
+    uint64_t max_group_size;
+    uint64_t max_allocation;      ///< bytes
+    uint64_t global_memory;       ///< bytes
+};
+
+/// All devices of all platforms, platform by platform.
+std::vector<DeviceInfo> list_devices();
+
+/// One device with its context, an in-order profiling queue, and the account of what was allocated on it
+/// and launched.
+class DeviceContext {
+  public:
+    /// `spec`: "" (the first GPU, else the first device), "cpu", "gpu", "PLATFORM:DEVICE" by index, or a part
+    /// of a device's name. Throws `Error` (bad usage) listing the devices when none matches, and naming the
+    /// package to install when there is no device at all.
+    explicit DeviceContext(const std::string &spec = "");
+
+    const DeviceInfo &info() const { return info_; }
+    cl_context context() const { return context_.get(); }
+    cl_command_queue queue() const { return queue_.get(); }
+    Profiler &profiler() { return profiler_; }
+
+    /// Waits until everything enqueued is done and books the events.
+    void finish();
+
+    /// Allocates device memory booked under `name`; throws `Error` naming buffer and size when it fails.
+    ClMemory allocate(const std::string &name, uint64_t bytes, cl_mem_flags flags);
+
+  private:
+    DeviceInfo info_;
+    ClContext context_;
+    ClQueue queue_;
+    Profiler profiler_;
+};
+
+}  // namespace rtrays

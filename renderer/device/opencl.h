@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// OpenCL's C API with ownership and with every status checked.
+#pragma once
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include <string>
+#include <utility>
+
+namespace rtrays {
+
+/// Throws `Error` (run failed) with the status by name unless it is CL_SUCCESS; `what` says what was tried.
+void check_cl(cl_int status, const std::string &what);
+
+/// "CL_OUT_OF_RESOURCES" and the like.
+std::string cl_status_name(cl_int status);
+
+/// Owns one reference to an OpenCL object.
+template <typename T, cl_int (*release)(T)>
+class ClHandle {
+  public:
+    ClHandle() = default;
+    explicit ClHandle(T object) : object_(object) {}
+    ClHandle(ClHandle &&other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+    ClHandle &operator=(ClHandle &&other) noexcept {
+        std::swap(object_, other.object_);
+        return *this;
+    }
+    ~ClHandle() {
+        if (object_ != nullptr) {
+            release(object_);
+        }
+    }
+
+    T get() const { return object_; }
+    explicit operator bool() const { return object_ != nullptr; }
+
+  private:
+    T object_ = nullptr;
+};
+
+using ClContext = ClHandle<cl_context, clReleaseContext>;
+using ClQueue = ClHandle<cl_command_queue, clReleaseCommandQueue>;
+using ClProgram = ClHandle<cl_program, clReleaseProgram>;
+using ClKernel = ClHandle<cl_kernel, clReleaseKernel>;
+using ClMemory = ClHandle<cl_mem, clReleaseMemObject>;
+using ClEvent = ClHandle<cl_event, clReleaseEvent>;
+
+}  // namespace rtrays

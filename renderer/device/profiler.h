@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/device/opencl.h"
+
+namespace rtrays {
+
+/// Device time and number of launches by stage, read from OpenCL events.
+class Profiler {
+  public:
+    struct Stage {
+        double seconds = 0;
+        uint64_t launches = 0;
+    };
+
+    /// Takes over the event of one launch of `stage` (a reference that must stay valid until `collect`).
+    void add(const std::string &stage, ClEvent event) { pending_.emplace_back(&stages_[stage], std::move(event)); }
+
+    /// Books all events so far; they must have completed. Throws when a launch had failed.
+    void collect();
+
+    size_t pending() const { return pending_.size(); }
+    const std::map<std::string, Stage> &stages() const { return stages_; }
+    double total_seconds() const;
+    void reset();
+
+  private:
+    std::map<std::string, Stage> stages_;  // nodes are stable: pending_ points into it
+    std::vector<std::pair<Stage *, ClEvent>> pending_;
+};
+
+}  // namespace rtrays

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/device/program.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+const char *const program_options = "-cl-std=CL1.2 -cl-kernel-arg-info";
+
+namespace {
+
+constexpr size_t hash_digits = 32;
+
+/// An exclusive advisory lock on a file, held for the object's life. Without it two processes would only
+/// compile twice, so a cache directory that cannot be locked is not an error.
+class FileLock {
+  public:
+    explicit FileLock(const fs::path &path) : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+        if (fd_ >= 0) {
+            flock(fd_, LOCK_EX);
+        }
+    }
+    ~FileLock() {
+        if (fd_ >= 0) {
+            close(fd_);
+        }
+    }
+    FileLock(const FileLock &) = delete;
+    FileLock &operator=(const FileLock &) = delete;
+
+  private:
+    int fd_;
+};
+
+std::string build_log(cl_program program, cl_device_id device) {
+    size_t size = 0;
+    clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size);
+    std::string log(size, '\0');
+    clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr);
+    return log;
+}
+
+std::string program_binary(cl_program program) {
+    size_t size = 0;
+    check_cl(clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr), "reading a program's size");
+    std::string binary(size, '\0');
+    char *pointer = binary.data();
+    check_cl(clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof pointer, &pointer, nullptr), "reading a program's binary");
+    return binary;
+}
+
+std::string cache_file(const std::string &key) { return (fs::path(program_cache_directory()) / (key + ".clbin")).string(); }
+
+}  // namespace
+
+std::string program_cache_directory() {
+    const auto variable = [](const char *name) {
+        const char *value = std::getenv(name);
+        return std::string(value == nullptr ? "" : value);
+    };
+    if (const std::string own = variable("RTRAYS_CACHE_DIR"); !own.empty()) {
+        return own;
+    }
+    if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) {
+        return xdg + "/rtrays";
+    }
+    const std::string home = variable("HOME");
+    return (home.empty() ? fs::temp_directory_path().string() : home + "/.cache") + "/rtrays";
+}
+
+Program::Program(DeviceContext &device, const std::string &path, const Defines &defines, const SourceOverlays &overlays)
+    : device_(&device), path_(path) {
+    const auto start = std::chrono::steady_clock::now();
+    std::string source;
+    for (const auto &[name, value] : defines) {
+        source += fmt::format("#define {} {}\n", name, value);
+    }
+    source += expand_source(path, overlays);
+    const DeviceInfo &info = device.info();
+    const std::string key =
+        content_hash(fmt::format("{}\n{}\n{}\n{}\n{}", info.platform_name, info.name, info.driver, program_options, source));
+
+    std::error_code ignored;  // a cache that cannot be created only costs time
+    fs::create_directories(program_cache_directory(), ignored);
+    const FileLock lock(cache_file(key) + ".lock");
+    from_cache_ = load(key);
+    if (!from_cache_) {
+        compile(source, key);
+    }
+    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool Program::load(const std::string &key) {
+    std::string content;
+    try {
+        content = read_file(cache_file(key));
+    } catch (const Error &) {
+        return false;
+    }
+    if (content.size() < hash_digits || content_hash(content.substr(hash_digits)) != content.substr(0, hash_digits)) {
+        return false;
+    }
+    binary_bytes_ = content.size() - hash_digits;
+    const auto *binary = reinterpret_cast<const unsigned char *>(content.data()) + hash_digits;
+    cl_int status = CL_SUCCESS;
+    cl_int loaded = CL_SUCCESS;
+    program_ = ClProgram(clCreateProgramWithBinary(device_->context(), 1, &device_->info().device, &binary_bytes_, &binary,
+                                                   &loaded, &status));
+    return status == CL_SUCCESS && loaded == CL_SUCCESS &&
+           clBuildProgram(program_.get(), 1, &device_->info().device, program_options, nullptr, nullptr) == CL_SUCCESS;
+}
+
+void Program::compile(const std::string &source, const std::string &key) {
+    const char *text = source.c_str();
+    cl_int status = CL_SUCCESS;
+    program_ = ClProgram(clCreateProgramWithSource(device_->context(), 1, &text, nullptr, &status));
+    check_cl(status, "creating program " + path_);
+    status = clBuildProgram(program_.get(), 1, &device_->info().device, program_options, nullptr, nullptr);
+    if (status != CL_SUCCESS) {
+        throw run_error(fmt::format("building {}: {}\n{}", path_, cl_status_name(status),
+                                    build_log(program_.get(), device_->info().device)));
+    }
+    const std::string binary = program_binary(program_.get());
+    binary_bytes_ = binary.size();
+    try {
+        write_file(cache_file(key), content_hash(binary) + binary);
+    } catch (const Error &) {
+        // a full or read-only cache only costs time
+    }
+}
+
+}  // namespace rtrays

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The common subset of OpenCL C 1.2 and C++17 in which all device functions are written: the tests compile
+// the shipped code for the host.
+//
+// Rules of the subset (scripts/lint holds them): vectors are made by make_float2/3/4, never by
+// literals (in C++ `(float4)(1, 2, 3, 4)` silently yields 4, 4, 4, 4); components are .x .y .z .w, no
+// swizzles; no double literals; no implicit conversion between address spaces.
+//
+// Floating-point contraction is off everywhere, so that both compilers give the same bits and the edge
+// functions of the triangle test keep their exact antisymmetry. Where a fused operation is wanted, it is
+// written as fma().
+#pragma once
+
+#ifdef __OPENCL_VERSION__
+
+#pragma OPENCL FP_CONTRACT OFF
+
+#define DEVICE static inline
+#define GLOBAL __global
+#define PRIVATE __private
+
+#define make_float2(x, y) ((float2)((x), (y)))
+#define make_float3(x, y, z) ((float3)((x), (y), (z)))
+#define make_float4(x, y, z, w) ((float4)((x), (y), (z), (w)))
+#define make_uint4(x, y, z, w) ((uint4)((x), (y), (z), (w)))
+
+#define PI M_PI_F
+#define INV_PI M_1_PI_F
+
+#else
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#define DEVICE [[maybe_unused]] static inline
+#define GLOBAL
+#define PRIVATE
+
+using uint = unsigned int;
+using ulong = unsigned long;
+using uchar = unsigned char;
+
+struct float2 {
+    float x, y;
+};
+struct float3 {
+    float x, y, z;
+};
+struct float4 {
+    float x, y, z, w;
+};
+struct uint4 {
+    uint x, y, z, w;
+};
+
+constexpr float PI = 3.14159274101257f;
+constexpr float INV_PI = 0.31830988618379f;
+
+DEVICE float2 make_float2(float x, float y) { return {x, y}; }
+DEVICE float3 make_float3(float x, float y, float z) { return {x, y, z}; }
+DEVICE float4 make_float4(float x, float y, float z, float w) { return {x, y, z, w}; }
+DEVICE uint4 make_uint4(uint x, uint y, uint z, uint w) { return {x, y, z, w}; }
+
+DEVICE float3 operator+(float3 a, float3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+DEVICE float3 operator-(float3 a, float3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+DEVICE float3 operator*(float3 a, float3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+DEVICE float3 operator/(float3 a, float3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+DEVICE float3 operator*(float3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+DEVICE float3 operator*(float s, float3 a) { return a * s; }
+DEVICE float3 operator/(float3 a, float s) { return {a.x / s, a.y / s, a.z / s}; }
+DEVICE float3 operator-(float3 a) { return {-a.x, -a.y, -a.z}; }
+DEVICE float3 &operator+=(float3 &a, float3 b) { return a = a + b; }
+DEVICE float3 &operator-=(float3 &a, float3 b) { return a = a - b; }
+DEVICE float3 &operator*=(float3 &a, float3 b) { return a = a * b; }
+DEVICE float3 &operator*=(float3 &a, float s) { return a = a * s; }
+
+DEVICE float dot(float3 a, float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+DEVICE float3 cross(float3 a, float3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+DEVICE float length(float3 a) { return sqrtf(dot(a, a)); }
+DEVICE float3 normalize(float3 a) { return a / length(a); }
+DEVICE float3 fabs(float3 a) { return {fabsf(a.x), fabsf(a.y), fabsf(a.z)}; }
+
+DEVICE float min(float a, float b) { return b < a ? b : a; }
+DEVICE float max(float a, float b) { return a < b ? b : a; }
+DEVICE uint min(uint a, uint b) { return b < a ? b : a; }
+DEVICE uint max(uint a, uint b) { return a < b ? b : a; }
+DEVICE int min(int a, int b) { return b < a ? b : a; }
+DEVICE int max(int a, int b) { return a < b ? b : a; }
+DEVICE float3 min(float3 a, float3 b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)}; }
+DEVICE float3 max(float3 a, float3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
+
+DEVICE float sinpi(float x) { return static_cast<float>(sin(3.14159265358979323846 * static_cast<double>(x))); }
+DEVICE float cospi(float x) { return static_cast<float>(cos(3.14159265358979323846 * static_cast<double>(x))); }
+
+DEVICE uint as_uint(float x) {
+    uint bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+DEVICE float as_float(uint bits) {
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+// Atomics as the tests need them; orders as in OpenCL 1.2 (relaxed).
+DEVICE uint atomic_add(volatile uint *p, uint v) { return __atomic_fetch_add(p, v, __ATOMIC_RELAXED); }
+DEVICE uint atomic_inc(volatile uint *p) { return atomic_add(p, 1u); }
+DEVICE long atom_add(volatile long *p, long v) { return __atomic_fetch_add(p, v, __ATOMIC_RELAXED); }
+
+#endif
