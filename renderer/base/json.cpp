@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/base/json.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+#include <vector>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Where the lexer is: the library does not tell its SAX callbacks, so the characters are counted as they
+/// are taken.
+struct Position {
+    size_t line = 1;
+    char last = 0;
+};
+
+class CountingIterator {
+  public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char *;
+    using reference = const char &;
+
+    CountingIterator(const char *current, Position *position) : current_(current), position_(position) {}
+
+    reference operator*() const { return *current_; }
+    CountingIterator &operator++() {
+        position_->last = *current_++;
+        position_->line += position_->last == '\n' ? 1 : 0;
+        return *this;
+    }
+    bool operator==(const CountingIterator &other) const { return current_ == other.current_; }
+    bool operator!=(const CountingIterator &other) const { return current_ != other.current_; }
+
+  private:
+    const char *current_;
+    Position *position_;
+};
+
+std::string escaped(std::string token) {
+    for (const auto &[from, to] : {std::pair{"~", "~0"}, std::pair{"/", "~1"}}) {
+        for (size_t at = token.find(from); at != std::string::npos; at = token.find(from, at + 2)) {
+            token.replace(at, 1, to);
+        }
+    }
+    return token;
+}
+
+/// Builds the document and follows where in it the lexer is.
+class StrictReader {
+  public:
+    StrictReader(const std::string &source_name, const Position &position)
+        : source_name_(source_name), position_(position) {}
+
+    /// Also remembers the line of the value at this pointer, and lets duplicate keys pass.
+    void look_for(const std::string &pointer) { wanted_ = &pointer; }
+
+    Json take() { return std::move(root_); }
+    size_t found_line() const { return found_line_; }
+
+    // What the library calls; `true` means go on.
+    bool null() { return add(nullptr, false); }
+    bool boolean(bool value) { return add(value, false); }
+    bool number_integer(Json::number_integer_t value) { return add(value, true); }
+    bool number_unsigned(Json::number_unsigned_t value) { return add(value, true); }
+    bool number_float(Json::number_float_t value, const std::string &) { return add(value, true); }
+    bool string(std::string &value) { return add(std::move(value), false); }
+    bool binary(Json::binary_t &) { return false; }
+    bool start_object(size_t) { return open(Json::object()); }
+    bool start_array(size_t) { return open(Json::array()); }
+    bool end_object() { return close(); }
+    bool end_array() { return close(); }
+
+    bool key(std::string &name) {
+        Level &level = levels_.back();
+        level.key = name;
+        if (level.value->contains(name) && wanted_ == nullptr) {
+            fail(fmt::format("duplicate key '{}'", name));
+        }
+        return true;
+    }
+
+    bool parse_error(size_t, const std::string &, const Json::exception &error) {
+        static const std::regex noise(
+            R"(^\[json\.exception\.[^\]]*\] (parse error( at line \d+, column \d+)?: )?)");
+        fail(std::regex_replace(error.what(), noise, ""));
+    }
+
+  private:
+    struct Level {
+        Json *value;
+        std::string key;  ///< of the member being read, when `value` is an object
+    };
+
+    std::string pointer() const {
+        std::string path;
+        for (const Level &level : levels_) {
+            path +=
+                level.value->is_array() ? fmt::format("/{}", level.value->size()) : "/" + escaped(level.key);
+        }
+        return path;
+    }
+
+    [[noreturn]] void fail(const std::string &what) const {
+        std::string path = pointer();
+        path += path.empty() ? "" : ": ";
+        throw input_error(fmt::format("{}:{}: {}{}", source_name_, position_.line, path, what));
+    }
+
+    Json *place(Json &&value, bool is_number) {
+        if (wanted_ != nullptr && found_line_ == 0 && pointer() == *wanted_) {
+            // A number ends at the character after it, which may begin the next line.
+            found_line_ = position_.line - (is_number && position_.last == '\n' ? 1 : 0);
+        }
+        if (levels_.empty()) {
+            root_ = std::move(value);
+            return &root_;
+        }
+        Level &level = levels_.back();
+        if (level.value->is_array()) {
+            level.value->push_back(std::move(value));
+            return &level.value->back();
+        }
+        return &((*level.value)[level.key] = std::move(value));
+    }
+
+    bool add(Json &&value, bool is_number) {
+        place(std::move(value), is_number);
+        return true;
+    }
+
+    bool open(Json &&value) {
+        if (levels_.size() == max_json_depth) {
+            fail(fmt::format("nested deeper than {} levels", max_json_depth));
+        }
+        Json *placed = place(std::move(value), false);
+        levels_.push_back({placed, {}});
+        return true;
+    }
+
+    bool close() {
+        levels_.pop_back();
+        return true;
+    }
+
+    const std::string &source_name_;
+    const Position &position_;
+    const std::string *wanted_ = nullptr;
+    size_t found_line_ = 0;
+    Json root_;
+    std::vector<Level> levels_;
+};
+
+/// Line (from 1) of the value at `pointer`, 0 when the text has none.
+size_t line_of(const std::string &text, const std::string &pointer) {
+    Position position;
+    StrictReader reader(pointer, position);
+    reader.look_for(pointer);
+    try {
+        Json::sax_parse(CountingIterator(text.data(), &position),
+                        CountingIterator(text.data() + text.size(), &position), &reader);
+    } catch (const Error &) {
+        // The text is not the one the document came from; what was found before that still holds.
+    }
+    return reader.found_line();
+}
+
+/// Follows local references; schemas are our own, so a dangling one is our bug.
+const Json &resolved(const Json &root, const Json &schema) {
+    const Json *node = &schema;
+    while (node->is_object() && node->contains("$ref")) {
+        node = &root.at(Json::json_pointer(node->at("$ref").get<std::string>().substr(1)));
+    }
+    return *node;
+}
+
+/// All schema nodes that apply to `schema`'s value, those of its combinators included.
+void collect(const Json &root, const Json &schema, std::vector<const Json *> &nodes) {
+    const Json &node = resolved(root, schema);
+    if (!node.is_object()) {
+        return;
+    }
+    nodes.push_back(&node);
+    for (const char *combinator : {"allOf", "anyOf", "oneOf"}) {
+        if (node.contains(combinator)) {
+            for (const Json &branch : node.at(combinator)) {
+                collect(root, branch, nodes);
+            }
+        }
+    }
+    for (const char *branch : {"then", "else"}) {
+        if (node.contains(branch)) {
+            collect(root, node.at(branch), nodes);
+        }
+    }
+}
+
+/// The schema nodes that apply to the value at `path`.
+std::vector<const Json *> schema_nodes(const Json &root, const std::vector<std::string> &path) {
+    std::vector<const Json *> nodes;
+    collect(root, root, nodes);
+    for (const std::string &token : path) {
+        std::vector<const Json *> next;
+        for (const Json *node : nodes) {
+            if (node->contains("properties") && node->at("properties").contains(token)) {
+                collect(root, node->at("properties").at(token), next);
+            } else if (node->contains("additionalProperties")) {
+                collect(root, node->at("additionalProperties"), next);
+            }
+            if (node->contains("items")) {
+                collect(root, node->at("items"), next);
+            }
+        }
+        nodes = std::move(next);
+    }
+    return nodes;
+}
+
+/// Values of the string array or string at `keyword`, over all nodes.
+std::vector<Json> gathered(const std::vector<const Json *> &nodes, const char *keyword) {
+    std::vector<Json> values;
+    for (const Json *node : nodes) {
+        if (node->contains(keyword)) {
+            const Json &value = node->at(keyword);
+            const std::vector<Json> list =
+                value.is_array() ? value.get<std::vector<Json>>() : std::vector{value};
+            values.insert(values.end(), list.begin(), list.end());
+        }
+    }
+    return values;
+}
+
+std::string listed(const std::vector<Json> &values, const char *separator) {
+    std::vector<std::string> words;
+    for (const Json &value : values) {
+        words.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return fmt::format("{}", fmt::join(words, separator));
+}
+
+/// A value as it appears in a message: cut, and with invalid UTF-8 replaced.
+std::string shown(const Json &value) {
+    constexpr size_t longest = 60;
+    const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+    return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+
+/// Says what is wrong with `value` in terms of the schema: the validator only tells where and why in
+/// general ("could not be validated"), never what would have been right.
+std::string explain(const Json &value, const std::vector<const Json *> &nodes,
+                    const std::string &description) {
+    const std::vector<Json> types = gathered(nodes, "type");
+    if (!types.empty()) {
+        bool matches = false;
+        for (const Json &type : types) {
+            matches = matches || type == value.type_name() ||
+                      (type == "integer" && value.is_number_integer()) ||
+                      (type == "number" && value.is_number());
+        }
+        if (!matches) {
+            return fmt::format("{} is not of type {}", shown(value), listed(types, " or "));
+        }
+    }
+    if (value.is_object()) {
+        std::vector<Json> allowed;
+        bool closed = false;
+        for (const Json *node : nodes) {
+            closed = closed ||
+                     (node->contains("additionalProperties") && node->at("additionalProperties") == false);
+            if (node->contains("properties")) {
+                for (const auto &property : node->at("properties").items()) {
+                    allowed.emplace_back(property.key());
+                }
+            }
+        }
+        for (const auto &member : value.items()) {
+            if (closed && std::find(allowed.begin(), allowed.end(), member.key()) == allowed.end()) {
+                return fmt::format("unknown key '{}'; allowed: {}", member.key(), listed(allowed, ", "));
+            }
+        }
+        for (const Json &required : gathered(nodes, "required")) {
+            if (!value.contains(required.get<std::string>())) {
+                return fmt::format("missing key '{}'", required.get<std::string>());
+            }
+        }
+    }
+    const std::vector<Json> choices = gathered(nodes, "enum");
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
+        return fmt::format("{} is not one of: {}", shown(value), listed(choices, ", "));
+    }
+    return fmt::format("{}: {}", shown(value), description);
+}
+
+}  // namespace
+
+Json parse_json(const std::string &text, const std::string &source_name) {
+    Position position;
+    StrictReader reader(source_name, position);
+    Json::sax_parse(CountingIterator(text.data(), &position),
+                    CountingIterator(text.data() + text.size(), &position), &reader);
+    return reader.take();
+}
+
+Json load_json(const std::filesystem::path &path) {
+    return parse_json(read_file(path), path.string());
+}
+
+std::string json_location(const std::string &source_name, const std::string &text,
+                          const std::string &pointer) {
+    const size_t line = text.empty() ? 0 : line_of(text, pointer);
+    std::string location = line > 0 ? fmt::format("{}:{}", source_name, line) : source_name;
+    return pointer.empty() ? location : fmt::format("{}: {}", location, pointer);
+}
+
+void validate_json(const Json &document, const std::string &schema_text, const std::string &source_name,
+                   const std::string &text) {
+    const Json schema_document = parse_json(schema_text, "schema of " + source_name);
+    valijson::Schema schema;
+    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
+
+    valijson::ValidationResults results;
+    valijson::Validator validator;
+    if (validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results)) {
+        return;
+    }
+    // Every enclosing value reports its part's error again: the deepest path is the cause.
+    const auto deepest = std::max_element(results.begin(), results.end(), [](const auto &a, const auto &b) {
+        return a.context.size() < b.context.size();
+    });
+    std::vector<std::string> path;
+    std::string pointer;
+    std::string description = "does not match the schema";
+    if (deepest != results.end()) {
+        description = deepest->description;
+        for (size_t i = 1; i < deepest->context.size(); ++i) {  // [0] is the root
+            const std::string &token = deepest->context[i];     // "[key]"
+            path.push_back(token.substr(1, token.size() - 2));
+            pointer += "/" + escaped(path.back());
+        }
+    }
+    throw input_error(fmt::format(
+        "{}: {}", json_location(source_name, text, pointer),
+        explain(document.at(Json::json_pointer(pointer)), schema_nodes(schema_document, path), description)));
+}
+
+}  // namespace rtrays
