@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "renderer/base/error.h"
+
+namespace rtrays {
+
+namespace {
+
+double mean(const std::vector<double> &values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Unbiased sample variance, two passes.
+double variance(const std::vector<double> &values) {
+    const double center = mean(values);
+    double sum = 0;
+    for (double v : values) {
+        sum += (v - center) * (v - center);
+    }
+    return sum / static_cast<double>(values.size() - 1);
+}
+
+double standard_error(const std::vector<double> &values) {
+    return std::sqrt(variance(values) / static_cast<double>(values.size()));
+}
+
+double checked_log(double error) {
+    if (!(error > 0) || !std::isfinite(error)) {
+        throw run_error(
+            fmt::format("an error of {} has no logarithm: image and reference may be the same file", error));
+    }
+    return std::log(error);
+}
+
+/// Inverse variances over seeds. A point without spread (identical seeds) would weigh infinitely: variances
+/// are bounded below by 1e-6 of the largest, and all weights are 1 when there is no spread at all.
+std::vector<double> inverse_variances(const std::vector<std::vector<double>> &logs, size_t points) {
+    std::vector<double> weights(points);
+    for (size_t p = 0; p < points; ++p) {
+        std::vector<double> column;
+        for (const auto &row : logs) {
+            column.push_back(row[p]);
+        }
+        weights[p] = variance(column);
+    }
+    const double largest = *std::max_element(weights.begin(), weights.end());
+    for (double &w : weights) {
+        w = largest > 0 ? largest / std::max(w, 1e-6 * largest) : 1.0;
+    }
+    return weights;
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double p) {
+    if (values.empty()) {
+        throw run_error("quantile of an empty sample");
+    }
+    std::sort(values.begin(), values.end());
+    const double position = p * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<size_t>(position);
+    const size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (position - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double median(const std::vector<double> &values) {
+    return quantile(values, 0.5);
+}
+
+Interval median_interval(std::vector<double> values, double confidence) {
+    std::sort(values.begin(), values.end());
+    const size_t n = values.size();
+    // The interval from the (k+1)-th smallest to the (k+1)-th largest misses the median with probability
+    // 2 P(Binomial(n, 1/2) <= k).
+    if (n == 0 || 2 * std::pow(0.5, static_cast<double>(n)) > 1 - confidence) {
+        throw run_error(
+            fmt::format("{} values are too few for a {} % interval of their median", n, 100 * confidence));
+    }
+    const boost::math::binomial_distribution<double> below(static_cast<double>(n), 0.5);
+    size_t k = 0;
+    while (2 * boost::math::cdf(below, static_cast<double>(k + 1)) <= 1 - confidence) {
+        ++k;
+    }
+    return {median(values), values[k], values[n - 1 - k]};
+}
+
+double weighted_slope(const std::vector<double> &x, const std::vector<double> &y,
+                      const std::vector<double> &w) {
+    double sum_w = 0, mean_x = 0, mean_y = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+        sum_w += w[i];
+        mean_x += w[i] * x[i];
+        mean_y += w[i] * y[i];
+    }
+    mean_x /= sum_w;
+    mean_y /= sum_w;
+    double covariance = 0, spread = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+        covariance += w[i] * (x[i] - mean_x) * (y[i] - mean_y);
+        spread += w[i] * (x[i] - mean_x) * (x[i] - mean_x);
+    }
+    if (!(spread > 0)) {
+        throw run_error("a slope needs at least two distinct abscissae");
+    }
+    return covariance / spread;
+}
+
+Interval convergence_slope(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors,
+                           double confidence, int resamples) {
+    const size_t seeds = errors.size(), points = spp.size();
+    if (seeds < 8 || points < 2) {
+        throw run_error(
+            fmt::format("a slope needs at least 8 seeds and 2 points; there are {} and {}", seeds, points));
+    }
+    std::vector<double> x(points);
+    std::transform(spp.begin(), spp.end(), x.begin(), checked_log);
+    std::vector<std::vector<double>> logs;
+    for (const auto &row : errors) {
+        logs.emplace_back(points);
+        std::transform(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(points), logs.back().begin(),
+                       checked_log);
+    }
+    // With fixed weights the slope is linear in y: the slope of the mean curve is the mean of the seeds'
+    // slopes.
+    const std::vector<double> weights = inverse_variances(logs, points);
+    std::vector<double> slopes;
+    for (const auto &row : logs) {
+        slopes.push_back(weighted_slope(x, row, weights));
+    }
+    const double center = mean(slopes), error = standard_error(slopes);
+    if (!(error > 0)) {
+        return {center, center, center};
+    }
+    std::mt19937_64 engine(0x5eed);
+    std::uniform_int_distribution<size_t> pick(0, seeds - 1);
+    std::vector<double> t_values;
+    std::vector<double> sample(seeds);
+    while (t_values.size() < static_cast<size_t>(resamples)) {
+        std::generate(sample.begin(), sample.end(), [&] { return slopes[pick(engine)]; });
+        const double resampled_error = standard_error(sample);
+        if (resampled_error > 1e-9 * error) {  // one seed drawn every time has no t value
+            t_values.push_back((mean(sample) - center) / resampled_error);
+        }
+    }
+    const double tail = (1 - confidence) / 2;
+    return {center, center - quantile(t_values, 1 - tail) * error, center - quantile(t_values, tail) * error};
+}
+
+std::vector<double> holm_adjusted(const std::vector<double> &p_values) {
+    std::vector<size_t> order(p_values.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return p_values[a] < p_values[b]; });
+    std::vector<double> adjusted(p_values.size());
+    double largest = 0;
+    for (size_t rank = 0; rank < order.size(); ++rank) {
+        const double scaled = static_cast<double>(order.size() - rank) * p_values[order[rank]];
+        largest = std::max(largest, std::min(1.0, scaled));
+        adjusted[order[rank]] = largest;
+    }
+    return adjusted;
+}
+
+double normal_p_value(double z) {
+    // erfc keeps its relative precision far out in the tail, where 1 - cdf is zero.
+    return std::erfc(std::abs(z) / std::sqrt(2.0));
+}
+
+double normal_quantile_two_sided(double confidence) {
+    return boost::math::quantile(boost::math::normal_distribution<double>(), 0.5 + confidence / 2);
+}
+
+Interval paired_error_ratio(const std::vector<double> &candidate, const std::vector<double> &baseline,
+                            double confidence) {
+    if (candidate.size() != baseline.size() || candidate.size() < 2) {
+        throw run_error(
+            fmt::format("paired comparison needs equally many errors, at least 2; there are {} and {}",
+                        candidate.size(), baseline.size()));
+    }
+    std::vector<double> ratios(candidate.size());
+    for (size_t i = 0; i < ratios.size(); ++i) {
+        ratios[i] = checked_log(candidate[i]) - checked_log(baseline[i]);
+    }
+    const boost::math::students_t_distribution<double> t(static_cast<double>(ratios.size() - 1));
+    const double reach = boost::math::quantile(t, confidence) * standard_error(ratios);
+    const double center = mean(ratios);
+    return {std::expm1(center), std::expm1(center - reach), std::expm1(center + reach)};
+}
+
+const char *to_string(GateDecision decision) {
+    switch (decision) {
+        case GateDecision::pass:
+            return "pass";
+        case GateDecision::fail:
+            return "fail";
+        case GateDecision::undecided:
+            return "undecided";
+    }
+    throw run_error("unknown gate decision");
+}
+
+GateDecision decide_gate(const Interval &change, double tolerance) {
+    if (change.value > tolerance && change.low > 0) {
+        return GateDecision::fail;
+    }
+    return change.high < tolerance ? GateDecision::pass : GateDecision::undecided;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Intervals and decisions: medians, convergence slopes, multiple testing and the gate's rule.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rtrays {
+
+/// An estimate with the ends of its confidence interval.
+struct Interval {
+    double value = 0;
+    double low = 0;
+    double high = 0;
+};
+
+/// Linear interpolation between order statistics (Hyndman & Fan 1996, type 7); `p` in [0, 1].
+/// Throws `Error` (run failed) on an empty sample.
+double quantile(std::vector<double> values, double p);
+
+double median(const std::vector<double> &values);
+
+/// The median with its distribution-free interval from order statistics. The interval covers at least
+/// `confidence`; throws `Error` (run failed) when the sample is too small to promise that (n < 6 for 95 %).
+Interval median_interval(std::vector<double> values, double confidence = 0.95);
+
+/// Slope of y against x by least squares with weights w >= 0.
+double weighted_slope(const std::vector<double> &x, const std::vector<double> &y,
+                      const std::vector<double> &w);
+
+/// Slope of log error against log spp with its interval.
+///
+/// `errors[seed][point]` are the errors (> 0) of independent seeds at `spp[point]`. Points of one seed share
+/// samples, so SEEDS are resampled, never points. Weights are inverse variances of the log error over seeds;
+/// the interval is a bootstrap-t (Efron & Tibshirani 1993, 12.5), because with about eight seeds percentile
+/// intervals cover too little. Needs >= 8 seeds and >= 2 points, throws `Error` (run failed) otherwise.
+/// The resampling is seeded, so equal input gives equal output.
+Interval convergence_slope(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors,
+                           double confidence = 0.95, int resamples = 4000);
+
+/// Holm's (1979) adjusted p-values: test i is rejected at level alpha when adjusted[i] <= alpha.
+std::vector<double> holm_adjusted(const std::vector<double> &p_values);
+
+/// Two-sided p-value of a standard normal z.
+double normal_p_value(double z);
+
+/// The z for which P(|N(0,1)| <= z) = confidence.
+double normal_quantile_two_sided(double confidence);
+
+/// Mean of log(candidate[k] / baseline[k]) as a relative change (exp(mean) - 1) with one-sided bounds, each
+/// at `confidence`, from Student's t over the pairs. Both samples are errors > 0, paired by index (same
+/// seed); needs >= 2 pairs, throws `Error` (run failed) otherwise.
+Interval paired_error_ratio(const std::vector<double> &candidate, const std::vector<double> &baseline,
+                            double confidence = 0.999);
+
+enum class GateDecision { pass, fail, undecided };
+
+const char *to_string(GateDecision decision);
+
+/// One stage of the gate (architecture, "The gate"): fail when the estimate exceeds `tolerance` and the lower
+/// bound exceeds 0, pass when the upper bound is below `tolerance`, undecided otherwise.
+GateDecision decide_gate(const Interval &change, double tolerance = 0.05);
+
+}  // namespace rtrays

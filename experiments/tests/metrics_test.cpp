@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Closed forms of the metrics, and the power of the agreement tests on synthetic images.
+#include "experiments/metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "experiments/agreement.h"
+#include "renderer/base/error.h"
+
+namespace rtrays {
+namespace {
+
+Image constant(int width, int height, float value) {
+    Image image = Image::rgb(width, height);
+    for (const auto &name : rgb_names()) {
+        std::fill(image.channel(name).begin(), image.channel(name).end(), value);
+    }
+    return image;
+}
+
+/// Mean `truth` * (1 + bias) with Gaussian noise of standard deviation `sigma` per pixel and channel.
+Image noisy(double truth, double bias, double sigma, uint64_t seed, int size = 64) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0, sigma);
+    Image image = constant(size, size, 0);
+    for (const auto &name : rgb_names()) {
+        for (float &value : image.channel(name)) {
+            value = static_cast<float>(truth * (1 + bias) + noise(engine));
+        }
+    }
+    for (const auto &name : rgb_names("variance")) {
+        auto &values = image.add_channel(name);
+        std::fill(values.begin(), values.end(), static_cast<float>(sigma * sigma));
+    }
+    return image;
+}
+
+TEST(Metrics, ConstantDifferenceHasTheClosedForm) {
+    const auto metrics = compute_metrics(constant(8, 4, 1.5f), constant(8, 4, 1.0f));
+    EXPECT_DOUBLE_EQ(metrics.l2, std::sqrt(96 * 0.25));
+    EXPECT_DOUBLE_EQ(metrics.rmse, 0.5);
+    EXPECT_DOUBLE_EQ(metrics.mse, 0.25);
+    EXPECT_DOUBLE_EQ(metrics.mae, 0.5);
+    EXPECT_NEAR(metrics.relmse, 0.25 / 1.01, 1e-15);
+}
+
+TEST(Metrics, OneChannelOfOnePixel) {
+    Image image = constant(2, 1, 2.0f);
+    image.channel("G")[1] = -1.0f;
+    const auto metrics = compute_metrics(image, constant(2, 1, 2.0f));
+    EXPECT_DOUBLE_EQ(metrics.l2, 3.0);
+    EXPECT_DOUBLE_EQ(metrics.mae, 0.5);
+    EXPECT_DOUBLE_EQ(metrics.relmse, 9.0 / 4.01 / 6);
+}
+
+TEST(Metrics, BlackReferencePixelStaysFinite) {
+    EXPECT_DOUBLE_EQ(compute_metrics(constant(1, 1, 0.1f), constant(1, 1, 0)).relmse,
+                     static_cast<double>(0.1f) * 0.1f / 0.01);
+}
+
+TEST(Metrics, RejectsOtherSizesAndNonFiniteValues) {
+    EXPECT_THROW(compute_metrics(constant(2, 2, 1), constant(2, 1, 1)), Error);
+    Image broken = constant(2, 2, 1);
+    broken.channel("B")[3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(compute_metrics(broken, constant(2, 2, 1)), Error);
+}
+
+TEST(Metrics, HalvesGiveTheNoiseOfTheirAverage) {
+    const double truth = 1, sigma = 0.2;
+    const auto reference = combine_halves(noisy(truth, 0, sigma, 1, 256), noisy(truth, 0, sigma, 2, 256));
+    EXPECT_NEAR(reference.noise_mse, sigma * sigma / 2, 0.01 * sigma * sigma / 2);
+    // The estimate is what the average is really off by, and the variance layer says the same.
+    const double actual = compute_metrics(reference.image, constant(256, 256, 1)).mse;
+    EXPECT_NEAR(reference.noise_mse, actual, 0.02 * actual);
+    EXPECT_NEAR(reference.image.channel("variance.R")[7], sigma * sigma / 2, 1e-6);
+}
+
+TEST(Metrics, UnbiasedErrorRemovesTheReferenceNoise) {
+    const double sigma = 0.3, reference_sigma = 0.15;
+    const auto reference =
+        combine_halves(noisy(1, 0, reference_sigma, 3, 256), noisy(1, 0, reference_sigma, 4, 256));
+    const double mse = compute_metrics(noisy(1, 0, sigma, 5, 256), reference.image).mse;
+    EXPECT_GT(mse, sigma * sigma * 1.08);
+    EXPECT_NEAR(unbiased_mse(mse, reference.noise_mse), sigma * sigma, 0.02 * sigma * sigma);
+    EXPECT_TRUE(noise_dominates(mse, reference.noise_mse));
+    EXPECT_FALSE(noise_dominates(1.0, 0.1));
+    EXPECT_TRUE(noise_dominates(std::numeric_limits<double>::quiet_NaN(), 0.1));
+}
+
+TEST(Metrics, AveragingAddsSamplesAndDividesVariance) {
+    Image a = noisy(1, 0, 0.5, 6), b = noisy(1, 0, 0.5, 7);
+    a.add_channel("samples").assign(a.pixel_count(), 16.0f);
+    b.add_channel("samples").assign(b.pixel_count(), 16.0f);
+    const Image mean = average_images({a, b});
+    EXPECT_FLOAT_EQ(mean.channel("samples")[0], 32.0f);
+    EXPECT_FLOAT_EQ(mean.channel("variance.G")[5], 0.125f);
+    EXPECT_FLOAT_EQ(mean.channel("R")[9], (a.channel("R")[9] + b.channel("R")[9]) / 2);
+}
+
+TEST(Metrics, DownsamplingAveragesSquares) {
+    Image image = constant(4, 2, 0);
+    for (size_t i = 0; i < 8; ++i) {
+        image.channel("R")[i] = static_cast<float>(i);
+    }
+    const Image small = downsample(image, 2);
+    EXPECT_EQ(small.width(), 2);
+    EXPECT_EQ(small.height(), 1);
+    EXPECT_FLOAT_EQ(small.channel("R")[0], (0 + 1 + 4 + 5) / 4.0f);
+    EXPECT_FLOAT_EQ(small.channel("R")[1], (2 + 3 + 6 + 7) / 4.0f);
+    EXPECT_FLOAT_EQ(downsample(noisy(1, 0, 0.4, 8), 4).channel("variance.B")[0], 0.01f);
+    EXPECT_THROW(downsample(image, 3), Error);
+}
+
+TEST(Agreement, RejectsATrueHypothesisAtMostAtItsLevel) {
+    int rejected = 0;
+    const int runs = 500;
+    for (int i = 0; i < runs; ++i) {
+        const auto seed = static_cast<uint64_t>(2 * i);
+        rejected += test_agreement(noisy(1, 0, 0.1, seed), noisy(1, 0, 0.1, seed + 1)).agrees() ? 0 : 1;
+    }
+    // Family-wise level 1 %: 12 of 500 is the 99.9 % quantile of the binomial.
+    EXPECT_LE(rejected, 12);
+}
+
+TEST(Agreement, FindsAHalfPercentBias) {
+    // Standard error of the mean difference per channel: sqrt(2) 0.05 / 64 = 0.0011, the bias is 4.5 of it.
+    int found = 0;
+    for (uint64_t i = 0; i < 100; ++i) {
+        found +=
+            test_agreement(noisy(1, 0.005, 0.05, 1000 + i), noisy(1, 0, 0.05, 2000 + i)).agrees() ? 0 : 1;
+    }
+    EXPECT_GE(found, 95);
+}
+
+TEST(Agreement, FindsALocalErrorThatTheMeanHides) {
+    Image image = noisy(1, 0, 0.02, 9);
+    for (size_t i = 0; i < 16 * 64; ++i) {  // one bright and one dark block, the mean unchanged
+        const size_t x = i % 64;
+        image.channel("R")[i] += x < 16 ? 0.02f : x < 32 ? -0.02f : 0.0f;
+    }
+    const auto agreement = test_agreement(image, noisy(1, 0, 0.02, 10));
+    EXPECT_EQ(agreement.rejected, 2u);
+    EXPECT_EQ(agreement.tests.size(), 3u * 17u);
+}
+
+TEST(Agreement, StatesEquivalenceOnlyWithEnoughSamples) {
+    EXPECT_EQ(test_agreement(noisy(1, 0, 0.5, 11), noisy(1, 0, 0.5, 12)).equivalence, Equivalence::undecided);
+    EXPECT_EQ(test_agreement(noisy(1, 0, 0.01, 11), noisy(1, 0, 0.01, 12)).equivalence,
+              Equivalence::equivalent);
+    EXPECT_EQ(test_agreement(noisy(1, 0.01, 0.01, 11), noisy(1, 0, 0.01, 12)).equivalence,
+              Equivalence::different);
+}
+
+TEST(Agreement, NoiseFreeBlocksAreComparedToRounding) {
+    Image light = noisy(15, 0, 0, 1), same = noisy(15, 0, 0, 2);
+    light.channel("R")[0] = std::nextafter(15.0f, 16.0f);
+    EXPECT_TRUE(test_agreement(light, same).agrees());
+    EXPECT_FALSE(test_agreement(noisy(15, 1e-5, 0, 1), same).agrees());
+}
+
+TEST(Agreement, NeedsVarianceLayers) {
+    EXPECT_THROW(test_agreement(constant(16, 16, 1), noisy(1, 0, 1, 1, 16)), Error);
+}
+
+}  // namespace
+}  // namespace rtrays
