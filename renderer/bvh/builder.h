@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "renderer/bvh/bvh.h"
+#include "renderer/device/kernel.h"
+
+namespace rtrays {
+
+/// How the build is spread over a device. None of it changes a bit of the tree.
+struct BvhBuildParameters {
+    uint32_t group_size;    ///< work-items per work-group
+    uint32_t chunk_size;    ///< primitives per work-item while a node is split by many
+    uint32_t subtree_size;  ///< a node of at most this many primitives is finished by one work-item
+
+    static BvhBuildParameters for_device(const DeviceInfo &device);
+};
+
+/// Builds hierarchies on a device: breadth-first binned SAH (thesis 3.1) in a large phase, level by level with all
+/// work-items on each node, and a small phase with a subtree per work-item. Deterministic: partitions are stable,
+/// numbering follows the order of the input, nothing depends on scheduling or on BvhBuildParameters.
+///
+/// Keeps its compiled kernels: one builder serves any number of builds.
+class BvhBuilder {
+  public:
+    explicit BvhBuilder(DeviceContext &device);
+    BvhBuilder(DeviceContext &device, const BvhBuildParameters &parameters);
+
+    /// `positions`: 3 floats per vertex; `indices`: 3 vertex numbers per triangle; both on the device. Zero
+    /// triangles give a valid tree that nothing hits. Triangles that cannot be hit are left out and counted in
+    /// the report. Throws `Error` (bad input) when an index is out of range or the build does not fit
+    /// the device, before anything is allocated.
+    Bvh build(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
+
+    /// The same for arrays on the host.
+    Bvh build(const std::vector<Eigen::Vector3f> &positions, const std::vector<std::array<uint32_t, 3>> &triangles);
+
+    const BvhBuildParameters &parameters() const { return parameters_; }
+
+  private:
+    struct Workspace;
+
+    void require_memory(uint64_t triangle_count, uint64_t input_bytes) const;
+    void gather(Workspace &work, const Buffer<float> &positions, const Buffer<uint32_t> &indices);
+    void split_levels(Workspace &work);
+
+    DeviceContext *device_;
+    BvhBuildParameters parameters_;
+    Kernel check_triangles_, begin_build_, gather_primitives_;
+    Kernel bin_primitives_, choose_splits_, partition_primitives_, emit_children_;
+    Kernel build_subtrees_;
+    Kernel place_subtrees_, copy_top_nodes_, copy_subtrees_;
+};
+
+}  // namespace rtrays

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Binned surface area heuristic: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007;
+// thesis 3.1 with (3.4): K = 16 bins on each of the three axes, over centroid bounds. A node's cost of a split is
+// A_left N_left + A_right N_right: with leaves made by count alone, the constants of (3.4) do not matter.
+#pragma once
+
+#include "renderer/kernels/bvh/range_bounds.h"
+
+/// Maps twice-centroids to bins: bin = (c - lower) * scale, scale 0 where an axis cannot be split.
+typedef struct Binning {
+    float lower[3];
+    float scale[3];
+} Binning;
+
+DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
+    Binning binning;
+    for (uint axis = 0; axis < 3; ++axis) {
+        const float extent = bounds->centroids[1][axis] - bounds->centroids[0][axis];
+        binning.lower[axis] = bounds->centroids[0][axis];
+        binning.scale[axis] = extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;  // below, 16 / extent overflows
+    }
+    return binning;
+}
+
+DEVICE uint bin_index(PRIVATE const Binning *binning, uint axis, float lower, float upper) {
+    const int bin = (int)((lower + upper - binning->lower[axis]) * binning->scale[axis]);
+    return bin < (int)BVH_BINS ? (uint)bin : BVH_BINS - 1u;
+}
+
+DEVICE void clear_bins(PRIVATE BinSet *bins) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        for (uint bin = 0; bin < BVH_BINS; ++bin) {
+            for (uint i = 0; i < 3; ++i) {
+                bins->lower[axis][bin][i] = INFINITY;
+                bins->upper[axis][bin][i] = -INFINITY;
+            }
+            bins->count[axis][bin] = 0;
+        }
+    }
+}
+
+DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning, PRIVATE const PrimitiveRef *ref) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        const uint bin = bin_index(binning, axis, ref->lower[axis], ref->upper[axis]);
+        for (uint i = 0; i < 3; ++i) {
+            bins->lower[axis][bin][i] = lesser(bins->lower[axis][bin][i], ref->lower[i]);
+            bins->upper[axis][bin][i] = greater(bins->upper[axis][bin][i], ref->upper[i]);
+        }
+        bins->count[axis][bin] += 1u;
+    }
+}
+
+/// Best split of `count` primitives. Ties go to the lower axis, then the lower bin. By count, in the present order,
+/// below BVH_AREA_DEPTH (bvh_node.h) and where no axis can be split: all centroids equal.
+DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *binning, uint count, uint depth, float scale) {
+    Split best;
+    best.axis = BVH_SPLIT_BY_COUNT;
+    best.last_left_bin = 0;
+    best.left_count = count / 2u;
+    if (depth >= BVH_AREA_DEPTH) {
+        return best;
+    }
+    float best_cost = INFINITY;
+    for (uint axis = 0; axis < 3; ++axis) {
+        if (binning->scale[axis] == 0.0f) {
+            continue;
+        }
+        float right_cost[BVH_BINS];  // of the bins from this one on
+        float lower[3] = {INFINITY, INFINITY, INFINITY};
+        float upper[3] = {-INFINITY, -INFINITY, -INFINITY};
+        uint right_count = 0;
+        for (uint bin = BVH_BINS - 1u; bin > 0; --bin) {
+            for (uint i = 0; i < 3; ++i) {
+                lower[i] = lesser(lower[i], bins->lower[axis][bin][i]);
+                upper[i] = greater(upper[i], bins->upper[axis][bin][i]);
+            }
+            right_count += bins->count[axis][bin];
+            right_cost[bin] =
+                (float)right_count * half_area(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2], scale);
+        }
+        for (uint i = 0; i < 3; ++i) {
+            lower[i] = INFINITY;
+            upper[i] = -INFINITY;
+        }
+        uint left_count = 0;
+        for (uint bin = 0; bin + 1u < BVH_BINS; ++bin) {
+            for (uint i = 0; i < 3; ++i) {
+                lower[i] = lesser(lower[i], bins->lower[axis][bin][i]);
+                upper[i] = greater(upper[i], bins->upper[axis][bin][i]);
+            }
+            left_count += bins->count[axis][bin];
+            const float cost =
+                (float)left_count * half_area(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2], scale) +
+                right_cost[bin + 1u];
+            if (left_count > 0 && left_count < count && cost < best_cost) {
+                best_cost = cost;
+                best.axis = axis;
+                best.last_left_bin = bin;
+                best.left_count = left_count;
+            }
+        }
+    }
+    return best;
+}
+
+/// Whether a primitive goes left; `rank` is its place in the range. Both uses of a split call this one predicate.
+DEVICE bool goes_left(PRIVATE const Split *split, PRIVATE const Binning *binning, PRIVATE const PrimitiveRef *ref, uint rank) {
+    if (split->axis == BVH_SPLIT_BY_COUNT) {
+        return rank < split->left_count;
+    }
+    return bin_index(binning, split->axis, ref->lower[split->axis], ref->upper[split->axis]) <= split->last_left_bin;
+}

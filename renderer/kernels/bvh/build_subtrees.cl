@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// The small phase: each work-item finishes one subtree of up to a few thousand primitives alone, depth first, without
+// barriers, atomics or local memory; on a CPU its primitives stay in the core's cache. Nodes go to scratch at the
+// subtree's own range (n primitives have at most n - 1 inner nodes), in depth-first order, with links counted from
+// the subtree's first node.
+#include "renderer/kernels/bvh/binned_sah.h"
+
+typedef struct PendingRange {
+    uint begin, end;
+    uint depth;
+    uint parent;  ///< node within the subtree, BVH_NO_PARENT for its root
+    uint side;
+    RangeBounds bounds;
+} PendingRange;
+
+static void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds, uint link) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        node->bounds[side][0][axis] = bounds->box[0][axis];
+        node->bounds[side][1][axis] = bounds->box[1][axis];
+    }
+    node->child[side] = link;
+    node->padding[side] = 0;
+}
+
+/// Stable partition of [begin, end): the left part stays in `primitives`, the right one waits in `scratch`.
+static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef *scratch, uint begin, uint end,
+                            PRIVATE const Split *split, PRIVATE const Binning *binning, PRIVATE RangeBounds *left_bounds,
+                            PRIVATE RangeBounds *right_bounds) {
+    *left_bounds = empty_bounds();
+    *right_bounds = empty_bounds();
+    uint left = begin;
+    uint right = begin;
+    for (uint i = begin; i < end; ++i) {
+        const PrimitiveRef ref = primitives[i];
+        if (goes_left(split, binning, &ref, i - begin)) {
+            primitives[left] = ref;
+            ++left;
+            extend_bounds(left_bounds, &ref);
+        } else {
+            scratch[right] = ref;
+            ++right;
+            extend_bounds(right_bounds, &ref);
+        }
+    }
+    for (uint i = begin; i < right; ++i) {
+        primitives[left + (i - begin)] = scratch[i];
+    }
+}
+
+static Split split_range(GLOBAL const PrimitiveRef *primitives, PRIVATE const PendingRange *range,
+                         PRIVATE const Binning *binning) {
+    BinSet bins;
+    clear_bins(&bins);
+    for (uint i = range->begin; i < range->end; ++i) {
+        const PrimitiveRef ref = primitives[i];
+        add_to_bins(&bins, binning, &ref);
+    }
+    return choose_split(&bins, binning, range->end - range->begin, range->depth, inverse_extent(&range->bounds));
+}
+
+/// Reads the subtree's primitives and orders them in place; writes nodes and the subtree's counts. Cost: the area of
+/// every inner node below the subtree's root, and of every leaf times its triangles, the root itself apart.
+__kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count, GLOBAL PrimitiveRef *primitives_0,
+                             GLOBAL PrimitiveRef *primitives_1, GLOBAL const BuildState *state, GLOBAL BvhNode *scratch_nodes) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= subtree_count) {
+        return;
+    }
+    GLOBAL BuildSubtree *subtree = subtrees + index;
+    GLOBAL PrimitiveRef *primitives = subtree->buffer == 0 ? primitives_0 : primitives_1;
+    GLOBAL PrimitiveRef *scratch = subtree->buffer == 0 ? primitives_1 : primitives_0;
+    GLOBAL BvhNode *nodes = scratch_nodes + subtree->begin;
+    const float area_scale = state->inverse_extent;
+
+    // The right sibling of each node on the way down waits here: never more than the depth of a leaf.
+    PendingRange pending[BVH_STACK_SIZE];
+    uint pending_count = 0;
+    uint node_count = 0;
+    uint leaf_count = 0;
+    uint deepest = subtree->depth;
+    float cost = 0.0f;
+
+    PendingRange range;
+    range.begin = subtree->begin;
+    range.end = subtree->end;
+    range.depth = subtree->depth;
+    range.parent = BVH_NO_PARENT;
+    range.side = 0;
+    range.bounds = subtree->bounds;
+    if (range.end - range.begin <= BVH_LEAF_SIZE) {  // a leaf: its parent among the top nodes links it
+        subtree->node_count = 0;
+        subtree->leaf_count = range.end > range.begin ? 1u : 0u;
+        subtree->deepest_leaf = deepest;
+        subtree->cost = 0.0f;
+        return;
+    }
+    for (;;) {
+        const Binning binning = make_binning(&range.bounds);
+        const Split split = split_range(primitives, &range, &binning);
+        PendingRange left = range;
+        PendingRange right = range;
+        partition_range(primitives, scratch, range.begin, range.end, &split, &binning, &left.bounds, &right.bounds);
+        const uint node = node_count;
+        ++node_count;
+        if (range.parent != BVH_NO_PARENT) {
+            nodes[range.parent].child[range.side] = node;
+        }
+        const uint middle = range.begin + split.left_count;
+        left.end = middle;
+        left.side = 0;
+        right.begin = middle;
+        right.side = 1;
+        left.depth = right.depth = range.depth + 1u;
+        left.parent = right.parent = node;
+        deepest = max(deepest, left.depth);
+
+        const uint left_count = left.end - left.begin;
+        const uint right_count = right.end - right.begin;
+        const bool left_is_leaf = left_count <= BVH_LEAF_SIZE;
+        const bool right_is_leaf = right_count <= BVH_LEAF_SIZE;
+        write_child(nodes + node, 0, &left.bounds, bvh_leaf(left.begin, left_is_leaf ? left_count : 0u));
+        write_child(nodes + node, 1, &right.bounds, bvh_leaf(right.begin, right_is_leaf ? right_count : 0u));
+        leaf_count += (left_is_leaf ? 1u : 0u) + (right_is_leaf ? 1u : 0u);
+        cost += half_area_of(&left.bounds, area_scale) * (left_is_leaf ? (float)left_count : 1.0f) +
+                half_area_of(&right.bounds, area_scale) * (right_is_leaf ? (float)right_count : 1.0f);
+        if (!left_is_leaf) {
+            if (!right_is_leaf) {
+                pending[pending_count] = right;
+                ++pending_count;
+            }
+            range = left;
+        } else if (!right_is_leaf) {
+            range = right;
+        } else if (pending_count > 0) {
+            --pending_count;
+            range = pending[pending_count];
+        } else {
+            break;
+        }
+    }
+    subtree->node_count = node_count;
+    subtree->leaf_count = leaf_count;
+    subtree->deepest_leaf = deepest;
+    subtree->cost = cost;
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Input of the builder: which triangles can be hit, their boxes in input order, the first task.
+// Three stages: check_triangles (a work-item per chunk of the input), begin_build (one work-item),
+// gather_primitives (per chunk). Order is kept, so what follows does not depend on scheduling.
+#include "renderer/kernels/bvh/binned_sah.h"
+#include "renderer/kernels/bvh/tasks.h"
+#include "renderer/kernels/geometry/surface_point.h"
+#include "renderer/shared/triangle.h"
+
+typedef enum TriangleFault { TRIANGLE_GOOD, TRIANGLE_NOT_FINITE, TRIANGLE_DEGENERATE, TRIANGLE_BAD_INDEX } TriangleFault;
+
+static float3 load_vertex(GLOBAL const float *positions, uint index) {
+    return make_float3(positions[3 * index], positions[3 * index + 1], positions[3 * index + 2]);
+}
+
+static TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle,
+                                    PRIVATE PrimitiveRef *ref) {
+    const uint i0 = indices[3 * triangle];
+    const uint i1 = indices[3 * triangle + 1];
+    const uint i2 = indices[3 * triangle + 2];
+    if (max(i0, max(i1, i2)) >= vertex_count) {
+        return TRIANGLE_BAD_INDEX;
+    }
+    const float3 v0 = load_vertex(positions, i0);
+    const float3 v1 = load_vertex(positions, i1);
+    const float3 v2 = load_vertex(positions, i2);
+    // Written so that NaN fails.
+    const float3 a = fabs(v0);
+    const float3 b = fabs(v1);
+    const float3 c = fabs(v2);
+    const float limit = BVH_COORDINATE_LIMIT;
+    if (!(a.x <= limit && a.y <= limit && a.z <= limit && b.x <= limit && b.y <= limit && b.z <= limit && c.x <= limit &&
+          c.y <= limit && c.z <= limit)) {
+        return TRIANGLE_NOT_FINITE;
+    }
+    const float3 normal = triangle_normal(v0, v1, v2);
+    if (normal.x == 0.0f && normal.y == 0.0f && normal.z == 0.0f) {
+        return TRIANGLE_DEGENERATE;
+    }
+    const float3 lower = min(v0, min(v1, v2));
+    const float3 upper = max(v0, max(v1, v2));
+    ref->lower[0] = lower.x;
+    ref->lower[1] = lower.y;
+    ref->lower[2] = lower.z;
+    ref->upper[0] = upper.x;
+    ref->upper[1] = upper.y;
+    ref->upper[2] = upper.z;
+    ref->triangle = triangle;
+    ref->padding = 0;
+    return TRIANGLE_GOOD;
+}
+
+__kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle_count,
+                              uint chunk_size, GLOBAL InputChunk *chunks) {
+    const uint chunk = (uint)get_global_id(0);
+    const uint begin = chunk * chunk_size;
+    if (begin >= triangle_count) {
+        return;
+    }
+    const uint end = min(begin + chunk_size, triangle_count);
+    uint faults[4] = {0, 0, 0, 0};
+    RangeBounds bounds = empty_bounds();
+    for (uint triangle = begin; triangle < end; ++triangle) {
+        PrimitiveRef ref;
+        const TriangleFault fault = load_primitive(positions, vertex_count, indices, triangle, &ref);
+        faults[fault] += 1u;
+        if (fault == TRIANGLE_GOOD) {
+            extend_bounds(&bounds, &ref);
+        }
+    }
+    chunks[chunk].bounds = bounds;
+    chunks[chunk].accepted = faults[TRIANGLE_GOOD];
+    chunks[chunk].not_finite = faults[TRIANGLE_NOT_FINITE];
+    chunks[chunk].degenerate = faults[TRIANGLE_DEGENERATE];
+    chunks[chunk].bad_index = faults[TRIANGLE_BAD_INDEX];
+}
+
+/// One work-item: prefix sums over the chunks, and the root as task or subtree.
+__kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint chunk_size, uint subtree_size,
+                          GLOBAL BuildState *state, GLOBAL BuildTask *tasks, GLOBAL BuildChunk *chunks,
+                          GLOBAL BuildSubtree *subtrees) {
+    if (get_global_id(0) != 0) {
+        return;
+    }
+    BuildState total = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0f, 0.0f, 0.0f};
+    RangeBounds bounds = empty_bounds();
+    for (uint i = 0; i < input_chunk_count; ++i) {
+        input[i].accepted_before = total.primitive_count;
+        total.primitive_count += input[i].accepted;
+        total.not_finite += input[i].not_finite;
+        total.degenerate += input[i].degenerate;
+        total.bad_index += input[i].bad_index;
+        merge_bounds(&bounds, &input[i].bounds);
+    }
+    total.inverse_extent = inverse_extent(&bounds);
+    total.root_area = half_area_of(&bounds, total.inverse_extent);
+    emit_range(&total, tasks, chunks, subtrees, chunk_size, subtree_size, 0, total.primitive_count, 0, BVH_NO_PARENT, 0, 0,
+               &bounds);
+    *state = total;
+}
+
+__kernel void gather_primitives(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle_count,
+                                uint chunk_size, GLOBAL const InputChunk *chunks, GLOBAL PrimitiveRef *primitives) {
+    const uint chunk = (uint)get_global_id(0);
+    const uint begin = chunk * chunk_size;
+    if (begin >= triangle_count) {
+        return;
+    }
+    const uint end = min(begin + chunk_size, triangle_count);
+    uint next = chunks[chunk].accepted_before;
+    for (uint triangle = begin; triangle < end; ++triangle) {
+        PrimitiveRef ref;
+        if (load_primitive(positions, vertex_count, indices, triangle, &ref) == TRIANGLE_GOOD) {
+            primitives[next] = ref;
+            ++next;
+        }
+    }
+}

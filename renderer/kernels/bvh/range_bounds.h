@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Bounds of ranges of primitives. Minimum and maximum are exact and associative: whatever the order of
+// reduction, the bits are the same.
+#pragma once
+
+#include "renderer/kernels/bvh/build_records.h"
+
+DEVICE RangeBounds empty_bounds(void) {
+    RangeBounds bounds;
+    for (uint axis = 0; axis < 3; ++axis) {
+        bounds.box[0][axis] = INFINITY;
+        bounds.box[1][axis] = -INFINITY;
+        bounds.centroids[0][axis] = INFINITY;
+        bounds.centroids[1][axis] = -INFINITY;
+    }
+    return bounds;
+}
+
+// Compare and select instead of fmin: nothing here is NaN, and fmin costs more.
+DEVICE float lesser(float a, float b) { return b < a ? b : a; }
+DEVICE float greater(float a, float b) { return b > a ? b : a; }
+
+DEVICE void extend_bounds(PRIVATE RangeBounds *bounds, PRIVATE const PrimitiveRef *ref) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        const float centroid = ref->lower[axis] + ref->upper[axis];
+        bounds->box[0][axis] = lesser(bounds->box[0][axis], ref->lower[axis]);
+        bounds->box[1][axis] = greater(bounds->box[1][axis], ref->upper[axis]);
+        bounds->centroids[0][axis] = lesser(bounds->centroids[0][axis], centroid);
+        bounds->centroids[1][axis] = greater(bounds->centroids[1][axis], centroid);
+    }
+}
+
+DEVICE void merge_bounds(PRIVATE RangeBounds *bounds, GLOBAL const RangeBounds *other) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        bounds->box[0][axis] = lesser(bounds->box[0][axis], other->box[0][axis]);
+        bounds->box[1][axis] = greater(bounds->box[1][axis], other->box[1][axis]);
+        bounds->centroids[0][axis] = lesser(bounds->centroids[0][axis], other->centroids[0][axis]);
+        bounds->centroids[1][axis] = greater(bounds->centroids[1][axis], other->centroids[1][axis]);
+    }
+}
+
+/// 1 / the largest side of the box, by which areas are scaled before they are formed; 1 for an empty or flat-out
+/// pointlike box.
+DEVICE float inverse_extent(PRIVATE const RangeBounds *bounds) {
+    float extent = 0.0f;
+    for (uint axis = 0; axis < 3; ++axis) {
+        extent = greater(extent, bounds->box[1][axis] - bounds->box[0][axis]);
+    }
+    return extent > 1.0e-30f ? 1.0f / extent : 1.0f;
+}
+
+/// Half the area of a box with sides scaled by `scale`; 0 for an empty box.
+DEVICE float half_area(float dx, float dy, float dz, float scale) {
+    const float x = dx * scale;
+    const float y = dy * scale;
+    const float z = dz * scale;
+    return x >= 0.0f ? x * y + y * z + z * x : 0.0f;
+}
+
+DEVICE float half_area_of(PRIVATE const RangeBounds *bounds, float scale) {
+    return half_area(bounds->box[1][0] - bounds->box[0][0], bounds->box[1][1] - bounds->box[0][1],
+                     bounds->box[1][2] - bounds->box[0][2], scale);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "renderer/shared/compat.h"
+
+/// A ray of trace_rays.cl. Distances count in lengths of `direction`.
+typedef struct RayRecord {
+    float origin[3];
+    float t_max;  ///< exclusive; may be infinite
+    float direction[3];
+    uint padding;
+} RayRecord;
+
+/// Its nearest hit: `triangle` is NO_HIT, and t = t_max, when there is none.
+typedef struct HitRecord {
+    float t;
+    float u, v;
+    uint triangle;
+} HitRecord;
+
+#ifdef __cplusplus
+static_assert(sizeof(RayRecord) == 32 && sizeof(HitRecord) == 16, "as in OpenCL C");
+#endif
