@@ -45,11 +45,15 @@ Kernel::Kernel(const Program &program, const std::string &name, uint32_t group_s
 }
 
 void Kernel::bind(const std::vector<KernelArgument> &arguments) {
-    if (arguments.size() != types_.size()) {
-        throw run_error(fmt::format("kernel '{}' takes {} arguments, not {}", name_, types_.size(), arguments.size()));
-    }
+    require_argument_count(arguments.size());
     for (uint32_t i = 0; i < arguments.size(); ++i) {
         bind(i, arguments[i]);
+    }
+}
+
+void Kernel::require_argument_count(size_t count) const {
+    if (count != types_.size()) {
+        throw run_error(fmt::format("kernel '{}' takes {} arguments, not {}", name_, types_.size(), count));
     }
 }
 
@@ -60,7 +64,7 @@ void Kernel::bind(uint32_t index, const KernelArgument &argument) {
     if (!types_[index].empty() && types_[index] != argument.type()) {
         throw run_error(fmt::format("argument {} of kernel '{}' is '{}', not '{}'", index, name_, types_[index], argument.type()));
     }
-    check_cl(clSetKernelArg(kernel_.get(), index, argument.bytes(), argument.data()),
+    check_cl(clSetKernelArg(kernel_.get(), index, argument.bytes().size(), argument.bytes().data()),
              fmt::format("binding argument {} of kernel '{}'", index, name_));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <typeinfo>
 #include <vector>
 
@@ -11,36 +12,32 @@
 
 namespace rtrays {
 
-/// One kernel argument: a buffer or a plain value, with its type for the check against the kernel.
+/// One kernel argument: a buffer, or a plain value (number or shared record), with its type for the check against
+/// the kernel.
 class KernelArgument {
   public:
     template <typename T>
-    KernelArgument(const Buffer<T> &buffer)  // NOLINT: arguments are listed in braces
-        : type_(type_name(typeid(T)) + "*"), bytes_(sizeof(cl_mem)) {
-        value_.memory = buffer.get();
-    }
-    KernelArgument(uint32_t value) : type_("uint"), bytes_(sizeof value) { value_.u32 = value; }
-    KernelArgument(int32_t value) : type_("int"), bytes_(sizeof value) { value_.i32 = value; }
-    KernelArgument(uint64_t value) : type_("ulong"), bytes_(sizeof value) { value_.u64 = value; }
-    KernelArgument(float value) : type_("float"), bytes_(sizeof value) { value_.f32 = value; }
+    KernelArgument(const Buffer<T> &buffer)  // implicit: arguments are listed in braces
+        : type_(type_name(typeid(T)) + "*"), bytes_(to_bytes(buffer.get())) {}
+
+    template <typename T>
+    KernelArgument(const T &value) : type_(type_name(typeid(T))), bytes_(to_bytes(value)) {}
 
     const std::string &type() const { return type_; }
-    size_t bytes() const { return bytes_; }
-    const void *data() const { return &value_; }
+    const std::string &bytes() const { return bytes_; }
 
     /// OpenCL's name of a C++ type: "uint" for unsigned int, "BvhNode" for a shared record.
     static std::string type_name(const std::type_info &type);
 
   private:
+    template <typename T>
+    static std::string to_bytes(const T &value) {
+        static_assert(std::is_trivially_copyable_v<T>, "kernel arguments are plain data");
+        return {reinterpret_cast<const char *>(&value), sizeof value};
+    }
+
     std::string type_;
-    size_t bytes_;
-    union {
-        cl_mem memory;
-        uint32_t u32;
-        int32_t i32;
-        uint64_t u64;
-        float f32;
-    } value_{};
+    std::string bytes_;
 };
 
 /// A kernel with a fixed work-group size. PoCL compiles a kernel at its first enqueue for each group size, so
@@ -57,6 +54,9 @@ class Kernel {
 
     /// Binds one argument that changes between launches, by position.
     void bind(uint32_t index, const KernelArgument &argument);
+
+    /// Throws `Error` unless the kernel takes that many arguments.
+    void require_argument_count(size_t count) const;
 
     /// Enqueues at least `items` work-items (rounded up to whole groups; kernels guard the rest). The launch
     /// is booked under the kernel's name. Zero items are not launched.

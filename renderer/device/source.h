@@ -17,7 +17,8 @@ std::string device_source(const std::string &path);
 /// Expands `#include "..."` recursively: paths are taken relative to the including file, then to the roots
 /// (renderer/ and the directory of Random123). Files with `#pragma once` are expanded once; each piece is
 /// preceded by `#line` with its own path, so that the compiler's messages name the real file. `#include <...>`
-/// is left alone. Throws `Error` (run failed) naming file and line of an include that cannot be resolved.
+/// is left alone. An include that cannot be resolved becomes an `#error` naming file and line, which ends the build
+/// unless it stands in a branch that is not compiled.
 std::string expand_source(const std::string &path, const SourceOverlays &overlays = {});
 
 }  // namespace rtrays

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Stages that keep the counters of the streams.
+
+#include "kernels/stream.h"
+#include "shared/scene_buffers.h"
+
+/// Stage reset_streams: all slots free, no work taken. Ray counts and errors are kept.
+__kernel void reset_streams(STREAM_PARAMETERS) {
+    const uint i = get_global_id(0);
+    if (i < capacity) {
+        queues[QUEUE_FREE * capacity + i] = i;
+    }
+    if (i == 0u) {
+        counters->active[0] = 0u;
+        counters->active[1] = 0u;
+        counters->parity = 0u;
+        counters->shadow = 0u;
+        counters->free_slots = capacity;
+        counters->next_work = 0u;
+    }
+}
+
+/// Stage begin_round (one work-item): the free slots were handed out; counts the rays of the round.
+__kernel void begin_round(GLOBAL StreamCounters *counters) {
+    if (get_global_id(0) == 0u) {
+        const uint active = active_count(counters);
+        counters->free_slots = 0u;
+        counters->nearest_rays += active;
+        counters->iterations += active > 0u ? 1u : 0u;
+    }
+}
+
+/// Stage end_round (one work-item): the other active queue, filled meanwhile, is next.
+__kernel void end_round(GLOBAL StreamCounters *counters) {
+    if (get_global_id(0) == 0u) {
+        counters->shadow_rays += counters->shadow;
+        counters->shadow = 0u;
+        counters->active[counters->parity] = 0u;
+        counters->parity = 1u - counters->parity;
+    }
+}

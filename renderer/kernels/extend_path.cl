@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Stage extend_path: samples the next direction of each active path, or ends the path and adds it to the film.
+// Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, depth; film.
+// To: the active queue of the next round, or the free queue.
+
+#include "kernels/bsdf/bsdf.h"
+#include "kernels/film/film.h"
+#include "kernels/geometry/surface.h"
+#include "kernels/sampling/random.h"
+#include "kernels/stream.h"
+#include "kernels/traversal/intersect_triangle.h"
+#include "shared/integrator_settings.h"
+#include "shared/path_state.h"
+#include "shared/scene_buffers.h"
+
+#if FEATURE_scattering
+
+/// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
+DEVICE bool scatter(PathStates paths, uint slot, GLOBAL const SurfaceTriangle *surface_triangles,
+                    GLOBAL const MaterialRecord *materials, IntegratorSettings settings, ulong first_sample) {
+    const uint triangle = get_hit_triangle(paths, slot);
+    const uint depth = get_depth(paths, slot);
+    if (triangle == NO_HIT) {
+        return false;
+    }
+#if FEATURE_depth_limit
+    // Without implicit paths the ray of the last scattering event could find nothing that counts.
+    const uint last_ray = (settings.strategies & STRATEGY_IMPLICIT) != 0u ? 0u : 1u;
+    if (depth + last_ray >= settings.max_depth) {
+        return false;
+    }
+#endif
+    const SurfaceTriangle surface = surface_triangles[triangle];
+    const SurfacePoint point = scene_point(surface, get_hit_u(paths, slot), get_hit_v(paths, slot));
+    const float3 direction = get_ray_direction(paths, slot);
+    const float3 n = dot(point.normal, direction) > 0.0f ? -point.normal : point.normal;
+    const uint4 words = random_words(settings.seed, STREAM_CAMERA, get_pixel(paths, slot),
+                                     first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
+    const BsdfSample sample = bsdf_sample(materials[surface.material], n, uniform_float(words.x), uniform_float(words.y));
+    float3 throughput = get_throughput(paths, slot) * sample.weight;
+    const float largest = max(throughput.x, max(throughput.y, throughput.z));
+    if (!(largest > 0.0f && sample.pdf_w > 0.0f)) {
+        return false;
+    }
+#if FEATURE_roulette
+    if (settings.termination == TERMINATION_ROULETTE) {
+        // Thesis 2.7.2: from the first bounce, continuation proportional to throughput. The bound below 1 ends
+        // paths between surfaces that absorb nothing. Left out of all MIS densities, kept in the contribution.
+        const float continuation = min(largest, settings.max_continuation);
+        if (!(uniform_float(words.z) < continuation)) {
+            return false;
+        }
+        throughput = throughput / continuation;
+    }
+#endif
+#if FEATURE_adaptive
+    if (settings.termination == TERMINATION_ADAPTIVE && largest < settings.adaptive_threshold) {
+        return false;
+    }
+#endif
+    set_ray_origin(paths, slot, offset_ray_origin(point, sample.wi));
+    set_ray_direction(paths, slot, sample.wi);
+    set_throughput(paths, slot, throughput);
+    set_depth(paths, slot, depth + 1u);
+#if FEATURE_implicit_light
+    set_pdf_w(paths, slot, sample.pdf_w);
+#endif
+    return true;
+}
+
+#endif
+
+__kernel void extend_path(SURFACE_PARAMETERS GLOBAL long *film, IntegratorSettings settings, ulong first_sample,
+                          STREAM_PARAMETERS) {
+    const uint i = get_global_id(0);
+    if (i >= active_count(counters)) {
+        return;
+    }
+    const uint slot = active_slot(queues, counters, capacity, i);
+    const PathStates paths = {path_words, capacity};
+#if FEATURE_scattering
+    if (scatter(paths, slot, surface_triangles, materials, settings, first_sample)) {
+        push_active(queues, counters, capacity, 1u - counters->parity, slot);
+        return;
+    }
+#endif
+    const ulong pixel = get_pixel(paths, slot);
+    const uint error = film_add_sample(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), get_radiance(paths, slot));
+    if (error != 0u) {
+        atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
+    }
+    push_slot(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, slot);
+}

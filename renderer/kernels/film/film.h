@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Adding samples to the film's exact sums (shared/film_layout.h): the order of additions does not matter.
+#pragma once
+
+#include "shared/compat.h"
+#include "shared/film_layout.h"
+
+#if defined(__OPENCL_VERSION__) && FEATURE_int64_atomics
+#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
+#endif
+
+/// Adds to a 64-bit word. Without 64-bit atomics the halves are added one after the other: the sum of all additions
+/// is right once they are done, which is all the film needs.
+DEVICE void film_add_word(volatile GLOBAL long *word, long value) {
+#if FEATURE_int64_atomics
+    atom_add(word, value);
+#else
+    volatile GLOBAL uint *half_word = (volatile GLOBAL uint *)word;  // little-endian, as all OpenCL devices met so far
+    const uint low = (uint)value;
+    const uint before = atomic_add(half_word, low);
+    const uint carry = before + low < before ? 1u : 0u;
+    atomic_add(half_word + 1, (uint)((ulong)value >> 32) + carry);
+#endif
+}
+
+/// Adds `value` whole to the word of its magnitude. Returns false, adding nothing, when it reaches the largest limit,
+/// 2^(lowest + 5 step + 44). `value` must be finite.
+DEVICE bool film_add_value(volatile GLOBAL long *words, float value, int lowest, int step) {
+    // |value| < 2^exponent, from the bits: exact, unlike log2; 0 and denormals give -126.
+    const int exponent = (int)((as_uint(value) >> 23) & 0xffu) - 126;
+    const int above = exponent - (lowest + FILM_UNITS_PER_ADDITION);
+    const int word = above <= 0 ? 0 : (above + step - 1) / step;
+    if (word >= FILM_WORDS) {
+        return false;
+    }
+    // value / 2^unit without overflow of the factor: |unit| <= 104.
+    const float units = value * as_float((uint)(127 - (lowest + word * step)) << 23);
+    // Below 2^23 a float may hold a fraction: round to nearest, else it is an integer already.
+    film_add_word(words + word, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
+    return true;
+}
+
+/// Adds one sample of a pixel, and its squares where the film keeps them. Returns 0, or FILM_NON_FINITE or
+/// FILM_OUT_OF_RANGE when the sample was not added.
+#define FILM_NON_FINITE 1u
+#define FILM_OUT_OF_RANGE 2u
+
+DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
+    if (!(isfinite(sample.x) && isfinite(sample.y) && isfinite(sample.z))) {
+        return FILM_NON_FINITE;
+    }
+    const float limit = 0x1p40f;
+    if (!(fabs(sample.x) < limit && fabs(sample.y) < limit && fabs(sample.z) < limit)) {
+        return FILM_OUT_OF_RANGE;
+    }
+    film_add_value(pixel_words, sample.x, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    film_add_value(pixel_words + FILM_WORDS, sample.y, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    film_add_value(pixel_words + 2 * FILM_WORDS, sample.z, FILM_SUM_LOWEST, FILM_SUM_STEP);
+#if FEATURE_variance
+    // Squares stay below 2^80, the limit of their top word.
+    volatile GLOBAL long *squares = pixel_words + FILM_CHANNELS * FILM_WORDS;
+    film_add_value(squares, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    film_add_value(squares + FILM_WORDS, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    film_add_value(squares + 2 * FILM_WORDS, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+#endif
+    return 0u;
+}
+
+/// Moves what exceeds a word's own range up to the next, so that equal sums have equal words: all but the top word end in
+/// [0, 2^step), the top word keeps the sign.
+DEVICE void film_carry_value(GLOBAL long *words, int step) {
+    for (int word = 0; word + 1 < FILM_WORDS; ++word) {
+        const long carry = words[word] >> step;  // arithmetic: rounds down
+        words[word] -= carry << step;
+        words[word + 1] += carry;
+    }
+}

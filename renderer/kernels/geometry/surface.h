@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "renderer/kernels/geometry/surface_point.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/scene_records.h"
+
+/// The point with barycentrics (1 - u - v, u, v) of a scene triangle. Its front is the side from which the vertices
+/// run counter-clockwise.
+DEVICE SurfacePoint scene_point(SurfaceTriangle s, float u, float v) {
+    return surface_point(make_float3(s.p0[0], s.p0[1], s.p0[2]), make_float3(s.p1[0], s.p1[1], s.p1[2]),
+                         make_float3(s.p2[0], s.p2[1], s.p2[2]), u, v);
+}

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// rtrays-render: renders a scene on an OpenCL device.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+#include "renderer/device/context.h"
+#include "renderer/pipeline/render_session.h"
+#include "renderer/scene/scene.h"
+#include "rtrays_commit.h"
+
+namespace rtrays {
+
+namespace {
+
+const char *const version_text = "rtrays-render 0.1.0 (" RTRAYS_COMMIT ")";
+
+struct Options {
+    std::string scene;
+    std::string output;
+    std::string size;
+    std::string samples;
+    std::optional<uint64_t> spp;
+    std::optional<double> seconds;
+    double scene_time = 0;
+    std::string device;
+    std::string state;
+    std::string stats;
+    std::vector<std::string> assignments;
+    std::vector<std::string> layers = {"variance", "samples"};
+    bool resume = false;
+    bool quiet = false;
+    bool dry_run = false;
+    bool print_scene = false;
+    RenderSettings settings;
+};
+
+/// "AxB" or "A:B" as two numbers; throws `Error` (bad usage).
+std::pair<uint64_t, uint64_t> parse_pair(const std::string &text, char separator, const char *option) {
+    uint64_t first = 0, second = 0;
+    const char *begin = text.data();
+    const char *end = begin + text.size();
+    const auto one = std::from_chars(begin, end, first);
+    const bool separated = one.ec == std::errc() && one.ptr != end && *one.ptr == separator;
+    const auto two = separated ? std::from_chars(one.ptr + 1, end, second) : one;
+    if (!separated || two.ec != std::errc() || two.ptr != end) {
+        throw input_error(fmt::format("{} '{}': expected two numbers separated by '{}'", option, text, separator));
+    }
+    return {first, second};
+}
+
+void print_devices() {
+    for (const DeviceInfo &info : list_devices()) {
+        fmt::print("{}  ({}, driver {}, {} compute units, {:.1f} GiB)\n", info.name, info.platform_name, info.driver,
+                   info.compute_units, static_cast<double>(info.global_memory) / 0x1p30);
+    }
+}
+
+/// Removes the layers that were not asked for.
+Image select_layers(const Image &image, const std::vector<std::string> &layers) {
+    Image selected(image.width(), image.height());
+    selected.attributes() = image.attributes();
+    for (const Image::Channel &channel : image.channels()) {
+        const std::string layer = channel.name.substr(0, channel.name.find('.'));
+        const bool colour = channel.name == "R" || channel.name == "G" || channel.name == "B";
+        if (colour || std::find(layers.begin(), layers.end(), layer) != layers.end()) {
+            selected.add_channel(channel.name) = channel.values;
+        }
+    }
+    return selected;
+}
+
+/// Renders as far as the options say; returns false when interrupted before.
+bool render(RenderSession &session, const Options &options, SampleRange range) {
+    using Clock = std::chrono::steady_clock;
+    const auto save = [&] {
+        if (!options.state.empty()) {
+            save_film(session.film(), options.state);
+        }
+    };
+    const auto start = Clock::now();
+    if (options.seconds) {
+        Progress progress("rendering", static_cast<uint64_t>(*options.seconds * 1000), "ms", options.quiet);
+        uint64_t step = 1;
+        while (!interrupted()) {
+            const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+            progress.update(static_cast<uint64_t>(std::min(elapsed, *options.seconds) * 1000));
+            if (elapsed >= *options.seconds) {
+                save();
+                return true;
+            }
+            range.begin = session.render(range.begin, range.begin + step);
+            // Steps of about a tenth of the time left keep the overshoot small.
+            const double rate = static_cast<double>(session.stats().samples) / std::max(session.stats().wall_seconds, 1e-9);
+            const auto pixels = static_cast<double>(options.settings.width) * options.settings.height;
+            step = std::max<uint64_t>(1, static_cast<uint64_t>(0.1 * (*options.seconds - elapsed) * rate / pixels));
+        }
+    } else {
+        Progress progress("rendering", range.end, "spp", options.quiet);
+        progress.update(range.begin);
+        const auto checkpoint_interval = std::chrono::minutes(5);
+        auto last_save = start;
+        const uint64_t end = session.render(range.begin, range.end, [&](uint64_t done) {
+            progress.update(done);
+            if (Clock::now() - last_save > checkpoint_interval) {
+                save();
+                last_save = Clock::now();
+            }
+        });
+        save();
+        return end == range.end;
+    }
+    save();
+    return false;
+}
+
+ExitCode run(Options &options) {
+    if (options.state.empty() && options.resume) {
+        throw input_error("--resume needs --state FILM, the file to resume from");
+    }
+    if (options.seconds && (options.spp || !options.samples.empty())) {
+        throw input_error("--time excludes --spp and --samples");
+    }
+    if (options.spp && !options.samples.empty()) {
+        throw input_error("--spp excludes --samples");
+    }
+    for (const std::string &path : {options.output, options.state, options.stats}) {
+        if (!path.empty()) {
+            require_writable(path);
+        }
+    }
+    options.settings.variance = std::find(options.layers.begin(), options.layers.end(), "variance") != options.layers.end();
+
+    Scene scene = load_scene(options.scene);
+    for (const std::string &assignment : options.assignments) {
+        const std::string scene_prefix = "scene.";
+        if (assignment.rfind(scene_prefix, 0) == 0) {
+            const size_t equals = assignment.find('=');
+            if (equals == std::string::npos) {
+                throw input_error(fmt::format("--set {}: expected NAME=VALUE", assignment));
+            }
+            scene.set_property(assignment.substr(scene_prefix.size(), equals - scene_prefix.size()), assignment.substr(equals + 1));
+        } else {
+            apply_setting(options.settings, assignment);
+        }
+    }
+    scene.update(options.scene_time);
+    if (options.print_scene) {
+        fmt::print("{}", scene.describe());
+        return ExitCode::ok;
+    }
+    if (options.output.empty() && !options.dry_run) {
+        throw input_error("-o OUT.exr is missing");
+    }
+    if (!options.size.empty()) {
+        const auto [width, height] = parse_pair(options.size, 'x', "--size");
+        if (width < 1 || height < 1 || width > 65536 || height > 65536) {
+            throw input_error(fmt::format("--size {}: sides must be from 1 to 65536 pixels", options.size));
+        }
+        options.settings.width = static_cast<int>(width);
+        options.settings.height = static_cast<int>(height);
+    } else {
+        options.settings.width = scene.film_width();
+        options.settings.height = scene.film_height();
+    }
+    SampleRange range{0, options.spp.value_or(64)};
+    if (!options.samples.empty()) {
+        const auto [begin, end] = parse_pair(options.samples, ':', "--samples");
+        range = {begin, end};
+        if (begin >= end) {
+            throw input_error(fmt::format("--samples {}: BEGIN must be below END", options.samples));
+        }
+    }
+
+    DeviceContext device(options.device);
+    RenderSession session(scene, options.settings, device);
+    if (options.dry_run) {
+        fmt::print("{}\n", session.report().dump(2));
+        return ExitCode::ok;
+    }
+    if (options.resume && std::filesystem::exists(options.state)) {
+        const FilmState film = load_film(options.state);
+        session.restore(film);
+        for (const SampleRange &present : film.ranges) {
+            if (present.begin <= range.begin && range.begin < present.end) {
+                range.begin = std::min(present.end, std::max(range.end, range.begin));
+            }
+        }
+        if (options.seconds && !film.ranges.empty()) {
+            range.begin = film.ranges.back().end;
+        }
+    }
+    const bool complete = render(session, options, range);
+    if (!options.stats.empty()) {
+        write_file(options.stats, session.report().dump(2) + "\n");
+    }
+    if (!complete) {
+        fmt::print(stderr, "interrupted{}\n",
+                   options.state.empty() ? "; nothing was written (--state FILM keeps what is done)"
+                                         : "; continue with --resume --state " + options.state);
+        return ExitCode::run_failed;
+    }
+    write_exr(select_layers(session.develop(), options.layers), options.output);
+    return ExitCode::ok;
+}
+
+ExitCode merge(const std::vector<std::string> &inputs, const std::string &output, const std::string &state) {
+    require_writable(output);
+    FilmState film = load_film(inputs.front());
+    for (size_t i = 1; i < inputs.size(); ++i) {
+        try {
+            merge_film(film, load_film(inputs[i]));
+        } catch (const Error &error) {
+            throw Error(error.exit_code(), fmt::format("{}: {}", inputs[i], error.what()));
+        }
+    }
+    require_valid(film);
+    Image image = develop_film(film);
+    describe_image(image, film);
+    write_exr(image, output);
+    if (!state.empty()) {
+        save_film(film, state);
+    }
+    return ExitCode::ok;
+}
+
+ExitCode parse_and_run(int argc, char **argv) {
+    install_interrupt_handler();
+    Options options;
+    CLI::App app("Renders a scene on an OpenCL device.\n\nOther uses: rtrays-render merge FILM... -o OUT.exr", "rtrays-render");
+    app.set_version_flag("--version", version_text);
+    app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings() +
+               "  scene.NODE.PROPERTY = ...  any property that --print-scene lists");
+    bool devices = false, algorithms = false;
+    app.add_flag("--list-devices", devices, "list the OpenCL devices and stop");
+    app.add_flag("--list-algorithms", algorithms, "list the algorithms and stop");
+    app.add_option("SCENE", options.scene, "scene file (.json)");
+    app.add_option("-o,--output", options.output, "image to write (.exr)");
+    app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")->capture_default_str();
+    app.add_option("--spp", options.spp, "samples per pixel (default 64)")->check(CLI::PositiveNumber);
+    app.add_option("--time", options.seconds, "render for that many seconds instead")->check(CLI::PositiveNumber);
+    app.add_option("--samples", options.samples, "only the samples BEGIN:END of every pixel");
+    app.add_option("--seed", options.settings.seed, "of the random numbers")->capture_default_str();
+    app.add_option("--size", options.size, "WxH in pixels (default: the scene's film)");
+    app.add_option("--at", options.scene_time, "scene time in seconds")->capture_default_str();
+    app.add_option("--device", options.device, "gpu, cpu, PLATFORM:DEVICE or part of a name (default: a GPU, else a CPU)");
+    app.add_option("--state", options.state, "film state file to keep, for --resume and merge");
+    app.add_flag("--resume", options.resume, "continue from --state if it exists");
+    app.add_option("--set", options.assignments, "NAME=VALUE, may be repeated")->allow_extra_args(false);
+    app.add_option("--stats", options.stats, "write features, kernels, bytes, launches, seconds (.json)");
+    app.add_option("--layers", options.layers, "layers besides R,G,B")->delimiter(',')->check(CLI::IsMember({"variance", "samples", "none"}))->capture_default_str();
+    app.add_flag("--print-scene", options.print_scene, "print nodes and properties and stop");
+    app.add_flag("--dry-run", options.dry_run, "compile everything, print the stats document, render nothing");
+    app.add_flag("-q,--quiet", options.quiet, "no progress");
+
+    CLI::App merge_app("Adds film states of one scene and one seed with disjoint sample ranges: the same bits as one render.",
+                       "rtrays-render merge");
+    std::vector<std::string> films;
+    std::string merge_output, merge_state;
+    merge_app.add_option("FILM", films, "film states")->required();
+    merge_app.add_option("-o,--output", merge_output, "image to write (.exr)")->required();
+    merge_app.add_option("--state", merge_state, "merged film state to write");
+
+    const bool merging = argc > 1 && std::string(argv[1]) == "merge";
+    CLI::App &chosen = merging ? merge_app : app;
+    try {
+        chosen.parse(merging ? argc - 1 : argc, merging ? argv + 1 : argv);
+    } catch (const CLI::ParseError &error) {
+        return chosen.exit(error) == 0 ? ExitCode::ok : ExitCode::bad_input;
+    }
+    if (merging) {
+        return merge(films, merge_output, merge_state);
+    }
+    if (devices) {
+        print_devices();
+        return ExitCode::ok;
+    }
+    if (algorithms) {
+        for (const std::string &name : algorithm_names()) {
+            fmt::print("{}\n", name);
+        }
+        return ExitCode::ok;
+    }
+    if (options.scene.empty()) {
+        throw input_error("SCENE is missing; see --help");
+    }
+    return run(options);
+}
+
+}  // namespace
+
+}  // namespace rtrays
+
+int main(int argc, char **argv) {
+    return rtrays::run_main("rtrays-render", [&] { return rtrays::parse_and_run(argc, argv); });
+}

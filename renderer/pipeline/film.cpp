@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/pipeline/film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/json.h"
+#include "renderer/shared/film_layout.h"
+
+namespace rtrays {
+
+namespace {
+
+constexpr int state_version = 1;
+const std::string magic = "RTRaysFilm";
+constexpr size_t hash_digits = 32;
+
+size_t pixel_words(const FilmState &film) { return FILM_PIXEL_WORDS(film.variance); }
+
+size_t word_count(const FilmState &film) {
+    return static_cast<size_t>(film.width) * static_cast<size_t>(film.height) * pixel_words(film);
+}
+
+/// The value of one sum: words times their units. Adding from the top keeps the error below 2^-52 of the result:
+/// carried words below the top one are non-negative and smaller than the unit above.
+double sum_value(const int64_t *words, int lowest, int step) {
+    double value = 0;
+    for (int k = FILM_WORDS - 1; k >= 0; --k) {
+        value += std::ldexp(static_cast<double>(words[k]), lowest + k * step);
+    }
+    return value;
+}
+
+void carry(int64_t *words, int step) {
+    for (int k = 0; k + 1 < FILM_WORDS; ++k) {
+        const int64_t excess = words[k] >> step;
+        words[k] -= excess * (int64_t{1} << step);
+        words[k + 1] += excess;
+    }
+}
+
+}  // namespace
+
+uint64_t FilmState::samples() const {
+    uint64_t count = 0;
+    for (const SampleRange &range : ranges) {
+        count += range.end - range.begin;
+    }
+    return count;
+}
+
+void FilmState::add_range(SampleRange range) {
+    if (range.begin == range.end) {
+        return;
+    }
+    for (const SampleRange &present : ranges) {
+        if (range.begin < present.end && present.begin < range.end) {
+            throw input_error(fmt::format("samples {}:{} overlap {}:{}, which the film holds already", range.begin, range.end,
+                                          present.begin, present.end));
+        }
+    }
+    ranges.push_back(range);
+    std::sort(ranges.begin(), ranges.end(), [](const SampleRange &a, const SampleRange &b) { return a.begin < b.begin; });
+    std::vector<SampleRange> joined;
+    for (const SampleRange &r : ranges) {
+        if (!joined.empty() && joined.back().end == r.begin) {
+            joined.back().end = r.end;
+        } else {
+            joined.push_back(r);
+        }
+    }
+    ranges = joined;
+}
+
+void require_valid(const FilmState &film) {
+    if (film.non_finite > 0 || film.out_of_range > 0) {
+        throw run_error(fmt::format("{} samples were not finite and {} beyond the film's range of 2^40; they are not in the image",
+                                    film.non_finite, film.out_of_range));
+    }
+}
+
+Image develop_film(const FilmState &film) {
+    Image image = Image::rgb(film.width, film.height);
+    if (film.variance) {
+        for (const std::string &name : rgb_names("variance")) {
+            image.add_channel(name);
+        }
+    }
+    const auto n = static_cast<double>(film.samples());
+    std::fill_n(image.add_channel("samples").begin(), image.pixel_count(), static_cast<float>(n));
+    if (film.samples() == 0) {
+        return image;
+    }
+    const std::vector<std::string> colour = rgb_names();
+    const std::vector<std::string> variance = rgb_names("variance");
+    for (size_t c = 0; c < FILM_CHANNELS; ++c) {
+        std::vector<float> &means = image.channel(colour[c]);
+        for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
+            const int64_t *words = film.words.data() + pixel * pixel_words(film) + c * FILM_WORDS;
+            const double mean = sum_value(words, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
+            means[pixel] = static_cast<float>(mean);
+            if (film.variance && n > 1) {
+                // Squares are rounded by up to 2^-21 each: where all samples are equal the difference may come out
+                // below zero by that much of the mean's square; 0 is then the nearest variance.
+                const int64_t *squares = words + FILM_CHANNELS * FILM_WORDS;
+                const double mean_square = sum_value(squares, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
+                image.channel(variance[c])[pixel] =
+                    static_cast<float>(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
+            }
+        }
+    }
+    return image;
+}
+
+void merge_film(FilmState &film, const FilmState &other) {
+    const auto require = [](bool same, const char *what) {
+        if (!same) {
+            throw input_error(fmt::format("films differ in {} and cannot be merged", what));
+        }
+    };
+    require(film.width == other.width && film.height == other.height, "size");
+    require(film.variance == other.variance, "their layers");
+    require(film.seed == other.seed, "seed");
+    require(film.config == other.config, "scene or settings");
+    FilmState merged = film;
+    for (const SampleRange &range : other.ranges) {
+        merged.add_range(range);
+    }
+    merged.device_seconds += other.device_seconds;
+    merged.wall_seconds += other.wall_seconds;
+    merged.non_finite += other.non_finite;
+    merged.out_of_range += other.out_of_range;
+    for (size_t i = 0; i < merged.words.size(); ++i) {
+        merged.words[i] += other.words[i];
+    }
+    for (size_t sum = 0; sum < merged.words.size() / FILM_WORDS; ++sum) {
+        const bool is_square = sum % (2 * FILM_CHANNELS) >= FILM_CHANNELS && merged.variance;
+        carry(merged.words.data() + sum * FILM_WORDS, is_square ? FILM_SQUARE_STEP : FILM_SUM_STEP);
+    }
+    film = std::move(merged);
+}
+
+void save_film(const FilmState &film, const std::filesystem::path &path) {
+    Json header = {{"version", state_version},   {"width", film.width},
+                   {"height", film.height},      {"variance", film.variance},
+                   {"seed", film.seed},          {"config", film.config},
+                   {"ranges", Json::array()},    {"device_seconds", film.device_seconds},
+                   {"non_finite", film.non_finite}, {"out_of_range", film.out_of_range},
+                   {"wall_seconds", film.wall_seconds}};
+    for (const SampleRange &range : film.ranges) {
+        header["ranges"].push_back({range.begin, range.end});
+    }
+    std::string content = magic + "\n" + header.dump() + "\n";
+    content.append(reinterpret_cast<const char *>(film.words.data()), film.words.size() * sizeof(int64_t));
+    write_file(path, content_hash(content) + content);
+}
+
+FilmState load_film(const std::filesystem::path &path) {
+    const std::string file = read_file(path);
+    const auto fail = [&](const char *why) { return input_error(fmt::format("{}: {}", path.string(), why)); };
+    if (file.compare(std::min(hash_digits, file.size()), magic.size(), magic) != 0) {
+        throw fail("not a film state");
+    }
+    const std::string content = file.substr(hash_digits);
+    if (content_hash(content) != file.substr(0, hash_digits)) {
+        throw fail("film state is truncated or damaged (checksum)");
+    }
+    const size_t header_begin = magic.size() + 1;
+    const size_t header_end = content.find('\n', header_begin);
+    const Json header = parse_json(content.substr(header_begin, header_end - header_begin), path.string());
+    if (header.at("version").get<int>() != state_version) {
+        throw fail("film state of another version");
+    }
+    FilmState film;
+    film.width = header.at("width");
+    film.height = header.at("height");
+    film.variance = header.at("variance");
+    film.seed = header.at("seed");
+    film.config = header.at("config");
+    film.device_seconds = header.at("device_seconds");
+    film.wall_seconds = header.at("wall_seconds");
+    film.non_finite = header.at("non_finite");
+    film.out_of_range = header.at("out_of_range");
+    for (const Json &range : header.at("ranges")) {
+        film.add_range({range.at(0), range.at(1)});
+    }
+    film.words.resize(word_count(film));
+    if (content.size() - header_end - 1 != film.words.size() * sizeof(int64_t)) {
+        throw fail("film state has the wrong length");
+    }
+    std::memcpy(film.words.data(), content.data() + header_end + 1, film.words.size() * sizeof(int64_t));
+    return film;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renderer/base/image.h"
+
+namespace rtrays {
+
+/// A half-open range of sample indices.
+struct SampleRange {
+    uint64_t begin;
+    uint64_t end;
+};
+
+/// The exact sums of a render on the host (shared/film_layout.h): what is saved, resumed and merged bit by bit.
+struct FilmState {
+    int width = 0;
+    int height = 0;
+    bool variance = true;             ///< squares are kept
+    uint32_t seed = 0;
+    std::string config;               ///< hash of scene and settings: films of different configs never mix
+    std::vector<SampleRange> ranges;  ///< of samples in the film, sorted, disjoint, adjacent ones joined
+    double device_seconds = 0;
+    double wall_seconds = 0;
+    uint64_t non_finite = 0;          ///< samples that were not added
+    uint64_t out_of_range = 0;
+    std::vector<int64_t> words;       ///< carried; per pixel FILM_PIXEL_WORDS
+
+    /// Number of samples per pixel.
+    uint64_t samples() const;
+
+    /// Adds a range; throws `Error` (bad input) when it overlaps one that is there.
+    void add_range(SampleRange range);
+};
+
+/// Throws `Error` (run failed) naming the number of samples that were not finite or out of the film's range.
+void require_valid(const FilmState &film);
+
+/// R, G, B; variance.R, .G, .B (of the mean, from the squares); samples. Sums are taken in double from the exact
+/// integers: the mean's relative error is that of its rounding to float.
+Image develop_film(const FilmState &film);
+
+/// Adds `other` into `film`. Throws `Error` (bad input) when size, seed, config or layout differ or ranges overlap.
+void merge_film(FilmState &film, const FilmState &other);
+
+/// The film's file: a JSON header, then the words; with a checksum, written whole or not at all.
+void save_film(const FilmState &film, const std::filesystem::path &path);
+
+/// Throws `Error` (bad input) naming the path when it is missing, not a film, truncated or damaged.
+FilmState load_film(const std::filesystem::path &path);
+
+}  // namespace rtrays

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/pipeline/render_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+#include "renderer/bvh/builder.h"
+#include "renderer/integrators/path_tracing.h"
+#include "renderer/pipeline/stages.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shared/film_layout.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/stream_counters.h"
+#include "rtrays_commit.h"
+
+namespace rtrays {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Samples of one batch: about this many paths, so that progress shows and an interrupt is heeded within seconds. The
+/// work counter has 32 bits.
+constexpr uint64_t batch_paths = 1u << 21;
+
+/// Rounds enqueued between two looks at the counters.
+constexpr int rounds_per_check = 8;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+uint32_t default_group_size(const DeviceInfo &info) { return info.is_cpu ? 64 : 128; }
+
+/// On a CPU the path states should stay in cache; a GPU needs enough paths to hide latency.
+uint32_t default_capacity(const DeviceInfo &info) { return info.is_cpu ? 1u << 14 : 1u << 20; }
+
+FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings, const DeviceInfo &info) {
+    FeatureMask features = FeatureMask::all().with(Feature::variance, settings.variance);
+    if (settings.features == "scene") {
+        features = settings_features(settings);
+        for (const Feature feature : {Feature::lights, Feature::many_lights, Feature::light_triangles, Feature::scattering,
+                                      Feature::lambert}) {
+            features = features.with(feature, compiled.features.has(feature));
+        }
+    }
+    return features.with(Feature::int64_atomics, info.has_int64_atomics).closed();
+}
+
+RenderSettings complete(RenderSettings settings, const Scene &scene, const DeviceInfo &info) {
+    require_consistent(settings);
+    settings.width = settings.width > 0 ? settings.width : scene.film_width();
+    settings.height = settings.height > 0 ? settings.height : scene.film_height();
+    settings.group_size = settings.group_size > 0 ? settings.group_size : default_group_size(info);
+    if (settings.group_size > info.max_group_size) {
+        throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}", settings.group_size, info.name,
+                                      info.max_group_size));
+    }
+    settings.stream_capacity = settings.stream_capacity > 0 ? settings.stream_capacity : default_capacity(info);
+    const uint64_t pixels = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
+    if (pixels > (1u << 30)) {
+        throw input_error(fmt::format("{} x {} pixels are more than 2^30", settings.width, settings.height));
+    }
+    return settings;
+}
+
+}  // namespace
+
+struct RenderSession::State {
+    State(const Scene &scene, const RenderSettings &requested, DeviceContext &device_context)
+        : device(device_context),
+          settings(complete(requested, scene, device_context.info())),
+          numbers(integrator_settings(settings)),
+          compiled(compile_scene(scene, settings.width, settings.height, light_selection(settings))),
+          features(select_features(compiled, settings, device_context.info())),
+          round(path_tracing_round(features)),
+          stages(device_context, all_stages(), features, settings.group_size, settings.source_overlays) {
+        scene_hash = scene.hash();
+        config = content_hash(scene_hash + image_settings(settings).dump());
+        compile_seconds = stages.build_seconds();
+        build_bvh(scene.meshes());
+        allocate();
+        bind();
+        warm_up();
+    }
+
+    std::vector<std::string> all_stages() const {
+        std::vector<std::string> names = {"reset_streams", "carry_film"};
+        names.insert(names.end(), round.begin(), round.end());
+        return names;
+    }
+
+    uint64_t pixels() const { return static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height); }
+    uint32_t pixel_words() const { return FILM_PIXEL_WORDS(settings.variance); }
+
+    void build_bvh(const MeshArrays &meshes) {
+        BvhBuilder builder(device);
+        const auto start = Clock::now();
+        bvh = builder.build(meshes.position, meshes.triangle);
+        device.finish();
+        bvh_wall_seconds = seconds_since(start);
+        bvh_stages = device.profiler().stages();
+        device.profiler().reset();
+    }
+
+    void allocate() {
+        const uint64_t capacity = settings.stream_capacity;
+        surface_triangles = Buffer<SurfaceTriangle>(device, "surface_triangles", compiled.surface_triangles);
+        if (features.has(Feature::scattering)) {
+            materials = Buffer<MaterialRecord>(device, "materials", compiled.materials);
+        }
+        if (features.has(Feature::lights)) {
+            lights = Buffer<LightRecord>(device, "lights", compiled.lights);
+            emitter_triangles = Buffer<EmitterTriangle>(device, "emitter_triangles", compiled.emitter_triangles);
+        }
+        path_words = Buffer<uint32_t>(device, "path_states", capacity * path_state_words(features));
+        queues = Buffer<uint32_t>(device, "queues", capacity * STREAM_QUEUES);
+        counters = Buffer<StreamCounters>(device, "counters", 1);
+        counters.write({StreamCounters{}});
+        film = Buffer<int64_t>(device, "film", pixels() * pixel_words());
+        film.fill(0);
+    }
+
+    void bind() {
+        using In = StageInput;
+        StageArguments arguments = {
+            {In::bvh, {bvh.nodes(), bvh.triangles()}},
+            {In::surfaces, {surface_triangles}},
+            {In::lights, {}},
+            {In::camera, {compiled.camera}},
+            {In::film, {film}},
+            {In::film_sums, {static_cast<uint32_t>(film_sums())}},
+            {In::first_sample, {uint64_t{0}}},
+            {In::work, {uint32_t{0}}},
+            {In::streams, {path_words, queues, counters, settings.stream_capacity}},
+            {In::counters, {counters}},
+            {In::settings, {numbers}},
+        };
+        if (features.has(Feature::scattering)) {
+            arguments[In::surfaces].emplace_back(materials);
+        }
+        if (features.has(Feature::lights)) {
+            arguments[In::lights] = {lights, emitter_triangles};
+        }
+        arguments[In::lights].emplace_back(static_cast<uint32_t>(compiled.lights.size()));
+        stages.bind(arguments);
+    }
+
+    uint64_t film_sums() const { return pixels() * pixel_words() / FILM_WORDS; }
+
+    /// The first enqueue of a kernel compiles it for its group size: a batch without work does that.
+    void warm_up() {
+        const auto start = Clock::now();
+        run_batch(0, 0);
+        device.finish();
+        device.profiler().reset();
+        compile_seconds += seconds_since(start);
+    }
+
+    void enqueue(const std::string &name) {
+        using Items = StageDescription::Items;
+        const Items items = stage_description(name).items;
+        stages.enqueue(name, items == Items::one ? 1 : items == Items::capacity ? settings.stream_capacity : film_sums());
+    }
+
+    /// Renders `count` samples of every pixel from `first` on.
+    void run_batch(uint64_t first, uint64_t count) {
+        const auto work = static_cast<uint32_t>(count * pixels());
+        stages.bind({{StageInput::first_sample, {first}}, {StageInput::work, {work}}});
+        enqueue("reset_streams");
+        // The counters are read one check behind, so that the device is never idle while the host looks.
+        std::array<StreamCounters, 2> seen{};
+        std::array<ClEvent, 2> read;
+        for (int check = 0;; ++check) {
+            for (int i = 0; i < rounds_per_check; ++i) {
+                for (const std::string &stage : round) {
+                    enqueue(stage);
+                }
+            }
+            const int now = check % 2;
+            cl_event event = nullptr;
+            check_cl(clEnqueueReadBuffer(device.queue(), counters.get(), CL_FALSE, 0, sizeof(StreamCounters), &seen[now], 0,
+                                         nullptr, &event),
+                     "reading the stream counters");
+            read[now] = ClEvent(event);
+            check_cl(clFlush(device.queue()), "submitting work to the device");
+            if (check > 0) {
+                const int before = 1 - now;
+                const cl_event wanted = read[before].get();
+                check_cl(clWaitForEvents(1, &wanted), "waiting for the device");
+                const StreamCounters &c = seen[before];
+                if (c.overflow > 0) {
+                    throw run_error(fmt::format("a stream overflowed {} times", c.overflow));
+                }
+                if (c.next_work >= work && c.active[c.parity] == 0) {
+                    break;
+                }
+            }
+        }
+        enqueue("carry_film");
+        device.finish();
+    }
+
+    void reset_film() {
+        film.fill(0);
+        counters.write({StreamCounters{}});
+        device.finish();
+        device.profiler().reset();
+        ranges = FilmState();
+        wall_seconds = 0;
+        samples = 0;
+    }
+
+    /// Metadata of the film without its words.
+    FilmState film_header() const {
+        FilmState header = ranges;
+        header.width = settings.width;
+        header.height = settings.height;
+        header.variance = settings.variance;
+        header.seed = numbers.seed;
+        header.config = config;
+        return header;
+    }
+
+    DeviceContext &device;
+    RenderSettings settings;
+    IntegratorSettings numbers;
+    CompiledScene compiled;
+    FeatureMask features;
+    std::vector<std::string> round;
+    StageSet stages;
+    std::string scene_hash;
+    std::string config;
+
+    Bvh bvh;
+    std::map<std::string, Profiler::Stage> bvh_stages;
+    Buffer<SurfaceTriangle> surface_triangles;
+    Buffer<MaterialRecord> materials;
+    Buffer<LightRecord> lights;
+    Buffer<EmitterTriangle> emitter_triangles;
+    Buffer<uint32_t> path_words;
+    Buffer<uint32_t> queues;
+    Buffer<StreamCounters> counters;
+    Buffer<int64_t> film;
+
+    double compile_seconds = 0;
+    double bvh_wall_seconds = 0;
+    double wall_seconds = 0;
+    uint64_t samples = 0;
+    FilmState ranges;  ///< ranges, seconds and errors of films restored or rendered; no words
+};
+
+RenderSession::RenderSession(const Scene &scene, const RenderSettings &settings, DeviceContext &device)
+    : state_(std::make_unique<State>(scene, settings, device)) {}
+RenderSession::~RenderSession() = default;
+RenderSession::RenderSession(RenderSession &&) noexcept = default;
+
+uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function<void(uint64_t)> &on_batch) {
+    State &s = *state_;
+    const uint64_t batch = std::clamp<uint64_t>(batch_paths / s.pixels(), 1, FILM_ADDITIONS_BETWEEN_CARRIES);
+    while (begin < end && !interrupted()) {
+        const uint64_t count = std::min(batch, end - begin);
+        s.ranges.add_range({begin, begin + count});
+        const auto start = Clock::now();
+        s.run_batch(begin, count);
+        s.wall_seconds += seconds_since(start);
+        s.samples += count * s.pixels();
+        begin += count;
+        if (on_batch) {
+            on_batch(begin);
+        }
+    }
+    return begin;
+}
+
+void RenderSession::restart(uint32_t seed) {
+    state_->numbers.seed = state_->settings.seed = seed;
+    state_->stages.bind({{StageInput::settings, {state_->numbers}}});
+    state_->reset_film();
+}
+
+FilmState RenderSession::film() const {
+    FilmState film = state_->film_header();
+    film.words = state_->film.read();
+    const StreamCounters counters = state_->counters.read().front();
+    film.non_finite += counters.non_finite;
+    film.out_of_range += counters.out_of_range;
+    film.device_seconds += state_->device.profiler().total_seconds();
+    film.wall_seconds += state_->wall_seconds;
+    return film;
+}
+
+void RenderSession::restore(const FilmState &film) {
+    const FilmState header = state_->film_header();
+    if (film.config != header.config || film.seed != header.seed || film.width != header.width ||
+        film.height != header.height || film.variance != header.variance) {
+        throw input_error("the film state belongs to another scene, other settings, another seed or size");
+    }
+    state_->reset_film();
+    state_->film.write(film.words);
+    state_->ranges = film;
+    state_->ranges.words.clear();
+}
+
+Image RenderSession::develop() const {
+    const FilmState state = film();
+    require_valid(state);
+    Image image = develop_film(state);
+    describe_image(image, state);
+    image.attributes()["rtrays:device"] = state_->device.info().name;
+    image.attributes()["rtrays:driver"] = state_->device.info().platform_name + " " + state_->device.info().driver;
+    image.attributes()["rtrays:buildOptions"] = std::string(program_options);
+    image.attributes()["rtrays:sceneHash"] = state_->scene_hash;
+    image.attributes()["rtrays:settings"] = image_settings(state_->settings).dump();
+    return image;
+}
+
+RenderStats RenderSession::stats() const {
+    RenderStats stats;
+    stats.compile_seconds = state_->compile_seconds;
+    stats.bvh_seconds = state_->bvh.report().seconds_device;
+    stats.device_seconds = state_->device.profiler().total_seconds();
+    stats.wall_seconds = state_->wall_seconds;
+    stats.samples = state_->samples;
+    return stats;
+}
+
+nlohmann::json RenderSession::report() const {
+    const State &s = *state_;
+    const RenderStats numbers = stats();
+    const StreamCounters counters = s.counters.read().front();
+    nlohmann::json report = {
+        {"schema_version", 1},
+        {"commit", RTRAYS_COMMIT},
+        {"dirty", RTRAYS_DIRTY},
+        {"device", {{"name", s.device.info().name}, {"driver", s.device.info().driver}, {"platform", s.device.info().platform_name}}},
+        {"settings", image_settings(s.settings)},
+        {"group_size", s.settings.group_size},
+        {"stream_capacity", s.settings.stream_capacity},
+        {"features", s.features.names()},
+        {"scene", {{"hash", s.scene_hash}, {"triangles", s.compiled.surface_triangles.size()}, {"lights", s.compiled.lights.size()}}},
+        {"seconds",
+         {{"compile", numbers.compile_seconds},
+          {"bvh_device", numbers.bvh_seconds},
+          {"bvh_wall", s.bvh_wall_seconds},
+          {"device", numbers.device_seconds},
+          {"wall", numbers.wall_seconds}}},
+        {"samples", numbers.samples},
+        {"rays", {{"nearest", counters.nearest_rays}, {"shadow", counters.shadow_rays}}},
+        {"rounds", counters.iterations},
+    };
+    for (const auto &[file, program] : s.stages.programs()) {
+        report["programs"].push_back({{"file", file},
+                                      {"seconds", program.build_seconds()},
+                                      {"from_cache", program.from_cache()},
+                                      {"binary_bytes", program.binary_bytes()}});
+    }
+    for (const auto &[name, stage] : s.device.profiler().stages()) {
+        report["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
+    }
+    for (const auto &[name, stage] : s.bvh_stages) {
+        report["bvh"]["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
+    }
+    const BvhReport &bvh = s.bvh.report();
+    report["bvh"].update({{"nodes", bvh.nodes}, {"leaves", bvh.leaves}, {"depth", bvh.depth}, {"sah_cost", bvh.sah_cost},
+                          {"rejected", bvh.rejected()}, {"bytes", bvh.bytes}, {"bytes_peak", bvh.bytes_peak}});
+    const auto add_buffer = [&](const auto &buffer) {
+        if (buffer.size() > 0) {
+            report["buffers"].push_back({{"name", buffer.name()}, {"bytes", buffer.bytes()}});
+        }
+    };
+    add_buffer(s.bvh.nodes());
+    add_buffer(s.bvh.triangles());
+    add_buffer(s.surface_triangles);
+    add_buffer(s.materials);
+    add_buffer(s.lights);
+    add_buffer(s.emitter_triangles);
+    add_buffer(s.path_words);
+    add_buffer(s.queues);
+    add_buffer(s.counters);
+    add_buffer(s.film);
+    uint32_t path_bytes = STREAM_QUEUES * sizeof(uint32_t);
+    for (const PathStateField &field : path_state_fields(s.features)) {
+        report["path_state"].push_back({{"field", field.name}, {"bytes", field.words * sizeof(uint32_t)}});
+        path_bytes += field.words * static_cast<uint32_t>(sizeof(uint32_t));
+    }
+    report["bytes_per_path"] = path_bytes;
+    return report;
+}
+
+void describe_image(Image &image, const FilmState &film) {
+    std::string ranges;
+    for (const SampleRange &range : film.ranges) {
+        ranges += fmt::format("{}{}:{}", ranges.empty() ? "" : " ", range.begin, range.end);
+    }
+    auto &attributes = image.attributes();
+    attributes["samplesPerPixel"] = static_cast<int>(film.samples());
+    attributes["renderTimeSeconds"] = static_cast<float>(film.wall_seconds);
+    attributes["rtrays:deviceSeconds"] = film.device_seconds;
+    attributes["rtrays:commit"] = std::string(RTRAYS_COMMIT) + (RTRAYS_DIRTY ? "-dirty" : "");
+    attributes["rtrays:seed"] = std::to_string(film.seed);
+    attributes["rtrays:samples"] = ranges;
+    attributes["rtrays:config"] = film.config;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/pipeline/settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "renderer/base/error.h"
+
+namespace rtrays {
+
+namespace {
+
+// One row per setting serves parsing, printing, help and errors.
+struct TextSetting {
+    std::string RenderSettings::*field;
+    std::vector<std::string> values;
+};
+struct CountSetting {
+    uint32_t RenderSettings::*field;
+    uint32_t largest;
+};
+struct NumberSetting {
+    float RenderSettings::*field;
+    float above;  // exclusive bounds
+    float below;
+};
+
+struct Setting {
+    std::string name;
+    std::variant<TextSetting, CountSetting, NumberSetting> kind;
+    std::string meaning;
+};
+
+constexpr uint32_t largest_count = 0x7fffffff;
+
+const std::vector<Setting> &setting_table() {
+    using S = RenderSettings;
+    static const std::vector<Setting> table = {
+        {"integrator.strategies", TextSetting{&S::strategies, {"implicit", "explicit", "mis"}}, "how light is found"},
+        {"integrator.beta", NumberSetting{&S::beta, 0.0f, 1e3f}, "exponent of the power heuristic"},
+        {"integrator.termination", TextSetting{&S::termination, {"roulette", "fixed", "adaptive"}},
+         "how paths end; fixed (at max_depth) and adaptive are biased"},
+        {"integrator.max_depth", CountSetting{&S::max_depth, largest_count}, "scattering events, 0: no limit"},
+        {"integrator.max_continuation", NumberSetting{&S::max_continuation, 0.0f, 1.0f},
+         "largest continuation probability of roulette"},
+        {"integrator.adaptive_threshold", NumberSetting{&S::adaptive_threshold, 0.0f, 1e3f},
+         "throughput below which adaptive termination stops"},
+        {"integrator.light_selection", TextSetting{&S::light_selection, {"uniform", "power", "mixed"}},
+         "probability of a light"},
+        {"device.group_size", CountSetting{&S::group_size, 4096}, "work-items per group, 0: by device"},
+        {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
+        {"device.features", TextSetting{&S::features, {"scene", "all"}}, "what is compiled in"},
+    };
+    return table;
+}
+
+std::string value_text(const RenderSettings &settings, const Setting &setting) {
+    if (const auto *text = std::get_if<TextSetting>(&setting.kind)) {
+        return settings.*text->field;
+    }
+    if (const auto *count = std::get_if<CountSetting>(&setting.kind)) {
+        return fmt::format("{}", settings.*count->field);
+    }
+    return fmt::format("{}", settings.*std::get<NumberSetting>(setting.kind).field);
+}
+
+template <typename T>
+T parse_number(const std::string &assignment, const std::string &text, T low, T high, bool exclusive) {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool inside = exclusive ? value > low && value < high : value >= low && value <= high;
+    if (error != std::errc() || end != text.data() + text.size() || !inside) {
+        throw input_error(fmt::format("{}: the value must be a number {} {} and {} {}", assignment,
+                                      exclusive ? "above" : "from", low, exclusive ? "below" : "to", high));
+    }
+    return value;
+}
+
+}  // namespace
+
+const std::vector<std::string> &algorithm_names() {
+    static const std::vector<std::string> names = {"path_tracing"};
+    return names;
+}
+
+void apply_setting(RenderSettings &settings, const std::string &assignment) {
+    const size_t equals = assignment.find('=');
+    const std::string name = assignment.substr(0, equals);
+    const auto &table = setting_table();
+    const auto found = std::find_if(table.begin(), table.end(), [&](const Setting &s) { return s.name == name; });
+    if (equals == std::string::npos || found == table.end()) {
+        throw input_error(fmt::format("'{}' is no setting; settings are NAME=VALUE with:\n{}", assignment, describe_settings()));
+    }
+    const std::string value = assignment.substr(equals + 1);
+    if (const auto *text = std::get_if<TextSetting>(&found->kind)) {
+        if (std::find(text->values.begin(), text->values.end(), value) == text->values.end()) {
+            throw input_error(fmt::format("{}: the values of {} are {}", assignment, name, fmt::join(text->values, ", ")));
+        }
+        settings.*text->field = value;
+    } else if (const auto *count = std::get_if<CountSetting>(&found->kind)) {
+        settings.*count->field = parse_number<uint32_t>(assignment, value, 0, count->largest, false);
+    } else {
+        const auto &number = std::get<NumberSetting>(found->kind);
+        settings.*number.field = parse_number<float>(assignment, value, number.above, number.below, true);
+    }
+}
+
+void require_consistent(const RenderSettings &settings) {
+    const auto &names = algorithm_names();
+    if (std::find(names.begin(), names.end(), settings.algorithm) == names.end()) {
+        throw input_error(fmt::format("no algorithm '{}'; there are: {}", settings.algorithm, fmt::join(names, ", ")));
+    }
+    if (settings.termination == "fixed" && settings.max_depth == 0) {
+        throw input_error("integrator.termination=fixed needs integrator.max_depth");
+    }
+}
+
+nlohmann::json image_settings(const RenderSettings &settings) {
+    nlohmann::json document = {{"algorithm", settings.algorithm}};
+    for (const Setting &setting : setting_table()) {
+        if (setting.name.rfind("integrator.", 0) == 0) {
+            document[setting.name] = value_text(settings, setting);
+        }
+    }
+    for (const auto &[path, text] : settings.source_overlays) {
+        document["overlays"][path] = text;
+    }
+    return document;
+}
+
+std::string describe_settings() {
+    const RenderSettings defaults;
+    std::string description;
+    for (const Setting &setting : setting_table()) {
+        const auto *text = std::get_if<TextSetting>(&setting.kind);
+        description += fmt::format("  {} = {}  {}{}\n", setting.name, value_text(defaults, setting), setting.meaning,
+                                   text == nullptr ? "" : fmt::format(" ({})", fmt::join(text->values, " | ")));
+    }
+    return description;
+}
+
+IntegratorSettings integrator_settings(const RenderSettings &settings) {
+    IntegratorSettings numbers{};
+    numbers.seed = settings.seed;
+    numbers.strategies = (settings.strategies != "explicit" ? STRATEGY_IMPLICIT : 0u) |
+                         (settings.strategies != "implicit" ? STRATEGY_EXPLICIT : 0u);
+    numbers.termination = settings.termination == "roulette"   ? TERMINATION_ROULETTE
+                          : settings.termination == "adaptive" ? TERMINATION_ADAPTIVE
+                                                               : TERMINATION_FIXED;
+    numbers.max_depth = settings.max_depth == 0 ? UNLIMITED_DEPTH : settings.max_depth;
+    numbers.beta = settings.beta;
+    numbers.max_continuation = settings.max_continuation;
+    numbers.adaptive_threshold = settings.adaptive_threshold;
+    return numbers;
+}
+
+LightSelection light_selection(const RenderSettings &settings) {
+    return settings.light_selection == "uniform" ? LightSelection::uniform
+           : settings.light_selection == "power" ? LightSelection::power
+                                                 : LightSelection::mixed;
+}
+
+FeatureMask settings_features(const RenderSettings &settings) {
+    return FeatureMask()
+        .with(Feature::implicit_light, settings.strategies != "explicit")
+        .with(Feature::explicit_light, settings.strategies != "implicit")
+        .with(Feature::roulette, settings.termination == "roulette")
+        .with(Feature::adaptive, settings.termination == "adaptive")
+        .with(Feature::depth_limit, settings.max_depth != 0)
+        .with(Feature::variance, settings.variance);
+}
+
+}  // namespace rtrays

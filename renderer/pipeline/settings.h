@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/device/source.h"
+#include "renderer/pipeline/compile_scene.h"
+#include "renderer/shared/integrator_settings.h"
+
+namespace rtrays {
+
+/// Everything a render depends on besides the scene and the device. `integrator.*` and `device.*` settings have
+/// the names of their fields.
+struct RenderSettings {
+    std::string algorithm = "path_tracing";
+    int width = 0;   ///< pixels; 0: the scene's film
+    int height = 0;  ///< pixels; 0: the scene's film
+    uint32_t seed = 1;
+    bool variance = true;  ///< keep second moments: layers variance.R, .G, .B
+
+    // integrator.*
+    std::string strategies = "mis";         ///< implicit | explicit | mis
+    float beta = 2.0f;                      ///< exponent of the power heuristic, > 0
+    std::string termination = "roulette";   ///< roulette | fixed | adaptive
+    uint32_t max_depth = 0;                 ///< scattering events, 0: no limit
+    float max_continuation = 0.999f;        ///< largest continuation probability of roulette, in (0, 1)
+    float adaptive_threshold = 0.01f;       ///< throughput below which adaptive termination stops
+    std::string light_selection = "mixed";  ///< uniform | power | mixed
+
+    // device.*
+    uint32_t group_size = 0;                ///< work-items per group, 0: the device's default
+    uint32_t stream_capacity = 0;           ///< paths in flight, 0: the device's default
+    std::string features = "scene";         ///< scene | all: what is compiled in
+
+    SourceOverlays source_overlays;         ///< planted errors of the tests
+};
+
+/// Applies `NAME=VALUE` with NAME "integrator.beta" and so on. Throws `Error` (bad usage) naming the
+/// alternatives when the name or an enumerated value is unknown, or the value malformed or out of range.
+void apply_setting(RenderSettings &settings, const std::string &assignment);
+
+/// Throws `Error` (bad usage) when settings contradict each other.
+void require_consistent(const RenderSettings &settings);
+
+/// All settings that decide the image ("integrator.*", algorithm), for provenance and for the config hash.
+nlohmann::json image_settings(const RenderSettings &settings);
+
+/// All names with their values and meanings, a line each, for --help.
+std::string describe_settings();
+
+/// Names of the algorithms there are.
+const std::vector<std::string> &algorithm_names();
+
+IntegratorSettings integrator_settings(const RenderSettings &settings);
+LightSelection light_selection(const RenderSettings &settings);
+
+/// The features that the settings add to those of the scene.
+FeatureMask settings_features(const RenderSettings &settings);
+
+}  // namespace rtrays

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/pipeline/stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+
+namespace rtrays {
+
+const std::vector<StageDescription> &stage_table() {
+    using In = StageInput;
+    using Items = StageDescription::Items;
+    static const std::vector<StageDescription> table = {
+        {"reset_streams", "kernels/advance_streams.cl", {In::streams}, Items::capacity},
+        {"generate_camera_rays", "kernels/generate_camera_rays.cl",
+         {In::camera, In::settings, In::first_sample, In::work, In::streams}, Items::capacity},
+        {"begin_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
+        {"intersect_nearest", "kernels/intersect_nearest.cl", {In::bvh, In::streams}, Items::capacity},
+        {"evaluate_emission", "kernels/evaluate_emission.cl", {In::surfaces, In::lights, In::settings, In::streams}, Items::capacity},
+        {"sample_light", "kernels/sample_light.cl",
+         {In::surfaces, In::lights, In::settings, In::first_sample, In::streams}, Items::capacity},
+        {"intersect_any", "kernels/intersect_any.cl", {In::bvh, In::streams}, Items::capacity},
+        {"extend_path", "kernels/extend_path.cl",
+         {In::surfaces, In::film, In::settings, In::first_sample, In::streams}, Items::capacity},
+        {"end_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
+        {"carry_film", "kernels/carry_film.cl", {In::film, In::film_sums}, Items::film_sums},
+    };
+    return table;
+}
+
+const StageDescription &stage_description(const std::string &name) {
+    const auto &table = stage_table();
+    const auto found = std::find_if(table.begin(), table.end(), [&](const StageDescription &s) { return s.name == name; });
+    if (found == table.end()) {
+        throw run_error(fmt::format("the pipeline has no stage '{}'", name));
+    }
+    return *found;
+}
+
+StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features, uint32_t group_size,
+                   const SourceOverlays &overlays) {
+    for (const std::string &name : names) {
+        const StageDescription &description = stage_description(name);
+        const auto program =
+            programs_.try_emplace(description.file, device, description.file, features.defines(), overlays).first;
+        const uint32_t size = description.items == StageDescription::Items::one ? 1 : group_size;
+        stages_.emplace(name, Stage{&description, Kernel(program->second, name, size)});
+    }
+}
+
+void StageSet::bind(const StageArguments &arguments) {
+    for (const auto &[input, list] : arguments) {
+        parameter_count_[input] = static_cast<uint32_t>(list.size());
+    }
+    for (auto &[name, stage] : stages_) {
+        uint32_t index = 0;
+        for (const StageInput input : stage.description->inputs) {
+            const auto found = arguments.find(input);
+            if (found != arguments.end()) {
+                for (uint32_t i = 0; i < found->second.size(); ++i) {
+                    stage.kernel.bind(index + i, found->second[i]);
+                }
+            }
+            index += parameter_count_.at(input);
+        }
+        stage.kernel.require_argument_count(index);
+    }
+}
+
+void StageSet::enqueue(const std::string &name, uint64_t items) { stages_.at(name).kernel.enqueue(items); }
+
+double StageSet::build_seconds() const {
+    double seconds = 0;
+    for (const auto &[file, program] : programs_) {
+        seconds += program.build_seconds();
+    }
+    return seconds;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The numbers of an integrator, passed to its stages by value.
+#pragma once
+
+#include "compat.h"
+
+// Bits of IntegratorSettings::strategies. Code for a strategy is compiled in when its feature is on, and runs
+// when its bit is set, so that a program with everything compiled in behaves as the settings say.
+#define STRATEGY_IMPLICIT 1u
+#define STRATEGY_EXPLICIT 2u
+
+#define TERMINATION_FIXED 0u
+#define TERMINATION_ROULETTE 1u
+#define TERMINATION_ADAPTIVE 2u
+
+#define UNLIMITED_DEPTH 0xffffffffu
+
+typedef struct IntegratorSettings {
+    uint seed;
+    uint strategies;            ///< STRATEGY_* bits
+    uint termination;           ///< TERMINATION_*
+    uint max_depth;             ///< scattering events, UNLIMITED_DEPTH for none
+    float beta;                 ///< exponent of the power heuristic
+    float max_continuation;     ///< largest probability that roulette lets a path go on, below 1
+    float adaptive_threshold;   ///< adaptive termination: paths end below this throughput
+    uint padding;
+} IntegratorSettings;
+
+#ifndef __OPENCL_VERSION__
+static_assert(sizeof(IntegratorSettings) == 32, "layout shared with the device");
+#endif

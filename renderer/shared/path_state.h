@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The state of a path between stages, declared once: the structure-of-arrays layout, the accessors and the
+// byte count derive from this table. Field f of path `slot` lies at words[f * capacity + slot].
+#pragma once
+
+#include "compat.h"
+#include "declare.h"
+
+// X(feature, type, name): a field exists where its feature does. Types: uint, float, float3 (three words).
+#define PATH_STATE_FIELDS(X)                                                                      \
+    X(ALWAYS, uint, pixel)                                                                        \
+    X(ALWAYS, uint, sample)                  /* index within the batch */                         \
+    X(ALWAYS, uint, depth)                   /* scattering events so far */                       \
+    X(ALWAYS, float3, ray_origin)            /* of the path's ray, then of its shadow ray */      \
+    X(ALWAYS, float3, ray_direction)         /* unit; the path's ray */                           \
+    X(ALWAYS, float3, radiance)              /* gathered so far, W / (sr m^2) */                  \
+    X(ALWAYS, uint, hit_triangle)            /* NO_HIT for a miss */                              \
+    X(ALWAYS, float, hit_u)                                                                       \
+    X(ALWAYS, float, hit_v)                                                                       \
+    X(FEATURE_scattering, float3, throughput)                                                     \
+    X(FEATURE_implicit_light, float, pdf_w)  /* of ray_direction, per solid angle */              \
+    X(FEATURE_explicit_light, float3, shadow_vector)  /* from ray_origin to the light sample */   \
+    X(FEATURE_explicit_light, float3, shadow_radiance) /* gathered unless the way is blocked */
+
+#ifdef __OPENCL_VERSION__
+
+#define WORDS_uint 1
+#define WORDS_float 1
+#define WORDS_float3 3
+
+// Word offset of each field: an enumerator per field, stepping over the words of the fields before.
+enum PathStateLayout {
+#define FIELD_OFFSET(type, name) PATH_##name, PATH_LAST_##name = PATH_##name + WORDS_##type - 1,
+#define X(feature, type, name) WHEN(feature, FIELD_OFFSET(type, name))
+    PATH_STATE_FIELDS(X)
+#undef X
+#undef FIELD_OFFSET
+        PATH_STATE_WORDS
+};
+
+/// The path states of one stream.
+typedef struct PathStates {
+    GLOBAL uint *words;
+    uint capacity;
+} PathStates;
+
+// get_<name>(paths, slot) and set_<name>(paths, slot, value) for every field.
+#define ACCESS_uint(name)                                                                                  \
+    DEVICE uint get_##name(PathStates paths, uint slot) { return paths.words[PATH_##name * paths.capacity + slot]; } \
+    DEVICE void set_##name(PathStates paths, uint slot, uint value) {                                     \
+        paths.words[PATH_##name * paths.capacity + slot] = value;                                         \
+    }
+#define ACCESS_float(name)                                                                                 \
+    DEVICE float get_##name(PathStates paths, uint slot) {                                                \
+        return as_float(paths.words[PATH_##name * paths.capacity + slot]);                                \
+    }                                                                                                     \
+    DEVICE void set_##name(PathStates paths, uint slot, float value) {                                    \
+        paths.words[PATH_##name * paths.capacity + slot] = as_uint(value);                                \
+    }
+#define ACCESS_float3(name)                                                                                \
+    DEVICE float3 get_##name(PathStates paths, uint slot) {                                               \
+        GLOBAL const uint *word = paths.words + PATH_##name * paths.capacity + slot;                      \
+        return make_float3(as_float(word[0]), as_float(word[paths.capacity]), as_float(word[2 * paths.capacity])); \
+    }                                                                                                     \
+    DEVICE void set_##name(PathStates paths, uint slot, float3 value) {                                   \
+        GLOBAL uint *word = paths.words + PATH_##name * paths.capacity + slot;                            \
+        word[0] = as_uint(value.x);                                                                       \
+        word[paths.capacity] = as_uint(value.y);                                                          \
+        word[2 * paths.capacity] = as_uint(value.z);                                                      \
+    }
+#define X(feature, type, name) WHEN(feature, ACCESS_##type(name))
+PATH_STATE_FIELDS(X)
+#undef X
+
+#else
+
+#include <string>
+#include <vector>
+
+#include "features.h"
+
+namespace rtrays {
+
+/// A field of the path state that exists under a feature mask.
+struct PathStateField {
+    std::string name;
+    uint32_t words;  ///< of 4 bytes
+};
+
+std::vector<PathStateField> path_state_fields(FeatureMask mask);
+uint32_t path_state_words(FeatureMask mask);
+
+}  // namespace rtrays
+
+#endif
