@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "renderer/base/image.h"
+
+namespace rtrays {
+
+/// Writes R, G, B as a NumPy array file (format 1.0): shape (height, width, 3), float32, little-endian, rows
+/// from the top. Debian has no Python reader of EXR; this is what the plots read. Whole or not at all.
+void write_array(const Image &image, const std::filesystem::path &path);
+
+}  // namespace rtrays

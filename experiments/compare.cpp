@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/compare.h"
+
+#include <fmt/format.h>
+
+#include "experiments/document.h"
+#include "renderer/base/image.h"
+
+namespace rtrays {
+
+nlohmann::json compare_images(const std::filesystem::path &image_path,
+                              const std::filesystem::path &reference_path) {
+    const Image image = read_exr(image_path), reference = read_exr(reference_path);
+    nlohmann::json comparison = to_json(compute_metrics(image, reference));
+    comparison["image"] = image_path.string();
+    comparison["reference"] = reference_path.string();
+    if (image.has("variance.R") && reference.has("variance.R")) {
+        const AgreementPolicy policy;
+        comparison["agreement"] = to_json(test_agreement(image, reference, policy), policy);
+    }
+    return comparison;
+}
+
+std::string comparison_text(const nlohmann::json &comparison) {
+    std::string text;
+    for (const char *key : {"l2", "rmse", "mae", "relmse", "mse"}) {
+        text += fmt::format("{:8} {:.6g}\n", key, comparison.at(key).get<double>());
+    }
+    if (!comparison.contains("agreement")) {
+        return text + "no agreement test: it needs the variance.* layers in both images\n";
+    }
+    const auto &agreement = comparison.at("agreement");
+    const auto &difference = agreement.at("relative_difference");
+    text += fmt::format("blocks   {} of {} tests rejected at {} (Holm), largest |z| {:.2f}\n",
+                        agreement.at("rejected").get<int>(), agreement.at("tests").get<int>(),
+                        agreement.at("alpha").get<double>(), agreement.at("largest_z").get<double>());
+    text +=
+        fmt::format("mean     {:+.4f} % [{:+.4f}, {:+.4f}]: {}\n", 100 * difference.at("value").get<double>(),
+                    100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
+                    agreement.at("equivalence").get<std::string>());
+    return text;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/gate.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "embedded/experiment_schemas.h"
+#include "experiments/gate_checks.h"
+#include "renderer/base/files.h"
+#include "rtrays_commit.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Json to_json(const StageErrors &stage) {
+    Json json = Json::object();
+    for (const auto &[spp, errors] : stage) {
+        json[std::to_string(spp)] = errors;
+    }
+    return json;
+}
+
+StageErrors parse_stage(const Json &json) {
+    StageErrors stage;
+    for (const auto &[spp, errors] : json.items()) {
+        stage[std::stoull(spp)] = errors.get<std::vector<double>>();
+    }
+    return stage;
+}
+
+std::string update_command(const GateDescription &gate) {
+    return fmt::format("rtrays-experiment gate {} --update-baseline", gate.source);
+}
+
+Json load_baseline(const GateDescription &gate, const Scene &scene) {
+    if (!fs::exists(gate.baseline)) {
+        throw Error(ExitCode::reference_missing,
+                    fmt::format("the baseline {} does not exist; make it with:\n  {}", gate.baseline.string(),
+                                update_command(gate)));
+    }
+    const std::string source = gate.baseline.string(), text = read_file(gate.baseline);
+    const Json baseline = parse_json(text, source);
+    validate_json(baseline, std::string(embedded::experiment_schemas().text("baseline.schema.json")), source,
+                  text);
+    if (baseline.at("scene_hash") != scene.hash() || baseline.at("size") != Json{gate.width, gate.height}) {
+        throw input_error(
+            fmt::format("{} was measured on another version of the scene or another size; update it:\n  {}",
+                        source, update_command(gate)));
+    }
+    return baseline;
+}
+
+StoredReference reference_of(const GateDescription &gate, const Scene &scene) {
+    return load_reference({gate.reference_folder, scene.name(), scene.hash(), gate.reference_engine,
+                           gate.width, gate.height, gate.scene.string()});
+}
+
+std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredReference &reference) {
+    const Json baseline = load_baseline(bench.gate, bench.scene);
+    std::vector<CheckLine> lines;
+    for (const auto &curve : bench.gate.curves) {
+        if (!baseline.at("curves").contains(curve.id())) {
+            throw input_error(fmt::format("{} has no curve {}; update it:\n  {}",
+                                          bench.gate.baseline.string(), curve.id(),
+                                          update_command(bench.gate)));
+        }
+        const Json &stored = baseline.at("curves").at(curve.id());
+        if (stored.at("settings") != image_settings(curve.settings)) {
+            throw input_error(fmt::format("{}: {} was measured with other settings; update it:\n  {}",
+                                          bench.gate.baseline.string(), curve.id(),
+                                          update_command(bench.gate)));
+        }
+        const CurveBaseline errors{parse_stage(stored.at("first_stage")),
+                                   parse_stage(stored.at("second_stage"))};
+        for (auto &line : check_convergence(bench, curve, reference.reference, errors)) {
+            lines.push_back(std::move(line));
+        }
+    }
+    return lines;
+}
+
+/// What an update does to one curve at one spp.
+void print_change(const std::string &id, const std::string &spp, const std::vector<double> &now,
+                  const Json &previous) {
+    const Json::json_pointer place("/curves/" + id + "/first_stage/" + spp);
+    if (!previous.contains(place) || previous.at(place).size() != now.size()) {
+        fmt::print("{} at {} spp: RMSE {:.5g} (new)\n", id, spp, median(now));
+        return;
+    }
+    const auto before = previous.at(place).get<std::vector<double>>();
+    fmt::print("{} at {} spp: RMSE {:.5g} -> {:.5g} ({:+.2f} %)\n", id, spp, median(before), median(now),
+               100 * paired_error_ratio(now, before).value);
+}
+
+void update_baseline(const GateBench &bench, const StoredReference &reference) {
+    const auto &gate = bench.gate;
+    const Json previous = fs::exists(gate.baseline) ? load_json(gate.baseline) : Json::object();
+    require_writable(gate.baseline);
+    Json baseline = {{"schema_version", 1},
+                     {"gate", gate.name},
+                     {"commit", fmt::format("{}{}", RTRAYS_COMMIT, RTRAYS_DIRTY ? "-dirty" : "")},
+                     {"scene_hash", bench.scene.hash()},
+                     {"reference_spp", reference.description.at("spp")},
+                     {"size", {gate.width, gate.height}}};
+    for (const auto &curve : gate.curves) {
+        const auto first =
+            measure_errors(bench, curve, reference.reference, first_stage_seed, gate.convergence.renders);
+        const auto second = measure_errors(bench, curve, reference.reference, second_stage_seed,
+                                           gate.convergence.second_stage_renders);
+        baseline["curves"][curve.id()] = {{"settings", image_settings(curve.settings)},
+                                          {"first_stage", to_json(first)},
+                                          {"second_stage", to_json(second)}};
+        for (const auto &[spp, errors] : first) {
+            print_change(curve.id(), std::to_string(spp), errors, previous);
+        }
+    }
+    write_file(gate.baseline, baseline.dump(1) + "\n");
+    fmt::print("wrote {}\n", gate.baseline.string());
+}
+
+}  // namespace
+
+ExitCode run_gate(const GateOptions &options) {
+    const GateDescription gate = load_gate(options.gate);
+    const Scene scene = load_scene(gate.scene.string());
+    const auto wants = [&](const char *check) { return options.check == "all" || options.check == check; };
+    StoredReference reference;
+    if (options.update_baseline || wants("convergence") || wants("planted_errors")) {
+        reference = reference_of(gate, scene);  // before anything is rendered
+    }
+    DeviceContext device(options.device);
+    const GateBench bench{gate, scene, device, options.quiet};
+    if (options.update_baseline) {
+        update_baseline(bench, reference);
+        return ExitCode::ok;
+    }
+
+    bool passed = true;
+    const auto report = [&](const std::vector<CheckLine> &lines) {
+        for (const auto &line : lines) {
+            fmt::print("{} {}\n", line.passed ? "ok  " : "FAIL", line.text);
+            passed = passed && line.passed;
+        }
+    };
+    if (wants("bitwise")) {
+        report(check_bitwise(bench));
+    }
+    if (wants("convergence")) {
+        report(check_all_curves(bench, reference));
+    }
+    if (wants("planted_errors")) {
+        report(check_planted_errors(bench, reference.reference));
+    }
+    return passed ? ExitCode::ok : ExitCode::regression;
+}
+
+}  // namespace rtrays

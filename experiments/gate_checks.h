@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/gate.h"
+#include "experiments/references.h"
+#include "experiments/statistics.h"
+#include "renderer/device/context.h"
+#include "renderer/pipeline/render_session.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays {
+
+/// What one check found.
+struct CheckLine {
+    std::string text;
+    bool passed = false;
+};
+
+/// Where the checks render.
+struct GateBench {
+    const GateDescription &gate;
+    const Scene &scene;
+    DeviceContext &device;
+    bool quiet = false;
+
+    RenderSession session(RenderSettings settings) const;
+};
+
+/// Every curve's image has the same bits over two runs, group sizes, stream capacities, a batch split and
+/// merged films in either order; and another seed gives another image, so that equality means something.
+std::vector<CheckLine> check_bitwise(const GateBench &bench);
+
+/// RMSE of each render by samples per pixel.
+using StageErrors = std::map<uint64_t, std::vector<double>>;
+
+/// Renders seeds first_seed .. first_seed + renders - 1 of a curve to each spp in turn.
+/// Throws `Error` (run failed) where the reference is too noisy to judge.
+StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve, const Reference &reference,
+                           uint32_t first_seed, int renders);
+
+/// Seeds of the two stages: disjoint, fixed in advance.
+constexpr uint32_t first_stage_seed = 1;
+constexpr uint32_t second_stage_seed = 100001;
+
+/// The stored errors of one curve.
+struct CurveBaseline {
+    StageErrors first_stage, second_stage;
+};
+
+/// The two-stage rule at every spp (architecture, "The gate").
+std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDescription &curve,
+                                         const Reference &reference, const CurveBaseline &baseline);
+
+/// The text with its one occurrence of `search` replaced; throws `Error` (bad input) naming the error when
+/// there is none or more than one: a planted error that is not planted proves nothing.
+std::string plant(const PlantedError &error, const std::string &text);
+
+/// The unchanged renderer agrees with the reference, and every planted error is rejected.
+std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Reference &reference);
+
+}  // namespace rtrays

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What the machine is, and how much of it others use while we measure.
+#pragma once
+
+#include <string>
+
+#include "renderer/base/json.h"
+
+namespace rtrays {
+
+/// {"cpu", "cores", "kernel", "compiler", "build_type"}.
+Json describe_host();
+
+/// One, five and fifteen minute load averages.
+Json load_average();
+
+/// "2026-01-31T12:00:00Z".
+std::string utc_now();
+
+/// Shares of all CPU time since the last `start`, each in [0, 1].
+struct CpuUse {
+    double own = 0;      ///< this process, all threads
+    double foreign = 0;  ///< other processes
+    double steal = 0;    ///< taken by the hypervisor
+};
+
+/// Reads /proc/stat and this process' CPU time.
+class CpuMeter {
+  public:
+    CpuMeter() { start(); }
+    void start();
+    CpuUse use() const;
+
+  private:
+    struct Ticks {
+        double total = 0, busy = 0, steal = 0, own = 0;  ///< seconds of CPU
+    };
+    static Ticks read();
+
+    Ticks start_;
+};
+
+}  // namespace rtrays

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/ladder.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path partial_file(const LadderTask &task, uint32_t seed, const char *extension) {
+    return task.partial /
+           fmt::format("{}.{}.seed{}.{}", task.settings.algorithm, task.settings.strategies, seed, extension);
+}
+
+/// The session is made when the first seed needs it: a resumed run may need none.
+class LazySession {
+  public:
+    explicit LazySession(const LadderTask &task) : task_(task) {}
+
+    RenderSession &get() {
+        if (!session_) {
+            session_ = std::make_unique<RenderSession>(task_.scene, task_.settings, task_.device);
+            // Group functions are compiled at the first enqueue: one sample warms up, outside all times.
+            session_->render(0, 1);
+        }
+        return *session_;
+    }
+
+  private:
+    const LadderTask &task_;
+    std::unique_ptr<RenderSession> session_;
+};
+
+Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_t seed) {
+    session.restart(seed);
+    const RenderStats before = session.stats();
+    Repetition repetition;
+    repetition.seed = seed;
+    uint64_t done = 0;
+    for (uint64_t spp : task.spp) {
+        const uint64_t from = done;
+        done = session.render(done, spp);
+        if (done < spp) {
+            throw interrupted_error();
+        }
+        const RenderStats now = session.stats();
+        repetition.points.push_back({spp, now.device_seconds - before.device_seconds,
+                                     now.wall_seconds - before.wall_seconds,
+                                     compute_metrics(session.develop(), task.reference)});
+        task.advance(spp - from);
+    }
+    return repetition;
+}
+
+}  // namespace
+
+Error interrupted_error() {
+    return {ExitCode::interrupted, "interrupted; the same command continues where it stopped"};
+}
+
+LadderResult render_ladders(const LadderTask &task) {
+    LadderResult result;
+    std::vector<Image> images;
+    LazySession session(task);
+    for (uint32_t seed = 1; seed <= static_cast<uint32_t>(task.seeds); ++seed) {
+        const fs::path numbers = partial_file(task, seed, "json"), picture = partial_file(task, seed, "exr");
+        // The numbers are written last: where they are, the picture is.
+        if (fs::exists(numbers)) {
+            const Json stored = load_json(numbers);
+            result.repetitions.push_back(parse_repetition(stored.at("repetition")));
+            result.cost = stored.at("cost");
+            images.push_back(read_exr(picture));
+            task.advance(task.spp.back());
+            continue;
+        }
+        result.repetitions.push_back(render_ladder(task, session.get(), seed));
+        const RenderStats stats = session.get().stats();
+        result.cost = {{"compile_seconds", stats.compile_seconds},
+                       {"bvh_seconds", stats.bvh_seconds},
+                       {"render_report", session.get().report()}};
+        images.push_back(session.get().develop());
+        write_exr(images.back(), picture);
+        write_file(numbers,
+                   Json{{"repetition", to_json(result.repetitions.back())}, {"cost", result.cost}}.dump());
+    }
+    result.image = average_images(images);
+    return result;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Renders one curve: for each seed a ladder of sample counts on one session, resumable seed by seed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "experiments/description.h"
+#include "experiments/document.h"
+#include "renderer/base/error.h"
+#include "renderer/device/context.h"
+#include "renderer/pipeline/render_session.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays {
+
+/// What a curve's ladders need.
+struct LadderTask {
+    const Scene &scene;
+    DeviceContext &device;
+    RenderSettings settings;  ///< with size
+    std::vector<uint64_t> spp;
+    int seeds = 0;
+    const Image &reference;
+    std::filesystem::path partial;          ///< folder of finished seeds
+    std::function<void(uint64_t)> advance;  ///< told the samples per pixel of each finished rung
+};
+
+struct LadderResult {
+    std::vector<Repetition> repetitions;
+    Image image;          ///< mean over seeds at the top rung
+    nlohmann::json cost;  ///< {"compile_seconds", "bvh_seconds", "render_report"}
+};
+
+/// Finished seeds are read from `partial`, the others rendered and stored there. Throws `Error` (interrupted)
+/// on SIGINT and SIGTERM.
+LadderResult render_ladders(const LadderTask &task);
+
+/// Thrown by what stops at a signal: the same command continues.
+Error interrupted_error();
+
+}  // namespace rtrays

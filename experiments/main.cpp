@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// rtrays-experiment: measures the renderer against references.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "experiments/array_file.h"
+#include "experiments/compare.h"
+#include "experiments/gate.h"
+#include "experiments/report.h"
+#include "experiments/runner.h"
+#include "renderer/base/error.h"
+#include "renderer/base/image.h"
+#include "renderer/base/progress.h"
+#include "rtrays_commit.h"
+
+namespace {
+
+using namespace rtrays;
+
+namespace fs = std::filesystem;
+
+/// The subcommands' arguments.
+struct Arguments {
+    RunOptions run;
+    GateOptions gate;
+    fs::path image, reference, array;
+    bool json = false;
+    std::vector<fs::path> folders;
+};
+
+void declare(CLI::App &app, Arguments &arguments) {
+    app.require_subcommand(1);
+    app.set_version_flag("--version",
+                         fmt::format("rtrays-experiment {}{}", RTRAYS_COMMIT, RTRAYS_DIRTY ? "-dirty" : ""));
+
+    auto *run = app.add_subcommand("run", "measure an experiment and write OUT/run.json");
+    run->add_option("FILE", arguments.run.experiment, "experiment (JSON)")->required();
+    run->add_option("--profile", arguments.run.profile, "quick, full or ci")
+        ->check(CLI::IsMember({"quick", "full", "ci"}))
+        ->capture_default_str();
+    run->add_option("--out", arguments.run.out, "output folder; NAME.PROFILE by default");
+    run->add_option("--device", arguments.run.device, "OpenCL device, as for rtrays-render");
+    run->add_flag("--dry-run", arguments.run.dry_run, "check everything, print the plan, render nothing");
+    run->add_flag("--quiet", arguments.run.quiet, "no progress");
+
+    auto *compare = app.add_subcommand("compare", "error of image A against reference B");
+    compare->add_option("A", arguments.image, "image (OpenEXR)")->required();
+    compare->add_option("B", arguments.reference, "reference (OpenEXR)")->required();
+    compare->add_flag("--json", arguments.json, "print JSON with the keys of run.json");
+
+    auto *report = app.add_subcommand("report", "tables, plots and report of finished runs");
+    report->add_option("DIR", arguments.folders, "folders of finished runs")->required();
+
+    auto *gate =
+        app.add_subcommand("gate", "check the renderer against its stored baseline; exit 3 on a regression");
+    gate->add_option("FILE", arguments.gate.gate, "gate (JSON)")->required();
+    gate->add_option("--check", arguments.gate.check, "bitwise, convergence, planted_errors or all")
+        ->check(CLI::IsMember({"bitwise", "convergence", "planted_errors", "all"}))
+        ->capture_default_str();
+    gate->add_flag("--update-baseline", arguments.gate.update_baseline,
+                   "measure and replace the baseline, print what changed; checks nothing");
+    gate->add_option("--device", arguments.gate.device, "OpenCL device, as for rtrays-render");
+    gate->add_flag("--quiet", arguments.gate.quiet, "no progress");
+
+    auto *convert = app.add_subcommand("export", "write R, G, B of an image as a NumPy array");
+    convert->add_option("IMAGE", arguments.image, "image (OpenEXR)")->required();
+    convert->add_option("-o,--output", arguments.array, "array file (.npy)")->required();
+}
+
+ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
+    if (app.got_subcommand("run")) {
+        const fs::path out = run_experiment(arguments.run);
+        if (!out.empty()) {
+            fmt::print("{}\n", (out / "run.json").string());
+        }
+    } else if (app.got_subcommand("compare")) {
+        const auto comparison = compare_images(arguments.image, arguments.reference);
+        fmt::print("{}", arguments.json ? comparison.dump(2) + "\n" : comparison_text(comparison));
+    } else if (app.got_subcommand("report")) {
+        return static_cast<ExitCode>(make_report(arguments.folders));
+    } else if (app.got_subcommand("gate")) {
+        return run_gate(arguments.gate);
+    } else {
+        write_array(read_exr(arguments.image), arguments.array);
+    }
+    return ExitCode::ok;
+}
+
+ExitCode run(int argc, char **argv) {
+    CLI::App app{
+        "Measures the renderer against independent references: error over samples and over time, tables, "
+        "plots "
+        "and the regression gate."};
+    Arguments arguments;
+    declare(app, arguments);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success &help) {
+        app.exit(help, std::cout, std::cerr);
+        return ExitCode::ok;
+    } catch (const CLI::ParseError &error) {
+        throw input_error(fmt::format("{} (see --help)", error.what()));
+    }
+    install_interrupt_handler();
+    return dispatch(app, arguments);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+    return rtrays::run_main("rtrays-experiment", [&] { return run(argc, argv); });
+}

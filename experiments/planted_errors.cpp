@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "experiments/agreement.h"
+#include "experiments/gate_checks.h"
+#include "experiments/ladder.h"
+#include "renderer/base/progress.h"
+#include "renderer/device/source.h"
+
+namespace rtrays {
+
+namespace {
+
+Agreement agreement_of(const GateBench &bench, const RenderSettings &settings, const Reference &reference) {
+    RenderSession session = bench.session(settings);
+    if (session.render(0, bench.gate.planted.spp) < bench.gate.planted.spp) {
+        throw interrupted_error();
+    }
+    return test_agreement(session.develop(), reference.image);
+}
+
+std::string describe(const Agreement &agreement) {
+    const auto &[value, low, high] = agreement.relative_difference;
+    return fmt::format("{} of {} tests reject, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, {:+.3f}]",
+                       agreement.rejected, agreement.tests.size(), agreement.largest_z, 100 * value,
+                       100 * low, 100 * high);
+}
+
+}  // namespace
+
+std::string plant(const PlantedError &error, const std::string &text) {
+    const size_t at = text.find(error.search);
+    if (at == std::string::npos || text.find(error.search, at + 1) != std::string::npos) {
+        throw input_error(fmt::format("planted error '{}': {} must contain exactly once: {}", error.name,
+                                      error.file, error.search));
+    }
+    std::string planted = text;
+    planted.replace(at, error.search.size(), error.replacement);
+    if (planted == text) {
+        throw input_error(fmt::format("planted error '{}' changes nothing", error.name));
+    }
+    return planted;
+}
+
+std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Reference &reference) {
+    const auto &planted = bench.gate.planted;
+    std::vector<CheckLine> lines;
+    Progress progress("planted errors", bench.gate.curves.size() + planted.errors.size(), "renders",
+                      bench.quiet);
+    uint64_t done = 0;
+    for (const auto &curve : bench.gate.curves) {
+        const Agreement agreement = agreement_of(bench, curve.settings, reference);
+        lines.push_back({fmt::format("{}: agrees with the reference: {}", curve.id(), describe(agreement)),
+                         agreement.agrees()});
+        progress.update(++done);
+    }
+    for (const auto &error : planted.errors) {
+        RenderSettings settings = error.settings;
+        settings.source_overlays[error.file] = plant(error, device_source(error.file));
+        const Agreement agreement = agreement_of(bench, settings, reference);
+        lines.push_back({fmt::format("planted '{}' is caught: {}", error.name, describe(agreement)),
+                         !agreement.agrees()});
+        progress.update(++done);
+    }
+    return lines;
+}
+
+}  // namespace rtrays

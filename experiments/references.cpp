@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/references.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "reference/manifest.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<const char *, 2> halves{"a", "b"};
+
+std::string file_name(const ReferenceRequest &request, size_t half) {
+    return fmt::format("{}.{}.{}.exr", request.scene_name, request.engine, halves[half]);
+}
+
+Error missing(const ReferenceRequest &request, size_t half, const std::string &what) {
+    const std::string manifest = (request.folder / "manifest.json").string();
+    return {ExitCode::reference_missing,
+            fmt::format("{}; make it with:\n  rtrays-reference {} -o {} --spp 16384 --size {}x{} --seed {} "
+                        "--manifest {}\n"
+                        "or all of them with: make references",
+                        what, request.scene_path, (request.folder / file_name(request, half)).string(),
+                        request.width, request.height, half + 1, manifest)};
+}
+
+/// The manifest's entry of one half, checked against the request and the file.
+Json checked_entry(const ReferenceRequest &request, const Json &manifest, size_t half) {
+    const std::string name = file_name(request, half);
+    const fs::path path = request.folder / name;
+    if (!fs::exists(path)) {
+        throw missing(request, half, fmt::format("the reference {} does not exist", path.string()));
+    }
+    if (!manifest.at("references").contains(name)) {
+        throw missing(request, half, fmt::format("{}: the manifest has no entry for it", path.string()));
+    }
+    const Json &entry = manifest.at("references").at(name);
+    if (entry.at("scene_hash") != request.scene_hash) {
+        throw input_error(
+            fmt::format("{} was made of another version of the scene (hash {}, the scene now has {}); make "
+                        "it anew (make references)",
+                        path.string(), entry.at("scene_hash").get<std::string>(), request.scene_hash));
+    }
+    if (entry.at("sha256") != reference::sha256_of(path)) {
+        throw input_error(fmt::format(
+            "{}: its SHA-256 is not that of the manifest: the file was changed or damaged", path.string()));
+    }
+    return entry;
+}
+
+/// How many pixels of the stored film make one of the wanted film, along each side.
+int reduction(const Image &stored, const ReferenceRequest &request) {
+    const int factor = stored.width() / request.width;
+    if (factor < 1 || stored.width() != factor * request.width ||
+        stored.height() != factor * request.height) {
+        throw input_error(
+            fmt::format("the reference of {} is {}x{}; a film of {}x{} cannot be averaged from it",
+                        request.scene_name, stored.width(), stored.height(), request.width, request.height));
+    }
+    return factor;
+}
+
+}  // namespace
+
+StoredReference load_reference(const ReferenceRequest &request) {
+    const fs::path manifest_path = request.folder / "manifest.json";
+    if (!fs::exists(manifest_path)) {
+        throw missing(request, 0, fmt::format("{} does not exist", manifest_path.string()));
+    }
+    const Json manifest = reference::load_manifest(manifest_path);
+    const Json entry_a = checked_entry(request, manifest, 0), entry_b = checked_entry(request, manifest, 1);
+    if (entry_a.at("seed") == entry_b.at("seed")) {
+        throw input_error(fmt::format("{}: both halves of {} have the seed {}: they are not independent",
+                                      manifest_path.string(), request.scene_name, entry_a.at("seed").dump()));
+    }
+    if (entry_a.at("spp") != entry_b.at("spp")) {
+        throw input_error(fmt::format(
+            "{}: the halves of {} have {} and {} spp; their noise cannot be told from their "
+            "difference",
+            manifest_path.string(), request.scene_name, entry_a.at("spp").dump(), entry_b.at("spp").dump()));
+    }
+
+    const Image a = read_exr(request.folder / file_name(request, 0));
+    const Image b = read_exr(request.folder / file_name(request, 1));
+    const int factor = reduction(a, request);
+    StoredReference result;
+    result.reference = combine_halves(downsample(a, factor), downsample(b, factor));
+    const double noise = result.reference.noise_mse;
+    const double values = 3.0 * request.width * request.height;
+    result.description = {
+        {"engine", entry_a.at("engine_version")},
+        {"files", {file_name(request, 0), file_name(request, 1)}},
+        {"spp", entry_a.at("spp").get<uint64_t>() + entry_b.at("spp").get<uint64_t>()},
+        {"reduced_by", factor},
+        {"scene_hash", request.scene_hash},
+        {"noise_floor", {{"mse", noise}, {"rmse", std::sqrt(noise)}, {"l2", std::sqrt(noise * values)}}}};
+    return result;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/report.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "experiments/array_file.h"
+#include "experiments/document.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void export_images(const fs::path &folder) {
+    if (!fs::exists(folder / "run.json")) {
+        throw input_error(fmt::format("{}: there is no run.json; rtrays-experiment run ... --out {} makes it",
+                                      folder.string(), folder.string()));
+    }
+    const Json run = load_json(folder / "run.json");
+    check_run(run, (folder / "run.json").string());
+    std::vector<std::string> images{run.at("reference").at("image")};
+    for (const Json &curve : run.at("curves")) {
+        images.push_back(curve.at("image"));
+    }
+    for (const auto &image : images) {
+        write_array(read_exr(folder / image), fs::path(folder / image).replace_extension(".npy"));
+    }
+}
+
+int run_program(const std::vector<std::string> &command) {
+    std::vector<char *> arguments;
+    for (const auto &word : command) {
+        arguments.push_back(const_cast<char *>(word.c_str()));
+    }
+    arguments.push_back(nullptr);
+    pid_t child = 0;
+    const int error = posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
+    if (error != 0) {
+        throw run_error(
+            fmt::format("{} cannot be started: {}; install python3, python3-numpy and python3-matplotlib",
+                        command[0], std::strerror(error)));
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            throw run_error(fmt::format("{}: {}", command[0], std::strerror(errno)));
+        }
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ExitCode::run_failed);
+}
+
+}  // namespace
+
+int make_report(const std::vector<fs::path> &runs) {
+    std::vector<std::string> command{RTRAYS_PYTHON, RTRAYS_SCRIPTS "/report"};
+    for (const auto &run : runs) {
+        export_images(run);
+        command.push_back(run.string());
+    }
+    return run_program(command);
+}
+
+}  // namespace rtrays

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/runner.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/description.h"
+#include "experiments/document.h"
+#include "experiments/host.h"
+#include "experiments/ladder.h"
+#include "experiments/references.h"
+#include "experiments/throughput.h"
+#include "reference/renderer.h"
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+#include "renderer/device/context.h"
+#include "renderer/device/program.h"
+#include "renderer/scene/scene.h"
+#include "rtrays_commit.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Json describe_device(const DeviceInfo &info) {
+    return {{"name", info.name},
+            {"platform", info.platform_name},
+            {"driver", info.driver},
+            {"c_version", info.c_version},
+            {"compute_units", info.compute_units}};
+}
+
+Json describe_experiment(const ExperimentDescription &experiment) {
+    return {
+        {"name", experiment.name},
+        {"title", experiment.title},
+        {"thesis", experiment.thesis},
+        {"claim", experiment.claim},
+        {"expected_slope", {{"value", experiment.expected_slope}, {"tolerance", experiment.slope_tolerance}}},
+        {"profile", experiment.profile},
+        {"size", {experiment.width, experiment.height}}};
+}
+
+void print_plan(const ExperimentDescription &experiment, const StoredReference &reference) {
+    const double pixels = static_cast<double>(experiment.width) * experiment.height;
+    const double curve = pixels * static_cast<double>(experiment.spp.back()) * experiment.seeds;
+    const double throughput =
+        2 * pixels * static_cast<double>(experiment.throughput.spp) * experiment.throughput.repetitions;
+    fmt::print("{} ({}), profile {}: {}x{}, {} to {} spp, {} seeds\n", experiment.name, experiment.thesis,
+               experiment.profile, experiment.width, experiment.height, experiment.spp.front(),
+               experiment.spp.back(), experiment.seeds);
+    for (const auto &description : experiment.curves) {
+        fmt::print("  {:24} {:8.1f} Msamples\n", description.id(), curve / 1e6);
+    }
+    fmt::print("  {:24} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
+    fmt::print("  reference: {} spp ({}), noise floor RMSE {:.3g}\n",
+               reference.description.at("spp").get<uint64_t>(),
+               reference.description.at("engine").get<std::string>(),
+               std::sqrt(reference.reference.noise_mse));
+}
+
+/// Names what the partial results depend on: the program's own bytes, since a dirty tree has no commit.
+std::string partial_key(const ExperimentDescription &experiment, const StoredReference &reference,
+                        const DeviceInfo &device) {
+    return content_hash(content_hash(read_file("/proc/self/exe")) + experiment.source.dump() +
+                        experiment.profile + reference.description.dump() + device.name + device.driver);
+}
+
+/// Renderer and reference in turns on the last curve's settings.
+Json run_throughput(const ExperimentDescription &experiment, const Scene &scene, DeviceContext &device,
+                    bool quiet) {
+    RenderSettings settings = experiment.curves.back().settings;
+    settings.width = experiment.width;
+    settings.height = experiment.height;
+    RenderSession session(scene, settings, device);
+
+    ReferenceSettings reference_settings;
+    reference_settings.width = experiment.width;
+    reference_settings.height = experiment.height;
+    reference_settings.camera = static_cast<size_t>(scene.active_camera());
+    reference_settings.strategies = strategies_from_name(settings.strategies);
+    reference_settings.max_depth = settings.max_depth;
+    ReferenceRenderer reference(scene.cameras(), scene.meshes(), scene.materials(), scene.lights(),
+                                reference_settings);
+
+    const uint64_t spp = experiment.throughput.spp;
+    const auto contestant = [&](auto &renderer) {
+        return [&renderer, spp, done = uint64_t{0}]() mutable {
+            done = renderer.render(done, done + spp);
+            if (interrupted()) {
+                throw interrupted_error();
+            }
+        };
+    };
+    const Contestant first{"renderer", contestant(session)}, second{"reference", contestant(reference)};
+    first.render();  // warm up: first enqueue, caches, threads
+    second.render();
+
+    ThroughputSettings rules;
+    rules.repetitions = experiment.throughput.repetitions;
+    rules.samples = static_cast<double>(spp) * experiment.width * experiment.height;
+    Progress progress(experiment.name + ": throughput", static_cast<uint64_t>(rules.repetitions),
+                      "repetitions", quiet);
+    CpuMeter meter;
+    const auto use_since = [&] {
+        const CpuUse use = meter.use();
+        meter.start();
+        return use;
+    };
+    const auto measured = measure_throughput(rules, first, second, use_since,
+                                             [&](int done) { progress.update(static_cast<uint64_t>(done)); });
+    Json json = to_json(measured, rules, first.name, second.name);
+    json["curve"] = experiment.curves.back().id();
+    return json;
+}
+
+/// One entry of "curves"; writes the curve's image.
+Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description, LadderTask task,
+               const StoredReference &reference, const std::string &scene_name, const fs::path &out) {
+    task.settings = description.settings;
+    task.settings.width = experiment.width;
+    task.settings.height = experiment.height;
+    const LadderResult ladder = render_ladders(task);
+    const std::string image = "images/" + description.id() + ".exr";
+    write_exr(ladder.image, out / image);
+
+    const AgreementPolicy policy;
+    Json curve = summarise_curve(ladder.repetitions, reference.reference.noise_mse);
+    curve.update(ladder.cost);
+    curve["id"] = description.id();
+    curve["scene"] = scene_name;
+    curve["algorithm"] = description.settings.algorithm;
+    curve["strategies"] = description.settings.strategies;
+    curve["settings"] = image_settings(description.settings);
+    curve["agreement"] = to_json(test_agreement(ladder.image, reference.reference.image, policy), policy);
+    curve["image"] = image;
+    curve["image_spp"] = experiment.spp.back() * static_cast<uint64_t>(experiment.seeds);
+    return curve;
+}
+
+fs::path output_folder(const RunOptions &options, const ExperimentDescription &experiment) {
+    return options.out.empty() ? fs::path(experiment.name + "." + experiment.profile) : options.out;
+}
+
+void create_folder(const fs::path &folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        throw input_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+    }
+}
+
+}  // namespace
+
+fs::path run_experiment(const RunOptions &options) {
+    const ExperimentDescription experiment = load_experiment(options.experiment, options.profile);
+    const Scene scene = load_scene(experiment.scene.string());
+    StoredReference reference =
+        load_reference({experiment.reference_folder, scene.name(), scene.hash(), experiment.reference_engine,
+                        experiment.width, experiment.height, experiment.scene.string()});
+    if (options.dry_run) {
+        print_plan(experiment, reference);
+        return {};
+    }
+    const fs::path out = output_folder(options, experiment);
+    create_folder(out / "images");
+    require_writable(out / "run.json");
+
+    Json context = {{"commit", RTRAYS_COMMIT},
+                    {"dirty", RTRAYS_DIRTY},
+                    {"started_at", utc_now()},
+                    {"host", describe_host()},
+                    {"load_average_start", load_average()},
+                    {"kernel_options", program_options}};
+    const CpuMeter meter;
+    DeviceContext device(options.device);
+    context["device"] = describe_device(device.info());
+    const fs::path partial = out / ".partial" / partial_key(experiment, reference, device.info());
+    create_folder(partial);
+
+    Json run = {{"schema_version", run_schema_version}, {"experiment", describe_experiment(experiment)}};
+    {
+        uint64_t done = 0;
+        Progress progress(
+            experiment.name,
+            experiment.curves.size() * static_cast<uint64_t>(experiment.seeds) * experiment.spp.back(), "spp",
+            options.quiet);
+        progress.update(0);
+        const LadderTask task{scene,
+                              device,
+                              {},
+                              experiment.spp,
+                              experiment.seeds,
+                              reference.reference.image,
+                              partial,
+                              [&](uint64_t spp) { progress.update(done += spp); }};
+        for (const auto &description : experiment.curves) {
+            run["curves"].push_back(run_curve(experiment, description, task, reference, scene.name(), out));
+        }
+    }
+    run["throughput"] = run_throughput(experiment, scene, device, options.quiet);
+
+    reference.description["image"] = "images/reference.exr";
+    write_exr(reference.reference.image, out / "images/reference.exr");
+    run["reference"] = reference.description;
+    const CpuUse use = meter.use();
+    context["cpu_use"] = {{"own", use.own}, {"foreign", use.foreign}, {"steal", use.steal}};
+    context["load_average_end"] = load_average();
+    context["finished_at"] = utc_now();
+    run["context"] = context;
+    check_run(run, (out / "run.json").string());
+    write_file(out / "run.json", run.dump(2) + "\n");
+    fs::remove_all(out / ".partial");
+    return out;
+}
+
+}  // namespace rtrays

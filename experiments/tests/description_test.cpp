@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Experiment and gate files: the shipped ones load, broken ones are refused with what is wrong and where.
+#include "experiments/description.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "experiments/gate.h"
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+
+namespace rtrays {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path shipped = RTRAYS_EXPERIMENTS;
+
+/// The message of the error that loading the text gives.
+std::string error_of(const std::string &text) {
+    const fs::path path = fs::path(testing::TempDir()) / "broken_experiment.json";
+    write_file(path, text);
+    try {
+        load_experiment(path, "quick");
+    } catch (const Error &error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string replaced(std::string text, const std::string &from, const std::string &to) {
+    const size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+TEST(Description, ShippedExperimentLoadsInEveryProfile) {
+    for (const char *profile : {"quick", "full", "ci"}) {
+        const auto experiment = load_experiment(shipped / "cornell_diffuse.json", profile);
+        EXPECT_EQ(experiment.name, "cornell_diffuse");
+        EXPECT_EQ(experiment.curves.size(), 3u);
+        EXPECT_EQ(experiment.curves[0].id(), "path_tracing.implicit");
+        EXPECT_GE(experiment.seeds, 8);
+        EXPECT_TRUE(experiment.scene.is_absolute());
+    }
+    EXPECT_EQ(load_experiment(shipped / "cornell_diffuse.json", "full").spp.back(), 2048u);
+}
+
+TEST(Description, ErrorsNameTheKey) {
+    const std::string good = read_file(shipped / "cornell_diffuse.json");
+    EXPECT_NE(error_of(replaced(good, "\"claim\"", "\"clam\"")).find("clam"), std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"title\"", "\"name\"")).find("duplicate key 'name'"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"seeds\": 8", "\"seeds\": 3")).find("seeds"), std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "[1, 2, 4, 8,", "[1, 4, 2, 8,")).find("must increase"),
+              std::string::npos);
+    EXPECT_NE(
+        error_of(replaced(good, "\"integrator.strategies\": \"mis\"", "\"integrator.strategies\": \"miss\""))
+            .find("implicit, explicit, mis"),
+        std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"mis\"", "\"implicit\"")).find("two curves"), std::string::npos);
+    EXPECT_NE(error_of("{").find("broken_experiment.json:1"), std::string::npos);
+}
+
+TEST(Description, UnknownProfileListsTheProfiles) {
+    try {
+        load_experiment(shipped / "cornell_diffuse.json", "fast");
+        FAIL();
+    } catch (const Error &error) {
+        EXPECT_NE(std::string(error.what()).find("quick, full, ci"), std::string::npos);
+    }
+}
+
+TEST(Description, ShippedGateLoads) {
+    const auto gate = load_gate(shipped / "gate_path_tracing.json");
+    EXPECT_EQ(gate.width, 64);
+    EXPECT_GE(gate.convergence.renders, 16);
+    EXPECT_EQ(gate.planted.errors.size(), 4u);
+}
+
+}  // namespace
+}  // namespace rtrays
