@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Figures of a run: error over samples and over time (figure 4.3), and the image triptych (figure 4.2)."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+# Equal input gives equal files: no dates, fixed identifiers, text kept as text.
+matplotlib.rcParams.update({"svg.hashsalt": "rtrays", "svg.fonttype": "none", "font.size": 9,
+                            "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+                            "grid.alpha": 0.25, "legend.frameon": False})
+
+import matplotlib.pyplot as pyplot
+import numpy
+
+from run_document import label, usable_points, value
+
+AXES = {
+    "spp": "samples per pixel",
+    "seconds_device": "device time, s (kernel compilation and BVH construction apart)",
+    "seconds_wall": "wall time, s (kernel compilation and BVH construction apart)",
+}
+# Okabe & Ito: told apart with any colour vision.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+MARKERS = ("o", "s", "^", "D", "v", "P")
+
+
+def band(curve_points, key):
+    """The central 95 % of the seeds at each point: (low, high)."""
+    samples = [[value(repetition, key) for repetition in value(point, "repetitions")] for point in curve_points]
+    return numpy.quantile(numpy.array(samples), [0.025, 0.975], axis=1)
+
+
+def draw_guide(axes, x, y):
+    """A line of slope -1/2 below the curves."""
+    ends = numpy.array([min(x), max(x)], dtype=float)
+    axes.plot(ends, y * (ends / ends[0]) ** -0.5, color="black", linewidth=0.8, linestyle=":", label="slope $-1/2$")
+
+
+def curves_figure(run, x_key):
+    """RMSE against `x_key`, log-log. Curves stop where the reference's noise passes 10 % of their MSE."""
+    figure, axes = pyplot.subplots(figsize=(5.6, 4.2), layout="constrained")
+    floor = run.get("reference.noise_floor.rmse")
+    first_x, first_y = [], []
+    for index, curve in enumerate(run.curves):
+        points = usable_points(curve)
+        x = [value(point, x_key) for point in points]
+        y = [value(point, "rmse") for point in points]
+        colour = COLOURS[index % len(COLOURS)]
+        axes.fill_between(x, *band(points, "rmse"), color=colour, alpha=0.2, linewidth=0)
+        axes.plot(x, y, color=colour, marker=MARKERS[index % len(MARKERS)], markersize=4, linewidth=1.2,
+                  label=f"{label(curve)}, slope {value(curve, 'slope.value'):.3f}")
+        first_x += x
+        first_y.append(y[0])
+    draw_guide(axes, first_x, 0.6 * min(first_y))
+    axes.axhline(floor, color="gray", linestyle="--", linewidth=0.9,
+                 label=f"noise of the reference ({run.get('reference.spp')} spp)")
+    axes.set(xscale="log", yscale="log", xlabel=AXES[x_key], ylabel="RMSE",
+             title=f"{run.get('experiment.title')}: median and central 95 % over seeds")
+    if x_key == "spp":
+        axes.set_xscale("log", base=2)
+    axes.legend(fontsize=8)
+    return figure
+
+
+def to_display(linear):
+    """sRGB transfer curve, clipped: for the eye only, never for metrics."""
+    clipped = numpy.clip(linear, 0, 1)
+    return numpy.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
+
+
+def images_figure(run, curve):
+    """Reference, ours, and ten times their absolute difference."""
+    reference = run.image(run.get("reference.image"))
+    ours = run.image(value(curve, "image"))
+    panels = (
+        (f"reference, {run.get('reference.spp')} spp", reference),
+        (f"{label(curve)}, {value(curve, 'image_spp')} spp", ours),
+        ("10 × |difference|", 10 * numpy.abs(ours.astype(float) - reference)),
+    )
+    figure, axes = pyplot.subplots(1, 3, figsize=(9.6, 3.5), layout="constrained")
+    for panel, (title, picture) in zip(axes, panels):
+        panel.imshow(to_display(picture), interpolation="nearest")
+        panel.set_title(title, fontsize=9)
+        panel.set_axis_off()
+    return figure
+
+
+def save(figure, stem):
+    """STEM.svg and STEM.png."""
+    for extension, metadata in ((".svg", {"Date": None}), (".png", {"Software": None})):
+        temporary = stem.with_name(f"{stem.name}.tmp{extension}")
+        figure.savefig(temporary, dpi=160, metadata=metadata)
+        temporary.replace(stem.with_name(stem.name + extension))
+    pyplot.close(figure)
+
+
+def write_plots(run, folder):
+    """All figures of a run; returns {stem: caption}."""
+    folder.mkdir(parents=True, exist_ok=True)
+    figures = {}
+    for x_key, axis in AXES.items():
+        stem = f"rmse_{x_key}"
+        save(curves_figure(run, x_key), folder / stem)
+        figures[stem] = f"RMSE against {axis}."
+    for curve in run.curves:
+        stem = f"images_{value(curve, 'id')}"
+        save(images_figure(run, curve), folder / stem)
+        figures[stem] = f"Reference, {label(curve)} and ten times their absolute difference (sRGB for display)."
+    return figures

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""The report of a run as Markdown and as one static HTML page with relative links and no network."""
+
+import html
+import os
+
+from run_document import agreement_verdict, label, slope_verdict, value
+from tables import Table, interval
+
+STYLE = """
+body { font: 16px/1.5 Georgia, serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+h1, h2 { font-weight: normal; line-height: 1.2; }
+table { border-collapse: collapse; font: 13px/1.4 system-ui, sans-serif; border-top: 2px solid; border-bottom: 2px solid; }
+th { border-bottom: 1px solid; text-align: left; }
+th, td { padding: .25rem .8rem .25rem 0; font-variant-numeric: tabular-nums; vertical-align: top; }
+.wide { overflow-x: auto; }
+figure { margin: 1.5rem 0; } img { max-width: 100%; } figcaption, footer { color: #555; font-size: .85rem; }
+footer { border-top: 1px solid #ccc; margin-top: 3rem; }
+"""
+
+
+def verdict_table(run):
+    """Claim, measurement and verdict, by curve."""
+    expected, tolerance = run.get("experiment.expected_slope.value"), run.get("experiment.expected_slope.tolerance")
+    rows = []
+    for curve in run.curves:
+        rows.append([label(curve), f"slope {expected} ± {tolerance}", interval(value(curve, "slope"), form="{:.4f}"),
+                     slope_verdict(value(curve, "slope"), expected, tolerance)])
+        agreement = value(curve, "agreement")
+        measured = (f"mean {interval(value(agreement, 'relative_difference'), 100, '{:+.3f}')} %, "
+                    f"{value(agreement, 'rejected')} of {value(agreement, 'tests')} block tests reject")
+        rows.append([label(curve), "the reference's image", measured, agreement_verdict(agreement)])
+    return Table("Claim, measurement, verdict", ["curve", "thesis", "measured", "verdict"], rows)
+
+
+def provenance(run):
+    """Where the numbers come from, a line each."""
+    context = run.get("context")
+    load = [", ".join(f"{average:.2f}" for average in value(context, f"load_average_{end}")) for end in ("start", "end")]
+    use = value(context, "cpu_use")
+    lines = [
+        f"commit {value(context, 'commit')}{' with uncommitted changes' if context['dirty'] else ''}, "
+        f"profile {run.get('experiment.profile')}, {value(context, 'started_at')} to {value(context, 'finished_at')}",
+        f"device: {value(context, 'device.name')}, {value(context, 'device.platform')}, driver "
+        f"{value(context, 'device.driver')}, {value(context, 'device.c_version')}, "
+        f"{value(context, 'device.compute_units')} compute units; kernel options: {value(context, 'kernel_options')}",
+        f"host: {value(context, 'host.cpu')}, {value(context, 'host.cores')} cores, {value(context, 'host.kernel')}; "
+        f"{value(context, 'host.compiler')}, {value(context, 'host.build_type')}",
+        f"load average {load[0]} at the start, {load[1]} at the end; CPU time: this run {100 * use['own']:.0f} %, others "
+        f"{100 * use['foreign']:.0f} %, stolen {100 * use['steal']:.1f} %",
+        f"reference: {', '.join(run.get('reference.files'))}, {run.get('reference.engine')}, "
+        f"{run.get('reference.spp')} spp together, noise RMSE {run.get('reference.noise_floor.rmse'):.3g}, "
+        f"scene hash {run.get('reference.scene_hash')}",
+    ]
+    return lines
+
+
+def title(run):
+    return f"{run.get('experiment.title')} (thesis, {run.get('experiment.thesis')})"
+
+
+def markdown_page(run, tables, figures):
+    parts = [f"# {title(run)}", f"The thesis claims: {run.get('experiment.claim')}", verdict_table(run).markdown()]
+    parts += [f"![{caption}](plots/{stem}.svg)\n\n{caption}" for stem, caption in figures.items()]
+    parts += [f"## {table.caption}\n\n{table.markdown()}" for table in tables.values()]
+    parts += ["---", "\n".join(f"- {line}" for line in provenance(run))]
+    return "\n\n".join(parts) + "\n"
+
+
+def html_table(table):
+    def cells(tag, row):
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row) + "</tr>"
+
+    return ("<div class=wide><table><thead>" + cells("th", table.columns) + "</thead><tbody>"
+            + "\n".join(cells("td", row) for row in table.rows) + "</tbody></table></div>")
+
+
+def html_document(heading, body):
+    return (f"<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>{html.escape(heading)}</title>"
+            f"<style>{STYLE}</style></head>\n<body><h1>{html.escape(heading)}</h1>\n{body}\n</body></html>\n")
+
+
+def html_page(run, tables, figures):
+    parts = [f"<p>The thesis claims: {html.escape(run.get('experiment.claim'))}</p>", html_table(verdict_table(run))]
+    for stem, caption in figures.items():
+        text = html.escape(caption)
+        parts.append(f'<figure><img src="plots/{stem}.svg" alt="{text}"><figcaption>{text} '
+                     f'<a href="plots/{stem}.png">PNG</a></figcaption></figure>')
+    for name, table in tables.items():
+        links = ", ".join(f'<a href="tables/{name}.{form}">{form}</a>' for form in ("csv", "md", "tex"))
+        parts.append(f"<h2>{html.escape(table.caption)}</h2>{html_table(table)}<p>{links}</p>")
+    parts.append('<p><a href="tables/repetitions.csv">every repetition</a>, <a href="run.json">run.json</a></p>')
+    parts.append("<footer><ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in provenance(run)) + "</ul></footer>")
+    return html_document(title(run), "\n".join(parts))
+
+
+def html_index(folder, runs):
+    """Links to the reports of several runs with their verdicts."""
+    parts = []
+    for run in runs:
+        link = html.escape(os.path.relpath(run.folder.resolve() / "index.html", folder))
+        parts.append(f'<h2><a href="{link}">{html.escape(title(run))}</a></h2>{html_table(verdict_table(run))}')
+    return html_document("RTRays: chapter 4", "\n".join(parts))

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+"""Reads run.json: what tables, plots and the report are made of.
+
+Everything made from a run is a pure function of its folder. A missing value is an error, never a zero.
+"""
+
+import json
+import math
+import pathlib
+import sys
+
+
+class RunError(Exception):
+    """A run folder that cannot be used; the message names file, key and remedy."""
+
+
+class Run:
+    """One folder with run.json and images/*.npy (exported by `rtrays-experiment report`)."""
+
+    schema_version = 1
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        path = self.folder / "run.json"
+        try:
+            self.document = json.loads(path.read_text())
+        except OSError as error:
+            raise RunError(f"{path}: {error.strerror}; rtrays-experiment run ... --out {folder} makes it") from error
+        except ValueError as error:
+            raise RunError(f"{path}: not JSON: {error}") from error
+        version = value(self.document, "schema_version")
+        if version != self.schema_version:
+            raise RunError(f"{path}: schema_version {version}, these scripts read {self.schema_version}; run it anew")
+
+    @property
+    def name(self):
+        return value(self.document, "experiment.name")
+
+    @property
+    def curves(self):
+        return value(self.document, "curves")
+
+    def get(self, path):
+        """The value at a dotted path; RunError naming the file when there is none."""
+        try:
+            return value(self.document, path)
+        except RunError as error:
+            raise RunError(f"{self.folder / 'run.json'}: {error}") from error
+
+    def image(self, relative):
+        """Linear R, G, B of an image named in run.json, shape (height, width, 3)."""
+        import numpy
+
+        path = (self.folder / relative).with_suffix(".npy")
+        try:
+            return numpy.load(path)
+        except OSError as error:
+            raise RunError(
+                f"{path}: {error.strerror or error}; rtrays-experiment report {self.folder} makes it from the EXR"
+            ) from error
+
+
+def value(document, path):
+    """The number, text, list or object at a dotted path. Absent, null and non-finite are errors."""
+    current = document
+    for key in path.split("."):
+        try:
+            current = current[int(key)] if isinstance(current, list) else current[key]
+        except (KeyError, IndexError, TypeError, ValueError):
+            raise RunError(f"missing value: {path}") from None
+    if current is None or (isinstance(current, float) and not math.isfinite(current)):
+        raise RunError(f"missing value: {path}")
+    return current
+
+
+def usable_points(curve):
+    """The points before the first where the reference's noise dominates: where curves stop."""
+    points = []
+    for point in value(curve, "points"):
+        if value(point, "noise_dominates"):
+            break
+        points.append(point)
+    return points
+
+
+def slope_verdict(slope, expected, tolerance):
+    """Whether an interval lies within, outside of, or across expected +/- tolerance."""
+    low, high = expected - tolerance, expected + tolerance
+    if low <= slope["low"] and slope["high"] <= high:
+        return "reproduced"
+    if slope["high"] < low or slope["low"] > high:
+        return "not reproduced"
+    return "undecided"
+
+
+def agreement_verdict(agreement):
+    """The image claim: the same picture as the reference, up to noise."""
+    if not value(agreement, "agrees") or value(agreement, "equivalence") == "different":
+        return "not reproduced"
+    return "reproduced" if value(agreement, "equivalence") == "equivalent" else "undecided"
+
+
+def label(curve):
+    """How a curve is called in tables and legends."""
+    return f"{value(curve, 'algorithm')} ({value(curve, 'strategies')})".replace("_", " ")
+
+
+def write_text(path, text):
+    """Writes a file whole or not at all."""
+    temporary = path.with_name(path.name + ".tmp")
+    temporary.write_text(text)
+    temporary.replace(path)
+
+
+def main_guard(program, body):
+    """Runs `body`; a RunError becomes one line on stderr and exit code 2."""
+    try:
+        body()
+    except RunError as error:
+        print(f"{program}: {error}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"{program}: {error}; install python3-numpy and python3-matplotlib", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"{program}: {error}", file=sys.stderr)
+        return 1
+    return 0

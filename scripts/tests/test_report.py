@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: MIT
+"""Tables, plots and reports of a small made-up run."""
+
+import copy
+import csv
+import io
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPTS = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(SCRIPTS))
+
+import numpy
+
+from run_document import Run, RunError, agreement_verdict, slope_verdict, usable_points, value
+from tables import TABLES, errors_table, latex_escape, repetitions_table, throughput_table
+
+
+def made_up_curve(strategies):
+    points = []
+    for spp in (1, 2, 4, 8):
+        rmse = spp ** -0.5
+        repetitions = [{"seed": seed, "seconds_device": 0.1 * spp, "seconds_wall": 0.2 * spp, "l2": 10 * rmse,
+                        "rmse": rmse * (1 + 0.01 * seed), "mae": rmse / 2, "relmse": rmse ** 2, "mse": rmse ** 2}
+                       for seed in range(1, 9)]
+        points.append({"spp": spp, "seconds_device": 0.1 * spp, "seconds_wall": 0.2 * spp, "l2": 10 * rmse, "rmse": rmse,
+                       "mae": rmse / 2, "relmse": rmse ** 2, "mse": rmse ** 2, "mse_unbiased": rmse ** 2 - 0.01,
+                       "noise_dominates": spp == 8, "repetitions": repetitions})
+    slope = {"value": -0.5, "low": -0.51, "high": -0.49, "confidence": 0.95, "spp": [1, 4]}
+    return {"id": f"path_tracing.{strategies}", "scene": "box", "algorithm": "path_tracing", "strategies": strategies,
+            "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {}, "points": points,
+            "slope": slope, "slope_unbiased": slope, "image": "images/ours.exr", "image_spp": 64,
+            "agreement": {"block_size": 16, "alpha": 0.01, "tests": 51, "rejected": 0, "agrees": True, "largest_z": 2.5,
+                          "smallest_adjusted_p": 0.6, "equivalence": "equivalent",
+                          "relative_difference": {"value": 1e-4, "low": -2e-4, "high": 4e-4, "confidence": 0.99,
+                                                  "limit": 1e-3}}}
+
+
+def made_up_run():
+    return {
+        "schema_version": 1,
+        "experiment": {"name": "box", "title": "A box & more", "thesis": "4.2", "claim": "It converges.", "profile": "ci",
+                       "size": [4, 4], "expected_slope": {"value": -0.5, "tolerance": 0.03}},
+        "context": {"commit": "abc", "dirty": False, "started_at": "2026-01-01T00:00:00Z",
+                    "finished_at": "2026-01-01T00:01:00Z", "load_average_start": [0, 0, 0], "load_average_end": [1, 0, 0],
+                    "host": {"cpu": "cpu", "cores": 2, "kernel": "Linux", "compiler": "GNU", "build_type": "Release"},
+                    "cpu_use": {"own": 0.9, "foreign": 0.01, "steal": 0.0}, "kernel_options": "-cl-std=CL1.2",
+                    "device": {"name": "pthread", "platform": "PoCL", "driver": "3.1", "c_version": "1.2",
+                               "compute_units": 2}},
+        "reference": {"engine": "embree", "files": ["a.exr", "b.exr"], "image": "images/reference.exr", "spp": 100,
+                      "scene_hash": "ff", "noise_floor": {"mse": 0.01, "rmse": 0.1, "l2": 0.7}},
+        "curves": [made_up_curve("implicit"), made_up_curve("mis")],
+        "throughput": {"curve": "path_tracing.mis", "samples_per_repetition": 1e6, "accepted": True, "repetitions": [],
+                       "renderer_samples_per_second": {"value": 2e6, "low": 1e6, "high": 3e6},
+                       "reference_samples_per_second": {"value": 1e6, "low": 1e6, "high": 1e6},
+                       "ratio": {"value": 2, "low": 1, "high": 3}},
+    }
+
+
+class RunFolder(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name) / "box"
+        (self.folder / "images").mkdir(parents=True)
+        self.document = made_up_run()
+        generator = numpy.random.default_rng(1)
+        for name in ("reference", "ours"):
+            numpy.save(self.folder / f"images/{name}.npy", generator.random((4, 4, 3), dtype=numpy.float32))
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def run_object(self):
+        (self.folder / "run.json").write_text(json.dumps(self.document))
+        return Run(self.folder)
+
+    def script(self, name, *arguments):
+        return subprocess.run([sys.executable, SCRIPTS / name, *arguments], capture_output=True, text=True, check=False)
+
+
+class Documents(RunFolder):
+    def test_missing_values_are_errors(self):
+        for path, where in (("rmse", self.document["curves"][0]["points"][1]),
+                            ("l2", self.document["curves"][1]["points"][0])):
+            kept = where.pop(path)
+            with self.assertRaisesRegex(RunError, path):
+                errors_table(self.run_object())
+            where[path] = None
+            with self.assertRaisesRegex(RunError, path):
+                errors_table(self.run_object())
+            where[path] = kept
+        errors_table(self.run_object())
+
+    def test_other_schema_version_is_refused(self):
+        self.document["schema_version"] = 99
+        with self.assertRaisesRegex(RunError, "99"):
+            self.run_object()
+
+    def test_missing_folder_names_the_command(self):
+        with self.assertRaisesRegex(RunError, "rtrays-experiment run"):
+            Run(self.folder / "nowhere")
+
+    def test_curves_stop_at_the_noise_floor(self):
+        self.assertEqual([point["spp"] for point in usable_points(self.document["curves"][0])], [1, 2, 4])
+
+    def test_values_of_lists(self):
+        self.assertEqual(value(self.document, "reference.files.1"), "b.exr")
+
+    def test_verdicts(self):
+        self.assertEqual(slope_verdict({"low": -0.52, "high": -0.48}, -0.5, 0.03), "reproduced")
+        self.assertEqual(slope_verdict({"low": -0.54, "high": -0.48}, -0.5, 0.03), "undecided")
+        self.assertEqual(slope_verdict({"low": -0.40, "high": -0.30}, -0.5, 0.03), "not reproduced")
+        agreement = copy.deepcopy(self.document["curves"][0]["agreement"])
+        self.assertEqual(agreement_verdict(agreement), "reproduced")
+        agreement["equivalence"] = "undecided"
+        self.assertEqual(agreement_verdict(agreement), "undecided")
+        agreement["agrees"] = False
+        self.assertEqual(agreement_verdict(agreement), "not reproduced")
+
+
+class Tables(RunFolder):
+    def test_forms_hold_the_same_cells(self):
+        table = errors_table(self.run_object())
+        rows = list(csv.reader(io.StringIO(table.csv())))
+        self.assertEqual(rows[0], table.columns)
+        self.assertEqual(rows[1:], table.rows)
+        self.assertEqual(len(table.rows), 8)
+        self.assertEqual(table.markdown().count("\n"), 10)
+        self.assertEqual(table.latex().count(r"\\"), 9)
+        self.assertIn(r"\toprule", table.latex())
+
+    def test_latex_is_escaped(self):
+        self.assertEqual(latex_escape("50 % & a_b"), r"50 \% \& a\_b")
+
+    def test_repetitions_are_exact(self):
+        table = repetitions_table(self.run_object())
+        self.assertEqual(len(table.rows), 2 * 4 * 8)
+        self.assertEqual(float(table.rows[0][6]), self.document["curves"][0]["points"][0]["repetitions"][0]["rmse"])
+
+    def test_refused_throughput_is_said(self):
+        self.document["throughput"] = {"curve": "path_tracing.mis", "accepted": False, "reason": "foreign load",
+                                       "repetitions": [], "samples_per_repetition": 1.0}
+        self.assertIn("refused: foreign load", throughput_table(self.run_object()).markdown())
+
+    def test_script_writes_all_forms(self):
+        self.run_object()
+        done = self.script("tabulate", self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in TABLES:
+            for extension in ("csv", "md", "tex"):
+                self.assertTrue((self.folder / "tables" / f"{name}.{extension}").stat().st_size > 0)
+
+
+class Reports(RunFolder):
+    def test_report_is_self_contained_and_reproducible(self):
+        self.run_object()
+        done = self.script("report", self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = pathlib.Path(done.stdout.strip())
+        text = page.read_text()
+        self.assertNotIn("http", text)
+        self.assertIn("A box &amp; more", text)
+        for link in ("plots/rmse_spp.svg", "plots/rmse_spp.png", "plots/images_path_tracing.mis.svg", "tables/errors.tex"):
+            self.assertIn(link, text)
+            self.assertTrue((self.folder / link).stat().st_size > 0)
+        self.assertIn("commit abc", (self.folder / "report.md").read_text())
+        first = (self.folder / "plots/rmse_spp.svg").read_bytes()
+        self.script("plot", self.folder)
+        self.assertEqual((self.folder / "plots/rmse_spp.svg").read_bytes(), first)
+
+    def test_several_runs_get_an_index(self):
+        self.run_object()
+        other = self.folder.parent / "other"
+        subprocess.run(["cp", "-r", self.folder, other], check=True)
+        done = self.script("report", self.folder, other)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("box/index.html", pathlib.Path(done.stdout.strip()).read_text())
+
+    def test_missing_image_is_one_clear_error(self):
+        self.run_object()
+        (self.folder / "images/ours.npy").unlink()
+        done = self.script("report", self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("ours.npy", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_difference_is_ten_times(self):
+        from plots import images_figure, to_display
+
+        run = self.run_object()
+        figure = images_figure(run, run.curves[0])
+        shown = figure.axes[2].images[0].get_array()
+        reference, ours = (numpy.load(self.folder / f"images/{name}.npy") for name in ("reference", "ours"))
+        numpy.testing.assert_allclose(shown, to_display(10 * numpy.abs(ours.astype(float) - reference)), atol=1e-12)
+        self.assertAlmostEqual(float(to_display(numpy.array(0.5))), 0.7353569830524495)
+
+
+if __name__ == "__main__":
+    unittest.main()
