@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/import/scene_json.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays {
+
+Scene load_scene(const std::string &path) {
+    const std::filesystem::path file(path);
+    const std::string text = read_file(file);  // first, so that a missing file is called just that
+    if (file.extension() != ".json") {
+        throw input_error(fmt::format("{}: '{}' is not a known scene format; known: .json", path,
+                                      file.extension().string()));
+    }
+    // scenes/cornell_box/scene.json is called cornell_box, scenes/analytic/furnace_050.json furnace_050.
+    const bool named_by_folder = file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();
+    const std::filesystem::path named =
+        named_by_folder ? std::filesystem::absolute(file).parent_path().filename() : file.stem();
+    return parse_scene_json(text, path, named.string());
+}
+
+}  // namespace rtrays

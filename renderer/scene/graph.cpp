@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/graph.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "renderer/base/error.h"
+#include "renderer/scene/cores/mesh.h"
+#include "renderer/scene/cores/transform.h"
+#include "renderer/scene/cores/visibility.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Some of the names, for messages: scenes have up to millions.
+std::string some(std::vector<std::string> names) {
+    constexpr size_t most = 20;
+    std::sort(names.begin(), names.end());
+    const size_t more = names.size() > most ? names.size() - most : 0;
+    names.resize(names.size() - more);
+    return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+std::vector<Property> properties_of(const Node &node) {
+    std::vector<Property> all;
+    for (size_t role = 0; role < core_role_count; ++role) {
+        if (Core *core = node.core(static_cast<CoreRole>(role))) {
+            for (Property &property : core->properties()) {
+                all.push_back(std::move(property));
+            }
+        }
+    }
+    return all;
+}
+
+std::string described(const std::string &owner, const Property &property) {
+    return fmt::format("{}.{} = {}  # {}: {}\n", owner, property.name, property.text(), property.type(),
+                       property.help);
+}
+
+}  // namespace
+
+SceneGraph::SceneGraph()
+    : meshes_(materials_, lights_),
+      lights_(meshes_),
+      stores_{&materials_, &cameras_, &meshes_, &lights_},
+      root_(std::make_unique<Node>("")) {
+    attach(*root_);
+}
+
+SceneGraph::~SceneGraph() {
+    // Nodes let go of their cores as they are destroyed; none of that needs to be recorded any more.
+    visit_subtree(*root_, [](Node &node) { node.graph_ = nullptr; });
+}
+
+Node *SceneGraph::find(const std::string &name) const {
+    const auto found = names_.find(name);
+    return found == names_.end() ? nullptr : found->second;
+}
+
+void SceneGraph::attach(Node &subtree) {
+    std::vector<Node *> added;
+    visit_subtree(subtree, [&](Node &node) { added.push_back(&node); });
+    for (size_t i = 0; i < added.size(); ++i) {
+        const std::string &name = added[i]->name();
+        if (!name.empty() && !names_.emplace(name, added[i]).second) {
+            for (size_t j = 0; j < i; ++j) {
+                names_.erase(added[j]->name());
+            }
+            throw input_error(fmt::format("two nodes are called '{}'; give one another name", name));
+        }
+    }
+    for (Node *node : added) {
+        node->graph_ = this;
+        node->dirty_ = Dirty::nothing;
+        for (size_t role = 0; role < core_role_count; ++role) {
+            core_added(*node, static_cast<CoreRole>(role));
+        }
+    }
+}
+
+void SceneGraph::detach(Node &subtree) {
+    visit_subtree(subtree, [&](Node &node) {
+        for (size_t role = 0; role < core_role_count; ++role) {
+            core_removed(node, static_cast<CoreRole>(role));
+        }
+        names_.erase(node.name());
+        node.graph_ = nullptr;
+        node.dirty_ = Dirty::nothing;
+    });
+    dirty_.erase(std::remove_if(dirty_.begin(), dirty_.end(),
+                                [](const Node *node) { return node->dirty_ == Dirty::nothing; }),
+                 dirty_.end());
+}
+
+Store *SceneGraph::store(CoreRole role) {
+    const auto found =
+        std::find_if(stores_.begin(), stores_.end(), [&](const Store *s) { return s->role() == role; });
+    return found == stores_.end() ? nullptr : *found;
+}
+
+void SceneGraph::core_added(const Node &node, CoreRole role) {
+    Core *core = node.core(role);
+    if (core == nullptr) {
+        return;
+    }
+    if (Store *own = store(role)) {
+        own->add_object(node);
+    }
+    if (core->is_animated()) {
+        animated_.push_back(core);
+    }
+}
+
+void SceneGraph::core_removed(const Node &node, CoreRole role) {
+    Core *core = node.core(role);
+    if (core == nullptr) {
+        return;
+    }
+    if (Store *own = store(role)) {
+        own->remove_object(node);
+    }
+    if (core->is_animated()) {
+        animated_.erase(std::find(animated_.begin(), animated_.end(), core));
+    }
+}
+
+void SceneGraph::accumulate(Node &node) const {
+    node.attributes_ = node.parent_ != nullptr ? node.parent_->attributes_ : AttributeSet();
+    for (const Node::HeldCore &own : node.cores_) {
+        if (own.core != nullptr && own.core->attribute() != nullptr) {
+            node.attributes_.merge(*own.core->attribute());
+        }
+    }
+}
+
+std::vector<Node *> SceneGraph::nodes_to_write() {
+    const auto covered = [](const Node &node) {
+        const Node *above = node.parent();
+        while (above != nullptr && above->dirty_ != Dirty::subtree) {
+            above = above->parent();
+        }
+        return above != nullptr;
+    };
+    std::vector<Node *> nodes;
+    for (Node *node : dirty_) {
+        if (covered(*node)) {
+            continue;  // the node above brings this one along
+        }
+        if (node->dirty_ == Dirty::subtree) {
+            visit_subtree(*node, [&](Node &below) {
+                accumulate(below);
+                nodes.push_back(&below);
+            });
+        } else {
+            nodes.push_back(node);
+        }
+    }
+    return nodes;
+}
+
+void SceneGraph::allocate(Node &node) {
+    const bool visible = node.attributes().get<VisibilityAttribute>().visible;
+    for (Store *store : stores_) {
+        if (node.core(store->role()) == nullptr) {
+            continue;
+        }
+        const bool can_hide = store == &meshes_ || store == &lights_;
+        if (visible || !can_hide) {
+            store->allocate_object(node);
+        } else {
+            store->free_object(node);
+        }
+    }
+}
+
+void SceneGraph::compact() {
+    cameras_.compact();
+    if (const std::vector<uint32_t> moved = materials_.compact(); !moved.empty()) {
+        remap(meshes_.arrays.material, moved);
+    }
+    if (const std::vector<uint32_t> moved = meshes_.compact(); !moved.empty()) {
+        remap(lights_.arrays.mesh, moved);
+    }
+    if (const std::vector<uint32_t> moved = lights_.compact(); !moved.empty()) {
+        remap(meshes_.arrays.light, moved);
+    }
+}
+
+void SceneGraph::update(double time) {
+    if (time != time_) {
+        time_ = time;
+        for (size_t i = 0; i < animated_.size(); ++i) {
+            animated_[i]->update(time);
+        }
+    }
+    const std::vector<Node *> nodes = nodes_to_write();
+    visited_nodes_ = nodes.size();
+    for (Node *node : nodes) {
+        allocate(*node);
+    }
+    compact();
+    for (Store *store : stores_) {
+        for (const Node *node : nodes) {
+            if (node->core(store->role()) != nullptr && store->slot(*node) != no_index) {
+                store->write_object(*node, node->attributes());
+            }
+        }
+        store->finish_update();
+    }
+    for (Node *node : dirty_) {
+        node->dirty_ = Dirty::nothing;
+    }
+    dirty_.clear();
+}
+
+Eigen::AlignedBox3d SceneGraph::bounds() const {
+    Eigen::AlignedBox3d box;
+    visit_subtree(*root_, [&](const Node &node) {
+        if (const auto *mesh = node.core_of<MeshCore>(CoreRole::geometry)) {
+            const Eigen::Matrix4d &m = node.attributes().get<TransformAttribute>().world_from_object;
+            for (const Eigen::Vector3d &vertex : mesh->vertices()) {
+                box.extend(m.topLeftCorner<3, 3>() * vertex + m.topRightCorner<3, 1>());
+            }
+        }
+    });
+    return box;
+}
+
+void SceneGraph::set_origin(const Eigen::Vector3d &origin) {
+    cameras_.origin = origin;
+    meshes_.origin = origin;
+    root_->mark(Dirty::subtree);
+}
+
+void SceneGraph::share(const std::string &address, std::shared_ptr<Core> core) {
+    if (!shared_cores_.emplace(address, std::move(core)).second) {
+        throw input_error(fmt::format("two shared cores are called '{}'", address));
+    }
+}
+
+void SceneGraph::set_property(const std::string &address, const std::string &text) {
+    const size_t dot = address.rfind('.');
+    if (dot == std::string::npos) {
+        throw input_error(fmt::format("'{}': expected NODE.PROPERTY or SECTION.NAME.PROPERTY", address));
+    }
+    const std::string owner = address.substr(0, dot);
+    const std::string name = address.substr(dot + 1);
+
+    std::vector<Property> properties;
+    if (const auto shared = shared_cores_.find(owner); shared != shared_cores_.end()) {
+        properties = shared->second->properties();
+    } else if (const Node *node = find(owner)) {
+        properties = properties_of(*node);
+    } else {
+        std::vector<std::string> names;
+        for (const auto &named : names_) {
+            names.push_back(named.first);
+        }
+        for (const auto &named : shared_cores_) {
+            names.push_back(named.first);
+        }
+        throw input_error(
+            fmt::format("'{}': the scene has no '{}'; it has: {}", address, owner, some(names)));
+    }
+    std::vector<std::string> names;
+    for (const Property &property : properties) {
+        if (property.name == name) {
+            try {
+                property.set_text(text);
+            } catch (const Error &error) {
+                throw input_error(fmt::format("'{}': {}", address, error.what()));
+            }
+            return;
+        }
+        names.push_back(property.name);
+    }
+    throw input_error(
+        fmt::format("'{}': '{}' has no property '{}'; it has: {}", address, owner, name, some(names)));
+}
+
+std::string SceneGraph::list_properties() const {
+    std::string text;
+    for (const auto &[address, core] : shared_cores_) {
+        for (const Property &property : core->properties()) {
+            text += described(address, property);
+        }
+    }
+    visit_subtree(*root_, [&](const Node &node) {
+        for (const Property &property : properties_of(node)) {
+            text += described(node.name(), property);
+        }
+    });
+    return text;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "renderer/scene/node.h"
+#include "renderer/scene/object_stores.h"
+
+namespace rtrays {
+
+/// The scene graph and its serialized form (thesis 3.2.2). Users edit nodes and cores; `update` brings the
+/// stores up to date from a list of what was edited, so its cost does not depend on the rest of the graph.
+class SceneGraph {
+  public:
+    SceneGraph();
+    ~SceneGraph();
+
+    Node &root() { return *root_; }
+
+    /// The node of that name, or nullptr. Names are unique; nameless nodes are not found.
+    Node *find(const std::string &name) const;
+
+    /// Registers a core under an address like "materials.white", for `set_property` and listings.
+    void share(const std::string &address, std::shared_ptr<Core> core);
+    const std::map<std::string, std::shared_ptr<Core>> &shared_cores() const { return shared_cores_; }
+
+    /// Sets "NODE.PROPERTY" or "SECTION.CORE.PROPERTY" from text. A core shared by several nodes changes for
+    /// all of them. Throws `Error` (bad input) naming the address and the alternatives.
+    void set_property(const std::string &address, const std::string &text);
+
+    /// One line per property: address, value, type and meaning, nodes in the order of the tree.
+    std::string list_properties() const;
+
+    /// Brings animated cores to `time` (seconds) and writes what is dirty. Throws `Error` (bad input) when
+    /// an object cannot be represented; it stays dirty, and the arrays are not to be read until an update
+    /// has succeeded.
+    void update(double time);
+
+    /// What the last update did, by store.
+    const StoreCounts &camera_counts() const { return cameras_.counts(); }
+    const StoreCounts &material_counts() const { return materials_.counts(); }
+    const StoreCounts &mesh_counts() const { return meshes_.counts(); }
+    const StoreCounts &light_counts() const { return lights_.counts(); }
+
+    /// How many nodes the last update visited.
+    size_t visited_nodes() const { return visited_nodes_; }
+
+    const CameraStore &cameras() const { return cameras_; }
+    const MaterialStore &materials() const { return materials_; }
+    const MeshStore &meshes() const { return meshes_; }
+    const LightStore &lights() const { return lights_; }
+
+    /// Box around all geometry in the coordinates of the scene file (walks the whole graph).
+    Eigen::AlignedBox3d bounds() const;
+
+    /// Makes this point the origin of the baked world; everything is rewritten by the next update.
+    void set_origin(const Eigen::Vector3d &origin);
+    const Eigen::Vector3d &origin() const { return meshes_.origin; }
+
+  private:
+    friend class Node;
+
+    // Told by nodes of this graph.
+    void attach(Node &subtree);
+    void detach(Node &subtree);
+    void core_added(const Node &node, CoreRole role);
+    void core_removed(const Node &node, CoreRole role);
+
+    Store *store(CoreRole role);
+    void accumulate(Node &node) const;
+    std::vector<Node *> nodes_to_write();
+    void allocate(Node &node);
+    void compact();
+
+    CameraStore cameras_;
+    MaterialStore materials_;
+    MeshStore meshes_;
+    LightStore lights_;
+    std::array<Store *, 4> stores_;  ///< in the order in which they are to be written
+
+    std::unordered_map<std::string, Node *> names_;
+    std::map<std::string, std::shared_ptr<Core>> shared_cores_;
+    std::vector<Core *> animated_;  ///< once per node that holds it
+    std::vector<Node *> dirty_;
+    double time_ = 0;
+    size_t visited_nodes_ = 0;
+    std::unique_ptr<Node> root_;
+};
+
+}  // namespace rtrays

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/attribute.h"
+#include "renderer/scene/core.h"
+
+namespace rtrays {
+
+class SceneGraph;
+
+/// A node of the scene tree: a name, children and cores, nothing else (thesis 3.2.3). Its owner is its
+/// parent, so it cannot be in the graph twice; what is to appear twice is a shared core.
+class Node {
+  public:
+    explicit Node(std::string name) : name_(std::move(name)) {}
+    ~Node();
+    Node(const Node &) = delete;
+    Node &operator=(const Node &) = delete;
+
+    const std::string &name() const { return name_; }
+    Node *parent() const { return parent_; }
+    const std::vector<std::unique_ptr<Node>> &children() const { return children_; }
+
+    /// Appends a child (with all below it). Throws `Error` when one of the names is taken in this graph.
+    Node &add_child(std::unique_ptr<Node> child);
+
+    /// Takes a child out of the graph, frees what it had in the stores and hands it to the caller.
+    std::unique_ptr<Node> remove_child(Node &child);
+
+    /// The core of one role, or nullptr.
+    Core *core(CoreRole role) const { return held(role).core.get(); }
+
+    /// The core of one role if it is a `T`, or nullptr.
+    template <typename T>
+    T *core_of(CoreRole role) const {
+        return dynamic_cast<T *>(core(role));
+    }
+
+    /// Gives the node a core, in place of the one of the same role it may have had.
+    void set_core(std::shared_ptr<Core> core);
+    void remove_core(CoreRole role);
+
+    /// What had accumulated from the root to this node (this included) at the last update.
+    const AttributeSet &attributes() const { return attributes_; }
+
+    /// Puts the node on its graph's list of what is to be rewritten. Costs the same wherever it stands.
+    void mark(Dirty dirty);
+
+  private:
+    friend class SceneGraph;
+
+    struct HeldCore {
+        std::shared_ptr<Core> core;
+        size_t position = 0;  ///< of this node in core->nodes_, so that letting go takes constant time
+    };
+
+    HeldCore &held(CoreRole role) { return cores_[static_cast<size_t>(role)]; }
+    const HeldCore &held(CoreRole role) const { return cores_[static_cast<size_t>(role)]; }
+    void let_go(CoreRole role);
+
+    std::string name_;
+    SceneGraph *graph_ = nullptr;
+    Node *parent_ = nullptr;
+    std::vector<std::unique_ptr<Node>> children_;
+    std::array<HeldCore, core_role_count> cores_;
+    AttributeSet attributes_;
+    Dirty dirty_ = Dirty::nothing;
+};
+
+/// Calls `visit(node)` for `root` and all nodes below it, parents first, children in order. Depth is not
+/// limited by the call stack.
+template <typename Visit>
+void visit_subtree(Node &root, const Visit &visit) {
+    std::vector<Node *> pending{&root};
+    while (!pending.empty()) {
+        Node &node = *pending.back();
+        pending.pop_back();
+        visit(node);
+        for (size_t i = node.children().size(); i > 0; --i) {
+            pending.push_back(node.children()[i - 1].get());
+        }
+    }
+}
+
+}  // namespace rtrays

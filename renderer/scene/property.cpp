@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/property.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/base/json.h"
+
+namespace rtrays {
+
+namespace {
+
+void flatten(const Json &value, std::vector<double> &numbers, bool &only_numbers) {
+    if (value.is_array()) {
+        for (const Json &item : value) {
+            flatten(item, numbers, only_numbers);
+        }
+    } else if (value.is_number()) {
+        numbers.push_back(value.get<double>());
+    } else {
+        only_numbers = false;
+    }
+}
+
+/// Exactly `count` numbers, bracketed or not; an empty vector when the text is anything else.
+std::vector<double> parse_numbers(const std::string &text, size_t count) {
+    std::vector<double> numbers;
+    bool only_numbers = true;
+    try {
+        flatten(parse_json("[" + text + "]", "value"), numbers, only_numbers);
+    } catch (const Error &) {
+        only_numbers = false;
+    }
+    return only_numbers && numbers.size() == count ? numbers : std::vector<double>{};
+}
+
+struct ToText {
+    std::string operator()(bool value) const { return value ? "true" : "false"; }
+    std::string operator()(double value) const { return fmt::format("{}", value); }
+    std::string operator()(const Eigen::Vector3d &v) const {
+        return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+    }
+    std::string operator()(const Eigen::Matrix4d &m) const {
+        std::vector<std::string> rows;
+        for (int i = 0; i < 4; ++i) {
+            rows.push_back(fmt::format("[{}, {}, {}, {}]", m(i, 0), m(i, 1), m(i, 2), m(i, 3)));
+        }
+        return fmt::format("[{}]", fmt::join(rows, ", "));
+    }
+    std::string operator()(const std::string &value) const { return value; }
+};
+
+/// Replaces the alternative it visits by what the text says; false when the text is of another type.
+struct FromText {
+    const std::string &text;
+
+    bool operator()(bool &value) const {
+        value = text == "true";
+        return value || text == "false";
+    }
+    bool operator()(double &value) const {
+        const std::vector<double> numbers = parse_numbers(text, 1);
+        value = numbers.empty() ? value : numbers[0];
+        return !numbers.empty();
+    }
+    bool operator()(Eigen::Vector3d &value) const {
+        const std::vector<double> numbers = parse_numbers(text, 3);
+        value = numbers.empty() ? value : Eigen::Vector3d(numbers.data());
+        return !numbers.empty();
+    }
+    bool operator()(Eigen::Matrix4d &value) const {
+        const std::vector<double> numbers = parse_numbers(text, 16);
+        if (!numbers.empty()) {
+            value = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+        }
+        return !numbers.empty();
+    }
+    bool operator()(std::string &value) const {
+        value = text;
+        return true;
+    }
+};
+
+}  // namespace
+
+std::string Property::type() const {
+    if (!choices.empty()) {
+        return fmt::format("one of: {}", fmt::join(choices, ", "));
+    }
+    constexpr const char *names[] = {"boolean", "number", "three numbers", "4x4 matrix", "text"};
+    static_assert(std::size(names) == std::variant_size_v<PropertyValue>);
+    return names[get().index()];
+}
+
+std::string Property::text() const {
+    return std::visit(ToText{}, get());
+}
+
+void Property::set_text(const std::string &text) const {
+    if (!set) {
+        throw input_error("can only be read");
+    }
+    PropertyValue value = get();
+    const bool is_choice =
+        choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end();
+    if (!is_choice || !std::visit(FromText{text}, value)) {
+        throw input_error(
+            fmt::format("'{}' is not {}{}", text, choices.empty() ? "a value of type " : "", type()));
+    }
+    set(value);
+}
+
+}  // namespace rtrays

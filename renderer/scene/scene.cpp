@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/scene/graph.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Collects the bytes of values and arrays, each array with its length.
+class ByteCollector {
+  public:
+    template <typename T>
+    void add(const T &value) {
+        static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "padding must not be hashed");
+        bytes_.append(reinterpret_cast<const char *>(&value), sizeof(value));
+    }
+    template <typename T>
+    void add(const std::vector<T> &values) {
+        add(static_cast<uint64_t>(values.size()));
+        for (const T &value : values) {
+            add(value);
+        }
+    }
+    template <typename T, size_t n>
+    void add(const std::array<T, n> &values) {
+        for (const T &value : values) {
+            add(value);
+        }
+    }
+    template <typename T, int rows, int columns>
+    void add(const Eigen::Matrix<T, rows, columns> &matrix) {
+        for (Eigen::Index i = 0; i < matrix.size(); ++i) {
+            add(matrix.data()[i]);
+        }
+    }
+    const std::string &bytes() const { return bytes_; }
+
+  private:
+    std::string bytes_ = "rtrays scene 1";
+};
+
+}  // namespace
+
+Scene::Scene() : graph_(std::make_unique<SceneGraph>()) {}
+Scene::~Scene() = default;
+Scene::Scene(Scene &&) noexcept = default;
+Scene &Scene::operator=(Scene &&) noexcept = default;
+
+void Scene::set_film_size(int width, int height) {
+    constexpr int largest = 1 << 16;
+    if (width < 1 || height < 1 || width > largest || height > largest) {
+        throw input_error(
+            fmt::format("film: {} x {} pixels is not within 1 to {} a side", width, height, largest));
+    }
+    film_width_ = width;
+    film_height_ = height;
+}
+
+void Scene::set_property(const std::string &address, const std::string &text) {
+    graph_->set_property(address, text);
+}
+
+std::string Scene::describe() const {
+    return fmt::format(
+        "scene '{}': {} triangles in {} meshes, {} materials, {} lights, {} cameras, film {} x {}\n{}", name_,
+        meshes().triangle.size(), meshes().name.size(), materials().name.size(), lights().name.size(),
+        cameras().name.size(), film_width_, film_height_, graph_->list_properties());
+}
+
+void Scene::update(double time) {
+    graph_->update(time);
+}
+
+const CameraArrays &Scene::cameras() const {
+    return graph_->cameras().arrays;
+}
+const MeshArrays &Scene::meshes() const {
+    return graph_->meshes().arrays;
+}
+const MaterialArrays &Scene::materials() const {
+    return graph_->materials().arrays;
+}
+const LightArrays &Scene::lights() const {
+    return graph_->lights().arrays;
+}
+
+int Scene::active_camera() const {
+    const std::vector<std::string> &names = cameras().name;
+    if (names.empty()) {
+        throw input_error(fmt::format("scene '{}' has no camera", name_));
+    }
+    const auto found =
+        camera_node_.empty() ? names.begin() : std::find(names.begin(), names.end(), camera_node_);
+    if (found == names.end()) {
+        throw input_error(fmt::format("scene '{}' has no camera '{}'; it has: {}", name_, camera_node_,
+                                      fmt::join(names, ", ")));
+    }
+    return static_cast<int>(found - names.begin());
+}
+
+void Scene::set_active_camera(const std::string &node_name) {
+    const std::string previous = std::exchange(camera_node_, node_name);
+    try {
+        active_camera();
+    } catch (const Error &) {
+        camera_node_ = previous;
+        throw;
+    }
+}
+
+Eigen::Vector3d Scene::origin() const {
+    return graph_->origin();
+}
+
+std::string Scene::hash() const {
+    const auto camera = static_cast<size_t>(active_camera());
+    ByteCollector collector;
+    collector.add(cameras().world_from_camera[camera]);
+    collector.add(cameras().fov[camera]);
+    collector.add(cameras().fov_axis[camera]);
+    collector.add(materials().kind);
+    collector.add(materials().reflectance);
+    collector.add(meshes().first_triangle);
+    collector.add(meshes().triangle_count);
+    collector.add(meshes().material);
+    collector.add(meshes().light);
+    collector.add(meshes().position);
+    collector.add(meshes().triangle);
+    collector.add(lights().kind);
+    collector.add(lights().radiance);
+    collector.add(lights().mesh);
+    return content_hash(collector.bytes());
+}
+
+}  // namespace rtrays
