@@ -16,7 +16,9 @@ namespace {
 /// primitives, scratch nodes, the finished nodes (at most as many as scratch) and the leaf triangles.
 constexpr uint64_t bytes_per_triangle = 2 * sizeof(PrimitiveRef) + 2 * sizeof(BvhNode) + sizeof(LeafTriangle);
 
-uint32_t divide_up(uint32_t a, uint32_t b) { return a / b + (a % b != 0 ? 1 : 0); }
+uint32_t divide_up(uint32_t a, uint32_t b) {
+    return a / b + (a % b != 0 ? 1 : 0);
+}
 
 /// An unsplit node is above the subtree size, so a level has at most this many; no level is deeper than the
 /// traversal stack, which bounds nodes and subtrees of the large phase.
@@ -26,7 +28,8 @@ struct Capacities {
     Capacities(uint32_t triangles, const BvhBuildParameters &parameters) {
         tasks = triangles / parameters.subtree_size + 1;
         chunks = triangles / parameters.chunk_size + tasks + 1;
-        top_nodes = static_cast<uint32_t>(std::min<uint64_t>(uint64_t{BVH_STACK_SIZE} * tasks, triangles + 1u));
+        top_nodes =
+            static_cast<uint32_t>(std::min<uint64_t>(uint64_t{BVH_STACK_SIZE} * tasks, triangles + 1u));
         subtrees = top_nodes + 1;
     }
 };
@@ -34,7 +37,8 @@ struct Capacities {
 }  // namespace
 
 BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
-    // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU wants many short ones.
+    // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU wants many short
+    // ones.
     return device.is_cpu ? BvhBuildParameters{1, 1024, 1024} : BvhBuildParameters{64, 256, 64};
 }
 
@@ -56,8 +60,9 @@ struct BvhBuilder::Workspace {
           scratch_nodes(device, "bvh scratch nodes", triangle_count) {}
 
     uint64_t bytes() const {
-        return input_chunks.bytes() + state.bytes() + 2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) +
-               bins.bytes() + top_nodes.bytes() + subtrees.bytes() + scratch_nodes.bytes();
+        return input_chunks.bytes() + state.bytes() +
+               2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) + bins.bytes() +
+               top_nodes.bytes() + subtrees.bytes() + scratch_nodes.bytes();
     }
 
     BuildState read_state() const { return state.read().front(); }
@@ -75,15 +80,17 @@ struct BvhBuilder::Workspace {
     Buffer<BvhNode> scratch_nodes;
 };
 
-BvhBuilder::BvhBuilder(DeviceContext &device) : BvhBuilder(device, BvhBuildParameters::for_device(device.info())) {}
+BvhBuilder::BvhBuilder(DeviceContext &device)
+    : BvhBuilder(device, BvhBuildParameters::for_device(device.info())) {}
 
 BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &parameters)
     : device_(&device), parameters_(parameters) {
     const uint32_t group = parameters.group_size;
     if (group == 0 || parameters.chunk_size == 0 || parameters.subtree_size < BVH_LEAF_SIZE) {
-        throw input_error(fmt::format("BVH build parameters: group size {} and chunk size {} must be positive, "
-                                      "subtree size {} at least {}",
-                                      group, parameters.chunk_size, parameters.subtree_size, BVH_LEAF_SIZE));
+        throw input_error(
+            fmt::format("BVH build parameters: group size {} and chunk size {} must be positive, "
+                        "subtree size {} at least {}",
+                        group, parameters.chunk_size, parameters.subtree_size, BVH_LEAF_SIZE));
     }
     const Program gather(device, "kernels/bvh/gather_primitives.cl");
     check_triangles_ = Kernel(gather, "check_triangles", group);
@@ -102,23 +109,24 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
     copy_subtrees_ = Kernel(place, "copy_subtrees", group);
 }
 
-void BvhBuilder::require_memory(uint64_t triangle_count, uint64_t input_bytes) const {
-    const DeviceInfo &device = device_->info();
+void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uint64_t input_bytes) {
     constexpr double gib = 1024.0 * 1024.0 * 1024.0;
     if (triangle_count > BVH_MAX_TRIANGLES) {
-        throw input_error(fmt::format("{} triangles are more than a BVH can hold ({}); building it would take {:.1f} GiB "
-                                      "of device memory ({} bytes per triangle)",
-                                      triangle_count, BVH_MAX_TRIANGLES,
-                                      static_cast<double>(triangle_count * bytes_per_triangle) / gib, bytes_per_triangle));
+        throw input_error(
+            fmt::format("{} triangles are more than a BVH can hold ({}); building it would take {:.1f} GiB "
+                        "of device memory ({} bytes per triangle)",
+                        triangle_count, BVH_MAX_TRIANGLES,
+                        static_cast<double>(triangle_count * bytes_per_triangle) / gib, bytes_per_triangle));
     }
     const uint64_t largest = triangle_count * sizeof(BvhNode);
     const uint64_t total = triangle_count * bytes_per_triangle + input_bytes;
     if (largest > device.max_allocation || total > device.global_memory) {
-        throw input_error(fmt::format("building a BVH over {} triangles takes {:.2f} GiB of device memory, {:.2f} GiB of it in one "
-                                      "piece, but device '{}' has {:.2f} GiB and allows {:.2f} GiB in one piece",
-                                      triangle_count, static_cast<double>(total) / gib, static_cast<double>(largest) / gib,
-                                      device.name, static_cast<double>(device.global_memory) / gib,
-                                      static_cast<double>(device.max_allocation) / gib));
+        throw input_error(fmt::format(
+            "building a BVH over {} triangles takes {:.2f} GiB of device memory, {:.2f} GiB of it in one "
+            "piece, but device '{}' has {:.2f} GiB and allows {:.2f} GiB in one piece",
+            triangle_count, static_cast<double>(total) / gib, static_cast<double>(largest) / gib, device.name,
+            static_cast<double>(device.global_memory) / gib,
+            static_cast<double>(device.max_allocation) / gib));
     }
 }
 
@@ -128,10 +136,11 @@ void BvhBuilder::gather(Workspace &work, const Buffer<float> &positions, const B
     const uint32_t chunk_size = parameters_.chunk_size;
     check_triangles_.bind({positions, vertex_count, indices, triangle_count, chunk_size, work.input_chunks});
     check_triangles_.enqueue(work.input_chunk_count);
-    begin_build_.bind({work.input_chunks, work.input_chunk_count, chunk_size, parameters_.subtree_size, work.state, work.tasks[0],
-                       work.chunks[0], work.subtrees});
+    begin_build_.bind({work.input_chunks, work.input_chunk_count, chunk_size, parameters_.subtree_size,
+                       work.state, work.tasks[0], work.chunks[0], work.subtrees});
     begin_build_.enqueue(1);
-    gather_primitives_.bind({positions, vertex_count, indices, triangle_count, chunk_size, work.input_chunks, work.primitives[0]});
+    gather_primitives_.bind({positions, vertex_count, indices, triangle_count, chunk_size, work.input_chunks,
+                             work.primitives[0]});
     gather_primitives_.enqueue(work.input_chunk_count);
 }
 
@@ -140,15 +149,17 @@ void BvhBuilder::split_levels(Workspace &work) {
     for (uint32_t level = 0; state.task_count > 0; ++level) {
         const uint32_t now = level % 2;
         const uint32_t next = 1 - now;
-        bin_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count, work.primitives[now], work.bins});
+        bin_primitives_.bind(
+            {work.tasks[now], work.chunks[now], state.chunk_count, work.primitives[now], work.bins});
         bin_primitives_.enqueue(state.chunk_count);
         choose_splits_.bind({work.tasks[now], state.task_count, work.chunks[now], work.bins});
         choose_splits_.enqueue(state.task_count);
-        partition_primitives_.bind(
-            {work.tasks[now], work.chunks[now], state.chunk_count, work.primitives[now], work.primitives[next]});
+        partition_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count,
+                                    work.primitives[now], work.primitives[next]});
         partition_primitives_.enqueue(state.chunk_count);
-        emit_children_.bind({work.state, work.tasks[now], work.chunks[now], state.task_count, parameters_.chunk_size,
-                             parameters_.subtree_size, next, work.top_nodes, work.tasks[next], work.chunks[next], work.subtrees});
+        emit_children_.bind({work.state, work.tasks[now], work.chunks[now], state.task_count,
+                             parameters_.chunk_size, parameters_.subtree_size, next, work.top_nodes,
+                             work.tasks[next], work.chunks[next], work.subtrees});
         emit_children_.enqueue(1);
         state = work.read_state();
     }
@@ -156,23 +167,24 @@ void BvhBuilder::split_levels(Workspace &work) {
 
 Bvh BvhBuilder::build(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
     if (positions.size() % 3 != 0 || indices.size() % 3 != 0) {
-        throw input_error(fmt::format("{} coordinates and {} vertex indices do not come in threes", positions.size(), indices.size()));
+        throw input_error(fmt::format("{} coordinates and {} vertex indices do not come in threes",
+                                      positions.size(), indices.size()));
     }
-    require_memory(indices.size() / 3, positions.bytes() + indices.bytes());
+    require_build_memory(device_->info(), indices.size() / 3, positions.bytes() + indices.bytes());
     device_->finish();
-    const double seconds_before = device_->profiler().total_seconds();
+    const double seconds_before = total_seconds(device_->profiler().stages());
 
     Workspace work(*device_, static_cast<uint32_t>(indices.size() / 3), parameters_);
     gather(work, positions, indices);
     BuildState state = work.read_state();
     if (state.bad_index > 0) {
-        throw input_error(fmt::format("{} triangles name a vertex that does not exist (there are {})", state.bad_index,
-                                      positions.size() / 3));
+        throw input_error(fmt::format("{} triangles name a vertex that does not exist (there are {})",
+                                      state.bad_index, positions.size() / 3));
     }
     split_levels(work);
     state = work.read_state();
-    build_subtrees_.bind(
-        {work.subtrees, state.subtree_count, work.primitives[0], work.primitives[1], work.state, work.scratch_nodes});
+    build_subtrees_.bind({work.subtrees, state.subtree_count, work.primitives[0], work.primitives[1],
+                          work.state, work.scratch_nodes});
     build_subtrees_.enqueue(state.subtree_count);
     place_subtrees_.bind({work.state, work.subtrees, state.subtree_count, work.top_nodes});
     place_subtrees_.enqueue(1);
@@ -182,13 +194,13 @@ Bvh BvhBuilder::build(const Buffer<float> &positions, const Buffer<uint32_t> &in
     Buffer<LeafTriangle> triangles(*device_, "bvh triangles", state.primitive_count);
     copy_top_nodes_.bind({work.top_nodes, state.top_node_count, nodes});
     copy_top_nodes_.enqueue(state.top_node_count);
-    copy_subtrees_.bind({work.subtrees, state.subtree_count, work.scratch_nodes, work.primitives[0], work.primitives[1], positions,
-                         indices, nodes, triangles});
+    copy_subtrees_.bind({work.subtrees, state.subtree_count, work.scratch_nodes, work.primitives[0],
+                         work.primitives[1], positions, indices, nodes, triangles});
     copy_subtrees_.enqueue(state.subtree_count);
     device_->finish();
 
     BvhReport report;
-    report.seconds_device = device_->profiler().total_seconds() - seconds_before;
+    report.seconds_device = total_seconds(device_->profiler().stages()) - seconds_before;
     report.triangles = state.primitive_count;
     report.not_finite = state.not_finite;
     report.degenerate = state.degenerate;
@@ -201,8 +213,9 @@ Bvh BvhBuilder::build(const Buffer<float> &positions, const Buffer<uint32_t> &in
     return {std::move(nodes), std::move(triangles), report};
 }
 
-Bvh BvhBuilder::build(const std::vector<Eigen::Vector3f> &positions, const std::vector<std::array<uint32_t, 3>> &triangles) {
-    require_memory(triangles.size(), positions.size() * 12 + triangles.size() * 12);
+Bvh BvhBuilder::build(const std::vector<Eigen::Vector3f> &positions,
+                      const std::vector<std::array<uint32_t, 3>> &triangles) {
+    require_build_memory(device_->info(), triangles.size(), positions.size() * 12 + triangles.size() * 12);
     std::vector<float> coordinates(positions.size() * 3);
     std::vector<uint32_t> indices(triangles.size() * 3);
     for (size_t i = 0; i < positions.size(); ++i) {
@@ -211,7 +224,8 @@ Bvh BvhBuilder::build(const std::vector<Eigen::Vector3f> &positions, const std::
     for (size_t i = 0; i < triangles.size(); ++i) {
         std::copy_n(triangles[i].data(), 3, indices.data() + 3 * i);
     }
-    return build(Buffer<float>(*device_, "bvh positions", coordinates), Buffer<uint32_t>(*device_, "bvh indices", indices));
+    return build(Buffer<float>(*device_, "bvh positions", coordinates),
+                 Buffer<uint32_t>(*device_, "bvh indices", indices));
 }
 
 }  // namespace rtrays

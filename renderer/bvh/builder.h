@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "renderer/bvh/bvh.h"
 #include "renderer/device/kernel.h"
 
 namespace rtrays {
 
-/// How the build is spread over a device. None of it changes a bit of the tree.
+/// How the build is spread over a device. Group and chunk size change no bit of the result; the subtree size
+/// moves nodes in memory, but boxes, links and the order of triangles stay the same.
 struct BvhBuildParameters {
     uint32_t group_size;    ///< work-items per work-group
     uint32_t chunk_size;    ///< primitives per work-item while a node is split by many
@@ -21,9 +21,13 @@ struct BvhBuildParameters {
     static BvhBuildParameters for_device(const DeviceInfo &device);
 };
 
-/// Builds hierarchies on a device: breadth-first binned SAH (thesis 3.1) in a large phase, level by level with all
-/// work-items on each node, and a small phase with a subtree per work-item. Deterministic: partitions are stable,
-/// numbering follows the order of the input, nothing depends on scheduling or on BvhBuildParameters.
+/// Throws `Error` (bad input), stating the bytes, when a build over `triangle_count` triangles, whose input
+/// takes `input_bytes`, exceeds what the layout can number (2^26) or what the device can hold.
+void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uint64_t input_bytes);
+
+/// Builds hierarchies on a device: breadth-first binned SAH (thesis 3.1) in a large phase, level by level
+/// with all work-items on each node, and a small phase with a subtree per work-item. Deterministic:
+/// partitions are stable, numbering follows the order of the input, nothing depends on scheduling.
 ///
 /// Keeps its compiled kernels: one builder serves any number of builds.
 class BvhBuilder {
@@ -32,20 +36,20 @@ class BvhBuilder {
     BvhBuilder(DeviceContext &device, const BvhBuildParameters &parameters);
 
     /// `positions`: 3 floats per vertex; `indices`: 3 vertex numbers per triangle; both on the device. Zero
-    /// triangles give a valid tree that nothing hits. Triangles that cannot be hit are left out and counted in
-    /// the report. Throws `Error` (bad input) when an index is out of range or the build does not fit
-    /// the device, before anything is allocated.
+    /// triangles give a valid tree that nothing hits. Triangles that cannot be hit are left out and counted
+    /// in the report. Throws `Error` (bad input) when an index is out of range or the build does not fit the
+    /// device, before anything is allocated.
     Bvh build(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
 
     /// The same for arrays on the host.
-    Bvh build(const std::vector<Eigen::Vector3f> &positions, const std::vector<std::array<uint32_t, 3>> &triangles);
+    Bvh build(const std::vector<Eigen::Vector3f> &positions,
+              const std::vector<std::array<uint32_t, 3>> &triangles);
 
     const BvhBuildParameters &parameters() const { return parameters_; }
 
   private:
     struct Workspace;
 
-    void require_memory(uint64_t triangle_count, uint64_t input_bytes) const;
     void gather(Workspace &work, const Buffer<float> &positions, const Buffer<uint32_t> &indices);
     void split_levels(Workspace &work);
 

@@ -17,10 +17,10 @@ struct BvhReport {
     uint32_t degenerate = 0;    ///< rejected: the vertices lie on a line (cross product of the edges is 0)
     uint32_t nodes = 0;
     uint32_t leaves = 0;
-    uint32_t depth = 0;         ///< edges from the root to the deepest leaf
-    double sah_cost = 0;        ///< thesis (3.3) with K_T = K_I = 1: expected nodes entered + triangles tested
-    uint64_t bytes = 0;         ///< of the tree and its triangles
-    uint64_t bytes_peak = 0;    ///< of device memory held during the build, the tree included
+    uint32_t depth = 0;       ///< edges from the root to the deepest leaf
+    double sah_cost = 0;      ///< thesis (3.3) with K_T = K_I = 1: expected nodes entered + triangles tested
+    uint64_t bytes = 0;       ///< of the tree and its triangles
+    uint64_t bytes_peak = 0;  ///< of device memory held during the build, the tree included
 
     uint32_t rejected() const { return not_finite + degenerate; }
 };

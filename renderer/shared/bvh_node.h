@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The two-wide bounding volume hierarchy as traversal reads it.
 //
-// A node holds the boxes of its two children, so that one 64-byte fetch decides both (Aila and Laine 2009). Its
-// links are either the index of an inner node or a leaf: a run of triangles in leaf order. Node 0 is the root
-// and always exists: over fewer than five triangles its left link is a leaf and its right one an empty leaf.
+// A node holds the boxes of its two children, so that one 64-byte fetch decides both (Aila and Laine 2009).
+// Its links are either the index of an inner node or a leaf: a run of triangles in leaf order. Node 0 is the
+// root and always exists: over fewer than five triangles its left link is a leaf and its right one an empty
+// leaf.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -17,9 +18,9 @@
 /// Leaf threshold T of the thesis (3.1): a node of at most this many triangles is a leaf.
 #define BVH_LEAF_SIZE 4u
 
-/// The builder splits by area as long as a node is less deep than this, and in halves by count from here on. A
-/// node at this depth holds at most BVH_MAX_TRIANGLES = 2^26 triangles, and 24 halvings bring those to four:
-/// no leaf is deeper than 38 + 24 = 62.
+/// The builder splits by area as long as a node is less deep than this, and in halves by count from here on.
+/// A node at this depth holds at most BVH_MAX_TRIANGLES = 2^26 triangles, and 24 halvings bring those to
+/// four: no leaf is deeper than 38 + 24 = 62.
 #define BVH_AREA_DEPTH 38u
 #define BVH_MAX_TRIANGLES (1u << 26)
 
@@ -33,9 +34,15 @@ typedef struct BvhNode {
     uint padding[2];
 } BvhNode;
 
-DEVICE uint bvh_leaf(uint first, uint count) { return BVH_LEAF_BIT | (count << BVH_COUNT_SHIFT) | first; }
-DEVICE uint bvh_leaf_first(uint link) { return link & BVH_FIRST_MASK; }
-DEVICE uint bvh_leaf_count(uint link) { return (link >> BVH_COUNT_SHIFT) & 7u; }
+DEVICE uint bvh_leaf(uint first, uint count) {
+    return BVH_LEAF_BIT | (count << BVH_COUNT_SHIFT) | first;
+}
+DEVICE uint bvh_leaf_first(uint link) {
+    return link & BVH_FIRST_MASK;
+}
+DEVICE uint bvh_leaf_count(uint link) {
+    return (link >> BVH_COUNT_SHIFT) & 7u;
+}
 
 #ifdef __cplusplus
 static_assert(sizeof(BvhNode) == 64, "one cache line");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Binned surface area heuristic: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007;
-// thesis 3.1 with (3.4): K = 16 bins on each of the three axes, over centroid bounds. A node's cost of a split is
-// A_left N_left + A_right N_right: with leaves made by count alone, the constants of (3.4) do not matter.
+// Binned surface area heuristic: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
+// 2007; thesis 3.1 with (3.4): K = 16 bins on each of the three axes, over centroid bounds. A node's cost of
+// a split is A_left N_left + A_right N_right: with leaves made by count alone, the constants of (3.4) do not
+// matter.
 #pragma once
 
 #include "renderer/kernels/bvh/range_bounds.h"
@@ -17,7 +18,8 @@ DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
     for (uint axis = 0; axis < 3; ++axis) {
         const float extent = bounds->centroids[1][axis] - bounds->centroids[0][axis];
         binning.lower[axis] = bounds->centroids[0][axis];
-        binning.scale[axis] = extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;  // below, 16 / extent overflows
+        binning.scale[axis] =
+            extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;  // below, 16 / extent overflows
     }
     return binning;
 }
@@ -39,7 +41,8 @@ DEVICE void clear_bins(PRIVATE BinSet *bins) {
     }
 }
 
-DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning, PRIVATE const PrimitiveRef *ref) {
+DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning,
+                        PRIVATE const PrimitiveRef *ref) {
     for (uint axis = 0; axis < 3; ++axis) {
         const uint bin = bin_index(binning, axis, ref->lower[axis], ref->upper[axis]);
         for (uint i = 0; i < 3; ++i) {
@@ -50,9 +53,10 @@ DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning, PR
     }
 }
 
-/// Best split of `count` primitives. Ties go to the lower axis, then the lower bin. By count, in the present order,
-/// below BVH_AREA_DEPTH (bvh_node.h) and where no axis can be split: all centroids equal.
-DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *binning, uint count, uint depth, float scale) {
+/// Best split of `count` primitives. Ties go to the lower axis, then the lower bin. By count, in the present
+/// order, below BVH_AREA_DEPTH (bvh_node.h) and where no axis can be split: all centroids equal.
+DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *binning, uint count, uint depth,
+                          float scale) {
     Split best;
     best.axis = BVH_SPLIT_BY_COUNT;
     best.last_left_bin = 0;
@@ -75,8 +79,8 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
                 upper[i] = greater(upper[i], bins->upper[axis][bin][i]);
             }
             right_count += bins->count[axis][bin];
-            right_cost[bin] =
-                (float)right_count * half_area(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2], scale);
+            right_cost[bin] = (float)right_count *
+                              half_area(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2], scale);
         }
         for (uint i = 0; i < 3; ++i) {
             lower[i] = INFINITY;
@@ -89,9 +93,9 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
                 upper[i] = greater(upper[i], bins->upper[axis][bin][i]);
             }
             left_count += bins->count[axis][bin];
-            const float cost =
-                (float)left_count * half_area(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2], scale) +
-                right_cost[bin + 1u];
+            const float cost = (float)left_count * half_area(upper[0] - lower[0], upper[1] - lower[1],
+                                                             upper[2] - lower[2], scale) +
+                               right_cost[bin + 1u];
             if (left_count > 0 && left_count < count && cost < best_cost) {
                 best_cost = cost;
                 best.axis = axis;
@@ -103,10 +107,13 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
     return best;
 }
 
-/// Whether a primitive goes left; `rank` is its place in the range. Both uses of a split call this one predicate.
-DEVICE bool goes_left(PRIVATE const Split *split, PRIVATE const Binning *binning, PRIVATE const PrimitiveRef *ref, uint rank) {
+/// Whether a primitive goes left; `rank` is its place in the range. Both uses of a split call this one
+/// predicate.
+DEVICE bool goes_left(PRIVATE const Split *split, PRIVATE const Binning *binning,
+                      PRIVATE const PrimitiveRef *ref, uint rank) {
     if (split->axis == BVH_SPLIT_BY_COUNT) {
         return rank < split->left_count;
     }
-    return bin_index(binning, split->axis, ref->lower[split->axis], ref->upper[split->axis]) <= split->last_left_bin;
+    return bin_index(binning, split->axis, ref->lower[split->axis], ref->upper[split->axis]) <=
+           split->last_left_bin;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Records of the BVH builder, shared by its kernels and the host that schedules them (renderer/bvh/builder.cpp).
+// Records of the BVH builder, shared by its kernels and the host that schedules them
+// (renderer/bvh/builder.cpp).
 #pragma once
 
 #include "renderer/shared/bvh_node.h"
@@ -7,7 +8,8 @@
 /// Bins on each of the three axes (K of the thesis, 3.1).
 #define BVH_BINS 16u
 
-/// Coordinates beyond this count as not finite: sums of two and products of three of them stay in float's range.
+/// Coordinates beyond this count as not finite: sums of two and products of three of them stay in float's
+/// range.
 #define BVH_COORDINATE_LIMIT 1.0e12f
 
 #define BVH_NO_PARENT 0xffffffffu
@@ -21,13 +23,15 @@ typedef struct PrimitiveRef {
     uint padding;
 } PrimitiveRef;
 
-/// A box, and the box of twice the centroids in it (lower + upper of each primitive: no product, no rounding bias).
+/// A box, and the box of twice the centroids in it (lower + upper of each primitive: no product, no rounding
+/// bias).
 typedef struct RangeBounds {
-    float box[2][3];       ///< [lower, upper][x, y, z]
+    float box[2][3];  ///< [lower, upper][x, y, z]
     float centroids[2][3];
 } RangeBounds;
 
-/// How a range of primitives is split: by bin on an axis, or, with axis BVH_SPLIT_BY_COUNT, into equal halves.
+/// How a range of primitives is split: by bin on an axis, or, with axis BVH_SPLIT_BY_COUNT, into equal
+/// halves.
 typedef struct Split {
     uint axis;
     uint last_left_bin;
@@ -36,13 +40,13 @@ typedef struct Split {
 
 /// A node that is being split by many work-items.
 typedef struct BuildTask {
-    uint begin, end;      ///< its primitives
+    uint begin, end;  ///< its primitives
     uint depth;
-    uint node;            ///< index among the top nodes
-    uint first_chunk;     ///< its chunks in this level's list
+    uint node;         ///< index among the top nodes
+    uint first_chunk;  ///< its chunks in this level's list
     uint chunk_count;
     RangeBounds bounds;
-    Split split;          ///< set by choose_splits
+    Split split;  ///< set by choose_splits
 } BuildTask;
 
 /// A piece of a task's primitives, the work of one work-item.
@@ -57,9 +61,9 @@ typedef struct BuildChunk {
 typedef struct BuildSubtree {
     uint begin, end;
     uint depth;
-    uint parent;       ///< top node whose child it is, BVH_NO_PARENT for the root
+    uint parent;  ///< top node whose child it is, BVH_NO_PARENT for the root
     uint side;
-    uint buffer;       ///< which of the two primitive buffers holds the range
+    uint buffer;  ///< which of the two primitive buffers holds the range
     RangeBounds bounds;
     // set by build_subtrees; cost is in units of (1 / scene extent)^2
     uint node_count;
@@ -87,16 +91,16 @@ typedef struct BuildState {
     uint not_finite;
     uint degenerate;
     uint bad_index;
-    uint task_count;     ///< of the coming level
-    uint chunk_count;    ///< of the coming level
+    uint task_count;   ///< of the coming level
+    uint chunk_count;  ///< of the coming level
     uint top_node_count;
     uint subtree_count;
-    uint node_count;     ///< of the whole tree
+    uint node_count;  ///< of the whole tree
     uint leaf_count;
-    uint depth;          ///< edges from the root to the deepest leaf
+    uint depth;            ///< edges from the root to the deepest leaf
     float inverse_extent;  ///< 1 / the largest side of the scene's box
-    float cost;          ///< SAH cost, K_T = K_I = 1
-    float root_area;     ///< half the area of the root's box, in scene extents squared
+    float cost;            ///< SAH cost, K_T = K_I = 1
+    float root_area;       ///< half the area of the root's box, in scene extents squared
 } BuildState;
 
 /// Boxes and counts of the bins of one range.
@@ -107,7 +111,10 @@ typedef struct BinSet {
 } BinSet;
 
 #ifdef __cplusplus
-static_assert(sizeof(PrimitiveRef) == 32 && sizeof(RangeBounds) == 48 && sizeof(Split) == 12, "as in OpenCL C");
-static_assert(sizeof(BuildTask) == 84 && sizeof(BuildChunk) == 112 && sizeof(BuildSubtree) == 96, "as in OpenCL C");
-static_assert(sizeof(InputChunk) == 72 && sizeof(BuildState) == 56 && sizeof(BinSet) == 1344, "as in OpenCL C");
+static_assert(sizeof(PrimitiveRef) == 32 && sizeof(RangeBounds) == 48 && sizeof(Split) == 12,
+              "as in OpenCL C");
+static_assert(sizeof(BuildTask) == 84 && sizeof(BuildChunk) == 112 && sizeof(BuildSubtree) == 96,
+              "as in OpenCL C");
+static_assert(sizeof(InputChunk) == 72 && sizeof(BuildState) == 56 && sizeof(BinSet) == 1344,
+              "as in OpenCL C");
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The small phase: each work-item finishes one subtree of up to a few thousand primitives alone, depth first, without
-// barriers, atomics or local memory; on a CPU its primitives stay in the core's cache. Nodes go to scratch at the
-// subtree's own range (n primitives have at most n - 1 inner nodes), in depth-first order, with links counted from
-// the subtree's first node.
+// The small phase: each work-item finishes one subtree of up to a few thousand primitives alone, depth first,
+// without barriers, atomics or local memory; on a CPU its primitives stay in the core's cache. Nodes go to
+// scratch at the subtree's own range (n primitives have at most n - 1 inner nodes), in depth-first order,
+// with links counted from the subtree's first node.
 #include "renderer/kernels/bvh/binned_sah.h"
 
 typedef struct PendingRange {
@@ -23,9 +23,9 @@ static void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBoun
 }
 
 /// Stable partition of [begin, end): the left part stays in `primitives`, the right one waits in `scratch`.
-static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef *scratch, uint begin, uint end,
-                            PRIVATE const Split *split, PRIVATE const Binning *binning, PRIVATE RangeBounds *left_bounds,
-                            PRIVATE RangeBounds *right_bounds) {
+static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef *scratch, uint begin,
+                            uint end, PRIVATE const Split *split, PRIVATE const Binning *binning,
+                            PRIVATE RangeBounds *left_bounds, PRIVATE RangeBounds *right_bounds) {
     *left_bounds = empty_bounds();
     *right_bounds = empty_bounds();
     uint left = begin;
@@ -55,13 +55,16 @@ static Split split_range(GLOBAL const PrimitiveRef *primitives, PRIVATE const Pe
         const PrimitiveRef ref = primitives[i];
         add_to_bins(&bins, binning, &ref);
     }
-    return choose_split(&bins, binning, range->end - range->begin, range->depth, inverse_extent(&range->bounds));
+    return choose_split(&bins, binning, range->end - range->begin, range->depth,
+                        inverse_extent(&range->bounds));
 }
 
-/// Reads the subtree's primitives and orders them in place; writes nodes and the subtree's counts. Cost: the area of
-/// every inner node below the subtree's root, and of every leaf times its triangles, the root itself apart.
-__kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count, GLOBAL PrimitiveRef *primitives_0,
-                             GLOBAL PrimitiveRef *primitives_1, GLOBAL const BuildState *state, GLOBAL BvhNode *scratch_nodes) {
+/// Reads the subtree's primitives and orders them in place; writes nodes and the subtree's counts. Cost: the
+/// area of every inner node below the subtree's root, and of every leaf times its triangles, the root itself
+/// apart.
+__kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
+                             GLOBAL PrimitiveRef *primitives_0, GLOBAL PrimitiveRef *primitives_1,
+                             GLOBAL const BuildState *state, GLOBAL BvhNode *scratch_nodes) {
     const uint index = (uint)get_global_id(0);
     if (index >= subtree_count) {
         return;
@@ -99,7 +102,8 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count, 
         const Split split = split_range(primitives, &range, &binning);
         PendingRange left = range;
         PendingRange right = range;
-        partition_range(primitives, scratch, range.begin, range.end, &split, &binning, &left.bounds, &right.bounds);
+        partition_range(primitives, scratch, range.begin, range.end, &split, &binning, &left.bounds,
+                        &right.bounds);
         const uint node = node_count;
         ++node_count;
         if (range.parent != BVH_NO_PARENT) {

@@ -7,14 +7,19 @@
 #include "renderer/kernels/geometry/surface_point.h"
 #include "renderer/shared/triangle.h"
 
-typedef enum TriangleFault { TRIANGLE_GOOD, TRIANGLE_NOT_FINITE, TRIANGLE_DEGENERATE, TRIANGLE_BAD_INDEX } TriangleFault;
+typedef enum TriangleFault {
+    TRIANGLE_GOOD,
+    TRIANGLE_NOT_FINITE,
+    TRIANGLE_DEGENERATE,
+    TRIANGLE_BAD_INDEX
+} TriangleFault;
 
 static float3 load_vertex(GLOBAL const float *positions, uint index) {
     return make_float3(positions[3 * index], positions[3 * index + 1], positions[3 * index + 2]);
 }
 
-static TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle,
-                                    PRIVATE PrimitiveRef *ref) {
+static TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_count,
+                                    GLOBAL const uint *indices, uint triangle, PRIVATE PrimitiveRef *ref) {
     const uint i0 = indices[3 * triangle];
     const uint i1 = indices[3 * triangle + 1];
     const uint i2 = indices[3 * triangle + 2];
@@ -29,8 +34,8 @@ static TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_c
     const float3 b = fabs(v1);
     const float3 c = fabs(v2);
     const float limit = BVH_COORDINATE_LIMIT;
-    if (!(a.x <= limit && a.y <= limit && a.z <= limit && b.x <= limit && b.y <= limit && b.z <= limit && c.x <= limit &&
-          c.y <= limit && c.z <= limit)) {
+    if (!(a.x <= limit && a.y <= limit && a.z <= limit && b.x <= limit && b.y <= limit && b.z <= limit &&
+          c.x <= limit && c.y <= limit && c.z <= limit)) {
         return TRIANGLE_NOT_FINITE;
     }
     const float3 normal = triangle_normal(v0, v1, v2);
@@ -50,8 +55,8 @@ static TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_c
     return TRIANGLE_GOOD;
 }
 
-__kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle_count,
-                              uint chunk_size, GLOBAL InputChunk *chunks) {
+__kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices,
+                              uint triangle_count, uint chunk_size, GLOBAL InputChunk *chunks) {
     const uint chunk = (uint)get_global_id(0);
     const uint begin = chunk * chunk_size;
     if (begin >= triangle_count) {
@@ -76,9 +81,9 @@ __kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, 
 }
 
 /// One work-item: prefix sums over the chunks, and the root as task or subtree.
-__kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint chunk_size, uint subtree_size,
-                          GLOBAL BuildState *state, GLOBAL BuildTask *tasks, GLOBAL BuildChunk *chunks,
-                          GLOBAL BuildSubtree *subtrees) {
+__kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint chunk_size,
+                          uint subtree_size, GLOBAL BuildState *state, GLOBAL BuildTask *tasks,
+                          GLOBAL BuildChunk *chunks, GLOBAL BuildSubtree *subtrees) {
     if (get_global_id(0) != 0) {
         return;
     }
@@ -94,13 +99,14 @@ __kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint
     }
     total.inverse_extent = inverse_extent(&bounds);
     total.root_area = half_area_of(&bounds, total.inverse_extent);
-    emit_range(&total, tasks, chunks, subtrees, chunk_size, subtree_size, 0, total.primitive_count, 0, BVH_NO_PARENT, 0, 0,
-               &bounds);
+    emit_range(&total, tasks, chunks, subtrees, chunk_size, subtree_size, 0, total.primitive_count, 0,
+               BVH_NO_PARENT, 0, 0, &bounds);
     *state = total;
 }
 
-__kernel void gather_primitives(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle_count,
-                                uint chunk_size, GLOBAL const InputChunk *chunks, GLOBAL PrimitiveRef *primitives) {
+__kernel void gather_primitives(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices,
+                                uint triangle_count, uint chunk_size, GLOBAL const InputChunk *chunks,
+                                GLOBAL PrimitiveRef *primitives) {
     const uint chunk = (uint)get_global_id(0);
     const uint begin = chunk * chunk_size;
     if (begin >= triangle_count) {

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-item) numbers them and
-// links them to the top nodes, copy_top_nodes and copy_subtrees (a work-item per subtree) write the compact arrays.
+// The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-item) numbers them
+// and links them to the top nodes, copy_top_nodes and copy_subtrees (a work-item per subtree) write the
+// compact arrays.
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/triangle.h"
 
 static float node_child_area(GLOBAL const BvhNode *node, uint side, float scale) {
-    return half_area(node->bounds[side][1][0] - node->bounds[side][0][0], node->bounds[side][1][1] - node->bounds[side][0][1],
+    return half_area(node->bounds[side][1][0] - node->bounds[side][0][0],
+                     node->bounds[side][1][1] - node->bounds[side][0][1],
                      node->bounds[side][1][2] - node->bounds[side][0][2], scale);
 }
 
-/// Without top nodes the root is a subtree; when that is a single leaf, or nothing at all, it is given a node here.
+/// Without top nodes the root is a subtree; when that is a single leaf, or nothing at all, it is given a node
+/// here.
 __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subtrees, uint subtree_count,
                              GLOBAL BvhNode *top_nodes) {
     if (get_global_id(0) != 0) {
@@ -36,7 +39,8 @@ __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subt
         subtree->node_offset = total.node_count;
         if (subtree->parent != BVH_NO_PARENT) {
             top_nodes[subtree->parent].child[subtree->side] =
-                subtree->node_count > 0 ? total.node_count : bvh_leaf(subtree->begin, subtree->end - subtree->begin);
+                subtree->node_count > 0 ? total.node_count
+                                        : bvh_leaf(subtree->begin, subtree->end - subtree->begin);
         }
         total.node_count += subtree->node_count;
         total.leaf_count += subtree->leaf_count;
@@ -61,9 +65,10 @@ __kernel void copy_top_nodes(GLOBAL const BvhNode *top_nodes, uint top_node_coun
     }
 }
 
-__kernel void copy_subtrees(GLOBAL const BuildSubtree *subtrees, uint subtree_count, GLOBAL const BvhNode *scratch_nodes,
-                            GLOBAL const PrimitiveRef *primitives_0, GLOBAL const PrimitiveRef *primitives_1,
-                            GLOBAL const float *positions, GLOBAL const uint *indices, GLOBAL BvhNode *nodes,
+__kernel void copy_subtrees(GLOBAL const BuildSubtree *subtrees, uint subtree_count,
+                            GLOBAL const BvhNode *scratch_nodes, GLOBAL const PrimitiveRef *primitives_0,
+                            GLOBAL const PrimitiveRef *primitives_1, GLOBAL const float *positions,
+                            GLOBAL const uint *indices, GLOBAL BvhNode *nodes,
                             GLOBAL LeafTriangle *triangles) {
     const uint index = (uint)get_global_id(0);
     if (index >= subtree_count) {

@@ -17,8 +17,12 @@ DEVICE RangeBounds empty_bounds(void) {
 }
 
 // Compare and select instead of fmin: nothing here is NaN, and fmin costs more.
-DEVICE float lesser(float a, float b) { return b < a ? b : a; }
-DEVICE float greater(float a, float b) { return b > a ? b : a; }
+DEVICE float lesser(float a, float b) {
+    return b < a ? b : a;
+}
+DEVICE float greater(float a, float b) {
+    return b > a ? b : a;
+}
 
 DEVICE void extend_bounds(PRIVATE RangeBounds *bounds, PRIVATE const PrimitiveRef *ref) {
     for (uint axis = 0; axis < 3; ++axis) {
@@ -39,8 +43,8 @@ DEVICE void merge_bounds(PRIVATE RangeBounds *bounds, GLOBAL const RangeBounds *
     }
 }
 
-/// 1 / the largest side of the box, by which areas are scaled before they are formed; 1 for an empty or flat-out
-/// pointlike box.
+/// 1 / the largest side of the box, by which areas are scaled before they are formed; 1 for an empty or
+/// flat-out pointlike box.
 DEVICE float inverse_extent(PRIVATE const RangeBounds *bounds) {
     float extent = 0.0f;
     for (uint axis = 0; axis < 3; ++axis) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One level of the large phase: every node above the subtree size, whatever its size, is split by all work-items
-// together (thesis 3.1). bin_primitives (a work-item per chunk) -> choose_splits (per task) ->
+// One level of the large phase: every node above the subtree size, whatever its size, is split by all
+// work-items together (thesis 3.1). bin_primitives (a work-item per chunk) -> choose_splits (per task) ->
 // partition_primitives (per chunk, from one primitive buffer to the other) -> emit_children (one work-item).
-// Departure from the thesis: offsets are prefix sums over chunks instead of atomic counters, so that the partition
-// is stable and the tree the same whatever the order of execution.
+// Departure from the thesis: offsets are prefix sums over chunks instead of atomic counters, so that the
+// partition is stable and the tree the same whatever the order of execution.
 #include "renderer/kernels/bvh/binned_sah.h"
 #include "renderer/kernels/bvh/tasks.h"
 
@@ -41,14 +41,17 @@ __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL Bui
         for (uint axis = 0; axis < 3; ++axis) {
             for (uint bin = 0; bin < BVH_BINS; ++bin) {
                 for (uint i = 0; i < 3; ++i) {
-                    bins.lower[axis][bin][i] = lesser(bins.lower[axis][bin][i], chunk_bins[chunk].lower[axis][bin][i]);
-                    bins.upper[axis][bin][i] = greater(bins.upper[axis][bin][i], chunk_bins[chunk].upper[axis][bin][i]);
+                    bins.lower[axis][bin][i] =
+                        lesser(bins.lower[axis][bin][i], chunk_bins[chunk].lower[axis][bin][i]);
+                    bins.upper[axis][bin][i] =
+                        greater(bins.upper[axis][bin][i], chunk_bins[chunk].upper[axis][bin][i]);
                 }
                 bins.count[axis][bin] += chunk_bins[chunk].count[axis][bin];
             }
         }
     }
-    const Split split = choose_split(&bins, &binning, task->end - task->begin, task->depth, inverse_extent(&bounds));
+    const Split split =
+        choose_split(&bins, &binning, task->end - task->begin, task->depth, inverse_extent(&bounds));
     task->split = split;
     uint left = 0;
     for (uint chunk = task->first_chunk; chunk < task->first_chunk + task->chunk_count; ++chunk) {
@@ -96,9 +99,11 @@ __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildCh
 
 /// One work-item: writes this level's nodes and books their children for the next level or the small phase.
 /// `buffer` is the index of the buffer that partition_primitives wrote.
-__kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *tasks, GLOBAL const BuildChunk *chunks,
-                            uint task_count, uint chunk_size, uint subtree_size, uint buffer, GLOBAL BvhNode *nodes,
-                            GLOBAL BuildTask *next_tasks, GLOBAL BuildChunk *next_chunks, GLOBAL BuildSubtree *subtrees) {
+__kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *tasks,
+                            GLOBAL const BuildChunk *chunks, uint task_count, uint chunk_size,
+                            uint subtree_size, uint buffer, GLOBAL BvhNode *nodes,
+                            GLOBAL BuildTask *next_tasks, GLOBAL BuildChunk *next_chunks,
+                            GLOBAL BuildSubtree *subtrees) {
     if (get_global_id(0) != 0) {
         return;
     }
@@ -118,8 +123,9 @@ __kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *ta
                 nodes[task.node].bounds[side][1][axis] = bounds.box[1][axis];
             }
             nodes[task.node].child[side] =
-                emit_range(&next, next_tasks, next_chunks, subtrees, chunk_size, subtree_size, side == 0 ? task.begin : middle,
-                           side == 0 ? middle : task.end, task.depth + 1u, task.node, side, buffer, &bounds);
+                emit_range(&next, next_tasks, next_chunks, subtrees, chunk_size, subtree_size,
+                           side == 0 ? task.begin : middle, side == 0 ? middle : task.end, task.depth + 1u,
+                           task.node, side, buffer, &bounds);
             nodes[task.node].padding[side] = 0;
         }
     }

@@ -3,12 +3,14 @@
 
 #include "renderer/kernels/bvh/build_records.h"
 
-/// Books the range [begin, end), child `side` of top node `parent`, as the next level's task or, when it is small
-/// enough for one work-item, as a subtree. Called by single work-items in a fixed order: numbering is
-/// deterministic. Returns the index of the task's node, or BVH_EMPTY_LEAF for a subtree (place_subtrees links it).
+/// Books the range [begin, end), child `side` of top node `parent`, as the next level's task or, when it is
+/// small enough for one work-item, as a subtree. Called by single work-items in a fixed order: numbering is
+/// deterministic. Returns the index of the task's node, or BVH_EMPTY_LEAF for a subtree (place_subtrees links
+/// it).
 DEVICE uint emit_range(PRIVATE BuildState *state, GLOBAL BuildTask *tasks, GLOBAL BuildChunk *chunks,
-                       GLOBAL BuildSubtree *subtrees, uint chunk_size, uint subtree_size, uint begin, uint end, uint depth,
-                       uint parent, uint side, uint buffer, PRIVATE const RangeBounds *bounds) {
+                       GLOBAL BuildSubtree *subtrees, uint chunk_size, uint subtree_size, uint begin,
+                       uint end, uint depth, uint parent, uint side, uint buffer,
+                       PRIVATE const RangeBounds *bounds) {
     if (end - begin <= subtree_size) {
         GLOBAL BuildSubtree *subtree = subtrees + state->subtree_count;
         state->subtree_count += 1u;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traversal of the two-wide hierarchy with a stack: T. Aila, S. Laine, "Understanding the Efficiency of Ray
-// Traversal on GPUs", HPG 2009; thesis 3.1. Both children of a node are tested, the nearer is entered, the farther
-// postponed with its distance of entry, so that a hit found in between discards it unseen.
+// Traversal on GPUs", HPG 2009; thesis 3.1. Both children of a node are tested, the nearer is entered, the
+// farther postponed with its distance of entry, so that a hit found in between discards it unseen.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_box.h"
@@ -10,8 +10,8 @@
 #include "renderer/shared/triangle.h"
 
 /// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
-DEVICE Hit traverse_bvh(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin, float3 direction,
-                        float t_max, bool any) {
+DEVICE Hit traverse_bvh(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin,
+                        float3 direction, float t_max, bool any) {
     Hit hit;
     hit.t = t_max;
     hit.u = 0.0f;
@@ -76,12 +76,12 @@ DEVICE Hit traverse_bvh(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *
 
 /// The nearest hit at 0 < t < t_max (which may be INFINITY). Rays that are not finite hit nothing.
 DEVICE Hit trace_nearest(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin,
-                             float3 direction, float t_max) {
+                         float3 direction, float t_max) {
     return traverse_bvh(nodes, triangles, origin, direction, t_max, false);
 }
 
 /// Whether anything is hit at 0 < t < t_max: true exactly when `trace_nearest` finds a hit.
 DEVICE bool trace_any(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin,
-                          float3 direction, float t_max) {
+                      float3 direction, float t_max) {
     return traverse_bvh(nodes, triangles, origin, direction, t_max, true).slot != NO_HIT;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A ray prepared for traversal: what the box test and the triangle test need of it, computed once.
 //
-// Source: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013; T. Ize, "Robust
-// BVH Ray Traversal", JCGT 2(2), 2013. Departure: the margin of the box test is ours, derived below.
+// Source: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013; T. Ize,
+// "Robust BVH Ray Traversal", JCGT 2(2), 2013. Departure: the margin of the box test is ours, derived below.
 //
 // The triangle test moves a vertex to the ray's frame as x' = (x - ox) - sx (z - oz), with z the axis of the
 // largest direction component, |sx| <= 1. With u = 2^-24, its rounding error is at most
 // u (2 |x - ox| + 4 |z - oz|) to first order, hence below 6 u E, where E bounds the distance, along any axis,
-// from the origin to a point of the scene. The triangle that is tested is thus not quite the one that the boxes
-// enclose; boxes widened by 8 u E on every side enclose it again. Widening the box is shifting the
+// from the origin to a point of the scene. The triangle that is tested is thus not quite the one that the
+// boxes enclose; boxes widened by 8 u E on every side enclose it again. Widening the box is shifting the
 // origin: outwards for the planes of entry, inwards for those of exit, so it costs nothing per box. A further
 // 2 u |o| survives the rounding of the shifted origin itself. The three roundings of a slab distance are
 // covered by Ize's factor on the distance of exit.

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "renderer/base/error.h"
+#include "renderer/tests/bvh_tree.h"
+
+namespace rtrays {
+namespace {
+
+using namespace test;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+TreeFacts expect_valid(const HostBvh &bvh, const Mesh &mesh) {
+    TreeFacts facts = inspect_tree(bvh, mesh);
+    EXPECT_EQ(facts.fault, "") << mesh.name;
+    EXPECT_EQ(facts.nodes, bvh.report.nodes);
+    EXPECT_EQ(facts.leaves, bvh.report.leaves);
+    EXPECT_EQ(facts.depth, bvh.report.depth);
+    EXPECT_LE(facts.depth, BVH_STACK_SIZE);
+    EXPECT_NEAR(facts.sah_cost, bvh.report.sah_cost, 1e-3 * facts.sah_cost);
+    EXPECT_EQ(bvh.report.triangles + bvh.report.rejected(), mesh.triangles.size());
+    return facts;
+}
+
+TEST(BvhBuild, TreeIsValidOfEverySize) {
+    for (uint32_t count = 1; count < 40; ++count) {
+        const Mesh mesh = soup(count, count);
+        expect_valid(build_bvh(mesh), mesh);
+    }
+    for (const uint32_t count : {1023u, 1024u, 1025u, 4097u, 30000u}) {
+        const Mesh mesh = soup(count, count);
+        expect_valid(build_bvh(mesh), mesh);
+    }
+}
+
+TEST(BvhBuild, CostIsNearFullSweep) {
+    for (const Mesh &mesh :
+         {soup(20000, 1), terrain(100, 2), sphere(80, 160, 1.0f, 0.05f, {0, 0, 0}), room()}) {
+        const TreeFacts facts = expect_valid(build_bvh(mesh), mesh);
+        const double ratio = facts.sah_cost / full_sweep_cost(mesh);
+        RecordProperty("sah_over_sweep_" + mesh.name, std::to_string(ratio));
+        EXPECT_LT(ratio, 1.15) << mesh.name;
+    }
+}
+
+TEST(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
+    const Mesh mesh = terrain(80, 5);
+    const HostBvh expected(BvhBuilder(test_device(), {1, 1024, 256}).build(mesh.positions, mesh.triangles));
+    const auto same_bytes = [](const auto &a, const auto &b) {
+        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+    };
+    for (const BvhBuildParameters &parameters :
+         {BvhBuildParameters{8, 1024, 256}, {64, 1024, 256}, {1, 100, 256}, {7, 333, 256}}) {
+        const HostBvh bvh(BvhBuilder(test_device(), parameters).build(mesh.positions, mesh.triangles));
+        EXPECT_TRUE(same_bytes(bvh.nodes, expected.nodes))
+            << parameters.group_size << ' ' << parameters.chunk_size;
+        EXPECT_TRUE(same_bytes(bvh.triangles, expected.triangles))
+            << parameters.group_size << ' ' << parameters.chunk_size;
+    }
+    // The subtree size moves nodes in memory, but the tree is the same.
+    const TreeFacts tree = inspect_tree(expected, mesh);
+    for (const uint32_t subtree_size : {4u, 50u, 5000u, 100000u}) {
+        const HostBvh bvh(
+            BvhBuilder(test_device(), {2, 512, subtree_size}).build(mesh.positions, mesh.triangles));
+        const TreeFacts other = expect_valid(bvh, mesh);
+        EXPECT_EQ(other.boxes, tree.boxes) << subtree_size;
+        EXPECT_EQ(other.leaf_ids, tree.leaf_ids) << subtree_size;
+    }
+}
+
+TEST(BvhBuild, NothingToHit) {
+    const Mesh mesh{"empty", {}, {}};
+    const HostBvh bvh = build_bvh(mesh);
+    expect_valid(bvh, mesh);
+    EXPECT_EQ(bvh.nodes.size(), 1u);
+    Random random(1);
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_EQ(bvh.nearest({0, 0, 0}, uniform_direction(random)).triangle, NO_HIT);
+    }
+    EXPECT_EQ(bvh.nearest({0, 0, 0}, {0, 0, -1}).triangle, NO_HIT);
+}
+
+TEST(BvhBuild, OneTriangle) {
+    Mesh mesh{"one triangle", {}, {}};
+    mesh.add_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    const HostBvh bvh = build_bvh(mesh);
+    expect_valid(bvh, mesh);
+    const Hit hit = bvh.nearest({0.25f, 0.5f, 2.0f}, {0, 0, -1});
+    EXPECT_EQ(hit.triangle, 0u);
+    EXPECT_FLOAT_EQ(hit.t, 2.0f);
+    EXPECT_FLOAT_EQ(hit.u, 0.25f);
+    EXPECT_FLOAT_EQ(hit.v, 0.5f);
+    EXPECT_EQ(bvh.nearest({0.25f, 0.5f, -3.0f}, {0, 0, 2}).t, 1.5f)
+        << "two-sided, in lengths of the direction";
+    EXPECT_EQ(bvh.nearest({0.75f, 0.5f, 2.0f}, {0, 0, -1}).triangle, NO_HIT);
+}
+
+TEST(BvhBuild, FaultyTrianglesAreLeftOutAndCounted) {
+    Mesh mesh = soup(3000, 3);
+    mesh.positions[3 * 7] = {nan, 0, 0};
+    mesh.positions[3 * 500 + 1] = {0, infinity, 0};
+    mesh.positions[3 * 2999 + 2] = {0, 0, -infinity};
+    mesh.positions[3 * 42] = {1e30f, 0, 0};
+    mesh.positions[3 * 100] = mesh.positions[3 * 100 + 1];         // two vertices coincide
+    mesh.add_triangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3});            // a point
+    mesh.add_triangle({0, 0, 0}, {0.25f, 0.5f, 1}, {0.5f, 1, 2});  // a line
+    const HostBvh bvh = build_bvh(mesh);
+    expect_valid(bvh, mesh);
+    EXPECT_EQ(bvh.report.not_finite, 4u);
+    EXPECT_EQ(bvh.report.degenerate, 3u);
+
+    Mesh hopeless{"hopeless", {}, {}};
+    for (int i = 0; i < 5000; ++i) {
+        hopeless.add_triangle({nan, nan, nan}, {1, 0, 0}, {0, 1, 0});
+    }
+    const HostBvh none = build_bvh(hopeless);
+    expect_valid(none, hopeless);
+    EXPECT_EQ(none.report.not_finite, 5000u);
+    EXPECT_EQ(none.nearest({0.1f, 0.1f, 1}, {0, 0, -1}).triangle, NO_HIT);
+}
+
+TEST(BvhBuild, CoincidentTrianglesEnd) {
+    Mesh mesh{"coincident", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
+    mesh.triangles.assign(1000000, {0, 1, 2});
+    const HostBvh bvh = build_bvh(mesh);
+    const TreeFacts facts = expect_valid(bvh, mesh);
+    EXPECT_EQ(facts.depth, 18u) << "halves: 10^6 / 2^18 < 4";
+    EXPECT_FLOAT_EQ(bvh.nearest({0.2f, 0.2f, 1}, {0, 0, -1}).t, 1.0f);
+}
+
+TEST(BvhBuild, EqualCentroidsEnd) {
+    Mesh mesh{"equal centroids", {}, {}};
+    for (int i = 1; i <= 3000; ++i) {
+        const auto r = static_cast<float>(i);
+        mesh.add_triangle({-r, -r, 0}, {r, -r, 0}, {0, r, 0});
+    }
+    expect_valid(build_bvh(mesh), mesh);
+}
+
+TEST(BvhBuild, DepthIsBoundedWhereSahPeelsOffOneByOne) {
+    // Along each axis, distances from the corner shrink by 20 from one triangle to the next: 16 bins see one
+    // triangle far out and all others in the first bin.
+    Mesh mesh{"exponential", {}, {}};
+    for (int axis = 0; axis < 3; ++axis) {
+        float distance = 1e11f;
+        for (int i = 0; i < 31; ++i, distance /= 20) {
+            const Eigen::Vector3f p = distance * Eigen::Vector3f::Unit(axis);
+            const float size = 1e-3f * distance;
+            mesh.add_triangle(p, p + size * Eigen::Vector3f(1, 2, 3), p + size * Eigen::Vector3f(3, 1, 2));
+        }
+    }
+    const HostBvh bvh = build_bvh(mesh);
+    expect_valid(bvh, mesh);
+    EXPECT_GT(bvh.report.depth, BVH_AREA_DEPTH) << "the case must reach the bound";
+    EXPECT_LE(bvh.report.depth, 62u);
+}
+
+TEST(BvhBuild, ScalesAreAlike) {
+    const Mesh mesh = soup(2000, 9);
+    const HostBvh reference = build_bvh(mesh);
+    for (const float scale : {0x1p-20f, 0x1p20f}) {
+        Mesh scaled = mesh;
+        for (Eigen::Vector3f &p : scaled.positions) {
+            p *= scale;
+        }
+        const HostBvh bvh = build_bvh(scaled);
+        const TreeFacts facts = expect_valid(bvh, scaled);
+        EXPECT_EQ(facts.leaf_ids, inspect_tree(reference, mesh).leaf_ids)
+            << "powers of two change no decision";
+    }
+}
+
+TEST(BvhBuild, WrongInputIsAnError) {
+    BvhBuilder builder(test_device());
+    EXPECT_THROW(builder.build(std::vector<Eigen::Vector3f>(3, Eigen::Vector3f::Zero()), {{0, 1, 3}}), Error);
+    EXPECT_THROW(builder.build(std::vector<Eigen::Vector3f>(), {{0, 0, 0}}), Error);
+    EXPECT_THROW(BvhBuilder(test_device(), {0, 1024, 1024}), Error);
+    EXPECT_THROW(BvhBuilder(test_device(), {1, 1024, 3}), Error);
+}
+
+TEST(BvhBuild, TooManyTrianglesAreRefusedBeforeAllocation) {
+    const DeviceInfo &device = test_device().info();
+    EXPECT_NO_THROW(require_build_memory(device, 1000, 24000));
+    try {
+        require_build_memory(device, (uint64_t{1} << 26) + 1, 0);
+        FAIL() << "accepted";
+    } catch (const Error &error) {
+        EXPECT_NE(std::string(error.what()).find("67108865 triangles"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("GiB"), std::string::npos) << error.what();
+        EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
+    }
+    DeviceInfo small = device;
+    small.global_memory = 1 << 20;
+    small.max_allocation = 1 << 20;
+    EXPECT_THROW(require_build_memory(small, 100000, 0), Error);
+}
+
+}  // namespace
+}  // namespace rtrays

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// A hierarchy on the host: its invariants, its cost, and a full-sweep SAH build to compare with.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "renderer/bvh/builder.h"
+#include "renderer/kernels/traversal/intersect_bvh.h"
+#include "renderer/tests/bvh_meshes.h"
+
+namespace rtrays::test {
+
+inline float3 to_float3(const Eigen::Vector3f &v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+/// A tree copied from the device; traced on the host by the device functions.
+struct HostBvh {
+    std::vector<BvhNode> nodes;
+    std::vector<LeafTriangle> triangles;
+    BvhReport report;
+
+    explicit HostBvh(const Bvh &bvh)
+        : nodes(bvh.nodes().read()), triangles(bvh.triangles().read()), report(bvh.report()) {}
+
+    Hit nearest(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
+                float t_max = INFINITY) const {
+        return trace_nearest(nodes.data(), triangles.data(), to_float3(origin), to_float3(direction), t_max);
+    }
+    bool any(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t_max) const {
+        return trace_any(nodes.data(), triangles.data(), to_float3(origin), to_float3(direction), t_max);
+    }
+};
+
+/// One device for all cases of a program.
+inline DeviceContext &test_device() {
+    static DeviceContext device;
+    return device;
+}
+
+inline HostBvh build_bvh(const Mesh &mesh) {
+    static BvhBuilder builder(test_device());
+    return HostBvh(builder.build(mesh.positions, mesh.triangles));
+}
+
+inline double half_area(const Eigen::AlignedBox3d &box) {
+    if (box.isEmpty()) {
+        return 0;
+    }
+    const Eigen::Vector3d d = box.sizes();
+    return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+}
+
+/// What a walk over all nodes finds. `fault` is empty for a valid tree.
+struct TreeFacts {
+    std::string fault;
+    uint32_t nodes = 0, leaves = 0, depth = 0;
+    double sah_cost = 0;             ///< K_T = K_I = 1
+    std::vector<float> boxes;        ///< every child box in depth-first order
+    std::vector<uint32_t> leaf_ids;  ///< triangle ids in depth-first order, a leaf's ended by its size
+};
+
+/// Checks that boxes enclose children and triangles, that leaves hold 1 to 4 triangles, each triangle
+/// exactly once and with the mesh's own vertices, and that every node is reached once.
+inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
+    TreeFacts facts;
+    std::vector<uint32_t> seen(bvh.triangles.size(), 0);
+    const auto fail = [&](const std::string &what) {
+        if (facts.fault.empty()) {
+            facts.fault = what;
+        }
+    };
+    double cost = 0, root_area = 0;
+    const auto visit = [&](auto &&self, uint32_t index, uint32_t depth) -> Eigen::AlignedBox3d {
+        Eigen::AlignedBox3d all;
+        if (index >= bvh.nodes.size() || facts.nodes > bvh.nodes.size()) {
+            fail("link out of range or cycle");
+            return all;
+        }
+        facts.nodes += 1;
+        const BvhNode &node = bvh.nodes[index];
+        Eigen::AlignedBox3d boxes[2];
+        for (uint32_t side = 0; side < 2; ++side) {
+            const float(&b)[2][3] = node.bounds[side];
+            facts.boxes.insert(facts.boxes.end(), &b[0][0], &b[0][0] + 6);
+            boxes[side] = Eigen::AlignedBox3d(Eigen::Vector3d(b[0][0], b[0][1], b[0][2]),
+                                              Eigen::Vector3d(b[1][0], b[1][1], b[1][2]));
+            Eigen::AlignedBox3d content;
+            const uint32_t link = node.child[side];
+            if ((link & BVH_LEAF_BIT) == 0) {
+                content = self(self, link, depth + 1);
+                cost += half_area(boxes[side]);
+            } else {
+                const uint32_t count = bvh_leaf_count(link);
+                if (count > BVH_LEAF_SIZE || (count == 0 && bvh.nodes.size() > 1)) {
+                    fail("leaf of " + std::to_string(count));
+                }
+                facts.leaves += count > 0 ? 1 : 0;
+                facts.depth = std::max(facts.depth, depth + 1);
+                facts.leaf_ids.push_back(~count);
+                for (uint32_t slot = bvh_leaf_first(link); slot < bvh_leaf_first(link) + count; ++slot) {
+                    if (slot >= bvh.triangles.size()) {
+                        fail("leaf out of range");
+                        return all;
+                    }
+                    seen[slot] += 1;
+                    const LeafTriangle &triangle = bvh.triangles[slot];
+                    facts.leaf_ids.push_back(triangle.id);
+                    for (uint32_t corner = 0; corner < 3; ++corner) {
+                        const float3 v = leaf_vertex(&triangle, corner);
+                        const Eigen::Vector3f p(v.x, v.y, v.z);
+                        if (p != mesh.vertex(triangle.id, corner)) {
+                            fail("vertex differs from the mesh's");
+                        }
+                        content.extend(p.cast<double>());
+                    }
+                }
+                cost += half_area(boxes[side]) * count;
+            }
+            if (!content.isEmpty() && (!boxes[side].contains(content) || !content.contains(boxes[side]))) {
+                fail("box is not the bound of its content");
+            }
+            if (!content.isEmpty()) {
+                all.extend(content);
+            }
+        }
+        root_area = half_area(all);
+        return all;
+    };
+    visit(visit, 0, 0);
+    facts.sah_cost = root_area > 0 ? (cost + root_area) / root_area : 0;
+    if (std::any_of(seen.begin(), seen.end(), [](uint32_t n) { return n != 1; })) {
+        fail("a triangle is not in exactly one leaf");
+    }
+    if (facts.nodes != bvh.nodes.size()) {
+        fail("unreachable nodes");
+    }
+    return facts;
+}
+
+/// SAH cost (K_T = K_I = 1) of the tree that tries every split of sorted centroids on each axis, with leaves
+/// by count as the device builder's.
+inline double full_sweep_cost(const Mesh &mesh) {
+    const auto count = static_cast<uint32_t>(mesh.triangles.size());
+    std::vector<Eigen::AlignedBox3d> boxes(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        for (uint32_t corner = 0; corner < 3; ++corner) {
+            boxes[i].extend(mesh.vertex(i, corner).cast<double>());
+        }
+    }
+    std::vector<uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    const auto sort_range = [&](size_t begin, size_t end, int axis) {
+        std::sort(order.begin() + begin, order.begin() + end, [&](uint32_t a, uint32_t b) {
+            return std::make_pair(boxes[a].center()[axis], a) < std::make_pair(boxes[b].center()[axis], b);
+        });
+    };
+    std::vector<double> right_area(count + 1);
+    const auto cost_of = [&](auto &&self, size_t begin, size_t end) -> double {
+        Eigen::AlignedBox3d all;
+        for (size_t i = begin; i < end; ++i) {
+            all.extend(boxes[order[i]]);
+        }
+        const size_t size = end - begin;
+        if (size <= BVH_LEAF_SIZE) {
+            return half_area(all) * static_cast<double>(size);
+        }
+        double best = INFINITY;
+        int best_axis = 0;
+        size_t best_split = begin + size / 2;
+        for (int axis = 0; axis < 3; ++axis) {
+            sort_range(begin, end, axis);
+            Eigen::AlignedBox3d right, left;
+            for (size_t i = end - 1; i > begin; --i) {
+                right.extend(boxes[order[i]]);
+                right_area[i] = half_area(right);
+            }
+            for (size_t i = begin + 1; i < end; ++i) {
+                left.extend(boxes[order[i - 1]]);
+                const double cost = half_area(left) * static_cast<double>(i - begin) +
+                                    right_area[i] * static_cast<double>(end - i);
+                if (cost < best) {
+                    best = cost;
+                    best_axis = axis;
+                    best_split = i;
+                }
+            }
+        }
+        sort_range(begin, end, best_axis);
+        return half_area(all) + self(self, begin, best_split) + self(self, best_split, end);
+    };
+    Eigen::AlignedBox3d all;
+    for (const Eigen::AlignedBox3d &box : boxes) {
+        all.extend(box);
+    }
+    return cost_of(cost_of, 0, count) / half_area(all);
+}
+
+}  // namespace rtrays::test
