@@ -62,6 +62,12 @@ std::string escaped(std::string token) {
     return token;
 }
 
+/// The "name" of an object, which tells people more than its place in the document.
+const std::string *name_of(const Json &value) {
+    const auto found = value.is_object() ? value.find("name") : value.end();
+    return found != value.end() && found->is_string() ? found->get_ptr<const std::string *>() : nullptr;
+}
+
 /// Builds the document and follows where in it the lexer is.
 class StrictReader {
   public:
@@ -108,17 +114,26 @@ class StrictReader {
         std::string key;  ///< of the member being read, when `value` is an object
     };
 
+    /// Of the value that is being read or comes next.
     std::string pointer() const {
         std::string path;
         for (const Level &level : levels_) {
-            path +=
-                level.value->is_array() ? fmt::format("/{}", level.value->size()) : "/" + escaped(level.key);
+            // All but the innermost array already hold the element that is being read.
+            const size_t unfinished = &level != &levels_.back() ? 1 : 0;
+            path += level.value->is_array() ? fmt::format("/{}", level.value->size() - unfinished)
+                                            : "/" + escaped(level.key);
         }
         return path;
     }
 
     [[noreturn]] void fail(const std::string &what) const {
         std::string path = pointer();
+        for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+            if (const std::string *name = name_of(*level->value)) {
+                path += fmt::format(" (in '{}')", *name);
+                break;
+            }
+        }
         path += path.empty() ? "" : ": ";
         throw input_error(fmt::format("{}:{}: {}{}", source_name_, position_.line, path, what));
     }
@@ -346,17 +361,21 @@ void validate_json(const Json &document, const std::string &schema_text, const s
     std::vector<std::string> path;
     std::string pointer;
     std::string description = "does not match the schema";
+    const Json *value = &document;
+    const std::string *name = name_of(document);
     if (deepest != results.end()) {
         description = deepest->description;
         for (size_t i = 1; i < deepest->context.size(); ++i) {  // [0] is the root
             const std::string &token = deepest->context[i];     // "[key]"
             path.push_back(token.substr(1, token.size() - 2));
             pointer += "/" + escaped(path.back());
+            value = value->is_array() ? &value->at(std::stoul(path.back())) : &value->at(path.back());
+            name = name_of(*value) != nullptr ? name_of(*value) : name;
         }
     }
-    throw input_error(fmt::format(
-        "{}: {}", json_location(source_name, text, pointer),
-        explain(document.at(Json::json_pointer(pointer)), schema_nodes(schema_document, path), description)));
+    throw input_error(fmt::format("{}{}: {}", json_location(source_name, text, pointer),
+                                  name != nullptr ? fmt::format(" (in '{}')", *name) : "",
+                                  explain(*value, schema_nodes(schema_document, path), description)));
 }
 
 }  // namespace rtrays

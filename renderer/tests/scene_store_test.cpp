@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+// Serialization: what the stores hold after updates, and what an update costs.
+#include <algorithm>
+#include <chrono>
+#include <random>
+
+#include "renderer/scene/scene.h"
+#include "renderer/tests/scene_builder.h"
+
+namespace rtrays {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+/// A graph with `count` triangles "0", "1", ... side by side under a node "all", every third one a light.
+std::unique_ptr<SceneGraph> row_of_triangles(int count) {
+    auto graph = std::make_unique<SceneGraph>();
+    Node &all = add_node(graph->root(), "all");
+    all.set_core(grey("grey"));
+    const auto triangle = right_triangle();
+    for (int i = 0; i < count; ++i) {
+        Node &node = add_node(all, std::to_string(i));
+        node.set_core(triangle);
+        node.set_core(moved(2.0 * i, 0, 0));
+        if (i % 3 == 0) {
+            node.set_core(std::make_shared<DiffuseAreaLight>("", Vector3d(i, 1, 1)));
+        }
+    }
+    return graph;
+}
+
+template <typename T>
+T &core_at(SceneGraph &graph, const std::string &name, CoreRole role) {
+    return *graph.find(name)->core_of<T>(role);
+}
+
+TEST(Stores, HoldTheSceneInWorldSpace) {
+    const auto graph = row_of_triangles(4);
+    graph->update(0);
+    const MeshArrays &meshes = graph->meshes().arrays;
+    EXPECT_EQ(meshes.name, (std::vector<std::string>{"0", "1", "2", "3"}));
+    EXPECT_EQ(meshes.position[7], Vector3f(5, 0, 0));
+    EXPECT_EQ(meshes.triangle[2], (Triangle{6, 7, 8}));
+    EXPECT_EQ(meshes.light, (std::vector<uint32_t>{0, no_index, no_index, 1}));
+    EXPECT_EQ(graph->lights().arrays.mesh, (std::vector<uint32_t>{0, 3}));
+    EXPECT_EQ(graph->lights().arrays.radiance[1], Vector3f(3, 1, 1));
+    EXPECT_DOUBLE_EQ(graph->lights().arrays.area[1], 0.5);
+    EXPECT_EQ(graph->materials().arrays.name, (std::vector<std::string>{"grey"}));
+    EXPECT_EQ(graph->mesh_counts().allocated, 4u);
+    EXPECT_EQ(graph->mesh_counts().written, 4u);
+    EXPECT_EQ(graph->material_counts().written, 1u) << "a shared material has one record";
+    expect_consistent(*graph);
+}
+
+TEST(Stores, NothingDirtyNothingWritten) {
+    const auto graph = row_of_triangles(10);
+    graph->update(0);
+    graph->update(0);
+    graph->update(1);
+    EXPECT_EQ(graph->visited_nodes(), 0u);
+    for (const StoreCounts &counts :
+         {graph->mesh_counts(), graph->light_counts(), graph->material_counts(), graph->camera_counts()}) {
+        EXPECT_EQ(counts.allocated + counts.freed + counts.written + counts.moved, 0u);
+    }
+}
+
+TEST(Stores, OnlyWhatChangedIsRewritten) {
+    const auto graph = row_of_triangles(10);
+    graph->update(0);
+    core_at<TransformCore>(*graph, "4", CoreRole::transform).set_translation({0, 0, 9});
+    graph->update(0);
+    EXPECT_EQ(graph->mesh_counts().written, 1u);
+    EXPECT_EQ(graph->light_counts().written + graph->material_counts().written, 0u);
+    EXPECT_EQ(graph->meshes().arrays.position[12], Vector3f(0, 0, 9));
+
+    core_at<LambertMaterial>(*graph, "all", CoreRole::material).set_reflectance({1, 0, 0});
+    graph->update(0);
+    EXPECT_EQ(graph->material_counts().written, 1u);
+    EXPECT_EQ(graph->mesh_counts().written, 0u) << "meshes refer to a material, they do not copy it";
+    EXPECT_EQ(graph->materials().arrays.reflectance[0], Vector3f(1, 0, 0));
+
+    graph->find("all")->set_core(grey("other"));
+    graph->update(0);
+    EXPECT_EQ(graph->materials().arrays.name, (std::vector<std::string>{"other"}));
+    EXPECT_EQ(graph->mesh_counts().written, 10u);
+    expect_consistent(*graph);
+}
+
+TEST(Stores, SeveralEditsOfOneNodeAreWrittenOnce) {
+    const auto graph = row_of_triangles(10);
+    graph->update(0);
+    for (int i = 0; i < 5; ++i) {
+        core_at<TransformCore>(*graph, "3", CoreRole::transform).set_translation({0, 0, 1.0 * i});
+        core_at<DiffuseAreaLight>(*graph, "3", CoreRole::light).set_radiance({1, 1, 1.0 * i});
+    }
+    graph->find("all")->set_core(moved(1, 0, 0));
+    graph->update(0);
+    EXPECT_EQ(graph->visited_nodes(), 11u);
+    EXPECT_EQ(graph->mesh_counts().written, 10u);
+    EXPECT_EQ(graph->light_counts().written, 4u);
+    EXPECT_EQ(graph->meshes().arrays.position[9], Vector3f(1, 0, 4));
+}
+
+TEST(Stores, HiddenObjectsLeaveNoHole) {
+    const auto graph = row_of_triangles(7);
+    graph->update(0);
+    graph->find("0")->set_core(std::make_shared<VisibilityCore>("", false));
+    graph->find("4")->set_core(std::make_shared<VisibilityCore>("", false));
+    graph->update(0);
+    EXPECT_EQ(graph->meshes().arrays.name, (std::vector<std::string>{"1", "2", "3", "5", "6"}));
+    EXPECT_EQ(graph->meshes().arrays.position[6], Vector3f(6, 0, 0));
+    EXPECT_EQ(graph->lights().arrays.name, (std::vector<std::string>{"3", "6"}));
+    EXPECT_EQ(graph->mesh_counts().freed, 2u);
+    EXPECT_EQ(graph->mesh_counts().moved, 5u);
+    EXPECT_EQ(graph->mesh_counts().written, 0u);
+    expect_consistent(*graph);
+
+    core_at<VisibilityCore>(*graph, "0", CoreRole::visibility).set_visible(true);
+    graph->update(0);
+    EXPECT_EQ(graph->meshes().arrays.name.back(), "0");
+    EXPECT_EQ(graph->mesh_counts().written, 1u);
+    expect_consistent(*graph);
+}
+
+TEST(Stores, RemovedNodesAndCoresDisappear) {
+    const auto graph = row_of_triangles(5);
+    graph->update(0);
+    Node &all = *graph->find("all");
+    all.remove_child(*graph->find("1"));
+    graph->find("3")->remove_core(CoreRole::light);
+    graph->find("0")->remove_core(CoreRole::light);
+    graph->find("0")->remove_core(CoreRole::geometry);
+    graph->update(0);
+    EXPECT_EQ(graph->meshes().arrays.name, (std::vector<std::string>{"2", "3", "4"}));
+    EXPECT_TRUE(graph->lights().arrays.name.empty());
+    EXPECT_EQ(graph->meshes().arrays.light, (std::vector<uint32_t>(3, no_index)));
+    EXPECT_EQ(graph->mesh_counts().freed, 2u);
+    expect_consistent(*graph);
+}
+
+TEST(Stores, AMeshThatGrowsGetsANewRecord) {
+    const auto graph = row_of_triangles(3);
+    graph->update(0);
+    graph->find("1")->set_core(unit_square());
+    graph->update(0);
+    const MeshArrays &meshes = graph->meshes().arrays;
+    EXPECT_EQ(meshes.name, (std::vector<std::string>{"0", "2", "1"}));
+    EXPECT_EQ(meshes.position.size(), 10u);
+    expect_consistent(*graph);
+    // The same through the core, which three nodes share by then.
+    const auto square = std::dynamic_pointer_cast<MeshCore>(right_triangle());
+    for (const char *name : {"0", "1", "2"}) {
+        graph->find(name)->set_core(square);
+    }
+    graph->update(0);
+    square->set_geometry(unit_square()->vertices(), unit_square()->triangles());
+    graph->update(0);
+    EXPECT_EQ(meshes.position.size(), 12u);
+    EXPECT_EQ(graph->mesh_counts().written, 3u);
+    expect_consistent(*graph);
+}
+
+TEST(Stores, StayConsistentUnderRandomEdits) {
+    const auto graph = row_of_triangles(40);
+    std::minstd_rand random(1);
+    for (int round = 0; round < 300; ++round) {
+        for (int edit = 0; edit < 4; ++edit) {
+            Node *node = graph->find(std::to_string(random() % 40));
+            if (node == nullptr) {
+                continue;
+            }
+            switch (random() % 7) {
+                case 0:
+                    node->set_core(std::make_shared<VisibilityCore>("", random() % 2 == 0));
+                    break;
+                case 1:
+                    node->set_core(moved(static_cast<double>(random() % 100), 0, 0));
+                    break;
+                case 2:
+                    node->set_core(random() % 2 == 0 ? unit_square() : right_triangle());
+                    break;
+                case 3:
+                    node->set_core(std::make_shared<DiffuseAreaLight>("", Vector3d(1, 1, 1)));
+                    break;
+                case 4:
+                    node->remove_core(CoreRole::light);
+                    break;
+                case 5:
+                    node->set_core(grey("own"));
+                    break;
+                default: {
+                    // Out, and back in under another parent.
+                    Node &parent = *node->parent();
+                    graph->root().set_core(grey("fallback"));
+                    graph->root().add_child(parent.remove_child(*node));
+                }
+            }
+        }
+        graph->update(0);
+        expect_consistent(*graph);
+        if (testing::Test::HasFatalFailure()) {
+            return;
+        }
+    }
+    // What was reached by edits equals what one update of everything writes.
+    const std::vector<Vector3f> positions = graph->meshes().arrays.position;
+    const std::vector<Triangle> triangles = graph->meshes().arrays.triangle;
+    graph->root().mark(Dirty::subtree);
+    graph->update(0);
+    EXPECT_EQ(graph->meshes().arrays.position, positions);
+    EXPECT_EQ(graph->meshes().arrays.triangle, triangles);
+}
+
+TEST(Stores, InstancesShareACoreAndHaveRecordsOfTheirOwn) {
+    SceneGraph graph;
+    graph.root().set_core(grey("grey"));
+    const auto triangle = right_triangle();
+    Node &first = add_node(graph.root(), "first");
+    Node &second = add_node(graph.root(), "second");
+    first.set_core(triangle);
+    second.set_core(triangle);
+    second.set_core(std::make_shared<TransformCore>("", scaling({3, 1, 1})));
+    graph.update(0);
+    EXPECT_EQ(triangle->nodes().size(), 2u);
+    EXPECT_EQ(graph.meshes().arrays.position[1], Vector3f(1, 0, 0));
+    EXPECT_EQ(graph.meshes().arrays.position[4], Vector3f(3, 0, 0));
+    triangle->set_geometry({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    graph.update(0);
+    EXPECT_EQ(graph.mesh_counts().written, 2u);
+    EXPECT_EQ(graph.meshes().arrays.position[4], Vector3f(6, 0, 0));
+}
+
+TEST(Stores, AMirrorKeepsTheFrontOfASurface) {
+    SceneGraph graph;
+    graph.root().set_core(grey("grey"));
+    Node &node = add_node(graph.root(), "node");
+    node.set_core(right_triangle());
+    // Mirrored in x it must still face +z; mirrored in z, its own front side now faces -z.
+    for (const auto &[factors, facing] :
+         {std::pair{Vector3d(-1, 1, 1), 1.0f}, std::pair{Vector3d(1, 1, -1), -1.0f}}) {
+        node.set_core(std::make_shared<TransformCore>("", scaling(factors)));
+        graph.update(0);
+        const MeshArrays &meshes = graph.meshes().arrays;
+        const Triangle &t = meshes.triangle[0];
+        const Vector3f a = meshes.position[t[0]];
+        EXPECT_EQ((meshes.position[t[1]] - a).cross(meshes.position[t[2]] - a), Vector3f(0, 0, facing));
+    }
+}
+
+TEST(Stores, CamerasAreRigid) {
+    SceneGraph graph;
+    Node &parent = add_node(graph.root(), "parent");
+    Node &node = add_node(parent, "camera");
+    node.set_core(std::make_shared<PinholeCamera>("", 90, FovAxis::y));
+    node.set_core(std::make_shared<TransformCore>("", look_at({0, 0, 4}, {4, 0, 4}, {0, 1, 0})));
+    parent.set_core(std::make_shared<TransformCore>("", scaling({10, 10, 10})));
+    graph.update(0);
+    const Eigen::Matrix4d &pose = graph.cameras().arrays.world_from_camera[0];
+    EXPECT_TRUE(pose.isApprox(look_at({0, 0, 40}, {1, 0, 40}, {0, 1, 0}), 1e-14)) << pose;
+    EXPECT_DOUBLE_EQ(graph.cameras().arrays.fov[0], std::acos(-1.0) / 2);
+    parent.set_core(std::make_shared<TransformCore>("", scaling({-1, 1, 1})));
+    expect_input_error("camera 'camera': its transform mirrors", [&] { graph.update(0); });
+    parent.set_core(std::make_shared<TransformCore>("", scaling({1, 2, 1})));
+    expect_input_error("camera 'camera': its transform shears", [&] { graph.update(0); });
+    parent.remove_core(CoreRole::transform);
+    EXPECT_NO_THROW(graph.update(0));
+}
+
+TEST(Stores, WhatCannotBeRepresentedIsAnErrorUntilItIsMended) {
+    SceneGraph graph;
+    Node &node = add_node(graph.root(), "node");
+    node.set_core(right_triangle());
+    expect_input_error("mesh 'node' has no material", [&] { graph.update(0); });
+    node.set_core(grey("grey"));
+    node.set_core(std::make_shared<TransformCore>("", scaling({1e39, 1, 1})));
+    expect_input_error("mesh 'node': vertex 1, [1, 0, 0], is beyond the range of float",
+                       [&] { graph.update(0); });
+    node.set_core(std::make_shared<TransformCore>("", scaling({1e-30, 1e-30, 1})));
+    node.set_core(std::make_shared<DiffuseAreaLight>("", Vector3d(1, 1, 1)));
+    graph.update(0);
+    EXPECT_NEAR(graph.lights().arrays.area[0] / 0.5e-60, 1, 1e-6);
+    node.set_core(std::make_shared<MeshCore>("line", std::vector<Vector3d>{{0, 0, 0}, {1, 1, 1}},
+                                             std::vector<Triangle>{{0, 1, 1}}));
+    expect_input_error("light 'node': its mesh has no area", [&] { graph.update(0); });
+    expect_input_error("light 'node': its mesh has no area", [&] { graph.update(0); });
+    node.remove_core(CoreRole::geometry);
+    expect_input_error("light 'node': an area light needs geometry", [&] { graph.update(0); });
+    node.set_core(right_triangle());
+    EXPECT_NO_THROW(graph.update(0));
+    expect_consistent(graph);
+}
+
+/// Moves along x with time.
+class Slider : public TransformCore {
+  public:
+    Slider() : TransformCore("", translation({0, 0, 0})) {}
+    bool is_animated() const override { return true; }
+    void update(double time) override { set_translation({time, 0, 0}); }
+};
+
+TEST(Stores, AnimatedCoresFollowTheTime) {
+    const auto graph = row_of_triangles(100);
+    graph->find("5")->set_core(std::make_shared<Slider>());
+    graph->update(0);
+    graph->update(2.5);
+    EXPECT_EQ(graph->meshes().arrays.position[15], Vector3f(2.5f, 0, 0));
+    EXPECT_EQ(graph->mesh_counts().written, 1u);
+    EXPECT_EQ(graph->visited_nodes(), 1u);
+    graph->update(2.5);
+    EXPECT_EQ(graph->visited_nodes(), 0u);
+    graph->find("5")->remove_core(CoreRole::transform);
+    graph->update(3);
+    EXPECT_EQ(graph->meshes().arrays.position[15], Vector3f(0, 0, 0));
+}
+
+/// Median seconds of an update after one node has moved.
+double update_seconds(int nodes) {
+    const auto graph = row_of_triangles(nodes);
+    graph->update(0);
+    auto &transform = core_at<TransformCore>(*graph, std::to_string(nodes / 2), CoreRole::transform);
+    std::vector<double> seconds;
+    for (int i = 0; i < 501; ++i) {
+        transform.set_translation({0, 0, 1.0 * i});
+        const auto start = std::chrono::steady_clock::now();
+        graph->update(0);
+        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        EXPECT_EQ(graph->mesh_counts().written, 1u);
+        EXPECT_EQ(graph->visited_nodes(), 1u);
+    }
+    std::nth_element(seconds.begin(), seconds.begin() + 250, seconds.end());
+    return seconds[250];
+}
+
+TEST(Stores, TheCostOfAnUpdateDoesNotDependOnTheRest) {
+    const double small = update_seconds(100);
+    const double large = update_seconds(100000);
+    RecordProperty("update_100_nodes_ns", static_cast<int>(small * 1e9));
+    RecordProperty("update_100000_nodes_ns", static_cast<int>(large * 1e9));
+    std::printf("one node moved: %.2f us among 1e2, %.2f us among 1e5\n", small * 1e6, large * 1e6);
+    // A walk over the graph would be about 1000 times as long; caches account for a small factor.
+    EXPECT_LT(large, 20 * small + 5e-6);
+}
+
+TEST(Stores, AFarOriginCostsNoPrecision) {
+    SceneGraph graph;
+    graph.root().set_core(grey("grey"));
+    Node &node = add_node(graph.root(), "node");
+    node.set_core(
+        std::make_shared<TransformCore>("", translation({1e6, 1e6, 1e6}) * scaling({1e-3, 1e-3, 1e-3})));
+    node.set_core(right_triangle());
+    graph.update(0);
+    EXPECT_EQ(graph.meshes().arrays.position[0], graph.meshes().arrays.position[1])
+        << "an ulp of 1e6 is 1/16";
+    graph.set_origin({1e6, 1e6, 1e6});
+    graph.update(0);
+    EXPECT_NEAR(graph.meshes().arrays.position[1].x(), 1e-3, 1e-9);
+}
+
+}  // namespace
+}  // namespace rtrays
