@@ -33,17 +33,17 @@ void Profiler::collect() {
     pending_.clear();
 }
 
-double Profiler::total_seconds() const {
+std::map<std::string, Profiler::Stage> Profiler::take() {
+    collect();
+    return std::exchange(stages_, {});
+}
+
+double total_seconds(const std::map<std::string, Profiler::Stage> &stages) {
     double seconds = 0;
-    for (const auto &[name, stage] : stages_) {
+    for (const auto &[name, stage] : stages) {
         seconds += stage.seconds;
     }
     return seconds;
-}
-
-void Profiler::reset() {
-    pending_.clear();
-    stages_.clear();
 }
 
 }  // namespace rtrays

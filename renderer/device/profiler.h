@@ -27,12 +27,16 @@ class Profiler {
 
     size_t pending() const { return pending_.size(); }
     const std::map<std::string, Stage> &stages() const { return stages_; }
-    double total_seconds() const;
-    void reset();
+
+    /// The stages booked so far, which start again from nothing: how users of one device keep accounts apart.
+    std::map<std::string, Stage> take();
 
   private:
     std::map<std::string, Stage> stages_;  // nodes are stable: pending_ points into it
     std::vector<std::pair<Stage *, ClEvent>> pending_;
 };
+
+/// Sums over stages.
+double total_seconds(const std::map<std::string, Profiler::Stage> &stages);
 
 }  // namespace rtrays

@@ -24,7 +24,7 @@ __kernel void sample_light(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSetting
     const PathStates paths = {path_words, capacity};
     const uint triangle = get_hit_triangle(paths, slot);
     const uint depth = get_depth(paths, slot);
-    if (triangle == NO_HIT) {
+    if (triangle == NO_HIT || (settings.strategies & STRATEGY_EXPLICIT) == 0u) {
         return;
     }
 #if FEATURE_depth_limit

@@ -104,8 +104,7 @@ struct RenderSession::State {
         bvh = builder.build(meshes.position, meshes.triangle);
         device.finish();
         bvh_wall_seconds = seconds_since(start);
-        bvh_stages = device.profiler().stages();
-        device.profiler().reset();
+        bvh_stages = device.profiler().take();
     }
 
     void allocate() {
@@ -157,8 +156,7 @@ struct RenderSession::State {
     void warm_up() {
         const auto start = Clock::now();
         run_batch(0, 0);
-        device.finish();
-        device.profiler().reset();
+        profile.clear();
         compile_seconds += seconds_since(start);
     }
 
@@ -204,13 +202,16 @@ struct RenderSession::State {
         }
         enqueue("carry_film");
         device.finish();
+        for (const auto &[name, stage] : device.profiler().take()) {
+            profile[name].seconds += stage.seconds;
+            profile[name].launches += stage.launches;
+        }
     }
 
     void reset_film() {
         film.fill(0);
         counters.write({StreamCounters{}});
-        device.finish();
-        device.profiler().reset();
+        profile.clear();
         ranges = FilmState();
         wall_seconds = 0;
         samples = 0;
@@ -239,6 +240,7 @@ struct RenderSession::State {
 
     Bvh bvh;
     std::map<std::string, Profiler::Stage> bvh_stages;
+    std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
     Buffer<SurfaceTriangle> surface_triangles;
     Buffer<MaterialRecord> materials;
     Buffer<LightRecord> lights;
@@ -290,7 +292,7 @@ FilmState RenderSession::film() const {
     const StreamCounters counters = state_->counters.read().front();
     film.non_finite += counters.non_finite;
     film.out_of_range += counters.out_of_range;
-    film.device_seconds += state_->device.profiler().total_seconds();
+    film.device_seconds += total_seconds(state_->profile);
     film.wall_seconds += state_->wall_seconds;
     return film;
 }
@@ -324,7 +326,7 @@ RenderStats RenderSession::stats() const {
     RenderStats stats;
     stats.compile_seconds = state_->compile_seconds;
     stats.bvh_seconds = state_->bvh.report().seconds_device;
-    stats.device_seconds = state_->device.profiler().total_seconds();
+    stats.device_seconds = total_seconds(state_->profile);
     stats.wall_seconds = state_->wall_seconds;
     stats.samples = state_->samples;
     return stats;
@@ -360,7 +362,7 @@ nlohmann::json RenderSession::report() const {
                                       {"from_cache", program.from_cache()},
                                       {"binary_bytes", program.binary_bytes()}});
     }
-    for (const auto &[name, stage] : s.device.profiler().stages()) {
+    for (const auto &[name, stage] : s.profile) {
         report["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
     for (const auto &[name, stage] : s.bvh_stages) {

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+# The two commands of a newcomer are `make test` and `make reproduce-chapter4`; each installs what is missing.
+
+PROFILE ?= quick
+REFERENCE_SPP ?= 100000
+JOBS ?= $(shell nproc)
+
+CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
+EXPERIMENTS = cornell_diffuse
+
+.PHONY: all install build reproduce-chapter4 report test test-asan references format lint clean
+
+all: build
+
+install:
+	scripts/install
+
+build: install
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS)
+
+reproduce-chapter4: build
+	for experiment in $(EXPERIMENTS); do \
+	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
+	done
+	$(MAKE) --no-print-directory report
+
+# Tables, plots and pages from the run.json files that are there.
+report:
+	build/bin/rtrays-experiment report $(addprefix $(CHAPTER4)/,$(EXPERIMENTS))
+
+# Host code under address and undefined-behaviour sanitizers, then everything; the last lines are ctest's summary.
+test: build test-asan lint
+	ctest --test-dir build --output-on-failure -j $(JOBS)
+
+test-asan: install
+	cmake --preset asan
+	cmake --build --preset asan -j $(JOBS) --target host_tests
+	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L host
+
+# The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
+references: build
+	scripts/references $(REFERENCE_SPP)
+
+format:
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+lint:
+	scripts/lint
+
+clean:
+	rm -rf build build-debug build-asan

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// The OpenCL layer: include resolver, program cache, argument checks, device choice.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/device/kernel.h"
+
+namespace rtrays {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string error_of(const std::function<void()> &action) {
+    try {
+        action();
+    } catch (const Error &error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Source, ExpandsIncludesOnceWithLineDirectives) {
+    const SourceOverlays files = {{"kernels/a.cl", "#include \"b.h\"\n#include \"kernels/b.h\"\nint a;\n"},
+                                  {"kernels/b.h", "#pragma once\nint b;\n"}};
+    EXPECT_EQ(expand_source("kernels/a.cl", files),
+              "#line 1 \"kernels/a.cl\"\n#line 1 \"kernels/b.h\"\n\nint b;\n#line 2 \"kernels/a.cl\"\n"
+              "#line 3 \"kernels/a.cl\"\nint a;\n");
+}
+
+TEST(Source, ResolvesRelativeToTheIncludingFileFirst) {
+    const SourceOverlays files = {{"kernels/x/a.cl", "#include \"b.h\"\n"},
+                                  {"kernels/x/b.h", "near\n"},
+                                  {"b.h", "far\n"}};
+    const std::string text = expand_source("kernels/x/a.cl", files);
+    EXPECT_NE(text.find("near"), std::string::npos);
+    EXPECT_EQ(text.find("far"), std::string::npos);
+}
+
+TEST(Source, NamesFileAndLineOfAMissingInclude) {
+    const SourceOverlays files = {{"kernels/a.cl", "\n#include \"nowhere.h\"\n"}};
+    EXPECT_NE(expand_source("kernels/a.cl", files).find("#error kernels/a.cl:2: include \"nowhere.h\""), std::string::npos);
+    EXPECT_NE(error_of([] { expand_source("kernels/none.cl"); }).find("kernels/none.cl"), std::string::npos);
+}
+
+TEST(Source, CutsCycles) {
+    const SourceOverlays files = {{"a.h", "#include \"b.h\"\nx\n"}, {"b.h", "#include \"a.h\"\ny\n"}};
+    EXPECT_NE(expand_source("a.h", files).find("y\n"), std::string::npos);
+}
+
+/// A private cache directory, and one device for all tests here.
+class Device : public testing::Test {
+  protected:
+    Device() : directory_(fs::temp_directory_path() / fs::path("rtrays_cache_" + std::to_string(getpid()))) {
+        fs::create_directories(directory_);
+        setenv("RTRAYS_CACHE_DIR", directory_.c_str(), 1);
+    }
+    ~Device() override { fs::remove_all(directory_); }
+
+    static SourceOverlays kernel_source(const std::string &body) {
+        return {{"kernels/test.cl", "__kernel void test(__global uint *values, uint count, float factor) {\n" + body + "\n}\n"}};
+    }
+
+    fs::path binary() const {
+        for (const auto &entry : fs::directory_iterator(directory_)) {
+            if (entry.path().extension() == ".clbin") {
+                return entry.path();
+            }
+        }
+        return {};
+    }
+
+    DeviceContext device_;
+    fs::path directory_;
+    const std::string body_ = "if (get_global_id(0) < count) values[get_global_id(0)] += (uint)(factor * FACTOR);";
+};
+
+TEST_F(Device, RunsAKernelWithCheckedArguments) {
+    const Program program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_));
+    Kernel kernel(program, "test", 8);
+    Buffer<uint32_t> values(device_, "values", std::vector<uint32_t>{1, 2, 3, 4, 5});
+    kernel.bind({values, 5u, 3.0f});
+    kernel.enqueue(5);
+    device_.finish();
+    EXPECT_EQ(values.read(), (std::vector<uint32_t>{7, 8, 9, 10, 11}));
+    EXPECT_EQ(device_.profiler().stages().at("test").launches, 1u);
+
+    EXPECT_NE(error_of([&] { kernel.bind({values, 5u}); }).find("takes 3 arguments, not 2"), std::string::npos);
+    EXPECT_NE(error_of([&] { kernel.bind({values, 5.0f, 3.0f}); }).find("argument 1 of kernel 'test' is 'uint', not 'float'"),
+              std::string::npos);
+    const Buffer<float> wrong(device_, "wrong", 5);
+    EXPECT_NE(error_of([&] { kernel.bind({wrong, 5u, 3.0f}); }).find("'uint*', not 'float*'"), std::string::npos);
+}
+
+TEST_F(Device, CachesProgramsByContent) {
+    const auto build = [&](const std::string &factor, const std::string &body) {
+        return Program(device_, "kernels/test.cl", {{"FACTOR", factor}}, kernel_source(body)).from_cache();
+    };
+    EXPECT_FALSE(build("2", body_));
+    EXPECT_TRUE(build("2", body_));
+    EXPECT_FALSE(build("3", body_)) << "a define changed";
+    EXPECT_FALSE(build("2", body_ + " ")) << "the source changed";
+}
+
+TEST_F(Device, RebuildsADamagedCacheFile) {
+    const auto from_cache = [&] {
+        return Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_)).from_cache();
+    };
+    EXPECT_FALSE(from_cache());
+    std::string content = read_file(binary());
+    content[content.size() / 2] = static_cast<char>(content[content.size() / 2] + 1);
+    write_file(binary(), content);
+    EXPECT_FALSE(from_cache()) << "wrong checksum";
+    EXPECT_TRUE(from_cache());
+    write_file(binary(), content_hash("no program") + "no program");
+    EXPECT_FALSE(from_cache()) << "right checksum, but no program";
+    write_file(binary(), "");
+    EXPECT_FALSE(from_cache()) << "empty";
+}
+
+TEST_F(Device, WorksWithoutAWritableCache) {
+    setenv("RTRAYS_CACHE_DIR", "/proc/nowhere", 1);
+    EXPECT_FALSE(Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_)).from_cache());
+}
+
+TEST_F(Device, ShowsTheBuildLogWithTheRealFileName) {
+    const std::string message =
+        error_of([&] { Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source("\n  undeclared = 1;")); });
+    EXPECT_NE(message.find("kernels/test.cl:3"), std::string::npos) << message;
+    EXPECT_NE(message.find("undeclared"), std::string::npos) << message;
+}
+
+TEST_F(Device, NamesTheDevicesWhenNoneMatches) {
+    const std::string message = error_of([] { DeviceContext("no such device"); });
+    EXPECT_NE(message.find("'no such device'"), std::string::npos);
+    EXPECT_NE(message.find(device_.info().name), std::string::npos);
+}
+
+TEST_F(Device, RefusesABufferBeyondTheDevice) {
+    EXPECT_NE(error_of([&] { Buffer<uint64_t>(device_, "huge", size_t{1} << 50); }).find("buffer 'huge'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rtrays

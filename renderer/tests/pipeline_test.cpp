@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// The pipeline on the device: what is compiled, allocated and launched for a scene, and that it changes no bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/device/context.h"
+#include "renderer/integrators/path_tracing.h"
+#include "renderer/pipeline/render_session.h"
+#include "renderer/pipeline/stages.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays {
+namespace {
+
+DeviceContext &device() {
+    static DeviceContext context;
+    return context;
+}
+
+Scene cornell_box() { return load_scene(RTRAYS_SCENES "/cornell_box/scene.json"); }
+
+RenderSettings small(const std::vector<std::string> &assignments = {}) {
+    RenderSettings settings;
+    settings.width = settings.height = 32;
+    settings.stream_capacity = 512;
+    for (const std::string &assignment : assignments) {
+        apply_setting(settings, assignment);
+    }
+    return settings;
+}
+
+std::vector<int64_t> render_words(const RenderSettings &settings, uint64_t split = 4) {
+    RenderSession session(cornell_box(), settings, device());
+    session.render(0, split);
+    session.render(split, 4);
+    const FilmState film = session.film();
+    require_valid(film);
+    return film.words;
+}
+
+std::vector<std::string> names(const nlohmann::json &list, const char *key) {
+    std::vector<std::string> result;
+    for (const auto &item : list) {
+        result.push_back(item.at(key));
+    }
+    return result;
+}
+
+bool contains(const std::vector<std::string> &list, const std::string &name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+TEST(Pipeline, GivesTheSameBitsHoweverTheWorkIsCut) {
+    const std::vector<int64_t> words = render_words(small());
+    EXPECT_NE(std::count(words.begin(), words.end(), 0), static_cast<long>(words.size()));
+    EXPECT_EQ(render_words(small()), words) << "a second run";
+    EXPECT_EQ(render_words(small({"device.group_size=16"})), words) << "another group size";
+    EXPECT_EQ(render_words(small({"device.stream_capacity=3000"})), words) << "another stream capacity";
+    EXPECT_EQ(render_words(small(), 1), words) << "a batch split";
+}
+
+TEST(Pipeline, EverythingCompiledInChangesNoBit) {
+    for (const char *strategies : {"integrator.strategies=implicit", "integrator.strategies=explicit", "integrator.strategies=mis"}) {
+        const std::vector<int64_t> words = render_words(small({strategies}));
+        EXPECT_EQ(render_words(small({strategies, "device.features=all"})), words) << strategies;
+    }
+    for (const char *termination : {"integrator.termination=fixed", "integrator.termination=adaptive"}) {
+        const std::vector<int64_t> words = render_words(small({termination, "integrator.max_depth=3"}));
+        EXPECT_EQ(render_words(small({termination, "integrator.max_depth=3", "device.features=all"})), words) << termination;
+    }
+}
+
+TEST(Pipeline, ResumesAndMergesToTheSameBits) {
+    RenderSession session(cornell_box(), small(), device());
+    session.render(0, 4);
+    const FilmState whole = session.film();
+    session.restart(1);
+    session.render(0, 1);
+    const FilmState first = session.film();
+    session.restart(1);
+    session.render(1, 4);
+    FilmState second = session.film();
+
+    session.restart(1);
+    session.restore(first);
+    session.render(1, 4);
+    EXPECT_EQ(session.film().words, whole.words) << "resumed";
+    EXPECT_EQ(session.film().samples(), 4u);
+
+    merge_film(second, first);
+    EXPECT_EQ(second.words, whole.words) << "merged";
+
+    EXPECT_THROW(session.render(3, 5), Error) << "samples rendered twice";
+    RenderSession other(cornell_box(), small({"integrator.beta=1"}), device());
+    EXPECT_THROW(other.restore(first), Error) << "film of other settings";
+}
+
+// Compiles all stages with every feature, with none, and with each one off.
+TEST(Features, BuildWithNoneAllAndEachOff) {
+    std::vector<std::pair<std::string, FeatureMask>> masks = {{"all", FeatureMask::all()}, {"none", FeatureMask()}};
+    for (uint32_t i = 0; i < static_cast<uint32_t>(Feature::count); ++i) {
+        const auto feature = static_cast<Feature>(i);
+        masks.emplace_back("without " + FeatureMask().with(feature).names().front(), FeatureMask::all().with(feature, false).closed());
+    }
+    for (const auto &[name, mask] : masks) {
+        std::vector<std::string> stages = path_tracing_round(mask);
+        stages.emplace_back("reset_streams");
+        stages.emplace_back("carry_film");
+        EXPECT_NO_THROW(StageSet(device(), stages, mask, 64, {})) << name;
+    }
+}
+
+TEST(Features, AreNamedAndClosed) {
+    EXPECT_EQ(FeatureMask::all().closed().bits(), FeatureMask::all().bits());
+    const FeatureMask dark = FeatureMask::all().with(Feature::lights, false).closed();
+    EXPECT_FALSE(dark.has(Feature::explicit_light));
+    EXPECT_FALSE(dark.has(Feature::many_lights));
+    EXPECT_EQ(dark.defines().at("FEATURE_lights"), "0");
+    EXPECT_TRUE(contains(dark.names(), "scattering"));
+}
+
+TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
+    RenderSession mis(cornell_box(), small(), device());
+    RenderSession implicit(cornell_box(), small({"integrator.strategies=implicit"}), device());
+    mis.render(0, 1);
+    implicit.render(0, 1);
+    const nlohmann::json full = mis.report(), lean = implicit.report();
+    EXPECT_TRUE(contains(names(full["stages"], "name"), "sample_light"));
+    EXPECT_FALSE(contains(names(lean["stages"], "name"), "sample_light"));
+    EXPECT_FALSE(contains(names(lean["stages"], "name"), "intersect_any"));
+    EXPECT_FALSE(contains(names(lean["programs"], "file"), "kernels/sample_light.cl"));
+    EXPECT_FALSE(contains(names(lean["path_state"], "field"), "shadow_vector"));
+    EXPECT_LT(lean["bytes_per_path"], full["bytes_per_path"]);
+    EXPECT_LE(full["bytes_per_path"], 128);
+
+    // Without reflection and light nothing remains but rays and the film.
+    Scene dark = cornell_box();
+    for (const std::string material : {"white", "red", "green", "lamp"}) {
+        dark.set_property("materials." + material + ".reflectance", "[0, 0, 0]");
+    }
+    dark.update(0);
+    RenderSession emission(dark, small(), device());
+    emission.render(0, 4);
+    const nlohmann::json bare = emission.report();
+    EXPECT_FALSE(contains(names(bare["buffers"], "name"), "materials"));
+    EXPECT_FALSE(contains(names(bare["path_state"], "field"), "throughput"));
+    EXPECT_EQ(bare["rays"]["shadow"], 0);
+    EXPECT_EQ(bare["rays"]["nearest"], 32 * 32 * 4);
+}
+
+TEST(Settings, NameTheAlternatives) {
+    const auto message = [](const std::string &assignment) {
+        RenderSettings settings;
+        try {
+            apply_setting(settings, assignment);
+        } catch (const Error &error) {
+            EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(message("integrator.strategies=both").find("implicit, explicit, mis"), std::string::npos);
+    EXPECT_NE(message("integrator.strategy=mis").find("integrator.strategies"), std::string::npos);
+    EXPECT_NE(message("integrator.max_depth=-1").find("number"), std::string::npos);
+    EXPECT_NE(message("integrator.max_depth=3x").find("number"), std::string::npos);
+    EXPECT_NE(message("integrator.beta=nan").find("number"), std::string::npos);
+    EXPECT_NE(message("integrator.beta=0").find("above 0"), std::string::npos);
+    EXPECT_NE(message("integrator.beta").find("NAME=VALUE"), std::string::npos);
+    RenderSettings fixed;
+    fixed.termination = "fixed";
+    EXPECT_THROW(require_consistent(fixed), Error);
+}
+
+}  // namespace
+}  // namespace rtrays
