@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "reference/camera.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "renderer/base/error.h"
+
+namespace rtrays::reference {
+
+namespace {
+
+bool fov_is_horizontal(CameraArrays::FovAxis axis, int width, int height) {
+    switch (axis) {
+        case CameraArrays::FovAxis::x:
+            return true;
+        case CameraArrays::FovAxis::y:
+            return false;
+        case CameraArrays::FovAxis::smaller:
+            return width <= height;
+        case CameraArrays::FovAxis::larger:
+            return width >= height;
+    }
+    throw run_error("camera: unknown field-of-view axis");
+}
+
+}  // namespace
+
+Camera::Camera(const CameraArrays &cameras, size_t index, int width, int height) {
+    if (index >= cameras.fov.size()) {
+        throw input_error(
+            fmt::format("camera {} asked for, but the scene has {}", index, cameras.fov.size()));
+    }
+    if (width < 1 || height < 1) {
+        throw input_error(fmt::format("the film must have at least one pixel, not {}x{}", width, height));
+    }
+    const double fov = cameras.fov[index];
+    if (!(fov > 0.0 && fov < pi)) {
+        throw input_error(fmt::format("camera {}: field of view {} rad is outside (0, pi)", index, fov));
+    }
+    // Pixels are square: the extent along one axis fixes the size of a pixel on the plane z = -1.
+    const double extent = 2.0 * std::tan(0.5 * fov);
+    const double pixel =
+        extent / (fov_is_horizontal(cameras.fov_axis[index], width, height) ? width : height);
+
+    const Eigen::Matrix4d &world_from_camera = cameras.world_from_camera[index];
+    const Eigen::Matrix3d rotation = world_from_camera.topLeftCorner<3, 3>();
+    position_ = world_from_camera.topRightCorner<3, 1>();
+    corner_ = rotation * Vec3(-0.5 * pixel * width, 0.5 * pixel * height, -1.0);
+    step_x_ = rotation * Vec3(pixel, 0.0, 0.0);
+    step_y_ = rotation * Vec3(0.0, -pixel, 0.0);
+}
+
+}  // namespace rtrays::reference

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "reference/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <type_traits>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "state files are little-endian");
+
+namespace rtrays::reference {
+
+namespace {
+
+constexpr char magic[] = "RTRAYREF";
+constexpr size_t magic_size = 8;
+constexpr uint32_t format_version = 1;
+constexpr size_t hash_size = 32;
+constexpr size_t prefix_size = magic_size + 2 * sizeof(uint32_t);
+constexpr size_t pixel_size = sizeof(PixelMoments);
+static_assert(pixel_size == 9 * sizeof(double), "moments are stored as 9 doubles");
+static_assert(std::is_standard_layout_v<PixelMoments>, "moments are stored as bytes");
+
+void append(std::string &bytes, uint32_t value) {
+    bytes.append(reinterpret_cast<const char *>(&value), sizeof value);
+}
+
+uint32_t read_u32(const std::string &bytes, size_t offset) {
+    uint32_t value;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+Error damaged(const std::filesystem::path &path, const std::string &what) {
+    return input_error(
+        fmt::format("{}: {}; delete it to start anew, or restore a copy", path.string(), what));
+}
+
+}  // namespace
+
+Json make_config(const std::string &scene_name, const std::string &scene_hash,
+                 const ReferenceSettings &settings, const std::string &engine) {
+    return {{"scene", scene_name},
+            {"scene_hash", scene_hash},
+            {"width", settings.width},
+            {"height", settings.height},
+            {"camera", settings.camera},
+            {"seed", settings.seed},
+            {"strategies", name_of(settings.strategies)},
+            {"max_depth", settings.max_depth},
+            {"engine", engine},
+            {"sampling_version", sampling_version}};
+}
+
+void save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &path) {
+    const Film &film = checkpoint.film;
+    const std::string header =
+        Json{{"config", checkpoint.config}, {"begin", film.begin},           {"end", film.end},
+             {"target", checkpoint.target}, {"seconds", checkpoint.seconds}, {"commits", checkpoint.commits}}
+            .dump();
+    std::string bytes(magic, magic_size);
+    append(bytes, format_version);
+    append(bytes, static_cast<uint32_t>(header.size()));
+    bytes += header;
+    bytes.append(reinterpret_cast<const char *>(film.pixels.data()), film.pixels.size() * pixel_size);
+    bytes += content_hash(bytes);
+    write_file(path, bytes);
+}
+
+Checkpoint load_checkpoint(const std::filesystem::path &path) {
+    const std::string bytes = read_file(path);
+    if (bytes.size() < prefix_size + hash_size || bytes.compare(0, magic_size, magic) != 0) {
+        throw damaged(path, "is not a state file of rtrays-reference");
+    }
+    if (const uint32_t version = read_u32(bytes, magic_size); version != format_version) {
+        throw damaged(path,
+                      fmt::format("is of format version {}, this program reads {}", version, format_version));
+    }
+    const size_t content_size = bytes.size() - hash_size;
+    if (content_hash(bytes.substr(0, content_size)) != bytes.substr(content_size)) {
+        throw damaged(path, "is truncated or damaged (its checksum does not match)");
+    }
+    // The checksum vouches for the header's fields and their types.
+    const size_t header_size = read_u32(bytes, magic_size + sizeof(uint32_t));
+    const Json header = parse_json(bytes.substr(prefix_size, header_size), path.string());
+    const Json &config = header.at("config");
+    Film film(config.at("width"), config.at("height"), header.at("begin"));
+    film.end = header.at("end");
+    const size_t pixels_size = film.pixels.size() * pixel_size;
+    if (prefix_size + header_size + pixels_size != content_size) {
+        throw damaged(path, "does not hold the number of pixels it states");
+    }
+    // The moments are plain doubles under Eigen's non-trivial assignment operators.
+    std::memcpy(static_cast<void *>(film.pixels.data()), bytes.data() + prefix_size + header_size,
+                pixels_size);
+    return {config, std::move(film), header.at("target"), header.at("seconds"), header.at("commits")};
+}
+
+void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_t begin, uint64_t end,
+                       const std::filesystem::path &path) {
+    for (const auto &[key, wanted] : config.items()) {
+        const Json stored = checkpoint.config.value(key, Json());
+        if (stored != wanted) {
+            throw input_error(
+                fmt::format("{}: was made with {} = {}, this run asks for {}; give another --state, "
+                            "or delete it to start anew",
+                            path.string(), key, stored.dump(), wanted.dump()));
+        }
+    }
+    const Film &film = checkpoint.film;
+    if (film.begin != begin || film.end > end) {
+        throw input_error(
+            fmt::format("{}: holds the samples {}:{}, which the range {}:{} asked for does not continue",
+                        path.string(), film.begin, film.end, begin, end));
+    }
+}
+
+}  // namespace rtrays::reference

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Path tracing (thesis 2.59-2.68; Kajiya 1986; Veach 1997, ch. 9 and 10). A template over the BSDF and
+// light models so that tests can run the shipped integrator with models that are wrong on purpose.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "reference/geometry.h"
+#include "reference/math.h"
+#include "reference/rng.h"
+#include "reference/sampling.h"
+#include "reference/settings.h"
+
+namespace rtrays::reference {
+
+/// Rays cast, for statistics.
+struct RayCounts {
+    uint64_t camera = 0;
+    uint64_t bounce = 0;
+    uint64_t shadow = 0;
+
+    RayCounts &operator+=(const RayCounts &other) {
+        camera += other.camera;
+        bounce += other.bounce;
+        shadow += other.shadow;
+        return *this;
+    }
+};
+
+/// A scene as the integrator sees it.
+template <class BsdfModel, class Lights>
+struct World {
+    const Geometry &geometry;
+    const std::vector<BsdfModel> &bsdfs;  ///< by material
+    const Lights &lights;
+};
+
+/// Russian roulette goes by the throughput's largest channel, which keeps the path's weight near 1 for any
+/// albedo below 1. The cap ends paths between walls that absorb nothing, after a million bounces; a lower
+/// one would let weights grow by albedo / cap per bounce, with infinite variance once albedo^2 >= cap.
+constexpr double roulette_cap = 1.0 - 0x1p-20;
+
+template <class BsdfModel, class Lights>
+class PathIntegrator {
+  public:
+    PathIntegrator(const World<BsdfModel, Lights> &world, Strategies strategies, uint32_t max_depth)
+        : world_(world),
+          samples_lights_(strategies != Strategies::implicit_only && !world.lights.empty()),
+          counts_hits_(strategies != Strategies::explicit_only),
+          max_depth_(max_depth) {}
+
+    /// Estimate of the radiance arriving along a camera ray [W / (sr m^2)]: emitters seen directly
+    /// included, unbiased for every choice of strategies (scenes with delta scattering need implicit or mis).
+    Spectrum radiance(Ray ray, Rng &rng, RayCounts &counts) const {
+        Spectrum result = Spectrum::Zero();
+        Spectrum throughput = Spectrum::Ones();
+        SurfacePoint previous{};
+        double pdf_of_direction = 0.0;   // per solid angle at `previous`
+        bool light_sampled_too = false;  // whether the last vertex could have found this light explicitly
+        ++counts.camera;
+
+        for (uint32_t depth = 0;; ++depth) {
+            SurfacePoint hit;
+            if (!world_.geometry.intersect(ray, depth == 0 ? Coherence::coherent : Coherence::incoherent,
+                                           hit)) {
+                return result;
+            }
+            const TriangleRecord &triangle = world_.geometry.triangle(hit.triangle);
+            const Vec3 wo = -ray.direction;
+
+            if (triangle.light != no_index) {
+                const Spectrum emitted = world_.lights.emitted(world_.geometry, triangle.light, hit, wo);
+                if ((emitted > 0.0).any()) {
+                    result +=
+                        throughput * emitted *
+                        implicit_weight(light_sampled_too, pdf_of_direction, triangle.light, previous, hit);
+                }
+            }
+            if (max_depth_ != 0 && depth == max_depth_) {
+                return result;
+            }
+
+            const BsdfModel &bsdf = world_.bsdfs[triangle.material];
+            const Frame frame(triangle.normal);
+            const Vec3 wo_local = frame.to_local(wo);
+            light_sampled_too = samples_lights_ && !bsdf.is_delta();
+            if (light_sampled_too) {
+                result += throughput * direct_light(bsdf, frame, wo_local, hit, rng, counts);
+            }
+
+            const auto sample = bsdf.sample(wo_local, rng);
+            if (!sample) {
+                return result;
+            }
+            throughput *= sample->weight;
+            const double survival = std::min(throughput.maxCoeff(), roulette_cap);
+            if (rng.uniform() >= survival) {
+                return result;
+            }
+            throughput /= survival;
+
+            light_sampled_too = light_sampled_too && !sample->delta;
+            pdf_of_direction = sample->pdf_w;
+            previous = hit;
+            ray.direction = frame.to_world(sample->wi);
+            ray.origin = world_.geometry.spawn_point(hit, ray.direction);
+            ++counts.bounce;
+        }
+    }
+
+  private:
+    /// MIS weight of light found by hitting it; roulette is left out of all densities.
+    double implicit_weight(bool light_sampled_too, double pdf_of_direction, uint32_t light,
+                           const SurfacePoint &previous, const SurfacePoint &hit) const {
+        if (!light_sampled_too) {
+            return 1.0;
+        }
+        if (!counts_hits_) {
+            return 0.0;
+        }
+        return power_heuristic(pdf_of_direction,
+                               world_.lights.pdf_w(world_.geometry, light, previous.position, hit));
+    }
+
+    /// One explicit connection, weighted: f Le |cos| / pdf_w.
+    Spectrum direct_light(const BsdfModel &bsdf, const Frame &frame, const Vec3 &wo_local,
+                          const SurfacePoint &point, Rng &rng, RayCounts &counts) const {
+        const auto light = world_.lights.sample(world_.geometry, point.position, rng);
+        if (!light) {
+            return Spectrum::Zero();
+        }
+        const Vec3 wi_local = frame.to_local(light->wi);
+        const Spectrum f = bsdf.evaluate(wi_local, wo_local);
+        if (!(f > 0.0).any()) {
+            return Spectrum::Zero();
+        }
+        ++counts.shadow;
+        if (world_.geometry.occluded(world_.geometry.spawn_point(point, light->wi), light->target)) {
+            return Spectrum::Zero();
+        }
+        const double weight = counts_hits_ && !light->delta
+                                  ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local))
+                                  : 1.0;
+        return f * light->radiance * (weight * std::abs(wi_local.z()) / light->pdf_w);
+    }
+
+    World<BsdfModel, Lights> world_;
+    bool samples_lights_;
+    bool counts_hits_;
+    uint32_t max_depth_;
+};
+
+}  // namespace rtrays::reference

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace rtrays::reference {
+
+using Vec3 = Eigen::Vector3d;
+using Spectrum = Eigen::Array3d;  ///< linear Rec. 709, one value per channel
+
+constexpr double pi = 3.141592653589793238462643383279502884;
+constexpr double inv_pi = 1.0 / pi;
+
+inline double square(double x) {
+    return x * x;
+}
+
+/// Orthonormal frame whose z axis is a given unit normal (Duff et al. 2017, "Building an Orthonormal
+/// Basis, Revisited", listing 3: no branch, no cancellation near the poles).
+class Frame {
+  public:
+    explicit Frame(const Vec3 &normal) : z_(normal) {
+        const double sign = std::copysign(1.0, normal.z());
+        const double a = -1.0 / (sign + normal.z());
+        const double b = normal.x() * normal.y() * a;
+        x_ = {1.0 + sign * square(normal.x()) * a, sign * b, -sign * normal.x()};
+        y_ = {b, sign + square(normal.y()) * a, -normal.y()};
+    }
+
+    Vec3 to_local(const Vec3 &v) const { return {x_.dot(v), y_.dot(v), z_.dot(v)}; }
+    Vec3 to_world(const Vec3 &v) const { return v.x() * x_ + v.y() * y_ + v.z() * z_; }
+
+  private:
+    Vec3 x_, y_, z_;
+};
+
+}  // namespace rtrays::reference

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "reference/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <iostream>
+#include <string_view>
+
+#include "renderer/base/error.h"
+#include "rtrays_commit.h"
+
+namespace rtrays::reference {
+
+namespace {
+
+/// Two numbers around a separator, or nothing.
+template <class Number>
+std::optional<std::pair<Number, Number>> parse_pair(const std::string &text, char separator) {
+    const size_t middle = text.find(separator);
+    if (middle == std::string::npos) {
+        return std::nullopt;
+    }
+    const auto number = [](std::string_view part, Number &value) {
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        return error == std::errc() && end == part.data() + part.size();
+    };
+    std::pair<Number, Number> result;
+    const std::string_view view = text;
+    if (!number(view.substr(0, middle), result.first) || !number(view.substr(middle + 1), result.second)) {
+        return std::nullopt;
+    }
+    return result;
+}
+
+void apply_size(const std::string &text, ReferenceSettings &settings) {
+    constexpr int largest = 1 << 15;
+    const auto size = parse_pair<int>(text, 'x');
+    if (!size || size->first < 1 || size->second < 1 || size->first > largest || size->second > largest) {
+        throw input_error(fmt::format(
+            "--size '{}': must be WIDTHxHEIGHT in pixels, 1 to {} each, as in 256x256", text, largest));
+    }
+    settings.width = size->first;
+    settings.height = size->second;
+}
+
+void apply_range(const std::string &text, Options &options) {
+    const auto range = parse_pair<uint64_t>(text, ':');
+    if (!range || range->first >= range->second) {
+        throw input_error(
+            fmt::format("--samples '{}': must be BEGIN:END with BEGIN < END, as in 0:1024", text));
+    }
+    options.begin = range->first;
+    options.end = range->second;
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, char **argv) {
+    Options options;
+    std::string size, range, strategies = name_of(options.settings.strategies);
+    CLI::App app{
+        "Renders a scene with the independent Embree path tracer.\n"
+        "A state file beside the output keeps what is done; --resume continues it."};
+    app.set_version_flag("--version",
+                         fmt::format("rtrays-reference {}{}", RTRAYS_COMMIT, RTRAYS_DIRTY ? "-dirty" : ""));
+    app.add_option("SCENE", options.scene, "scene file")->required();
+    app.add_option("-o,--output", options.output, "image to write (OpenEXR)")->required();
+    auto *spp = app.add_option("--spp", options.end, "samples per pixel; the same as --samples 0:N")
+                    ->check(CLI::PositiveNumber);
+    auto *samples = app.add_option("--samples", range, "sample range BEGIN:END")->excludes(spp);
+    app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--size", size, "film size WxH; the scene's by default");
+    app.add_option("--strategies", strategies, "direct light: implicit, explicit or mis")
+        ->capture_default_str();
+    app.add_option("--max-depth", options.settings.max_depth,
+                   "scattering events, 1 is direct light; 0: no limit")
+        ->capture_default_str();
+    app.add_option("--threads", options.settings.threads, "threads, 0: all; no effect on the image")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    app.add_flag("--resume", options.resume, "continue the state file if there is one");
+    app.add_option("--state", options.state, "state file; OUTPUT.state by default");
+    app.add_option("--checkpoint-interval", options.checkpoint_interval,
+                   "seconds between state files, at most 600")
+        ->check(CLI::Range(0.0, 600.0))
+        ->capture_default_str();
+    app.add_option("--stats", options.stats, "write counts and times as JSON");
+    auto *manifest = app.add_option(
+        "--manifest", options.manifest,
+        "add the image to this manifest; it must be named SCENE.ENGINE.HALF.exr and lie beside it");
+    app.add_flag(
+           "--skip-if-listed", options.skip_if_listed,
+           "do nothing when the manifest lists the image with these settings and at least as many samples")
+        ->needs(manifest);
+    app.add_flag("--quiet", options.quiet, "no progress");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success &help) {
+        app.exit(help, std::cout, std::cerr);
+        return std::nullopt;
+    } catch (const CLI::ParseError &error) {
+        throw input_error(fmt::format("{} (see --help)", error.what()));
+    }
+    if (spp->count() + samples->count() == 0) {
+        throw input_error("--spp or --samples is required (see --help)");
+    }
+    if (samples->count() > 0) {
+        apply_range(range, options);
+    }
+    if (!size.empty()) {
+        apply_size(size, options.settings);
+    }
+    options.settings.strategies = strategies_from_name(strategies);
+    if (options.state.empty()) {
+        options.state = options.output + ".state";
+    }
+    return options;
+}
+
+}  // namespace rtrays::reference

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "reference/checkpoint.h"
+#include "reference/options.h"
+#include "reference/renderer.h"
+
+namespace rtrays::reference {
+
+/// What a manifest entry says about the settings of a run that ends with `spp` samples.
+Json describe_run(const Options &options, const Json &config, uint64_t spp);
+
+/// Writes the EXR, then the manifest entry and the statistics when asked for. Throws `Error`.
+void write_results(const Options &options, const Json &config, const ReferenceRenderer &renderer,
+                   const std::vector<std::string> &commits);
+
+}  // namespace rtrays::reference

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "reference/renderer.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range2d.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "reference/bsdf.h"
+#include "reference/camera.h"
+#include "reference/film.h"
+#include "reference/geometry.h"
+#include "reference/integrator.h"
+#include "reference/light.h"
+#include "renderer/base/error.h"
+#include "renderer/base/progress.h"
+
+namespace rtrays {
+
+using namespace reference;
+
+namespace {
+
+constexpr uint64_t tile_size = 16;
+constexpr uint64_t paths_per_batch = 1 << 18;  // a fraction of a second: an interrupt is soon obeyed
+
+void check_indices(const MeshArrays &meshes, const MaterialArrays &materials, const LightArrays &lights) {
+    for (size_t i = 0; i < meshes.name.size(); ++i) {
+        if (meshes.material[i] >= materials.kind.size()) {
+            throw input_error(fmt::format("mesh '{}' has no material", meshes.name[i]));
+        }
+        if (meshes.light[i] != no_index && meshes.light[i] >= lights.kind.size()) {
+            throw input_error(fmt::format("mesh '{}' names light {} of {}", meshes.name[i], meshes.light[i],
+                                          lights.kind.size()));
+        }
+    }
+}
+
+/// The first path, in the order of pixels and samples, whose radiance was not finite.
+class FirstFault {
+  public:
+    void note(uint64_t pixel, uint64_t sample) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const auto fault = std::make_pair(pixel, sample);
+        first_ = first_ ? std::min(*first_, fault) : fault;
+    }
+    const std::optional<std::pair<uint64_t, uint64_t>> &first() const { return first_; }
+
+  private:
+    std::mutex mutex_;
+    std::optional<std::pair<uint64_t, uint64_t>> first_;
+};
+
+}  // namespace
+
+struct ReferenceRenderer::State {
+    State(const CameraArrays &cameras, const MeshArrays &meshes, const MaterialArrays &materials,
+          const LightArrays &light_arrays, const ReferenceSettings &wanted)
+        : settings(wanted),
+          camera(cameras, wanted.camera, wanted.width, wanted.height),
+          geometry(meshes),
+          bsdfs(make_bsdfs(materials)),
+          lights(geometry, light_arrays),
+          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth),
+          film(wanted.width, wanted.height, 0),
+          threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
+          arena(threads) {}
+
+    void render_tile(const tbb::blocked_range2d<uint64_t> &tile, uint64_t begin, uint64_t end);
+    void render_batch(uint64_t begin, uint64_t end);
+
+    ReferenceSettings settings;
+    Camera camera;
+    Geometry geometry;
+    std::vector<Bsdf> bsdfs;
+    LightSet lights;
+    PathIntegrator<Bsdf, LightSet> integrator;
+    Film film;
+    FirstFault fault;
+    tbb::enumerable_thread_specific<RayCounts> counts;
+    double seconds = 0.0;
+    int threads;
+    tbb::task_arena arena;
+};
+
+void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> &tile, uint64_t begin,
+                                           uint64_t end) {
+    RayCounts tile_counts;
+    for (uint64_t y = tile.rows().begin(); y != tile.rows().end(); ++y) {
+        for (uint64_t x = tile.cols().begin(); x != tile.cols().end(); ++x) {
+            const uint64_t pixel = y * static_cast<uint64_t>(settings.width) + x;
+            PixelMoments moments = film.pixels[pixel];
+            for (uint64_t sample = begin; sample < end; ++sample) {
+                Rng rng(settings.seed, pixel, sample);
+                const double film_x = static_cast<double>(x) + rng.uniform();
+                const double film_y = static_cast<double>(y) + rng.uniform();
+                const Spectrum radiance = integrator.radiance(camera.ray(film_x, film_y), rng, tile_counts);
+                if (!radiance.allFinite()) {
+                    fault.note(pixel, sample);
+                }
+                moments.add(radiance, sample - film.begin);
+            }
+            film.pixels[pixel] = moments;
+        }
+    }
+    counts.local() += tile_counts;
+}
+
+void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
+    const auto start = std::chrono::steady_clock::now();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<size_t>(threads));
+    const tbb::blocked_range2d<uint64_t> pixels(0, static_cast<uint64_t>(settings.height), tile_size, 0,
+                                                static_cast<uint64_t>(settings.width), tile_size);
+    arena.execute([&] {
+        tbb::parallel_for(
+            pixels, [&](const auto &tile) { render_tile(tile, begin, end); }, tbb::simple_partitioner());
+    });
+    film.end = end;
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (fault.first()) {
+        const auto [pixel, sample] = *fault.first();
+        const auto width = static_cast<uint64_t>(settings.width);
+        throw run_error(fmt::format("pixel {},{} sample {} (seed {}): the radiance is not finite",
+                                    pixel % width, pixel / width, sample, settings.seed));
+    }
+}
+
+ReferenceRenderer::ReferenceRenderer(const CameraArrays &cameras, const MeshArrays &meshes,
+                                     const MaterialArrays &materials, const LightArrays &lights,
+                                     const ReferenceSettings &settings) {
+    check_indices(meshes, materials, lights);
+    state_ = std::make_unique<State>(cameras, meshes, materials, lights, settings);
+}
+
+ReferenceRenderer::~ReferenceRenderer() = default;
+
+uint64_t ReferenceRenderer::render(uint64_t begin, uint64_t end) {
+    Film &film = state_->film;
+    if (film.count() == 0) {
+        film.begin = film.end = begin;
+    }
+    if (begin != film.end || end < begin) {
+        throw run_error(fmt::format("samples {}:{} do not continue a film that holds {}:{}", begin, end,
+                                    film.begin, film.end));
+    }
+    while (film.end < end && !interrupted()) {
+        state_->render_batch(film.end, std::min(end, film.end + batch_size()));
+    }
+    return film.end;
+}
+
+uint64_t ReferenceRenderer::batch_size() const {
+    return std::clamp<uint64_t>(paths_per_batch / state_->film.pixels.size(), 1, 1024);
+}
+
+void ReferenceRenderer::restart(uint64_t seed) {
+    state_->settings.seed = seed;
+    state_->film = Film(state_->settings.width, state_->settings.height, 0);
+    state_->seconds = 0.0;
+    state_->counts.clear();
+}
+
+Image ReferenceRenderer::develop() const {
+    Image image = state_->film.develop();
+    image.attributes()["samplesPerPixel"] = static_cast<int>(samples());
+    image.attributes()["renderTimeSeconds"] = static_cast<float>(seconds());
+    return image;
+}
+
+double ReferenceRenderer::seconds() const {
+    return state_->seconds;
+}
+
+uint64_t ReferenceRenderer::samples() const {
+    return state_->film.count();
+}
+
+ReferenceStats ReferenceRenderer::stats() const {
+    RayCounts total;
+    for (const RayCounts &part : state_->counts) {
+        total += part;
+    }
+    const GeometryStats &geometry = state_->geometry.stats();
+    return {geometry.engine,        geometry.triangles, geometry.degenerate_triangles,
+            geometry.build_seconds, seconds(),          total.camera,
+            total.camera,           total.bounce,       total.shadow};
+}
+
+const Film &ReferenceRenderer::film() const {
+    return state_->film;
+}
+
+void ReferenceRenderer::restore(Film film, double seconds) {
+    if (film.width != state_->settings.width || film.height != state_->settings.height) {
+        throw run_error("the restored film has another size");
+    }
+    state_->film = std::move(film);
+    state_->seconds = seconds;
+}
+
+}  // namespace rtrays

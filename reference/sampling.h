@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reference/math.h"
+#include "reference/rng.h"
+
+namespace rtrays::reference {
+
+/// Direction on the upper hemisphere (local frame, z up) with pdf_w = cos(theta) / pi: a uniform point of
+/// the unit disc, projected up (Malley's method; PBRT 4th ed., 13.6.3).
+inline Vec3 sample_cosine_hemisphere(Rng &rng) {
+    const double radius_squared = rng.uniform();
+    const double phi = 2.0 * pi * rng.uniform();
+    const double radius = std::sqrt(radius_squared);
+    return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1.0 - radius_squared)};
+}
+
+/// Barycentrics (of the second and third vertex) uniform in area over a triangle
+/// (Osada et al. 2002, eq. 1).
+inline Eigen::Vector2d sample_triangle(Rng &rng) {
+    const double root = std::sqrt(rng.uniform());
+    const double along = rng.uniform();
+    return {root * (1.0 - along), root * along};
+}
+
+/// Weight of a sample of density `pdf` when one of density `other` (same measure) could have made it too:
+/// power heuristic with beta = 2, one sample each (Veach 1997, eq. 9.13). The ratio form cannot overflow
+/// to NaN: an infinite ratio gives weight 0. Requires pdf > 0.
+inline double power_heuristic(double pdf, double other) {
+    return 1.0 / (1.0 + square(other / pdf));
+}
+
+/// Discrete distribution sampled in constant time (Walker 1977; construction of Vose 1991).
+class AliasTable {
+  public:
+    AliasTable() = default;
+
+    /// `weights`: finite, not negative, at least one positive (throws `Error`, run failed, otherwise).
+    explicit AliasTable(const std::vector<double> &weights);
+
+    size_t size() const { return slots_.size(); }
+
+    /// Probability of index `i`.
+    double probability(size_t i) const { return slots_[i].probability; }
+
+    uint32_t sample(Rng &rng) const {
+        const double scaled = rng.uniform() * static_cast<double>(slots_.size());
+        const auto i = static_cast<uint32_t>(scaled);
+        return scaled - i < slots_[i].keep ? i : slots_[i].alias;
+    }
+
+  private:
+    struct Slot {
+        double probability;
+        double keep;  ///< share of the slot that belongs to its own index
+        uint32_t alias;
+    };
+    std::vector<Slot> slots_;
+};
+
+}  // namespace rtrays::reference

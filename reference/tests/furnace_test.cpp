@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Closed furnaces with L = E / (1 - rho), and the proof that they would notice planted errors: the shipped
+// integrator runs with BSDFs and lights that are wrong on purpose.
+#include <gtest/gtest.h>
+
+#include <boost/math/special_functions/gamma.hpp>
+
+#include "reference/bsdf.h"
+#include "reference/film.h"
+#include "reference/integrator.h"
+#include "reference/light.h"
+#include "reference/tests/statistics.h"
+#include "reference/tests/test_scenes.h"
+
+namespace rtrays::reference {
+namespace {
+
+constexpr int size = 16;
+constexpr uint64_t spp = 2048;
+constexpr double z_999 = 3.2905;  // two-sided 99.9 %
+const Rgb emission(1.0f, 0.5f, 0.25f);
+
+/// Deviation of the image's red mean from the closed form, in standard errors of the mean.
+double furnace_z(const Image &image, double albedo) {
+    const BlockMean mean = image_mean(image, "R");
+    const double expected = static_cast<double>(emission[0]) / (1.0 - albedo);
+    return (mean.mean - expected) / std::sqrt(mean.variance);
+}
+
+class Furnace : public testing::TestWithParam<std::tuple<float, Strategies>> {};
+
+TEST_P(Furnace, radiance_is_emission_over_one_minus_albedo) {
+    const auto [albedo, strategies] = GetParam();
+    const double absorbed = 1.0 - static_cast<double>(albedo);  // of the albedo as rounded to float
+    auto renderer = furnace_box(albedo, emission).renderer(small_settings(size, 21, strategies));
+    // Paths are 1 / absorbed long and their values as widely spread, relative to the mean, at any albedo.
+    renderer.render(0, static_cast<uint64_t>(std::ceil(spp * std::min(1.0, 10.0 * absorbed))) + 48);
+    const Image image = renderer.develop();
+    EXPECT_LT(std::abs(furnace_z(image, static_cast<double>(albedo))), z_999);
+    // The bound must mean something: one standard error is below 1 % of the value.
+    EXPECT_LT(std::sqrt(image_mean(image, "R").variance), 0.01 / absorbed);
+}
+
+INSTANTIATE_TEST_SUITE_P(albedos, Furnace,
+                         testing::Combine(testing::Values(0.5f, 0.9f, 0.99f, 0.999f),
+                                          testing::Values(Strategies::implicit_only, Strategies::mis)));
+
+TEST(Furnace, survives_an_albedo_of_a_millionth_less_than_one) {
+    // The implicit estimate is E times the number of vertices, which is geometric with mean 1e6; the sum
+    // over k paths, over its mean, is Gamma(k, 1 / k) to within 1e-6.
+    constexpr unsigned paths = 16;
+    const float albedo = 1.0f - 1e-6f;
+    auto renderer = furnace_box(albedo, emission).renderer(small_settings(1, 24, Strategies::implicit_only));
+    renderer.render(0, paths);
+    const double expected = 1.0 / (1.0 - static_cast<double>(albedo));
+    const double ratio = image_mean(renderer.develop(), "R").mean / expected;
+    const double below = boost::math::gamma_p(static_cast<double>(paths), paths * ratio);
+    EXPECT_GT(below, 0.0005);
+    EXPECT_LT(below, 0.9995);
+}
+
+TEST(Furnace, direct_light_alone_is_the_first_two_terms_of_the_series) {
+    for (const uint32_t depth : {1u, 2u, 3u}) {
+        ReferenceSettings settings = small_settings(size, 22);
+        settings.max_depth = depth;
+        auto renderer = furnace_box(0.5f, emission).renderer(settings);
+        renderer.render(0, spp);
+        const BlockMean mean = image_mean(renderer.develop(), "R");
+        const double expected = (1.0 - std::pow(0.5, depth + 1.0)) / 0.5;
+        EXPECT_LT(std::abs(mean.mean - expected), z_999 * std::sqrt(mean.variance)) << "depth " << depth;
+    }
+}
+
+// --- planted errors --------------------------------------------------------------------------------------
+
+/// The density of the sampled direction is 2 % too large.
+struct WrongDensity : Lambert {
+    using Lambert::Lambert;
+    std::optional<BsdfSample> sample(const Vec3 &wo, Rng &rng) const {
+        auto result = Lambert::sample(wo, rng);
+        if (result) {
+            result->weight /= 1.02;
+        }
+        return result;
+    }
+};
+
+/// The cosine is missing from the explicit estimate.
+struct MissingCosine : Lambert {
+    using Lambert::Lambert;
+    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo) const {
+        return Lambert::evaluate(wi, wo) / std::abs(wi.z());
+    }
+};
+
+/// MIS weights of the implicit estimate forget the light's density: direct light counts twice.
+struct ForgottenMis : LightSet {
+    using LightSet::LightSet;
+    double pdf_w(const Geometry &, uint32_t, const Vec3 &, const SurfacePoint &) const { return 0.0; }
+};
+
+template <class BsdfModel, class Lights>
+double planted_z(Strategies strategies) {
+    const double albedo = 0.5;
+    const TestScene scene = furnace_box(0.5f, emission);
+    const Geometry geometry(scene.meshes);
+    const Lights lights(geometry, scene.lights);
+    const std::vector<BsdfModel> bsdfs{BsdfModel(Spectrum::Constant(albedo))};
+    const PathIntegrator<BsdfModel, Lights> integrator({geometry, bsdfs, lights}, strategies, 0);
+    const Camera camera(scene.cameras, 0, size, size);
+    Film film(size, size, 0);
+    RayCounts counts;
+    for (uint64_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
+        for (uint64_t sample = 0; sample < spp; ++sample) {
+            Rng rng(23, pixel, sample);
+            const double x = static_cast<double>(pixel % size) + rng.uniform();
+            const double y = static_cast<double>(pixel / size) + rng.uniform();
+            film.pixels[pixel].add(integrator.radiance(camera.ray(x, y), rng, counts), sample);
+        }
+    }
+    film.end = spp;
+    return furnace_z(film.develop(), albedo);
+}
+
+TEST(Furnace, notices_planted_errors) {
+    EXPECT_LT(std::abs((planted_z<Lambert, LightSet>(Strategies::mis))), z_999);  // nothing planted
+    EXPECT_GT(std::abs((planted_z<WrongDensity, LightSet>(Strategies::implicit_only))), 2 * z_999);
+    EXPECT_GT(std::abs((planted_z<WrongDensity, LightSet>(Strategies::mis))), 2 * z_999);
+    EXPECT_GT(std::abs((planted_z<MissingCosine, LightSet>(Strategies::mis))), 2 * z_999);
+    EXPECT_GT(std::abs((planted_z<Lambert, ForgottenMis>(Strategies::mis))), 2 * z_999);
+}
+
+}  // namespace
+}  // namespace rtrays::reference

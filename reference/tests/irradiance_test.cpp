@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Irradiance under a rectangular light against Lambert's closed form (1760; Arvo 1994, eq. 1).
+#include <gtest/gtest.h>
+
+#include "reference/tests/statistics.h"
+#include "reference/tests/test_scenes.h"
+
+namespace rtrays::reference {
+namespace {
+
+constexpr double radiance = 5.0;
+constexpr double albedo = 0.5;
+const std::array<Vec3, 4> light_corners{Vec3(-1, 2, -0.5), Vec3(1, 2, -0.5), Vec3(1, 2, 0.5),
+                                        Vec3(-1, 2, 0.5)};
+
+/// E = Le / 2 sum theta_i (n . gamma_i) over the polygon's edges as seen from `point`; the polygon must lie
+/// wholly above the horizon.
+double polygon_irradiance(const Vec3 &point, const Vec3 &normal) {
+    double sum = 0.0;
+    for (size_t i = 0; i < 4; ++i) {
+        const Vec3 a = (light_corners[i] - point).normalized();
+        const Vec3 b = (light_corners[(i + 1) % 4] - point).normalized();
+        const Vec3 cross = a.cross(b);
+        const double angle = std::atan2(cross.norm(), a.dot(b));
+        sum += angle * normal.dot(cross.normalized());
+    }
+    return 0.5 * radiance * std::abs(sum);
+}
+
+/// A floor and the light above it, seen by a camera of a hundredth of a degree that looks at `point`.
+TestScene floor_under_light(const Vec3 &point) {
+    TestScene scene;
+    const uint32_t material = scene.add_material(Rgb::Constant(albedo));
+    scene.add_quad({Vec3(-10, 0, -10), Vec3(-10, 0, 10), Vec3(10, 0, 10), Vec3(10, 0, -10)}, material);
+    scene.add_quad(light_corners, material, Rgb::Constant(radiance));
+    scene.set_camera({6.0, 1.5, 0.3}, point, Vec3::UnitY(), 2e-4);
+    return scene;
+}
+
+TEST(Irradiance, under_a_rectangle_is_lamberts) {
+    std::vector<Comparison> suite;
+    for (const Vec3 &point : {Vec3(0, 0, 0), Vec3(1.5, 0, 0.2), Vec3(-3, 0, 2), Vec3(0.9, 0, -4)}) {
+        for (const auto &[name, strategies] : strategies_names) {
+            ReferenceSettings settings = small_settings(4, 31, strategies);
+            settings.max_depth = 1;
+            auto renderer = floor_under_light(point).renderer(settings);
+            renderer.render(0, 1 << 15);
+            const BlockMean mean = image_mean(renderer.develop(), "G");
+            const double expected = albedo / pi * polygon_irradiance(point, Vec3::UnitY());
+            suite.push_back({name, normal_p_value((mean.mean - expected) / std::sqrt(mean.variance))});
+            if (strategies == Strategies::explicit_only) {
+                EXPECT_NEAR(mean.mean / expected, 1.0, 0.004);  // and closely
+            }
+        }
+    }
+    EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
+}
+
+TEST(Irradiance, the_back_of_a_light_is_dark) {
+    for (const auto &entry : strategies_names) {
+        TestScene scene = floor_under_light(Vec3::Zero());
+        scene.set_camera({0, 5, 0}, {0, 2, 0}, Vec3::UnitZ(), 1e-3);  // from above, on the light's back
+        auto renderer = scene.renderer(small_settings(4, 32, entry.second));
+        renderer.render(0, 64);
+        EXPECT_EQ(image_mean(renderer.develop(), "R").mean, 0.0) << entry.first;
+    }
+}
+
+TEST(Irradiance, the_front_of_a_light_shows_its_radiance) {
+    for (const auto &entry : strategies_names) {
+        TestScene scene = floor_under_light(Vec3::Zero());
+        scene.set_camera({0, 1, 0}, {0, 2, 0}, Vec3::UnitZ(), 1e-3);
+        ReferenceSettings settings = small_settings(4, 33, entry.second);
+        settings.max_depth = 1;  // the floor's reflection on the light itself left out
+        auto renderer = scene.renderer(settings);
+        renderer.render(0, 64);
+        EXPECT_EQ(image_mean(renderer.develop(), "R").mean, radiance) << entry.first;
+    }
+}
+
+}  // namespace
+}  // namespace rtrays::reference

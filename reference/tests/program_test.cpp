@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// The real program: command line, kills, resumes, refusals.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reference/checkpoint.h"
+#include "reference/manifest.h"
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/image.h"
+
+namespace rtrays::reference {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string cornell_box = RTRAYS_SCENES "/cornell_box/scene.json";
+const std::string furnace = RTRAYS_SCENES "/analytic/furnace_050.json";
+
+/// A running `rtrays-reference`, its output in a file.
+class Process {
+  public:
+    Process(const std::vector<std::string> &arguments, const fs::path &log) {
+        std::vector<std::string> words{RTRAYS_REFERENCE_PROGRAM};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char *> argv;
+        for (std::string &word : words) {
+            argv.push_back(word.data());
+        }
+        argv.push_back(nullptr);
+        pid_ = fork();
+        if (pid_ == 0) {
+            const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+            dup2(file, STDOUT_FILENO);
+            dup2(file, STDERR_FILENO);
+            execv(argv[0], argv.data());
+            _exit(126);
+        }
+    }
+
+    void send(int signal) const { kill(pid_, signal); }
+
+    /// Exit code, or minus the number of the signal that ended it.
+    int wait() {
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    }
+
+  private:
+    pid_t pid_;
+};
+
+class Program : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto *test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = fs::path(testing::TempDir()) / (std::string("reference_program_") + test->name());
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::string in_folder(const std::string &name) const { return (folder_ / name).string(); }
+    fs::path log() const { return folder_ / "log"; }
+
+    int run(const std::vector<std::string> &arguments) { return Process(arguments, log()).wait(); }
+
+    /// Runs and expects exit code 2 with one line that contains `text`, and no output image.
+    void expect_refused(const std::vector<std::string> &arguments, const std::string &text) {
+        EXPECT_EQ(run(arguments), static_cast<int>(ExitCode::bad_input));
+        const std::string message = read_file(log());
+        EXPECT_NE(message.find(text), std::string::npos) << message;
+        EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+    }
+
+    std::vector<std::string> long_render(const std::string &output) const {
+        return {cornell_box, "-o",      in_folder(output),       "--spp", "1024", "--size", "64x64", "--seed",
+                "5",         "--quiet", "--checkpoint-interval", "0"};
+    }
+
+    /// Waits until the state holds more samples than `before`.
+    uint64_t wait_for_progress(const std::string &state, uint64_t before) const {
+        for (int i = 0; i < 20000; ++i) {
+            if (fs::exists(state)) {
+                const uint64_t done = load_checkpoint(state).film.end;
+                if (done > before) {
+                    return done;
+                }
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(3));
+        }
+        ADD_FAILURE() << "no progress in a minute";
+        return before;
+    }
+
+    /// Everything but the time taken is equal, bit by bit.
+    static void expect_same_image(const std::string &path_a, const std::string &path_b) {
+        Image a = read_exr(path_a), b = read_exr(path_b);
+        ASSERT_EQ(a.channels().size(), 7u);
+        ASSERT_EQ(b.channels().size(), 7u);
+        for (const auto &channel : a.channels()) {
+            EXPECT_EQ(channel.values, b.channel(channel.name)) << channel.name;
+        }
+        a.attributes().erase("renderTimeSeconds");
+        b.attributes().erase("renderTimeSeconds");
+        EXPECT_EQ(a.attributes(), b.attributes());
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(Program, killed_and_resumed_equals_uninterrupted) {
+    ASSERT_EQ(run(long_render("whole.exr")), 0) << read_file(log());
+
+    auto arguments = long_render("killed.exr");
+    arguments.push_back("--resume");
+    const std::string state = in_folder("killed.exr.state");
+    uint64_t done = 0;
+    for (const int delay : {0, 11, 37}) {
+        Process process(arguments, log());
+        done = wait_for_progress(state, done);
+        std::this_thread::sleep_for(std::chrono::milliseconds(delay));  // somewhere within a batch or a save
+        process.send(SIGKILL);
+        ASSERT_EQ(process.wait(), -SIGKILL);
+        EXPECT_FALSE(fs::exists(in_folder("killed.exr")));
+        done = load_checkpoint(state).film.end;
+        ASSERT_LT(done, 1024u);
+    }
+    arguments.insert(arguments.end(), {"--threads", "1"});  // the rest on another number of threads
+    ASSERT_EQ(run(arguments), 0) << read_file(log());
+    expect_same_image(in_folder("whole.exr"), in_folder("killed.exr"));
+    for (const float samples : read_exr(in_folder("killed.exr")).channel("samples")) {
+        ASSERT_EQ(samples, 1024.0f);
+    }
+}
+
+TEST_F(Program, terminated_leaves_a_state_that_continues) {
+    ASSERT_EQ(run(long_render("whole.exr")), 0) << read_file(log());
+    auto arguments = long_render("cut.exr");
+    for (const int signal : {SIGTERM, SIGINT}) {
+        Process process(arguments, log());
+        wait_for_progress(in_folder("cut.exr.state"),
+                          signal == SIGINT ? load_checkpoint(in_folder("cut.exr.state")).film.end : 0);
+        process.send(signal);
+        EXPECT_EQ(process.wait(), static_cast<int>(ExitCode::interrupted));
+        EXPECT_NE(read_file(log()).find("--resume"), std::string::npos);
+        EXPECT_FALSE(fs::exists(in_folder("cut.exr")));
+        if (signal == SIGTERM) {
+            expect_refused(arguments,
+                           "unfinished run");  // hours of work are not overwritten by a typing error
+            arguments.push_back("--resume");
+        }
+    }
+    ASSERT_EQ(run(arguments), 0) << read_file(log());
+    expect_same_image(in_folder("whole.exr"), in_folder("cut.exr"));
+}
+
+TEST_F(Program, extends_a_finished_run) {
+    const std::vector<std::string> common{furnace, "--size", "16x16", "--quiet", "--resume"};
+    const auto render = [&](const std::string &output, const std::string &spp) {
+        auto arguments = common;
+        arguments.insert(arguments.end(), {"-o", in_folder(output), "--spp", spp});
+        return run(arguments);
+    };
+    ASSERT_EQ(render("grown.exr", "20"), 0) << read_file(log());
+    ASSERT_EQ(render("grown.exr", "20"), 0) << read_file(log());  // nothing left to do
+    ASSERT_EQ(render("grown.exr", "50"), 0) << read_file(log());
+    ASSERT_EQ(render("whole.exr", "50"), 0) << read_file(log());
+    expect_same_image(in_folder("whole.exr"), in_folder("grown.exr"));
+    EXPECT_EQ(render("grown.exr", "30"), 2);  // samples cannot be taken back
+}
+
+TEST_F(Program, sample_ranges_are_disjoint_parts_of_one_run) {
+    const auto render = [&](const std::string &output, const std::string &range) {
+        ASSERT_EQ(run({furnace, "-o", in_folder(output), "--samples", range, "--size", "8x8", "--quiet"}), 0);
+    };
+    render("low.exr", "0:16");
+    render("high.exr", "16:32");
+    render("all.exr", "0:32");
+    const auto low = read_exr(in_folder("low.exr")).channel("R");
+    const auto high = read_exr(in_folder("high.exr")).channel("R");
+    const auto all = read_exr(in_folder("all.exr")).channel("R");
+    for (size_t i = 0; i < all.size(); ++i) {
+        EXPECT_NEAR(0.5f * (low[i] + high[i]), all[i], 1e-6f * all[i]);
+    }
+}
+
+TEST_F(Program, refuses_the_state_of_other_settings) {
+    const std::string out = in_folder("a.exr");
+    ASSERT_EQ(run({furnace, "-o", out, "--spp", "8", "--size", "8x8", "--quiet"}), 0) << read_file(log());
+    const std::string before = read_file(out);
+    const auto refused = [&](const std::string &scene, std::vector<std::string> more,
+                             const std::string &text) {
+        more.insert(more.begin(), {scene, "-o", out, "--spp", "8", "--resume", "--quiet"});
+        expect_refused(more, text);
+    };
+    refused(cornell_box, {"--size", "8x8"}, "scene");
+    refused(furnace, {"--size", "8x9"}, "height = 8, this run asks for 9");
+    refused(furnace, {"--size", "8x8", "--seed", "2"}, "seed = 1, this run asks for 2");
+    refused(furnace, {"--size", "8x8", "--max-depth", "2"}, "max_depth");
+    refused(furnace, {"--size", "8x8", "--strategies", "implicit"}, "strategies");
+    write_file(out + ".state", "nonsense");
+    refused(furnace, {"--size", "8x8"}, "not a state file");
+    EXPECT_EQ(read_file(out), before);
+}
+
+TEST_F(Program, adds_a_complete_manifest_entry) {
+    const std::string image = in_folder("furnace_050.embree.a.exr"), manifest = in_folder("manifest.json");
+    ASSERT_EQ(run({furnace, "-o", image, "--spp", "8", "--size", "8x8", "--seed", "3", "--quiet",
+                   "--manifest", manifest, "--stats", in_folder("stats.json")}),
+              0)
+        << read_file(log());
+    const Json entry = load_manifest(manifest).at("references").at("furnace_050.embree.a.exr");
+    EXPECT_EQ(entry.at("sha256"), sha256_of(image));
+    EXPECT_EQ(entry.at("seed"), 3);
+    EXPECT_EQ(entry.at("spp"), 8);
+    const Image exr = read_exr(image);
+    EXPECT_EQ(std::get<std::string>(exr.attributes().at("rtrays:sceneHash")), entry.at("scene_hash"));
+    EXPECT_EQ(std::get<std::string>(exr.attributes().at("rtrays:engine")), entry.at("engine_version"));
+    EXPECT_EQ(std::get<int>(exr.attributes().at("samplesPerPixel")), 8);
+    const Json stats = load_json(in_folder("stats.json"));
+    EXPECT_EQ(stats.at("rays").at("camera"), 8 * 8 * 8);
+    EXPECT_GT(stats.at("samples_per_second"), 0.0);
+    // What is listed is not rendered again, unless more is asked for or the file was changed.
+    const auto again = [&](const std::string &spp) {
+        fs::remove(image + ".state");
+        EXPECT_EQ(run({furnace, "-o", image, "--spp", spp, "--size", "8x8", "--seed", "3", "--quiet",
+                       "--manifest", manifest, "--skip-if-listed"}),
+                  0);
+        return fs::exists(image + ".state");
+    };
+    EXPECT_FALSE(again("8"));
+    EXPECT_TRUE(again("9"));
+    EXPECT_FALSE(again("9"));
+    write_file(image, "damaged");
+    EXPECT_TRUE(again("9"));
+    expect_refused({furnace, "-o", in_folder("x.exr"), "--spp", "1", "--manifest", manifest},
+                   "SCENE.ENGINE.HALF.exr");
+}
+
+TEST_F(Program, refuses_bad_usage_with_code_2_and_one_line) {
+    const std::string out = in_folder("x.exr");
+    expect_refused({furnace, "-o", out}, "--spp or --samples is required");
+    expect_refused({furnace, "-o", out, "--spp", "0"}, "--spp");
+    expect_refused({furnace, "-o", out, "--spp", "many"}, "--spp");
+    expect_refused({furnace, "-o", out, "--spp", "1", "--samples", "0:1"}, "--samples");
+    expect_refused({furnace, "-o", out, "--samples", "4:4"}, "BEGIN < END");
+    expect_refused({furnace, "-o", out, "--spp", "1", "--size", "8"}, "WIDTHxHEIGHT");
+    expect_refused({furnace, "-o", out, "--spp", "1", "--size", "8x-8"}, "WIDTHxHEIGHT");
+    expect_refused({furnace, "-o", out, "--spp", "1", "--strategies", "naive"}, "implicit, explicit, mis");
+    expect_refused({furnace, "-o", out, "--spp", "1", "--checkpoint-interval", "601"},
+                   "--checkpoint-interval");
+    expect_refused({furnace, "-o", out, "--spp", "1", "--denoise"}, "--denoise");
+    expect_refused({furnace, "-o", in_folder("missing/x.exr"), "--spp", "1"}, "cannot be written");
+    expect_refused({in_folder("missing.json"), "-o", out, "--spp", "1"}, "missing.json");
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_FALSE(fs::exists(out + ".state"));
+    EXPECT_EQ(run({"--help"}), 0);
+    EXPECT_NE(read_file(log()).find("--resume"), std::string::npos);
+    EXPECT_EQ(run({"--version"}), 0);
+}
+
+}  // namespace
+}  // namespace rtrays::reference

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "reference/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "reference/film.h"
+#include "reference/tests/test_scenes.h"
+#include "renderer/base/error.h"
+
+namespace rtrays::reference {
+namespace {
+
+/// All channels of both images are equal, bit by bit.
+void expect_same_bits(const Image &a, const Image &b) {
+    ASSERT_EQ(a.channels().size(), b.channels().size());
+    for (size_t i = 0; i < a.channels().size(); ++i) {
+        EXPECT_EQ(a.channels()[i].values, b.channels()[i].values) << a.channels()[i].name;
+    }
+}
+
+Image render(int threads, const std::vector<uint64_t> &stops) {
+    ReferenceSettings settings = small_settings(48, 81);
+    settings.threads = threads;
+    auto renderer = cornell_like_box().renderer(settings);
+    uint64_t done = 0;
+    for (const uint64_t stop : stops) {
+        done = renderer.render(done, stop);
+    }
+    return renderer.develop();
+}
+
+TEST(ReferenceRenderer, bits_do_not_depend_on_threads) {
+    const Image one = render(1, {32});
+    expect_same_bits(one, render(2, {32}));
+    expect_same_bits(one, render(5, {32}));
+}
+
+TEST(ReferenceRenderer, bits_do_not_depend_on_how_the_range_is_cut) {
+    expect_same_bits(render(2, {32}), render(2, {1, 2, 7, 31, 32}));
+}
+
+TEST(ReferenceRenderer, bits_do_not_depend_on_being_restored) {
+    const TestScene scene = cornell_like_box();
+    auto first = scene.renderer(small_settings(48, 81));
+    first.render(0, 13);
+    auto second = scene.renderer(small_settings(48, 81));
+    second.restore(first.film(), first.seconds());
+    EXPECT_EQ(second.samples(), 13u);
+    second.render(13, 32);
+    expect_same_bits(second.develop(), render(2, {32}));
+    EXPECT_GT(second.seconds(), first.seconds());
+}
+
+TEST(ReferenceRenderer, seeds_and_ranges_give_other_samples) {
+    const TestScene scene = cornell_like_box();
+    auto renderer = scene.renderer(small_settings(16, 1));
+    renderer.render(0, 4);
+    const auto first = renderer.develop().channel("R");
+    renderer.restart(2);
+    EXPECT_EQ(renderer.samples(), 0u);
+    renderer.render(0, 4);
+    EXPECT_NE(renderer.develop().channel("R"), first);
+    renderer.restart(1);
+    renderer.render(4, 8);
+    EXPECT_NE(renderer.develop().channel("R"), first);
+    renderer.restart(1);
+    renderer.render(0, 4);
+    EXPECT_EQ(renderer.develop().channel("R"), first);
+}
+
+TEST(ReferenceRenderer, refuses_a_range_that_does_not_continue) {
+    auto renderer = cornell_like_box().renderer(small_settings(16, 1));
+    renderer.render(0, 4);
+    EXPECT_THROW(renderer.render(3, 8), Error);
+    EXPECT_THROW(renderer.render(5, 8), Error);
+}
+
+TEST(ReferenceRenderer, counts_samples_and_rays) {
+    auto renderer = cornell_like_box().renderer(small_settings(16, 1));
+    renderer.render(0, 4);
+    const ReferenceStats stats = renderer.stats();
+    EXPECT_EQ(stats.samples, 16u * 16u * 4u);
+    EXPECT_EQ(stats.camera_rays, stats.samples);
+    EXPECT_GT(stats.bounce_rays, 0u);
+    EXPECT_GT(stats.shadow_rays, 0u);
+    EXPECT_GT(stats.seconds, 0.0);
+    EXPECT_EQ(stats.engine.rfind("embree 3.", 0), 0u);
+    EXPECT_EQ(renderer.develop().channel("samples")[7], 4.0f);
+}
+
+TEST(ReferenceRenderer, sums_the_largest_radiance_and_refuses_an_infinite_one) {
+    TestScene scene = furnace_box(0.5f, Rgb::Constant(std::numeric_limits<float>::max()));
+    // The largest float is finite; sums of it over a path are too, in double.
+    auto renderer = scene.renderer(small_settings(8, 1));
+    EXPECT_NO_THROW(renderer.render(0, 4));
+    scene.lights.radiance[0].setConstant(std::numeric_limits<float>::infinity());
+    EXPECT_THROW(scene.renderer(small_settings(8, 1)), Error);
+}
+
+TEST(ReferenceRenderer, refuses_materials_out_of_range) {
+    TestScene scene = cornell_like_box();
+    scene.materials.reflectance[0] = Rgb::Constant(1.5f);
+    EXPECT_THROW(scene.renderer(small_settings(8, 1)), Error);
+    scene = cornell_like_box();
+    scene.meshes.material[0] = no_index;
+    EXPECT_THROW(scene.renderer(small_settings(8, 1)), Error);
+}
+
+}  // namespace
+}  // namespace rtrays::reference

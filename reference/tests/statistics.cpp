@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "reference/tests/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+
+namespace rtrays::reference {
+
+double normal_p_value(double z) {
+    return std::erfc(std::abs(z) / std::sqrt(2.0));
+}
+
+double chi_square_p_value(const std::vector<double> &observed, const std::vector<double> &expected) {
+    double statistic = 0.0, pooled_observed = 0.0, pooled_expected = 0.0;
+    int cells = 0;
+    const auto add = [&](double o, double e) {
+        statistic += (o - e) * (o - e) / e;
+        ++cells;
+    };
+    for (size_t i = 0; i < observed.size(); ++i) {
+        if (expected[i] < 5.0) {
+            pooled_observed += observed[i];
+            pooled_expected += expected[i];
+        } else {
+            add(observed[i], expected[i]);
+        }
+    }
+    if (pooled_expected > 0.0) {
+        add(pooled_observed, pooled_expected);
+    } else if (pooled_observed > 0.0) {
+        return 0.0;  // something happened that cannot happen
+    }
+    const boost::math::chi_squared distribution(std::max(cells - 1, 1));
+    return boost::math::cdf(boost::math::complement(distribution, statistic));
+}
+
+std::vector<std::string> holm_rejected(std::vector<Comparison> comparisons) {
+    std::sort(comparisons.begin(), comparisons.end(),
+              [](const Comparison &a, const Comparison &b) { return a.p_value < b.p_value; });
+    std::vector<std::string> rejected;
+    for (size_t i = 0; i < comparisons.size(); ++i) {
+        // A p-value that is not a number is a failed comparison, not a passed one.
+        if (comparisons[i].p_value > family_alpha / static_cast<double>(comparisons.size() - i)) {
+            break;
+        }
+        rejected.push_back(fmt::format("{} (p = {:.2g})", comparisons[i].name, comparisons[i].p_value));
+    }
+    return rejected;
+}
+
+BlockMean block_mean(const Image &image, const std::string &channel, int x0, int y0, int x1, int y1) {
+    const auto &values = image.channel(channel);
+    const auto &variances = image.channel("variance." + channel);
+    BlockMean result;
+    for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            const auto pixel = static_cast<size_t>(y * image.width() + x);
+            result.mean += static_cast<double>(values[pixel]);
+            result.variance += static_cast<double>(variances[pixel]);
+        }
+    }
+    const double count = static_cast<double>(x1 - x0) * static_cast<double>(y1 - y0);
+    result.mean /= count;
+    result.variance /= count * count;
+    return result;
+}
+
+BlockMean image_mean(const Image &image, const std::string &channel) {
+    return block_mean(image, channel, 0, 0, image.width(), image.height());
+}
+
+void compare_images(const std::string &name, const Image &a, const Image &b,
+                    std::vector<Comparison> &comparisons) {
+    constexpr int block = 16;
+    const auto compare = [&](const std::string &place, const BlockMean &mean_a, const BlockMean &mean_b) {
+        const double deviation = std::sqrt(mean_a.variance + mean_b.variance);
+        const double difference = mean_a.mean - mean_b.mean;
+        const double z = difference == 0.0 ? 0.0 : difference / deviation;
+        comparisons.push_back({name + " " + place, normal_p_value(z)});
+    };
+    for (const auto &channel : rgb_names()) {
+        compare(channel + " mean", image_mean(a, channel), image_mean(b, channel));
+        for (int y = 0; y < a.height(); y += block) {
+            for (int x = 0; x < a.width(); x += block) {
+                const int x1 = std::min(x + block, a.width()), y1 = std::min(y + block, a.height());
+                compare(fmt::format("{} block {},{}", channel, x, y), block_mean(a, channel, x, y, x1, y1),
+                        block_mean(b, channel, x, y, x1, y1));
+            }
+        }
+    }
+}
+
+}  // namespace rtrays::reference

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Scenes built in memory, for tests of the reference alone.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "reference/math.h"
+#include "reference/renderer.h"
+#include "renderer/scene/stores.h"
+
+namespace rtrays::reference {
+
+/// The four array structs, filled by hand.
+struct TestScene {
+    CameraArrays cameras;
+    MeshArrays meshes;
+    MaterialArrays materials;
+    LightArrays lights;
+
+    uint32_t add_material(const Rgb &reflectance);
+
+    /// `radiance` of zero: no light.
+    void add_mesh(const std::vector<Vec3> &positions, const std::vector<Triangle> &triangles,
+                  uint32_t material, const Rgb &radiance = Rgb::Zero());
+
+    /// Corners counter-clockwise seen from the front.
+    void add_quad(const std::array<Vec3, 4> &corners, uint32_t material, const Rgb &radiance = Rgb::Zero());
+
+    /// Axis-parallel box; `inside` says on which side its front faces.
+    void add_box(const Vec3 &low, const Vec3 &high, bool inside, uint32_t material,
+                 const Rgb &radiance = Rgb::Zero());
+
+    /// Camera looking from `position` to `target`.
+    void set_camera(const Vec3 &position, const Vec3 &target, const Vec3 &up, double fov,
+                    CameraArrays::FovAxis axis = CameraArrays::FovAxis::x);
+
+    ReferenceRenderer renderer(const ReferenceSettings &settings) const {
+        return ReferenceRenderer(cameras, meshes, materials, lights, settings);
+    }
+};
+
+/// Closed box of walls that all emit `emission` and reflect `albedo`: the radiance is emission / (1 - albedo)
+/// everywhere inside, in every direction, since L = E + rho L. Centred at `centre`, edge length `size`.
+TestScene furnace_box(float albedo, const Rgb &emission, const Vec3 &centre = Vec3::Zero(),
+                      double size = 2.0);
+
+/// A box like the Cornell box: coloured side walls, a small ceiling light, a tall and a low block.
+TestScene cornell_like_box();
+
+/// Settings of a small square image.
+ReferenceSettings small_settings(int size, uint64_t seed, Strategies strategies = Strategies::mis);
+
+}  // namespace rtrays::reference
