@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -103,9 +102,15 @@ class StrictReader {
     }
 
     bool parse_error(size_t, const std::string &, const Json::exception &error) {
-        static const std::regex noise(
-            R"(^\[json\.exception\.[^\]]*\] (parse error( at line \d+, column \d+)?: )?)");
-        fail(std::regex_replace(error.what(), noise, ""));
+        // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error ..."
+        std::string what = error.what();
+        for (const char *head : {"[json.exception.", "parse error"}) {
+            const size_t end = what.find(*head == '[' ? "] " : ": ");
+            if (what.rfind(head, 0) == 0 && end != std::string::npos) {
+                what.erase(0, end + 2);
+            }
+        }
+        fail(what);
     }
 
   private:

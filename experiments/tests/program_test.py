@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+"""rtrays-experiment as a user meets it: exit codes, messages, and nothing half-written."""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = None
+EXPERIMENTS = pathlib.Path(__file__).resolve().parent.parent
+REFERENCES = EXPERIMENTS.parent / "results/references"
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def call(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False,
+                              cwd=self.folder)
+
+    def refused(self, code, text, *arguments):
+        """The call fails with the code and one message holding the text."""
+        done = self.call(*arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(text, done.stderr)
+        self.assertTrue(done.stderr.startswith("rtrays-experiment: "), done.stderr)
+        return done
+
+    def experiment(self, **changes):
+        """A copy of the shipped experiment with absolute paths and changes."""
+        document = json.loads((EXPERIMENTS / "cornell_diffuse.json").read_text())
+        document["scene"] = str(EXPERIMENTS.parent / "scenes/cornell_box/scene.json")
+        document["reference"]["folder"] = str(REFERENCES)
+        document.update(changes)
+        path = self.folder / "experiment.json"
+        path.write_text(json.dumps(document))
+        return path
+
+    def test_help_and_version(self):
+        for arguments in (["--help"], ["run", "--help"], ["--version"]):
+            done = self.call(*arguments)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("rtrays-experiment" if arguments == ["--version"] else "Usage", done.stdout)
+
+    def test_bad_usage(self):
+        self.refused(2, "--help")
+        self.refused(2, "--profil", "run", "x.json", "--profil", "quick")
+        self.refused(2, "fast", "run", "x.json", "--profile", "fast")
+
+    def test_missing_experiment(self):
+        self.refused(2, "nowhere.json", "run", "nowhere.json")
+
+    def test_unknown_key(self):
+        self.refused(2, "unknown key 'colour'", "run", self.experiment(colour="red"))
+
+    def test_missing_scene(self):
+        self.refused(2, "nowhere.json", "run", self.experiment(scene="nowhere.json"))
+
+    def test_missing_reference_names_the_command(self):
+        path = self.experiment(reference={"folder": str(self.folder), "engine": "embree"})
+        self.refused(4, "rtrays-reference", "run", path, "--out", self.folder / "out")
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_dry_run_writes_nothing(self):
+        done = self.call("run", self.experiment(), "--profile", "ci", "--dry-run")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("path_tracing.mis", done.stdout)
+        self.assertEqual([entry.name for entry in self.folder.iterdir()], ["experiment.json"])
+
+    def test_unwritable_output(self):
+        (self.folder / "file").write_text("")
+        self.refused(2, "file", "run", self.experiment(), "--profile", "ci", "--out", self.folder / "file")
+
+    def test_no_such_device(self):
+        self.refused(2, "abacus", "run", self.experiment(), "--profile", "ci", "--device", "abacus", "--out", "out")
+        self.assertFalse((self.folder / "out/run.json").exists())
+
+    def test_compare(self):
+        images = [REFERENCES / f"cornell_box.embree.{half}.exr" for half in "ab"]
+        done = self.call("compare", *images, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        comparison = json.loads(done.stdout)
+        self.assertTrue({"l2", "rmse", "mae", "relmse"} <= comparison.keys())
+        self.assertTrue(comparison["agreement"]["agrees"])
+        same = json.loads(self.call("compare", images[0], images[0], "--json").stdout)
+        self.assertEqual(same["rmse"], 0)
+        self.refused(2, "nowhere.exr", "compare", images[0], "nowhere.exr")
+
+    def test_report_of_an_empty_folder(self):
+        self.refused(2, "run.json", "report", self.folder)
+
+    def test_run_resume_and_report(self):
+        """A run stopped by SIGTERM continues with the same command and has every seed once."""
+        profiles = json.loads((EXPERIMENTS / "cornell_diffuse.json").read_text())["profiles"]
+        profiles["ci"].update(spp=[1, 2, 4, 8])
+        path = self.experiment(profiles=profiles)
+        out = self.folder / "out"
+        command = ["run", path, "--profile", "ci", "--out", out, "--quiet"]
+        process = subprocess.Popen([PROGRAM, *map(str, command)], stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not list(out.glob(".partial/*/*.json")):
+            try:
+                process.wait(0.01)
+            except subprocess.TimeoutExpired:
+                pass
+        process.terminate()
+        message = process.communicate()[1]
+        if process.returncode != 0:  # it was stopped in time
+            self.assertEqual(process.returncode, 130, message)
+            self.assertFalse((out / "run.json").exists())
+        done = self.call(*command)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = json.loads((out / "run.json").read_text())
+        self.assertFalse((out / ".partial").exists())
+        for curve in run["curves"]:
+            for point in curve["points"]:
+                self.assertEqual([r["seed"] for r in point["repetitions"]], list(range(1, 9)))
+                self.assertGreater(point["seconds_device"], 0)
+            self.assertTrue(curve["agreement"]["agrees"])
+        reported = self.call("report", out)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        self.assertTrue(pathlib.Path(reported.stdout.strip()).exists())
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()
