@@ -7,7 +7,7 @@ matplotlib.use("Agg")
 # Equal input gives equal files: no dates, fixed identifiers, text kept as text.
 matplotlib.rcParams.update({"svg.hashsalt": "rtrays", "svg.fonttype": "none", "font.size": 9,
                             "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
-                            "grid.alpha": 0.25, "legend.frameon": False})
+                            "grid.alpha": 0.25, "legend.framealpha": 0.9, "legend.edgecolor": "none", "axes.titlesize": 9})
 
 import matplotlib.pyplot as pyplot
 import numpy
@@ -55,10 +55,10 @@ def curves_figure(run, x_key):
     axes.axhline(floor, color="gray", linestyle="--", linewidth=0.9,
                  label=f"noise of the reference ({run.get('reference.spp')} spp)")
     axes.set(xscale="log", yscale="log", xlabel=AXES[x_key], ylabel="RMSE",
-             title=f"{run.get('experiment.title')}: median and central 95 % over seeds")
+             title=f"{run.get('experiment.title')}: median and central 95 % over seeds", ylim=(0.5 * floor, None))
     if x_key == "spp":
         axes.set_xscale("log", base=2)
-    axes.legend(fontsize=8)
+    axes.legend(fontsize=8, loc="lower left", bbox_to_anchor=(0, 0.16))
     return figure
 
 
