@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Stages that keep the counters of the streams.
 
-#include "kernels/stream.h"
-#include "shared/scene_buffers.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/shared/scene_buffers.h"
 
 /// Stage reset_streams: all slots free, no work taken. Ray counts and errors are kept.
 __kernel void reset_streams(STREAM_PARAMETERS) {

@@ -3,32 +3,27 @@
 // directly (k = 1, which every strategy counts).
 // Reads: hit, ray, pdf_w, throughput, active queue. Writes: radiance.
 
-#include "kernels/geometry/surface.h"
-#include "kernels/light/area_light.h"
-#include "kernels/light/mis.h"
-#include "kernels/stream.h"
-#include "kernels/traversal/intersect_triangle.h"
-#include "shared/integrator_settings.h"
-#include "shared/path_state.h"
-#include "shared/scene_buffers.h"
+#include "renderer/kernels/geometry/surface.h"
+#include "renderer/kernels/light/area_light.h"
+#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
 
-__kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, STREAM_PARAMETERS) {
-    const uint i = get_global_id(0);
-    if (i >= active_count(counters)) {
-        return;
-    }
-    const uint slot = active_slot(queues, counters, capacity, i);
-    const PathStates paths = {path_words, capacity};
+/// Adds what the hit of a path emits towards it.
+DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
     const uint triangle = get_hit_triangle(paths, slot);
     if (triangle == NO_HIT) {
         return;
     }
-    const SurfaceTriangle surface = surface_triangles[triangle];
+    GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
     const uint depth = get_depth(paths, slot);
-    if (surface.emitter == NO_EMITTER || (depth > 0u && (settings.strategies & STRATEGY_IMPLICIT) == 0u)) {
+    if (surface->emitter == NO_EMITTER || (depth > 0u && (settings.strategies & STRATEGY_IMPLICIT) == 0u)) {
         return;
     }
-    const EmitterTriangle emitter = emitter_triangles[surface.emitter];
+    const EmitterTriangle emitter = emitter_triangles[surface->emitter];
     const LightRecord light = lights[emitter.light];
     const SurfacePoint point = scene_point(surface, get_hit_u(paths, slot), get_hit_v(paths, slot));
     const float3 direction = get_ray_direction(paths, slot);
@@ -49,4 +44,11 @@ __kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSe
 #endif
 #endif
     set_radiance(paths, slot, get_radiance(paths, slot) + radiance);
+}
+
+__kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        add_emission(paths, active_slot(queues, counters, capacity, i), SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings);
+    }
 }

@@ -3,21 +3,20 @@
 // Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, depth; film.
 // To: the active queue of the next round, or the free queue.
 
-#include "kernels/bsdf/bsdf.h"
-#include "kernels/film/film.h"
-#include "kernels/geometry/surface.h"
-#include "kernels/sampling/random.h"
-#include "kernels/stream.h"
-#include "kernels/traversal/intersect_triangle.h"
-#include "shared/integrator_settings.h"
-#include "shared/path_state.h"
-#include "shared/scene_buffers.h"
+#include "renderer/kernels/bsdf/bsdf.h"
+#include "renderer/kernels/film/film.h"
+#include "renderer/kernels/geometry/surface.h"
+#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
 
 #if FEATURE_scattering
 
 /// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
-DEVICE bool scatter(PathStates paths, uint slot, GLOBAL const SurfaceTriangle *surface_triangles,
-                    GLOBAL const MaterialRecord *materials, IntegratorSettings settings, ulong first_sample) {
+DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings, ulong first_sample) {
     const uint triangle = get_hit_triangle(paths, slot);
     const uint depth = get_depth(paths, slot);
     if (triangle == NO_HIT) {
@@ -30,13 +29,13 @@ DEVICE bool scatter(PathStates paths, uint slot, GLOBAL const SurfaceTriangle *s
         return false;
     }
 #endif
-    const SurfaceTriangle surface = surface_triangles[triangle];
+    GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
     const SurfacePoint point = scene_point(surface, get_hit_u(paths, slot), get_hit_v(paths, slot));
     const float3 direction = get_ray_direction(paths, slot);
     const float3 n = dot(point.normal, direction) > 0.0f ? -point.normal : point.normal;
     const uint4 words = random_words(settings.seed, STREAM_CAMERA, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
-    const BsdfSample sample = bsdf_sample(materials[surface.material], n, uniform_float(words.x), uniform_float(words.y));
+    const BsdfSample sample = bsdf_sample(materials[surface->material], n, uniform_float(words.x), uniform_float(words.y));
     float3 throughput = get_throughput(paths, slot) * sample.weight;
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
     if (!(largest > 0.0f && sample.pdf_w > 0.0f)) {
@@ -72,22 +71,25 @@ DEVICE bool scatter(PathStates paths, uint slot, GLOBAL const SurfaceTriangle *s
 
 __kernel void extend_path(SURFACE_PARAMETERS GLOBAL long *film, IntegratorSettings settings, ulong first_sample,
                           STREAM_PARAMETERS) {
-    const uint i = get_global_id(0);
-    if (i >= active_count(counters)) {
-        return;
-    }
-    const uint slot = active_slot(queues, counters, capacity, i);
     const PathStates paths = {path_words, capacity};
+    PushBuffer extended, ended;
+    extended.count = 0u;
+    ended.count = 0u;
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        const uint slot = active_slot(queues, counters, capacity, i);
 #if FEATURE_scattering
-    if (scatter(paths, slot, surface_triangles, materials, settings, first_sample)) {
-        push_active(queues, counters, capacity, 1u - counters->parity, slot);
-        return;
-    }
+        if (scatter(paths, slot, SURFACE_ARGUMENTS settings, first_sample)) {
+            push_slot(&extended, slot);
+            continue;
+        }
 #endif
-    const ulong pixel = get_pixel(paths, slot);
-    const uint error = film_add_sample(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), get_radiance(paths, slot));
-    if (error != 0u) {
-        atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
+        const ulong pixel = get_pixel(paths, slot);
+        const uint error = film_add_sample(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), get_radiance(paths, slot));
+        if (error != 0u) {
+            atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
+        }
+        push_slot(&ended, slot);
     }
-    push_slot(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, slot);
+    append_active(queues, counters, capacity, 1u - counters->parity, &extended);
+    append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);
 }

@@ -2,34 +2,19 @@
 // Stage generate_camera_rays: starts a camera path in every free slot while samples of the batch are left.
 // Reads: free queue. Writes: path states. To: the active queue of this round.
 
-#include "kernels/camera/perspective.h"
-#include "kernels/sampling/random.h"
-#include "kernels/stream.h"
-#include "shared/integrator_settings.h"
-#include "shared/path_state.h"
-#include "shared/scene_buffers.h"
+#include "renderer/kernels/camera/perspective.h"
+#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
 
-__kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,
-                                   STREAM_PARAMETERS) {
-    const uint i = get_global_id(0);
-    if (i >= counters->free_slots) {
-        return;
-    }
-    // Work items are samples of the batch, sample by sample, each over all pixels. `work` stays below 2^31 and at
-    // most `capacity` work-items overshoot it, so the counter does not wrap.
-    const uint item = atomic_inc(&counters->next_work);
-    if (item >= work) {
-        return;
-    }
-    const uint pixels = camera.width * camera.height;
-    const uint pixel = item % pixels;
-    const uint sample = item / pixels;
+/// Starts sample `sample` of the batch in a pixel.
+DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, IntegratorSettings settings, ulong first_sample,
+                       uint pixel, uint sample) {
     const uint4 words = random_words(settings.seed, STREAM_CAMERA, pixel, first_sample + sample, BLOCK_CAMERA);
     const float x = (float)(pixel % camera.width) + uniform_float(words.x);
     const float y = (float)(pixel / camera.width) + uniform_float(words.y);
-
-    const uint slot = queues[QUEUE_FREE * capacity + i];
-    const PathStates paths = {path_words, capacity};
     set_pixel(paths, slot, pixel);
     set_sample(paths, slot, sample);
     set_depth(paths, slot, 0u);
@@ -39,5 +24,26 @@ __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings setti
 #if FEATURE_scattering
     set_throughput(paths, slot, make_float3(1.0f, 1.0f, 1.0f));
 #endif
-    push_active(queues, counters, capacity, counters->parity, slot);
+}
+
+__kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,
+                                   STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    const uint begin = min((uint)get_global_id(0) * STREAM_CHUNK, counters->free_slots);
+    const uint count = min(begin + STREAM_CHUNK, counters->free_slots) - begin;
+    if (count == 0u) {
+        return;
+    }
+    // Items of work are samples of the batch, sample by sample, each over all pixels. `work` is at most 2^31 and a
+    // round overshoots it by at most `capacity`, so the counter does not wrap before the host sees the end.
+    const uint first_item = atomic_add(&counters->next_work, count);
+    const uint pixels = camera.width * camera.height;
+    PushBuffer started;
+    started.count = 0u;
+    for (uint i = 0; i < count && first_item + i < work; ++i) {
+        const uint slot = queues[QUEUE_FREE * capacity + begin + i];
+        start_path(paths, slot, camera, settings, first_sample, (first_item + i) % pixels, (first_item + i) / pixels);
+        push_slot(&started, slot);
+    }
+    append_active(queues, counters, capacity, counters->parity, &started);
 }

@@ -2,19 +2,17 @@
 // Stage intersect_any: adds the light samples that nothing blocks.
 // Reads: ray_origin, shadow_vector, shadow_radiance, shadow queue. Writes: radiance.
 
-#include "kernels/stream.h"
-#include "kernels/traversal/intersect_bvh.h"
-#include "shared/path_state.h"
-#include "shared/scene_buffers.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/kernels/traversal/intersect_bvh.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
 
 __kernel void intersect_any(BVH_PARAMETERS STREAM_PARAMETERS) {
-    const uint i = get_global_id(0);
-    if (i >= counters->shadow) {
-        return;
-    }
-    const uint slot = queues[QUEUE_SHADOW * capacity + i];
     const PathStates paths = {path_words, capacity};
-    if (!trace_any(bvh_nodes, bvh_triangles, get_ray_origin(paths, slot), get_shadow_vector(paths, slot), 1.0f)) {
-        set_radiance(paths, slot, get_radiance(paths, slot) + get_shadow_radiance(paths, slot));
+    FOR_EACH_ENTRY(i, counters->shadow) {
+        const uint slot = queues[QUEUE_SHADOW * capacity + i];
+        if (!trace_any(bvh_nodes, bvh_triangles, get_ray_origin(paths, slot), get_shadow_vector(paths, slot), 1.0f)) {
+            set_radiance(paths, slot, get_radiance(paths, slot) + get_shadow_radiance(paths, slot));
+        }
     }
 }

@@ -2,21 +2,19 @@
 // Stage intersect_nearest: finds what the rays of the active paths hit first.
 // Reads: ray_origin, ray_direction, active queue. Writes: hit_triangle, hit_u, hit_v.
 
-#include "kernels/stream.h"
-#include "kernels/traversal/intersect_bvh.h"
-#include "shared/path_state.h"
-#include "shared/scene_buffers.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/kernels/traversal/intersect_bvh.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
 
 __kernel void intersect_nearest(BVH_PARAMETERS STREAM_PARAMETERS) {
-    const uint i = get_global_id(0);
-    if (i >= active_count(counters)) {
-        return;
-    }
-    const uint slot = active_slot(queues, counters, capacity, i);
     const PathStates paths = {path_words, capacity};
-    const Hit hit = trace_nearest(bvh_nodes, bvh_triangles, get_ray_origin(paths, slot),
-                                      get_ray_direction(paths, slot), INFINITY);
-    set_hit_triangle(paths, slot, hit.triangle);
-    set_hit_u(paths, slot, hit.u);
-    set_hit_v(paths, slot, hit.v);
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        const uint slot = active_slot(queues, counters, capacity, i);
+        const Hit hit = trace_nearest(bvh_nodes, bvh_triangles, get_ray_origin(paths, slot), get_ray_direction(paths, slot),
+                                      INFINITY);
+        set_hit_triangle(paths, slot, hit.triangle);
+        set_hit_u(paths, slot, hit.u);
+        set_hit_v(paths, slot, hit.v);
+    }
 }

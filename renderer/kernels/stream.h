@@ -3,22 +3,45 @@
 // in StreamCounters.
 #pragma once
 
-#include "shared/compat.h"
-#include "shared/stream_counters.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/stream_counters.h"
 
 // Queue numbers within the buffer: active queues 0 and 1 take turns. The free and the shadow queue share their
 // room: one lives from extend_path to generate_camera_rays, the other from sample_light to intersect_any.
 #define QUEUE_FREE 2u
 #define QUEUE_SHADOW 2u
 
+/// Entries of a queue that one work-item takes, one after the other: 1 on a GPU, more on a CPU, where what it
+/// appends then costs one atomic operation for all of them.
+#ifndef STREAM_CHUNK
+#define STREAM_CHUNK 1
+#endif
+
+/// The entries [begin, end) of this work-item in a queue of `count`.
+#define FOR_EACH_ENTRY(i, count)                                                                             \
+    for (uint i = (uint)get_global_id(0) * STREAM_CHUNK, i##_end = min(i + STREAM_CHUNK, (uint)(count)); i < i##_end; ++i)
+
+/// Slots to append to a queue.
+typedef struct PushBuffer {
+    uint slots[STREAM_CHUNK];
+    uint count;
+} PushBuffer;
+
+DEVICE void push_slot(PRIVATE PushBuffer *buffer, uint slot) { buffer->slots[buffer->count++] = slot; }
+
 /// The one way to append: checked. An overflow is counted and ends the run with an error; nothing is overwritten.
-DEVICE void push_slot(GLOBAL uint *queues, uint queue, uint capacity, volatile GLOBAL uint *length,
-                      GLOBAL StreamCounters *counters, uint slot) {
-    const uint position = atomic_inc(length);
-    if (position < capacity) {
-        queues[queue * capacity + position] = slot;
-    } else {
-        atomic_inc(&counters->overflow);
+DEVICE void append_slots(GLOBAL uint *queues, uint queue, uint capacity, volatile GLOBAL uint *length,
+                         GLOBAL StreamCounters *counters, PRIVATE const PushBuffer *buffer) {
+    if (buffer->count == 0u) {
+        return;
+    }
+    const uint first = atomic_add(length, buffer->count);
+    for (uint i = 0; i < buffer->count; ++i) {
+        if (first + i < capacity) {
+            queues[queue * capacity + first + i] = buffer->slots[i];
+        } else {
+            atomic_inc(&counters->overflow);
+        }
     }
 }
 
@@ -29,6 +52,7 @@ DEVICE uint active_slot(GLOBAL const uint *queues, GLOBAL const StreamCounters *
     return queues[counters->parity * capacity + i];
 }
 
-DEVICE void push_active(GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity, uint parity, uint slot) {
-    push_slot(queues, parity, capacity, &counters->active[parity], counters, slot);
+DEVICE void append_active(GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity, uint parity,
+                          PRIVATE const PushBuffer *buffer) {
+    append_slots(queues, parity, capacity, &counters->active[parity], counters, buffer);
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/kernels/geometry/surface_point.h"
+
 namespace rtrays {
 
 namespace {
@@ -119,6 +121,12 @@ CompiledScene compile_scene(const Scene &scene, int width, int height, LightSele
         copy(meshes.position[t[0]], surface.p0);
         copy(meshes.position[t[1]], surface.p1);
         copy(meshes.position[t[2]], surface.p2);
+        const float3 p0 = make_float3(surface.p0[0], surface.p0[1], surface.p0[2]);
+        const float3 p1 = make_float3(surface.p1[0], surface.p1[1], surface.p1[2]);
+        const float3 p2 = make_float3(surface.p2[0], surface.p2[1], surface.p2[2]);
+        const float3 normal = triangle_normal(p0, p1, p2);
+        copy(Eigen::Vector3f(normal.x, normal.y, normal.z), surface.normal);
+        surface.extent = triangle_extent(p0, p1, p2);
         surface.material = meshes.material[meshes.triangle_mesh[i]];
         surface.emitter = NO_EMITTER;
         compiled.surface_triangles.push_back(surface);

@@ -27,21 +27,22 @@ size_t word_count(const FilmState &film) {
     return static_cast<size_t>(film.width) * static_cast<size_t>(film.height) * pixel_words(film);
 }
 
-/// The value of one sum: words times their units. Adding from the top keeps the error below 2^-52 of the result:
-/// carried words below the top one are non-negative and smaller than the unit above.
-double sum_value(const int64_t *words, int lowest, int step) {
+/// The value of one sum, whose words are `stride` apart: words times their units. Adding from the top keeps the error
+/// below 2^-52 of the result: carried words below the top one are non-negative and smaller than the unit above.
+double sum_value(const int64_t *words, size_t stride, int lowest, int step) {
     double value = 0;
     for (int k = FILM_WORDS - 1; k >= 0; --k) {
-        value += std::ldexp(static_cast<double>(words[k]), lowest + k * step);
+        value += std::ldexp(static_cast<double>(words[static_cast<size_t>(k) * stride]), lowest + k * step);
     }
     return value;
 }
 
-void carry(int64_t *words, int step) {
-    for (int k = 0; k + 1 < FILM_WORDS; ++k) {
-        const int64_t excess = words[k] >> step;
-        words[k] -= excess * (int64_t{1} << step);
-        words[k + 1] += excess;
+/// As the stage carry_film does.
+void carry(int64_t *words, size_t stride, int step) {
+    for (int k = 0; k + 1 < FILM_WORDS; ++k, words += stride) {
+        const int64_t excess = *words >> step;
+        *words -= excess * (int64_t{1} << step);
+        words[stride] += excess;
     }
 }
 
@@ -93,6 +94,7 @@ Image develop_film(const FilmState &film) {
         }
     }
     const auto n = static_cast<double>(film.samples());
+    const size_t sums = FILM_PIXEL_SUMS(film.variance);
     std::fill_n(image.add_channel("samples").begin(), image.pixel_count(), static_cast<float>(n));
     if (film.samples() == 0) {
         return image;
@@ -102,14 +104,13 @@ Image develop_film(const FilmState &film) {
     for (size_t c = 0; c < FILM_CHANNELS; ++c) {
         std::vector<float> &means = image.channel(colour[c]);
         for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
-            const int64_t *words = film.words.data() + pixel * pixel_words(film) + c * FILM_WORDS;
-            const double mean = sum_value(words, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
+            const int64_t *words = film.words.data() + pixel * pixel_words(film) + c;
+            const double mean = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
             means[pixel] = static_cast<float>(mean);
             if (film.variance && n > 1) {
                 // Squares are rounded by up to 2^-21 each: where all samples are equal the difference may come out
                 // below zero by that much of the mean's square; 0 is then the nearest variance.
-                const int64_t *squares = words + FILM_CHANNELS * FILM_WORDS;
-                const double mean_square = sum_value(squares, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
+                const double mean_square = sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
                 image.channel(variance[c])[pixel] =
                     static_cast<float>(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
             }
@@ -139,9 +140,11 @@ void merge_film(FilmState &film, const FilmState &other) {
     for (size_t i = 0; i < merged.words.size(); ++i) {
         merged.words[i] += other.words[i];
     }
-    for (size_t sum = 0; sum < merged.words.size() / FILM_WORDS; ++sum) {
-        const bool is_square = sum % (2 * FILM_CHANNELS) >= FILM_CHANNELS && merged.variance;
-        carry(merged.words.data() + sum * FILM_WORDS, is_square ? FILM_SQUARE_STEP : FILM_SUM_STEP);
+    const size_t sums = FILM_PIXEL_SUMS(merged.variance);
+    for (size_t pixel = 0; pixel < merged.words.size(); pixel += pixel_words(merged)) {
+        for (size_t sum = 0; sum < sums; ++sum) {
+            carry(merged.words.data() + pixel + sum, sums, sum < FILM_CHANNELS ? FILM_SUM_STEP : FILM_SQUARE_STEP);
+        }
     }
     film = std::move(merged);
 }

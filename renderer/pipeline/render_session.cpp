@@ -35,10 +35,20 @@ constexpr int rounds_per_check = 8;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-uint32_t default_group_size(const DeviceInfo &info) { return info.is_cpu ? 64 : 128; }
-
-/// On a CPU the path states should stay in cache; a GPU needs enough paths to hide latency.
-uint32_t default_capacity(const DeviceInfo &info) { return info.is_cpu ? 1u << 14 : 1u << 20; }
+/// On a CPU the path states should stay in cache and a work-item should do enough to be worth its call; a GPU needs
+/// enough paths to hide latency, and neighbouring work-items that read neighbouring words.
+StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &info) {
+    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true} : StreamLayout{128, 1u << 20, 1, false};
+    layout.group_size = settings.group_size > 0 ? settings.group_size : layout.group_size;
+    layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
+    layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
+    layout.interleaved = settings.path_layout == "auto" ? layout.interleaved : settings.path_layout == "interleaved";
+    if (layout.group_size > info.max_group_size) {
+        throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}", layout.group_size, info.name,
+                                      info.max_group_size));
+    }
+    return layout;
+}
 
 FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings, const DeviceInfo &info) {
     FeatureMask features = FeatureMask::all().with(Feature::variance, settings.variance);
@@ -52,16 +62,10 @@ FeatureMask select_features(const CompiledScene &compiled, const RenderSettings 
     return features.with(Feature::int64_atomics, info.has_int64_atomics).closed();
 }
 
-RenderSettings complete(RenderSettings settings, const Scene &scene, const DeviceInfo &info) {
+RenderSettings complete(RenderSettings settings, const Scene &scene) {
     require_consistent(settings);
     settings.width = settings.width > 0 ? settings.width : scene.film_width();
     settings.height = settings.height > 0 ? settings.height : scene.film_height();
-    settings.group_size = settings.group_size > 0 ? settings.group_size : default_group_size(info);
-    if (settings.group_size > info.max_group_size) {
-        throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}", settings.group_size, info.name,
-                                      info.max_group_size));
-    }
-    settings.stream_capacity = settings.stream_capacity > 0 ? settings.stream_capacity : default_capacity(info);
     const uint64_t pixels = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
     if (pixels > (1u << 30)) {
         throw input_error(fmt::format("{} x {} pixels are more than 2^30", settings.width, settings.height));
@@ -74,12 +78,13 @@ RenderSettings complete(RenderSettings settings, const Scene &scene, const Devic
 struct RenderSession::State {
     State(const Scene &scene, const RenderSettings &requested, DeviceContext &device_context)
         : device(device_context),
-          settings(complete(requested, scene, device_context.info())),
+          settings(complete(requested, scene)),
+          layout(stream_layout(settings, device_context.info())),
           numbers(integrator_settings(settings)),
           compiled(compile_scene(scene, settings.width, settings.height, light_selection(settings))),
           features(select_features(compiled, settings, device_context.info())),
           round(path_tracing_round(features)),
-          stages(device_context, all_stages(), features, settings.group_size, settings.source_overlays) {
+          stages(device_context, all_stages(), features, layout, settings.source_overlays) {
         scene_hash = scene.hash();
         config = content_hash(scene_hash + image_settings(settings).dump());
         compile_seconds = stages.build_seconds();
@@ -108,7 +113,7 @@ struct RenderSession::State {
     }
 
     void allocate() {
-        const uint64_t capacity = settings.stream_capacity;
+        const uint64_t capacity = layout.capacity;
         surface_triangles = Buffer<SurfaceTriangle>(device, "surface_triangles", compiled.surface_triangles);
         if (features.has(Feature::scattering)) {
             materials = Buffer<MaterialRecord>(device, "materials", compiled.materials);
@@ -136,7 +141,7 @@ struct RenderSession::State {
             {In::film_sums, {static_cast<uint32_t>(film_sums())}},
             {In::first_sample, {uint64_t{0}}},
             {In::work, {uint32_t{0}}},
-            {In::streams, {path_words, queues, counters, settings.stream_capacity}},
+            {In::streams, {path_words, queues, counters, layout.capacity}},
             {In::counters, {counters}},
             {In::settings, {numbers}},
         };
@@ -162,8 +167,16 @@ struct RenderSession::State {
 
     void enqueue(const std::string &name) {
         using Items = StageDescription::Items;
-        const Items items = stage_description(name).items;
-        stages.enqueue(name, items == Items::one ? 1 : items == Items::capacity ? settings.stream_capacity : film_sums());
+        switch (stage_description(name).items) {
+        case Items::entries:
+            return stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
+        case Items::slots:
+            return stages.enqueue(name, layout.capacity);
+        case Items::film_sums:
+            return stages.enqueue(name, film_sums());
+        case Items::one:
+            return stages.enqueue(name, 1);
+        }
     }
 
     /// Renders `count` samples of every pixel from `first` on.
@@ -230,6 +243,7 @@ struct RenderSession::State {
 
     DeviceContext &device;
     RenderSettings settings;
+    StreamLayout layout;
     IntegratorSettings numbers;
     CompiledScene compiled;
     FeatureMask features;
@@ -342,8 +356,11 @@ nlohmann::json RenderSession::report() const {
         {"dirty", RTRAYS_DIRTY},
         {"device", {{"name", s.device.info().name}, {"driver", s.device.info().driver}, {"platform", s.device.info().platform_name}}},
         {"settings", image_settings(s.settings)},
-        {"group_size", s.settings.group_size},
-        {"stream_capacity", s.settings.stream_capacity},
+        {"stream",
+         {{"group_size", s.layout.group_size},
+          {"capacity", s.layout.capacity},
+          {"chunk", s.layout.chunk},
+          {"interleaved", s.layout.interleaved}}},
         {"features", s.features.names()},
         {"scene", {{"hash", s.scene_hash}, {"triangles", s.compiled.surface_triangles.size()}, {"lights", s.compiled.lights.size()}}},
         {"seconds",

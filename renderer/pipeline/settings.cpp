@@ -54,6 +54,8 @@ const std::vector<Setting> &setting_table() {
          "probability of a light"},
         {"device.group_size", CountSetting{&S::group_size, 4096}, "work-items per group, 0: by device"},
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
+        {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
+        {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}}, "path states in memory"},
         {"device.features", TextSetting{&S::features, {"scene", "all"}}, "what is compiled in"},
     };
     return table;

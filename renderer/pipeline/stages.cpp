@@ -12,17 +12,17 @@ const std::vector<StageDescription> &stage_table() {
     using In = StageInput;
     using Items = StageDescription::Items;
     static const std::vector<StageDescription> table = {
-        {"reset_streams", "kernels/advance_streams.cl", {In::streams}, Items::capacity},
+        {"reset_streams", "kernels/advance_streams.cl", {In::streams}, Items::slots},
         {"generate_camera_rays", "kernels/generate_camera_rays.cl",
-         {In::camera, In::settings, In::first_sample, In::work, In::streams}, Items::capacity},
+         {In::camera, In::settings, In::first_sample, In::work, In::streams}, Items::entries},
         {"begin_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
-        {"intersect_nearest", "kernels/intersect_nearest.cl", {In::bvh, In::streams}, Items::capacity},
-        {"evaluate_emission", "kernels/evaluate_emission.cl", {In::surfaces, In::lights, In::settings, In::streams}, Items::capacity},
+        {"intersect_nearest", "kernels/intersect_nearest.cl", {In::bvh, In::streams}, Items::entries},
+        {"evaluate_emission", "kernels/evaluate_emission.cl", {In::surfaces, In::lights, In::settings, In::streams}, Items::entries},
         {"sample_light", "kernels/sample_light.cl",
-         {In::surfaces, In::lights, In::settings, In::first_sample, In::streams}, Items::capacity},
-        {"intersect_any", "kernels/intersect_any.cl", {In::bvh, In::streams}, Items::capacity},
+         {In::surfaces, In::lights, In::settings, In::first_sample, In::streams}, Items::entries},
+        {"intersect_any", "kernels/intersect_any.cl", {In::bvh, In::streams}, Items::entries},
         {"extend_path", "kernels/extend_path.cl",
-         {In::surfaces, In::film, In::settings, In::first_sample, In::streams}, Items::capacity},
+         {In::surfaces, In::film, In::settings, In::first_sample, In::streams}, Items::entries},
         {"end_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
         {"carry_film", "kernels/carry_film.cl", {In::film, In::film_sums}, Items::film_sums},
     };
@@ -38,13 +38,16 @@ const StageDescription &stage_description(const std::string &name) {
     return *found;
 }
 
-StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features, uint32_t group_size,
-                   const SourceOverlays &overlays) {
+StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features,
+                   const StreamLayout &layout, const SourceOverlays &overlays) {
+    Defines defines = features.defines();
+    defines["STREAM_CHUNK"] = std::to_string(layout.chunk);
+    defines["PATH_STATE_INTERLEAVED"] = layout.interleaved ? "1" : "0";
     for (const std::string &name : names) {
         const StageDescription &description = stage_description(name);
         const auto program =
-            programs_.try_emplace(description.file, device, description.file, features.defines(), overlays).first;
-        const uint32_t size = description.items == StageDescription::Items::one ? 1 : group_size;
+            programs_.try_emplace(description.file, device, description.file, defines, overlays).first;
+        const uint32_t size = description.items == StageDescription::Items::one ? 1 : layout.group_size;
         stages_.emplace(name, Stage{&description, Kernel(program->second, name, size)});
     }
 }

@@ -18,7 +18,8 @@ struct StageDescription {
     std::string name;  ///< of the kernel, in source, profile and results
     std::string file;
     std::vector<StageInput> inputs;
-    enum class Items { capacity, one, film_sums } items;  ///< how many work-items it is launched with
+    /// What its work-items stand for: chunks of a queue's entries, slots, sums of the film, or just one.
+    enum class Items { entries, slots, film_sums, one } items;
 };
 
 /// All stages there are.
@@ -30,11 +31,19 @@ const StageDescription &stage_description(const std::string &name);
 /// The kernel arguments that stand for each input.
 using StageArguments = std::map<StageInput, std::vector<KernelArgument>>;
 
+/// How streams are laid out on a device. None of it changes a bit of the image.
+struct StreamLayout {
+    uint32_t group_size;  ///< work-items per group
+    uint32_t capacity;    ///< paths in flight
+    uint32_t chunk;       ///< entries of a queue per work-item
+    bool interleaved;     ///< the words of a path lie together
+};
+
 /// The compiled programs and kernels of some stages under one feature mask.
 class StageSet {
   public:
     /// Builds one program per file.
-    StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features, uint32_t group_size,
+    StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features, const StreamLayout &layout,
              const SourceOverlays &overlays);
 
     /// Binds what `arguments` holds; inputs that it does not name keep their binding.

@@ -23,5 +23,9 @@
 #define FILM_UNITS_PER_ADDITION 44                 /* log2, exclusive */
 #define FILM_ADDITIONS_BETWEEN_CARRIES (1u << 18)  /* half of what fits */
 
-/// Words of one pixel: the sums of all channels, then the squares of all channels where they are kept.
-#define FILM_PIXEL_WORDS(variance) (FILM_CHANNELS * FILM_WORDS * ((variance) ? 2 : 1))
+/// Sums of one pixel: R, G, B, then their squares where they are kept.
+#define FILM_PIXEL_SUMS(variance) (FILM_CHANNELS * ((variance) ? 2 : 1))
+
+/// Words of one pixel. Word k of sum s is at k * FILM_PIXEL_SUMS + s: the sums of one magnitude, which a sample adds
+/// to together, share a cache line.
+#define FILM_PIXEL_WORDS(variance) (FILM_WORDS * FILM_PIXEL_SUMS(variance))

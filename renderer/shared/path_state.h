@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The state of a path between stages, declared once: the structure-of-arrays layout, the accessors and the
-// byte count derive from this table. Field f of path `slot` lies at words[f * capacity + slot].
+// The state of a path between stages, declared once: layout, accessors and byte count derive from this table. Word w
+// of path `slot` lies at words[w * capacity + slot], so that neighbouring work-items read neighbouring words, or,
+// with PATH_STATE_INTERLEAVED, at words[slot * PATH_STATE_WORDS + w], so that a CPU finds a path in two cache lines.
 #pragma once
 
 #include "compat.h"
@@ -44,29 +45,33 @@ typedef struct PathStates {
     uint capacity;
 } PathStates;
 
+#if PATH_STATE_INTERLEAVED
+#define PATH_WORD(paths, slot, word) (paths).words[(slot) * PATH_STATE_WORDS + (word)]
+#else
+#define PATH_WORD(paths, slot, word) (paths).words[(word) * (paths).capacity + (slot)]
+#endif
+
 // get_<name>(paths, slot) and set_<name>(paths, slot, value) for every field.
-#define ACCESS_uint(name)                                                                                  \
-    DEVICE uint get_##name(PathStates paths, uint slot) { return paths.words[PATH_##name * paths.capacity + slot]; } \
-    DEVICE void set_##name(PathStates paths, uint slot, uint value) {                                     \
-        paths.words[PATH_##name * paths.capacity + slot] = value;                                         \
+#define ACCESS_uint(name)                                                                          \
+    DEVICE uint get_##name(PathStates paths, uint slot) { return PATH_WORD(paths, slot, PATH_##name); } \
+    DEVICE void set_##name(PathStates paths, uint slot, uint value) { PATH_WORD(paths, slot, PATH_##name) = value; }
+#define ACCESS_float(name)                                                                         \
+    DEVICE float get_##name(PathStates paths, uint slot) {                                         \
+        return as_float(PATH_WORD(paths, slot, PATH_##name));                                      \
+    }                                                                                              \
+    DEVICE void set_##name(PathStates paths, uint slot, float value) {                             \
+        PATH_WORD(paths, slot, PATH_##name) = as_uint(value);                                      \
     }
-#define ACCESS_float(name)                                                                                 \
-    DEVICE float get_##name(PathStates paths, uint slot) {                                                \
-        return as_float(paths.words[PATH_##name * paths.capacity + slot]);                                \
-    }                                                                                                     \
-    DEVICE void set_##name(PathStates paths, uint slot, float value) {                                    \
-        paths.words[PATH_##name * paths.capacity + slot] = as_uint(value);                                \
-    }
-#define ACCESS_float3(name)                                                                                \
-    DEVICE float3 get_##name(PathStates paths, uint slot) {                                               \
-        GLOBAL const uint *word = paths.words + PATH_##name * paths.capacity + slot;                      \
-        return make_float3(as_float(word[0]), as_float(word[paths.capacity]), as_float(word[2 * paths.capacity])); \
-    }                                                                                                     \
-    DEVICE void set_##name(PathStates paths, uint slot, float3 value) {                                   \
-        GLOBAL uint *word = paths.words + PATH_##name * paths.capacity + slot;                            \
-        word[0] = as_uint(value.x);                                                                       \
-        word[paths.capacity] = as_uint(value.y);                                                          \
-        word[2 * paths.capacity] = as_uint(value.z);                                                      \
+#define ACCESS_float3(name)                                                                        \
+    DEVICE float3 get_##name(PathStates paths, uint slot) {                                        \
+        return make_float3(as_float(PATH_WORD(paths, slot, PATH_##name)),                          \
+                           as_float(PATH_WORD(paths, slot, PATH_##name + 1)),                      \
+                           as_float(PATH_WORD(paths, slot, PATH_##name + 2)));                     \
+    }                                                                                              \
+    DEVICE void set_##name(PathStates paths, uint slot, float3 value) {                            \
+        PATH_WORD(paths, slot, PATH_##name) = as_uint(value.x);                                    \
+        PATH_WORD(paths, slot, PATH_##name + 1) = as_uint(value.y);                                \
+        PATH_WORD(paths, slot, PATH_##name + 2) = as_uint(value.z);                                \
     }
 #define X(feature, type, name) WHEN(feature, ACCESS_##type(name))
 PATH_STATE_FIELDS(X)

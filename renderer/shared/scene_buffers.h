@@ -22,6 +22,11 @@
 #define X_PARAMETER(feature, type, name) WHEN(feature, BUFFER_PARAMETER(type, name))
 #define SURFACE_PARAMETERS SURFACE_BUFFERS(X_PARAMETER)
 #define LIGHT_PARAMETERS LIGHT_BUFFERS(X_PARAMETER) uint light_count,
+// The same as arguments of a device function.
+#define BUFFER_ARGUMENT(type, name) name,
+#define X_ARGUMENT(feature, type, name) WHEN(feature, BUFFER_ARGUMENT(type, name))
+#define SURFACE_ARGUMENTS SURFACE_BUFFERS(X_ARGUMENT)
+#define LIGHT_ARGUMENTS LIGHT_BUFFERS(X_ARGUMENT) light_count,
 #define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity
 
 #endif

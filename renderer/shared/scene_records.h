@@ -24,8 +24,10 @@ typedef struct SurfaceTriangle {
     float p0[3];
     uint material;
     float p1[3];
-    uint emitter;       ///< index into the emitter triangles, NO_EMITTER when it emits nothing
+    uint emitter;     ///< index into the emitter triangles, NO_EMITTER when it emits nothing
     float p2[3];
+    float extent;     ///< largest side of the box around its edges, scene units
+    float normal[3];  ///< unit, on the side from which p0, p1, p2 run counter-clockwise; zero when degenerate
     float padding;
 } SurfaceTriangle;
 
@@ -55,7 +57,7 @@ typedef struct EmitterTriangle {
 
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(CameraRecord) == 64, "layout shared with the device");
-static_assert(sizeof(SurfaceTriangle) == 48, "layout shared with the device");
+static_assert(sizeof(SurfaceTriangle) == 64, "layout shared with the device");
 static_assert(sizeof(MaterialRecord) == 16, "layout shared with the device");
 static_assert(sizeof(LightRecord) == 32, "layout shared with the device");
 static_assert(sizeof(EmitterTriangle) == 16, "layout shared with the device");

@@ -59,6 +59,8 @@ TEST(Pipeline, GivesTheSameBitsHoweverTheWorkIsCut) {
     EXPECT_EQ(render_words(small()), words) << "a second run";
     EXPECT_EQ(render_words(small({"device.group_size=16"})), words) << "another group size";
     EXPECT_EQ(render_words(small({"device.stream_capacity=3000"})), words) << "another stream capacity";
+    EXPECT_EQ(render_words(small({"device.stream_chunk=7"})), words) << "another chunk of work";
+    EXPECT_EQ(render_words(small({"device.path_layout=arrays"})), words) << "another layout of the path states";
     EXPECT_EQ(render_words(small(), 1), words) << "a batch split";
 }
 
@@ -109,7 +111,7 @@ TEST(Features, BuildWithNoneAllAndEachOff) {
         std::vector<std::string> stages = path_tracing_round(mask);
         stages.emplace_back("reset_streams");
         stages.emplace_back("carry_film");
-        EXPECT_NO_THROW(StageSet(device(), stages, mask, 64, {})) << name;
+        EXPECT_NO_THROW(StageSet(device(), stages, mask, {64, 512, 4, true}, {})) << name;
     }
 }
 

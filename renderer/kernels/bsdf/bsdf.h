@@ -3,9 +3,9 @@
 // the path came from. Densities are per solid angle. Each model's sample, evaluate and pdf stand together.
 #pragma once
 
-#include "kernels/sampling/hemisphere.h"
-#include "shared/compat.h"
-#include "shared/scene_records.h"
+#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/scene_records.h"
 
 /// A sampled direction. `weight` is f |cos| / pdf_w; pdf_w is 0 when nothing was sampled.
 typedef struct BsdfSample {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/compat.h"
-#include "shared/scene_records.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/scene_records.h"
 
 /// The unit direction of the pinhole camera's ray through film position (x, y), in pixels from the top left
 /// corner. A uniform position in a pixel has density p_v = 1 / pixel_area per area at unit distance (thesis

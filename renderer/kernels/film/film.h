@@ -2,8 +2,8 @@
 // Adding samples to the film's exact sums (shared/film_layout.h): the order of additions does not matter.
 #pragma once
 
-#include "shared/compat.h"
-#include "shared/film_layout.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/film_layout.h"
 
 #if defined(__OPENCL_VERSION__) && FEATURE_int64_atomics
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
@@ -23,21 +23,19 @@ DEVICE void film_add_word(volatile GLOBAL long *word, long value) {
 #endif
 }
 
-/// Adds `value` whole to the word of its magnitude. Returns false, adding nothing, when it reaches the largest limit,
-/// 2^(lowest + 5 step + 44). `value` must be finite.
-DEVICE bool film_add_value(volatile GLOBAL long *words, float value, int lowest, int step) {
+#define PIXEL_SUMS FILM_PIXEL_SUMS(FEATURE_variance)
+
+/// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`. `value` must be finite and
+/// below the largest limit, 2^(lowest + 5 step + 44), in magnitude.
+DEVICE void film_add_value(volatile GLOBAL long *words, float value, int lowest, int step) {
     // |value| < 2^exponent, from the bits: exact, unlike log2; 0 and denormals give -126.
     const int exponent = (int)((as_uint(value) >> 23) & 0xffu) - 126;
     const int above = exponent - (lowest + FILM_UNITS_PER_ADDITION);
     const int word = above <= 0 ? 0 : (above + step - 1) / step;
-    if (word >= FILM_WORDS) {
-        return false;
-    }
-    // value / 2^unit without overflow of the factor: |unit| <= 104.
+    // The factor 2^-unit is a normal float: |unit| <= 104.
     const float units = value * as_float((uint)(127 - (lowest + word * step)) << 23);
     // Below 2^23 a float may hold a fraction: round to nearest, else it is an integer already.
-    film_add_word(words + word, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
-    return true;
+    film_add_word(words + word * PIXEL_SUMS, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
 }
 
 /// Adds one sample of a pixel, and its squares where the film keeps them. Returns 0, or FILM_NON_FINITE or
@@ -54,24 +52,25 @@ DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
         return FILM_OUT_OF_RANGE;
     }
     film_add_value(pixel_words, sample.x, FILM_SUM_LOWEST, FILM_SUM_STEP);
-    film_add_value(pixel_words + FILM_WORDS, sample.y, FILM_SUM_LOWEST, FILM_SUM_STEP);
-    film_add_value(pixel_words + 2 * FILM_WORDS, sample.z, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    film_add_value(pixel_words + 1, sample.y, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    film_add_value(pixel_words + 2, sample.z, FILM_SUM_LOWEST, FILM_SUM_STEP);
 #if FEATURE_variance
     // Squares stay below 2^80, the limit of their top word.
-    volatile GLOBAL long *squares = pixel_words + FILM_CHANNELS * FILM_WORDS;
-    film_add_value(squares, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    film_add_value(squares + FILM_WORDS, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    film_add_value(squares + 2 * FILM_WORDS, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    film_add_value(pixel_words + 3, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    film_add_value(pixel_words + 4, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    film_add_value(pixel_words + 5, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
 #endif
     return 0u;
 }
 
-/// Moves what exceeds a word's own range up to the next, so that equal sums have equal words: all but the top word end in
-/// [0, 2^step), the top word keeps the sign.
-DEVICE void film_carry_value(GLOBAL long *words, int step) {
+/// Moves what exceeds a word's own range up to the next, so that equal sums have equal words: all but the top word end
+/// in [0, 2^step), the top word keeps the sign. `sum` numbers the sums of the pixel.
+DEVICE void film_carry_sum(GLOBAL long *pixel_words, uint sum) {
+    const int step = sum < FILM_CHANNELS ? FILM_SUM_STEP : FILM_SQUARE_STEP;
     for (int word = 0; word + 1 < FILM_WORDS; ++word) {
-        const long carry = words[word] >> step;  // arithmetic: rounds down
-        words[word] -= carry << step;
-        words[word + 1] += carry;
+        GLOBAL long *low = pixel_words + word * PIXEL_SUMS + sum;
+        const long carry = *low >> step;  // arithmetic: rounds down
+        *low -= carry << step;
+        low[PIXEL_SUMS] += carry;
     }
 }

@@ -16,13 +16,18 @@ typedef struct SurfacePoint {
     float3 error;     ///< how far the position may be off the triangle as the triangle test sees it, per axis
 } SurfacePoint;
 
+/// The largest difference of a coordinate along the edges from v0: the triangle's size E.
+DEVICE float triangle_extent(float3 v0, float3 v1, float3 v2) {
+    const float3 largest = max(fabs(v1 - v0), fabs(v2 - v0));
+    return max(largest.x, max(largest.y, largest.z));
+}
+
 /// Unit geometric normal; zero when the rounded edges are parallel, which the BVH builder rejects as
 /// degenerate. Edges are scaled first: no product overflows or underflows between 1e-30 and 1e30.
 DEVICE float3 triangle_normal(float3 v0, float3 v1, float3 v2) {
     const float3 e1 = v1 - v0;
     const float3 e2 = v2 - v0;
-    const float3 largest = max(fabs(e1), fabs(e2));
-    const float extent = max(largest.x, max(largest.y, largest.z));
+    const float extent = triangle_extent(v0, v1, v2);
     if (!(extent > 0.0f)) {
         return make_float3(0.0f, 0.0f, 0.0f);
     }
@@ -38,17 +43,21 @@ DEVICE float3 triangle_normal(float3 v0, float3 v1, float3 v2) {
 /// where gamma(n) = n u / (1 - n u), u = 2^-24 (PBRT 6.8.1). To it comes the error of the next triangle test
 /// near this point: 6 u E (traversal_ray.h) for the shear and as much again for its distances, E the
 /// triangle's size, hence 16 u E with room to spare.
-DEVICE SurfacePoint surface_point(float3 v0, float3 v1, float3 v2, float u, float v) {
+///
+/// `normal` and `extent` are those of the triangle (triangle_normal, triangle_extent): facts that a scene stores.
+DEVICE SurfacePoint surface_point_of(float3 v0, float3 v1, float3 v2, float3 normal, float extent, float u, float v) {
     const float w = 1.0f - u - v;
     SurfacePoint point;
     point.position = w * v0 + u * v1 + v * v2;
-    point.normal = triangle_normal(v0, v1, v2);
-    const float3 size = max(fabs(v1 - v0), fabs(v2 - v0));
-    const float extent = max(size.x, max(size.y, size.z));
+    point.normal = normal;
     const float test_error = 9.53674316e-7f * extent;                              // 16 u E
     point.error = 4.17232700e-7f * (fabs(w * v0) + fabs(u * v1) + fabs(v * v2)) +  // gamma(7)
                   make_float3(test_error, test_error, test_error);
     return point;
+}
+
+DEVICE SurfacePoint surface_point(float3 v0, float3 v1, float3 v2, float u, float v) {
+    return surface_point_of(v0, v1, v2, triangle_normal(v0, v1, v2), triangle_extent(v0, v1, v2), u, v);
 }
 
 /// The float next to x on the side of `towards`'s sign; x itself where that is 0.

@@ -3,11 +3,11 @@
 // their probabilities are those of the words exactly: what is sampled is what the densities say.
 #pragma once
 
-#include "kernels/geometry/surface.h"
-#include "kernels/sampling/hemisphere.h"
-#include "kernels/sampling/random.h"
-#include "shared/compat.h"
-#include "shared/scene_records.h"
+#include "renderer/kernels/geometry/surface.h"
+#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/kernels/sampling/random.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/scene_records.h"
 
 #if FEATURE_lights
 
@@ -52,7 +52,7 @@ DEVICE LightSample sample_light_point(GLOBAL const LightRecord *lights, GLOBAL c
     const EmitterTriangle emitter = emitter_triangles[picked];
     LightSample sample;
     const float2 uv = sample_triangle(uniform_float(words.z), uniform_float(words.w));
-    sample.point = scene_point(surface_triangles[emitter.triangle], uv.x, uv.y);
+    sample.point = scene_point(surface_triangles + emitter.triangle, uv.x, uv.y);
     sample.radiance = make_float3(light.radiance[0], light.radiance[1], light.radiance[2]);
     sample.pdf_a = light.selection * emitter.pdf_a;
     return sample;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/compat.h"
+#include "renderer/shared/compat.h"
 
 /// Weight of the power heuristic for the technique whose density the ratio is taken against:
 /// 1 / (1 + (p_other / p_own)^beta) (Veach 1997, 9.2.2; thesis 2.57). The ratio may be 0 or infinite, the weight

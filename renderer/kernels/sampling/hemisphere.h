@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/compat.h"
+#include "renderer/shared/compat.h"
 
 /// An orthonormal frame whose z axis is a unit vector.
 typedef struct Frame {

@@ -4,7 +4,7 @@
 // asks for it or when.
 #pragma once
 
-#include "shared/compat.h"
+#include "renderer/shared/compat.h"
 
 #include "Random123/philox.h"
 
