@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/error.h"
@@ -98,6 +99,66 @@ TEST(Pipeline, ResumesAndMergesToTheSameBits) {
     EXPECT_THROW(session.render(3, 5), Error) << "samples rendered twice";
     RenderSession other(cornell_box(), small({"integrator.beta=1"}), device());
     EXPECT_THROW(other.restore(first), Error) << "film of other settings";
+}
+
+// Closed forms: every pixel of a furnace is E / (1 - rho), whatever the strategy. 18 means and 3 of the emitter below
+// share a family-wise level of 0.01: each may lie 3.7 standard errors off (two-sided, Bonferroni). The standard
+// errors are small enough that an error of 2 % is seen.
+constexpr double bound = 3.7;
+
+struct Mean {
+    double value = 0;
+    double standard_error = 0;
+};
+
+/// Mean over a square of pixels and its standard error from the variance layer.
+Mean mean_of(const Image &image, const std::string &channel, int begin, int end) {
+    Mean mean;
+    const double n = (end - begin) * (end - begin);
+    for (int y = begin; y < end; ++y) {
+        for (int x = begin; x < end; ++x) {
+            const auto i = static_cast<size_t>(y * image.width() + x);
+            mean.value += static_cast<double>(image.channel(channel)[i]) / n;
+            mean.standard_error += static_cast<double>(image.channel("variance." + channel)[i]) / (n * n);
+        }
+    }
+    mean.standard_error = std::sqrt(mean.standard_error);
+    return mean;
+}
+
+TEST(ClosedForm, FurnaceGivesEmissionOverOneMinusAlbedo) {
+    for (const auto &[file, albedo] : {std::pair("/analytic/furnace_050.json", 0.5f), std::pair("/analytic/furnace_090.json", 0.9f)}) {
+        for (const char *strategies : {"implicit", "explicit", "mis"}) {
+            RenderSettings settings = small({std::string("integrator.strategies=") + strategies});
+            RenderSession session(load_scene(RTRAYS_SCENES + std::string(file)), settings, device());
+            session.render(0, 128);
+            const Image image = session.develop();
+            const double expected = 1.0 / (1.0 - static_cast<double>(albedo));
+            for (const auto &[channel, emission] : {std::pair("R", 1.0), std::pair("G", 0.5), std::pair("B", 0.25)}) {
+                const Mean mean = mean_of(image, channel, 0, 32);
+                EXPECT_LT(std::abs(mean.value - emission * expected), bound * mean.standard_error)
+                    << file << " " << strategies << " " << channel;
+                EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * emission * expected) << "power";
+            }
+        }
+    }
+}
+
+TEST(ClosedForm, IrradianceBelowASquareEmitter) {
+    RenderSettings settings;
+    settings.width = settings.height = 33;
+    settings.max_depth = 1;
+    settings.stream_capacity = 512;
+    RenderSession session(load_scene(RTRAYS_SCENES "/analytic/emitter_direct.json"), settings, device());
+    session.render(0, 16384);
+    const Image image = session.develop();
+    const double a = 1.0, h = 2.0, r = std::sqrt(a * a + h * h);  // half side, height
+    const double irradiance = 4.0 * a / r * std::atan(a / r);     // per unit radiance, at the foot of the centre
+    for (const auto &[channel, factor] : {std::pair("R", 0.8 * 1), std::pair("G", 0.5 * 2), std::pair("B", 0.2 * 4)}) {
+        const Mean mean = mean_of(image, channel, 16, 17);
+        EXPECT_NEAR(mean.value, factor * irradiance / 3.14159265358979, bound * mean.standard_error);
+        EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * mean.value) << "power";
+    }
 }
 
 // Compiles all stages with every feature, with none, and with each one off.

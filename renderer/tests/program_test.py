@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""rtrays-render as a user meets it: bad input, interrupted runs, resumed and merged films.
+
+Usage: program_test.py PROGRAM SCENES
+"""
+import json
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
+CORNELL = SCENES / "cornell_box" / "scene.json"
+SMALL = ["--size", "16x16", "--set", "device.stream_capacity=256"]
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+
+    def expect_error(self, code, fragments, *arguments, **options):
+        """One clear message on stderr, that exit code, and nothing left in the folder that was not there."""
+        before = sorted(self.path.iterdir())
+        result = self.run_program(*arguments, **options)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        for fragment in fragments:
+            self.assertIn(fragment, result.stderr)
+        self.assertEqual(result.stderr.count("rtrays-render: "), 1, result.stderr)
+        self.assertEqual(sorted(self.path.iterdir()), before)
+
+    def scene(self, change):
+        """The Cornell box after `change(text) -> text`."""
+        path = self.path / "scene.json"
+        path.write_text(change(CORNELL.read_text()))
+        return path
+
+    def output(self):
+        return self.path / "out.exr"
+
+    def test_missing_scene(self):
+        self.expect_error(2, ["nowhere.json"], self.path / "nowhere.json", "-o", self.output())
+
+    def test_directory_as_scene(self):
+        self.expect_error(2, ["directory"], self.path, "-o", self.output())
+
+    def test_broken_scene(self):
+        scene = self.scene(lambda text: text[: len(text) // 2])
+        self.expect_error(2, ["scene.json:"], scene, "-o", self.output())
+
+    def test_unknown_key(self):
+        scene = self.scene(lambda text: text.replace('"film"', '"flim"', 1))
+        self.expect_error(2, ["flim", "film", "scene.json:"], scene, "-o", self.output())
+
+    def test_duplicate_key(self):
+        scene = self.scene(lambda text: text.replace('"version": 1,', '"version": 1, "version": 1,', 1))
+        self.expect_error(2, ["version", "scene.json:2"], scene, "-o", self.output())
+
+    def test_vertex_that_is_no_number(self):
+        for bad in ("1e999", "null", "NaN"):
+            scene = self.scene(lambda text, bad=bad: text.replace("[343, 548.3, 227]", f"[{bad}, 548.3, 227]", 1))
+            self.expect_error(2, ["scene.json:"], scene, "-o", self.output())
+
+    def test_unwritable_output(self):
+        self.expect_error(2, ["no/such/folder"], CORNELL, "-o", self.path / "no/such/folder/out.exr")
+
+    def test_output_that_is_a_directory(self):
+        self.expect_error(2, ["directory"], CORNELL, "-o", self.path)
+
+    def test_full_disk(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        # Once without the limit: the driver's compiler needs to write.
+        self.run_program(CORNELL, "-o", self.output(), "--spp", 1, "-q", *SMALL)
+        self.output().unlink()
+        self.expect_error(1, ["out.exr", "cannot be written"], CORNELL, "-o", self.output(), "--spp", 1, "-q", *SMALL,
+                          preexec_fn=limit)
+
+    def test_no_device(self):
+        environment = dict(os.environ, OCL_ICD_VENDORS=str(self.path))
+        self.expect_error(2, ["pocl-opencl-icd"], CORNELL, "-o", self.output(), *SMALL, env=environment)
+
+    def test_unknown_device(self):
+        self.expect_error(2, ["'toaster'", "0:0"], CORNELL, "-o", self.output(), "--device", "toaster", *SMALL)
+
+    def test_bad_settings(self):
+        for assignment, fragment in (("integrator.strategies=all", "implicit, explicit, mis"),
+                                     ("integrator.beta=x", "number"),
+                                     ("nonsense=1", "integrator.beta"),
+                                     ("integrator.termination=fixed", "max_depth"),
+                                     ("device.group_size=5000", "4096"),
+                                     ("scene.nowhere.radiance=1", "nowhere"),
+                                     ("scene.luminaire.radience=1", "radiance")):
+            self.expect_error(2, [fragment], CORNELL, "-o", self.output(), "--set", assignment)
+
+    def test_bad_numbers(self):
+        for arguments in (["--size", "0x5"], ["--size", "5"], ["--samples", "5:5"], ["--samples", "a:b"],
+                          ["--samples", "0:4", "--spp", "4"], ["--time", "1", "--spp", "4"], ["--resume"],
+                          ["--algorithm", "magic"]):
+            self.expect_error(2, [], CORNELL, "-o", self.output(), *arguments)
+
+    def test_usage_errors_exit_with_2(self):
+        for arguments in (["--no-such-option"], [], [CORNELL], [CORNELL, "-o", self.output(), "--spp", "0"]):
+            self.assertEqual(self.run_program(*arguments).returncode, 2)
+
+    def test_help_and_version(self):
+        for option in ("--help", "--version", "--list-devices", "--list-algorithms"):
+            result = self.run_program(option)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertTrue(result.stdout)
+
+    def test_stats_name_what_the_scene_needed(self):
+        stats = self.path / "stats.json"
+        result = self.run_program(CORNELL, "-o", self.output(), "--spp", 2, "-q", "--stats", stats, *SMALL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(stats.read_text())
+        self.assertIn("explicit_light", document["features"])
+        self.assertNotIn("many_lights", document["features"])
+        self.assertEqual(document["samples"], 2 * 16 * 16)
+        self.assertTrue(all(stage["launches"] > 0 for stage in document["stages"]))
+        self.assertTrue(all(buffer["bytes"] > 0 for buffer in document["buffers"]))
+
+    def film(self, name, *arguments):
+        state = self.path / name
+        result = self.run_program(CORNELL, "-o", self.path / (name + ".exr"), "-q", "--state", state, *SMALL, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return state
+
+    def test_merged_and_resumed_films_have_the_same_bits(self):
+        whole = self.path / "whole"
+        self.film("whole", "--samples", "0:6")
+        first = self.film("first", "--samples", "0:2")
+        second = self.film("second", "--samples", "2:6")
+        merged = self.path / "merged"
+        result = self.run_program("merge", second, first, "-o", self.path / "merged.exr", "--state", merged)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.film("first", "--spp", "6", "--resume")
+
+        def words(path):  # without the header, which holds times
+            return path.read_bytes().split(b"\n", 2)[2]
+
+        self.assertEqual(words(merged), words(whole))
+        self.assertEqual(words(first), words(whole))
+        self.expect_error(2, ["overlap"], "merge", whole, second, "-o", self.path / "none.exr")
+
+    def test_a_damaged_film_is_refused(self):
+        state = self.film("film", "--spp", "1")
+        content = bytearray(state.read_bytes())
+        content[-1] ^= 1
+        state.write_bytes(content)
+        self.expect_error(2, ["film", "damaged"], CORNELL, "-o", self.output(), "--resume", "--state", state, *SMALL)
+
+    def test_an_interrupted_render_can_be_resumed(self):
+        state = self.path / "state"
+        command = [PROGRAM, str(CORNELL), "-o", str(self.output()), "--spp", "1000000", "-q", "--state", str(state)]
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        time.sleep(20)  # long enough to be rendering, whatever the machine
+        process.send_signal(signal.SIGTERM)
+        _, errors = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertIn("--resume", errors)
+        self.assertTrue(state.exists())
+        self.assertFalse(self.output().exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
