@@ -44,7 +44,8 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSe
 #if FEATURE_roulette
     if (settings.termination == TERMINATION_ROULETTE) {
         // Thesis 2.7.2: from the first bounce, continuation proportional to throughput. The bound below 1 ends
-        // paths between surfaces that absorb nothing. Left out of all MIS densities, kept in the contribution.
+        // paths between surfaces that absorb nothing; it is close to 1 because the variance is infinite where the
+        // squared albedo exceeds it. Left out of all MIS densities, kept in the contribution.
         const float continuation = min(largest, settings.max_continuation);
         if (!(uniform_float(words.z) < continuation)) {
             return false;

@@ -26,7 +26,7 @@ struct RenderSettings {
     float beta = 2.0f;                      ///< exponent of the power heuristic, > 0
     std::string termination = "roulette";   ///< roulette | fixed | adaptive
     uint32_t max_depth = 0;                 ///< scattering events, 0: no limit
-    float max_continuation = 0.999f;        ///< largest continuation probability of roulette, in (0, 1)
+    float max_continuation = 0x1.ffffep-1f;  ///< largest continuation probability of roulette, in (0, 1); 1 - 2^-20
     float adaptive_threshold = 0.01f;       ///< throughput below which adaptive termination stops
     std::string light_selection = "mixed";  ///< uniform | power | mixed
 

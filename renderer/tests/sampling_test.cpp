@@ -183,7 +183,7 @@ struct Lights {
             const auto first = static_cast<uint32_t>(emitters.size());
             for (int i = 0; i < counts[k]; ++i) {
                 const auto x = static_cast<float>(surfaces.size() * 10);
-                surfaces.push_back({{x, 0, 0}, 0, {x + static_cast<float>(i + 1), 0, 0}, static_cast<uint32_t>(emitters.size()), {x, 2, 0}, 0});
+                surfaces.push_back({{x, 0, 0}, 0, {x + static_cast<float>(i + 1), 0, 0}, static_cast<uint32_t>(emitters.size()), {x, 2, 0}, 3, {0, 0, 1}, 0});
                 emitters.push_back({static_cast<uint32_t>(surfaces.size() - 1), k, table.end[static_cast<size_t>(i)],
                                     static_cast<float>(table.probability[static_cast<size_t>(i)] / areas[static_cast<size_t>(i)])});
                 area.push_back(areas[static_cast<size_t>(i)]);
