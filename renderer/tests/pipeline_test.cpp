@@ -101,10 +101,11 @@ TEST(Pipeline, ResumesAndMergesToTheSameBits) {
     EXPECT_THROW(other.restore(first), Error) << "film of other settings";
 }
 
-// Closed forms: every pixel of a furnace is E / (1 - rho), whatever the strategy. 18 means and 3 of the emitter below
-// share a family-wise level of 0.01: each may lie 3.7 standard errors off (two-sided, Bonferroni). The standard
-// errors are small enough that an error of 2 % is seen.
-constexpr double bound = 3.7;
+// Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are left out: all walls emit, and
+// cos cos / d^2 has no finite variance where two of them meet; experiments/tests/estimators_test.cpp covers them. 12
+// means and 3 of the emitter below share a family-wise level of 0.01: each may lie 3.5 standard errors off
+// (two-sided, Bonferroni). The standard errors are small enough that an error of 2 % is seen.
+constexpr double bound = 3.5;
 
 struct Mean {
     double value = 0;
@@ -128,10 +129,10 @@ Mean mean_of(const Image &image, const std::string &channel, int begin, int end)
 
 TEST(ClosedForm, FurnaceGivesEmissionOverOneMinusAlbedo) {
     for (const auto &[file, albedo] : {std::pair("/analytic/furnace_050.json", 0.5f), std::pair("/analytic/furnace_090.json", 0.9f)}) {
-        for (const char *strategies : {"implicit", "explicit", "mis"}) {
+        for (const char *strategies : {"implicit", "mis"}) {
             RenderSettings settings = small({std::string("integrator.strategies=") + strategies});
             RenderSession session(load_scene(RTRAYS_SCENES + std::string(file)), settings, device());
-            session.render(0, 128);
+            session.render(0, 512);
             const Image image = session.develop();
             const double expected = 1.0 / (1.0 - static_cast<double>(albedo));
             for (const auto &[channel, emission] : {std::pair("R", 1.0), std::pair("G", 0.5), std::pair("B", 0.25)}) {
