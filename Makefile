@@ -8,18 +8,22 @@ JOBS ?= $(shell nproc)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse
 
-.PHONY: all install build reproduce-chapter4 report test test-asan references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan references format lint clean
 
 all: build
 
 install:
 	scripts/install
 
+programs: install
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS) --target rtrays-render rtrays-reference rtrays-experiment
+
 build: install
 	cmake --preset release
 	cmake --build --preset release -j $(JOBS)
 
-reproduce-chapter4: build
+reproduce-chapter4: programs
 	for experiment in $(EXPERIMENTS); do \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
 	done
@@ -39,7 +43,7 @@ test-asan: install
 	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L host
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
-references: build
+references: programs
 	scripts/references $(REFERENCE_SPP)
 
 format:
