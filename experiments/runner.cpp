@@ -85,8 +85,7 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
     reference_settings.camera = static_cast<size_t>(scene.active_camera());
     reference_settings.strategies = strategies_from_name(settings.strategies);
     reference_settings.max_depth = settings.max_depth;
-    ReferenceRenderer reference(scene.cameras(), scene.meshes(), scene.materials(), scene.lights(),
-                                reference_settings);
+    ReferenceRenderer reference(scene.arrays(), reference_settings);
 
     const uint64_t spp = experiment.throughput.spp;
     const auto contestant = [&](auto &renderer) {

@@ -84,8 +84,7 @@ ExitCode run(int argc, char **argv) {
         options.settings.height = scene.film_height();
     }
     options.settings.camera = static_cast<size_t>(scene.active_camera());
-    ReferenceRenderer renderer(scene.cameras(), scene.meshes(), scene.materials(), scene.lights(),
-                               options.settings);
+    ReferenceRenderer renderer(scene.arrays(), options.settings);
     const Json config = make_config(scene.name(), scene.hash(), options.settings, renderer.stats().engine);
     if (options.skip_if_listed && is_listed(options, config)) {
         fmt::print(stderr, "rtrays-reference: {} is listed already with these settings: nothing to do\n",

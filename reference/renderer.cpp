@@ -33,14 +33,15 @@ namespace {
 constexpr uint64_t tile_size = 16;
 constexpr uint64_t paths_per_batch = 1 << 18;  // a fraction of a second: an interrupt is soon obeyed
 
-void check_indices(const MeshArrays &meshes, const MaterialArrays &materials, const LightArrays &lights) {
+void check_indices(const SceneArrays &scene) {
+    const MeshArrays &meshes = scene.meshes;
     for (size_t i = 0; i < meshes.name.size(); ++i) {
-        if (meshes.material[i] >= materials.kind.size()) {
+        if (meshes.material[i] >= scene.materials.name.size()) {
             throw input_error(fmt::format("mesh '{}' has no material", meshes.name[i]));
         }
-        if (meshes.light[i] != no_index && meshes.light[i] >= lights.kind.size()) {
+        if (meshes.light[i] != no_index && meshes.light[i] >= scene.lights.kind.size()) {
             throw input_error(fmt::format("mesh '{}' names light {} of {}", meshes.name[i], meshes.light[i],
-                                          lights.kind.size()));
+                                          scene.lights.kind.size()));
         }
     }
 }
@@ -63,13 +64,12 @@ class FirstFault {
 }  // namespace
 
 struct ReferenceRenderer::State {
-    State(const CameraArrays &cameras, const MeshArrays &meshes, const MaterialArrays &materials,
-          const LightArrays &light_arrays, const ReferenceSettings &wanted)
+    State(const SceneArrays &scene, const ReferenceSettings &wanted)
         : settings(wanted),
-          camera(cameras, wanted.camera, wanted.width, wanted.height),
-          geometry(meshes),
-          bsdfs(make_bsdfs(materials)),
-          lights(geometry, light_arrays),
+          camera(scene.cameras, wanted.camera, wanted.width, wanted.height),
+          geometry(scene.meshes),
+          bsdfs(make_bsdfs(scene.materials)),
+          lights(geometry, scene.lights),
           integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth),
           film(wanted.width, wanted.height, 0),
           threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
@@ -135,11 +135,9 @@ void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
     }
 }
 
-ReferenceRenderer::ReferenceRenderer(const CameraArrays &cameras, const MeshArrays &meshes,
-                                     const MaterialArrays &materials, const LightArrays &lights,
-                                     const ReferenceSettings &settings) {
-    check_indices(meshes, materials, lights);
-    state_ = std::make_unique<State>(cameras, meshes, materials, lights, settings);
+ReferenceRenderer::ReferenceRenderer(const SceneArrays &scene, const ReferenceSettings &settings) {
+    check_indices(scene);
+    state_ = std::make_unique<State>(scene, settings);
 }
 
 ReferenceRenderer::~ReferenceRenderer() = default;

@@ -35,8 +35,7 @@ struct ReferenceStats {
 class ReferenceRenderer {
   public:
     /// Copies what it needs. Throws `Error` (bad input) for a scene it cannot render.
-    ReferenceRenderer(const CameraArrays &cameras, const MeshArrays &meshes, const MaterialArrays &materials,
-                      const LightArrays &lights, const ReferenceSettings &settings);
+    ReferenceRenderer(const SceneArrays &scene, const ReferenceSettings &settings);
     ~ReferenceRenderer();
 
     /// Adds the samples [begin, end) of every pixel. `begin` must be the end of what the film holds already

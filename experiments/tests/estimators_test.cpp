@@ -38,7 +38,7 @@ Image render_reference(const Scene &scene) {
     ReferenceSettings settings;
     settings.width = settings.height = size;
     settings.seed = 7;
-    ReferenceRenderer reference(scene.cameras(), scene.meshes(), scene.materials(), scene.lights(), settings);
+    ReferenceRenderer reference(scene.arrays(), settings);
     reference.render(0, 512);
     return reference.develop();
 }

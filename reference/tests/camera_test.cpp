@@ -62,7 +62,7 @@ TEST(Camera, turns_and_moves_with_its_matrix) {
 }
 
 TEST(Camera, refuses_impossible_angles_and_indices) {
-    const CameraArrays flat{{"camera"}, {Eigen::Matrix4d::Identity()}, {pi}, {FovAxis::x}};
+    const CameraArrays flat{{"camera"}, {Eigen::Matrix4d::Identity()}, {pi}, {FovAxis::x}, {0}, {1}};
     EXPECT_THROW(Camera(flat, 0, 4, 4), Error);
     EXPECT_THROW(Camera(flat, 1, 4, 4), Error);
 }

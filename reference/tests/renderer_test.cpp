@@ -101,7 +101,7 @@ TEST(ReferenceRenderer, sums_the_largest_radiance_and_refuses_an_infinite_one) {
 
 TEST(ReferenceRenderer, refuses_materials_out_of_range) {
     TestScene scene = cornell_like_box();
-    scene.materials.reflectance[0] = Rgb::Constant(1.5f);
+    scene.materials.component[0].weight = Rgb::Constant(1.5f);
     EXPECT_THROW(scene.renderer(small_settings(8, 1)), Error);
     scene = cornell_like_box();
     scene.meshes.material[0] = no_index;

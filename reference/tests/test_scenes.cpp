@@ -5,8 +5,10 @@ namespace rtrays::reference {
 
 uint32_t TestScene::add_material(const Rgb &reflectance) {
     materials.name.push_back("material" + std::to_string(materials.name.size()));
-    materials.kind.push_back(MaterialArrays::Kind::lambert);
-    materials.reflectance.push_back(reflectance);
+    materials.first_component.push_back(static_cast<uint32_t>(materials.component.size()));
+    materials.component_count.push_back(1);
+    materials.two_sided.push_back(1);
+    materials.component.emplace_back().weight = reflectance;
     return static_cast<uint32_t>(materials.name.size() - 1);
 }
 
@@ -18,6 +20,8 @@ void TestScene::add_mesh(const std::vector<Vec3> &positions, const std::vector<T
     meshes.first_triangle.push_back(static_cast<uint32_t>(meshes.triangle.size()));
     meshes.triangle_count.push_back(static_cast<uint32_t>(triangles.size()));
     meshes.material.push_back(material);
+    meshes.has_normals.push_back(0);
+    meshes.has_uv.push_back(0);
     for (const Vec3 &position : positions) {
         meshes.position.push_back(position.cast<float>());
     }
@@ -36,7 +40,12 @@ void TestScene::add_mesh(const std::vector<Vec3> &positions, const std::vector<T
     lights.kind.push_back(LightArrays::Kind::diffuse_area);
     lights.radiance.push_back(radiance);
     lights.mesh.push_back(mesh);
+    lights.shape.push_back(no_index);
     lights.area.push_back(area);
+    lights.world_from_light.push_back(Eigen::Matrix4d::Identity());
+    lights.inner_angle.push_back(0);
+    lights.outer_angle.push_back(0);
+    lights.image.emplace_back();
 }
 
 void TestScene::add_quad(const std::array<Vec3, 4> &corners, uint32_t material, const Rgb &radiance) {
@@ -70,7 +79,7 @@ void TestScene::set_camera(const Vec3 &position, const Vec3 &target, const Vec3 
     world_from_camera.block<3, 1>(0, 1) = z.cross(x);
     world_from_camera.block<3, 1>(0, 2) = z;
     world_from_camera.topRightCorner<3, 1>() = position;
-    cameras = {{"camera"}, {world_from_camera}, {fov}, {axis}};
+    cameras = {{"camera"}, {world_from_camera}, {fov}, {axis}, {0}, {1}};
 }
 
 TestScene furnace_box(float albedo, const Rgb &emission, const Vec3 &centre, double size) {

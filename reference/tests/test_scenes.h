@@ -12,13 +12,8 @@
 
 namespace rtrays::reference {
 
-/// The four array structs, filled by hand.
-struct TestScene {
-    CameraArrays cameras;
-    MeshArrays meshes;
-    MaterialArrays materials;
-    LightArrays lights;
-
+/// The arrays of a scene, filled by hand.
+struct TestScene : SceneArrays {
     uint32_t add_material(const Rgb &reflectance);
 
     /// `radiance` of zero: no light.
@@ -37,7 +32,7 @@ struct TestScene {
                     CameraArrays::FovAxis axis = CameraArrays::FovAxis::x);
 
     ReferenceRenderer renderer(const ReferenceSettings &settings) const {
-        return ReferenceRenderer(cameras, meshes, materials, lights, settings);
+        return ReferenceRenderer(*this, settings);
     }
 };
 

@@ -35,7 +35,7 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSe
     const float3 n = dot(point.normal, direction) > 0.0f ? -point.normal : point.normal;
     const uint4 words = random_words(settings.seed, STREAM_CAMERA, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
-    const BsdfSample sample = bsdf_sample(materials[surface->material], n, uniform_float(words.x), uniform_float(words.y));
+    const BsdfSample sample = bsdf_sample(components[materials[surface->material].first_component], n, uniform_float(words.x), uniform_float(words.y));
     float3 throughput = get_throughput(paths, slot) * sample.weight;
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
     if (!(largest > 0.0f && sample.pdf_w > 0.0f)) {

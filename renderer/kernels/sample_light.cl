@@ -44,8 +44,8 @@ DEVICE bool join_to_light(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_
     const float3 wi = way / sqrt(distance2);
     const float cos_surface = dot(n, wi);
     const float cos_light = -dot(light.point.normal, wi);
-    const MaterialRecord material = materials[surface->material];
-    const float3 f = bsdf_evaluate(material, n, wi);
+    const BxdfRecord component = components[materials[surface->material].first_component];
+    const float3 f = bsdf_evaluate(component, n, wi);
     if (!(f.x > 0.0f || f.y > 0.0f || f.z > 0.0f)) {
         return false;
     }

@@ -134,11 +134,16 @@ CompiledScene compile_scene(const Scene &scene, int width, int height, LightSele
 
     const MaterialArrays &materials = scene.materials();
     bool scattering = false;
-    for (const Rgb &reflectance : materials.reflectance) {
-        MaterialRecord record{};
-        copy(reflectance, record.reflectance);
-        compiled.materials.push_back(record);
-        scattering = scattering || reflectance.maxCoeff() > 0.0f;
+    for (size_t i = 0; i < materials.name.size(); ++i) {
+        compiled.materials.push_back({materials.first_component[i], materials.component_count[i], 0, 0});
+    }
+    for (const BxdfComponent &component : materials.component) {
+        BxdfRecord record{};
+        record.kind = BXDF_LAMBERT;
+        record.texture = NO_TEXTURE;
+        copy(component.weight, record.weight);
+        compiled.components.push_back(record);
+        scattering = scattering || component.weight.maxCoeff() > 0.0f;
     }
 
     const LightArrays &lights = scene.lights();
@@ -158,6 +163,8 @@ CompiledScene compile_scene(const Scene &scene, int width, int height, LightSele
     }
 
     compiled.features = FeatureMask()
+                            .with(Feature::triangles, !compiled.surface_triangles.empty())
+                            .with(Feature::area_lights, !compiled.emitter_triangles.empty())
                             .with(Feature::lights, !compiled.lights.empty())
                             .with(Feature::many_lights, compiled.lights.size() > 1)
                             .with(Feature::light_triangles, light_triangles)

@@ -18,6 +18,7 @@ struct CompiledScene {
     CameraRecord camera{};
     std::vector<SurfaceTriangle> surface_triangles;
     std::vector<MaterialRecord> materials;
+    std::vector<BxdfRecord> components;
     std::vector<LightRecord> lights;
     std::vector<EmitterTriangle> emitter_triangles;
     FeatureMask features;                   ///< of the scene; the integrator adds its own

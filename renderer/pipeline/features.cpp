@@ -23,6 +23,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::implicit_light, Feature::lights},      {Feature::implicit_light, Feature::scattering},
     {Feature::explicit_light, Feature::lights},      {Feature::explicit_light, Feature::scattering},
     {Feature::many_lights, Feature::explicit_light}, {Feature::light_triangles, Feature::explicit_light},
+    {Feature::area_lights, Feature::lights},
 };
 
 }  // namespace

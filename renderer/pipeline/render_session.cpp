@@ -53,11 +53,7 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
 FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings, const DeviceInfo &info) {
     FeatureMask features = FeatureMask::all().with(Feature::variance, settings.variance);
     if (settings.features == "scene") {
-        features = settings_features(settings);
-        for (const Feature feature : {Feature::lights, Feature::many_lights, Feature::light_triangles, Feature::scattering,
-                                      Feature::lambert}) {
-            features = features.with(feature, compiled.features.has(feature));
-        }
+        features = settings_features(settings) | compiled.features;
     }
     return features.with(Feature::int64_atomics, info.has_int64_atomics).closed();
 }
@@ -117,6 +113,7 @@ struct RenderSession::State {
         surface_triangles = Buffer<SurfaceTriangle>(device, "surface_triangles", compiled.surface_triangles);
         if (features.has(Feature::scattering)) {
             materials = Buffer<MaterialRecord>(device, "materials", compiled.materials);
+            components = Buffer<BxdfRecord>(device, "components", compiled.components);
         }
         if (features.has(Feature::lights)) {
             lights = Buffer<LightRecord>(device, "lights", compiled.lights);
@@ -147,6 +144,7 @@ struct RenderSession::State {
         };
         if (features.has(Feature::scattering)) {
             arguments[In::surfaces].emplace_back(materials);
+            arguments[In::surfaces].emplace_back(components);
         }
         if (features.has(Feature::lights)) {
             arguments[In::lights] = {lights, emitter_triangles};
@@ -257,6 +255,7 @@ struct RenderSession::State {
     std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
     Buffer<SurfaceTriangle> surface_triangles;
     Buffer<MaterialRecord> materials;
+    Buffer<BxdfRecord> components;
     Buffer<LightRecord> lights;
     Buffer<EmitterTriangle> emitter_triangles;
     Buffer<uint32_t> path_words;
@@ -397,6 +396,7 @@ nlohmann::json RenderSession::report() const {
     add_buffer(s.bvh.triangles());
     add_buffer(s.surface_triangles);
     add_buffer(s.materials);
+    add_buffer(s.components);
     add_buffer(s.lights);
     add_buffer(s.emitter_triangles);
     add_buffer(s.path_words);

@@ -45,8 +45,8 @@ std::string described(const std::string &owner, const Property &property) {
 }  // namespace
 
 SceneGraph::SceneGraph()
-    : meshes_(materials_, lights_),
-      lights_(meshes_),
+    : meshes_(arrays_.meshes, materials_, lights_),
+      lights_(arrays_.lights, meshes_),
       stores_{&materials_, &cameras_, &meshes_, &lights_},
       root_(std::make_unique<Node>("")) {
     attach(*root_);

@@ -51,10 +51,8 @@ class SceneGraph {
     /// How many nodes the last update visited.
     size_t visited_nodes() const { return visited_nodes_; }
 
-    const CameraStore &cameras() const { return cameras_; }
-    const MaterialStore &materials() const { return materials_; }
-    const MeshStore &meshes() const { return meshes_; }
-    const LightStore &lights() const { return lights_; }
+    /// What the graph serializes into; current after `update`.
+    const SceneArrays &arrays() const { return arrays_; }
 
     /// Box around all geometry in the coordinates of the scene file (walks the whole graph).
     Eigen::AlignedBox3d bounds() const;
@@ -78,8 +76,9 @@ class SceneGraph {
     void allocate(Node &node);
     void compact();
 
-    CameraStore cameras_;
-    MaterialStore materials_;
+    SceneArrays arrays_;
+    CameraStore cameras_{arrays_.cameras};
+    MaterialStore materials_{arrays_.materials};
     MeshStore meshes_;
     LightStore lights_;
     std::array<Store *, 4> stores_;  ///< in the order in which they are to be written

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numeric>
 
 #include "renderer/base/error.h"
 #include "renderer/scene/cores/camera.h"
@@ -44,6 +45,8 @@ void CameraStore::append(const Node &node) {
     arrays.world_from_camera.emplace_back();
     arrays.fov.emplace_back();
     arrays.fov_axis.emplace_back();
+    arrays.aperture_radius.emplace_back();
+    arrays.focus_distance.push_back(1);
 }
 
 void CameraStore::write(uint32_t slot, const Node &node, const AttributeSet &attributes) {
@@ -60,6 +63,8 @@ void CameraStore::keep(const std::vector<uint32_t> &slots) {
     keep_elements(arrays.world_from_camera, slots);
     keep_elements(arrays.fov, slots);
     keep_elements(arrays.fov_axis, slots);
+    keep_elements(arrays.aperture_radius, slots);
+    keep_elements(arrays.focus_distance, slots);
 }
 
 const void *MaterialStore::identity(const Node &node) const {
@@ -76,22 +81,28 @@ bool MaterialStore::is_current(uint32_t slot, const Node &node) const {
 
 void MaterialStore::append(const Node &node) {
     arrays.name.push_back(node.core(role())->name());
-    arrays.kind.emplace_back();
-    arrays.reflectance.emplace_back();
+    arrays.first_component.push_back(static_cast<uint32_t>(arrays.component.size()));
+    arrays.component_count.push_back(1);
+    arrays.component.emplace_back();
+    arrays.two_sided.push_back(1);
     version_.push_back(0);
 }
 
 void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &) {
     const auto &material = static_cast<const LambertMaterial &>(*node.core(role()));
-    arrays.kind[slot] = MaterialArrays::Kind::lambert;
-    arrays.reflectance[slot] = material.reflectance().cast<float>();
+    BxdfComponent &component = arrays.component[arrays.first_component[slot]];
+    component.kind = BxdfComponent::Kind::lambert;
+    component.weight = material.reflectance().cast<float>();
     version_[slot] = material.version();
 }
 
 void MaterialStore::keep(const std::vector<uint32_t> &slots) {
     keep_elements(arrays.name, slots);
-    keep_elements(arrays.kind, slots);
-    keep_elements(arrays.reflectance, slots);
+    keep_elements(arrays.component, slots);  // one each
+    keep_elements(arrays.component_count, slots);
+    arrays.first_component.resize(slots.size());
+    std::iota(arrays.first_component.begin(), arrays.first_component.end(), 0u);
+    keep_elements(arrays.two_sided, slots);
     keep_elements(version_, slots);
 }
 
@@ -117,6 +128,8 @@ void MeshStore::append(const Node &node) {
     arrays.vertex_count.push_back(static_cast<uint32_t>(mesh.vertices().size()));
     arrays.material.push_back(no_index);
     arrays.light.push_back(no_index);
+    arrays.has_normals.push_back(0);
+    arrays.has_uv.push_back(0);
     arrays.position.resize(first_vertex + mesh.vertices().size());
     arrays.triangle.resize(first_triangle + mesh.triangles().size());
     arrays.triangle_mesh.resize(arrays.triangle.size(), static_cast<uint32_t>(arrays.name.size() - 1));
@@ -182,6 +195,8 @@ void MeshStore::keep(const std::vector<uint32_t> &slots) {
     keep_elements(arrays.vertex_count, slots);
     keep_elements(arrays.material, slots);
     keep_elements(arrays.light, slots);
+    keep_elements(arrays.has_normals, slots);
+    keep_elements(arrays.has_uv, slots);
 }
 
 void LightStore::append(const Node &node) {
@@ -189,7 +204,12 @@ void LightStore::append(const Node &node) {
     arrays.kind.emplace_back();
     arrays.radiance.emplace_back();
     arrays.mesh.push_back(no_index);
+    arrays.shape.push_back(no_index);
     arrays.area.push_back(0);
+    arrays.world_from_light.push_back(Eigen::Matrix4d::Identity());
+    arrays.inner_angle.push_back(0);
+    arrays.outer_angle.push_back(0);
+    arrays.image.emplace_back();
 }
 
 void LightStore::write(uint32_t slot, const Node &node, const AttributeSet &) {
@@ -222,7 +242,12 @@ void LightStore::keep(const std::vector<uint32_t> &slots) {
     keep_elements(arrays.kind, slots);
     keep_elements(arrays.radiance, slots);
     keep_elements(arrays.mesh, slots);
+    keep_elements(arrays.shape, slots);
     keep_elements(arrays.area, slots);
+    keep_elements(arrays.world_from_light, slots);
+    keep_elements(arrays.inner_angle, slots);
+    keep_elements(arrays.outer_angle, slots);
+    keep_elements(arrays.image, slots);
 }
 
 }  // namespace rtrays

@@ -14,10 +14,10 @@ class MaterialCore;
 
 class CameraStore : public Store {
   public:
-    CameraStore() : Store(CoreRole::camera) {}
+    explicit CameraStore(CameraArrays &written) : Store(CoreRole::camera), arrays(written) {}
     const char *type_name() const override { return "cameras"; }
 
-    CameraArrays arrays;
+    CameraArrays &arrays;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world
 
   protected:
@@ -29,12 +29,12 @@ class CameraStore : public Store {
 /// One record per material, however many nodes share it.
 class MaterialStore : public Store {
   public:
-    MaterialStore() : Store(CoreRole::material) {}
+    explicit MaterialStore(MaterialArrays &written) : Store(CoreRole::material), arrays(written) {}
     const char *type_name() const override { return "materials"; }
 
     uint32_t slot_of_material(const MaterialCore *material) const;
 
-    MaterialArrays arrays;
+    MaterialArrays &arrays;
 
   protected:
     const void *identity(const Node &node) const override;
@@ -51,11 +51,11 @@ class LightStore;
 
 class MeshStore : public Store {
   public:
-    MeshStore(const MaterialStore &materials, const LightStore &lights)
-        : Store(CoreRole::geometry), materials_(materials), lights_(lights) {}
+    MeshStore(MeshArrays &written, const MaterialStore &materials, const LightStore &lights)
+        : Store(CoreRole::geometry), arrays(written), materials_(materials), lights_(lights) {}
     const char *type_name() const override { return "meshes"; }
 
-    MeshArrays arrays;
+    MeshArrays &arrays;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world
 
   protected:
@@ -72,10 +72,11 @@ class MeshStore : public Store {
 /// To be written after the meshes: areas are those of the baked triangles.
 class LightStore : public Store {
   public:
-    explicit LightStore(const MeshStore &meshes) : Store(CoreRole::light), meshes_(meshes) {}
+    LightStore(LightArrays &written, const MeshStore &meshes)
+        : Store(CoreRole::light), arrays(written), meshes_(meshes) {}
     const char *type_name() const override { return "lights"; }
 
-    LightArrays arrays;
+    LightArrays &arrays;
 
   protected:
     void append(const Node &node) override;

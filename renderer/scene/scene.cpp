@@ -42,10 +42,24 @@ class ByteCollector {
             add(matrix.data()[i]);
         }
     }
+    void add(const BxdfComponent &component) {
+        add(component.kind);
+        add(component.weight);
+        add(component.texture);
+        add(component.fresnel);
+        add(component.complement);
+        add(component.fresnel_of_wo);
+        add(component.eta);
+        add(component.k);
+        add(component.sigma);
+        add(component.exponent);
+        add(component.alpha);
+        add(component.distribution);
+    }
     const std::string &bytes() const { return bytes_; }
 
   private:
-    std::string bytes_ = "rtrays scene 1";
+    std::string bytes_ = "rtrays scene 2";
 };
 
 }  // namespace
@@ -80,17 +94,8 @@ void Scene::update(double time) {
     graph_->update(time);
 }
 
-const CameraArrays &Scene::cameras() const {
-    return graph_->cameras().arrays;
-}
-const MeshArrays &Scene::meshes() const {
-    return graph_->meshes().arrays;
-}
-const MaterialArrays &Scene::materials() const {
-    return graph_->materials().arrays;
-}
-const LightArrays &Scene::lights() const {
-    return graph_->lights().arrays;
+const SceneArrays &Scene::arrays() const {
+    return graph_->arrays();
 }
 
 int Scene::active_camera() const {
@@ -127,13 +132,21 @@ std::string Scene::hash() const {
     collector.add(cameras().world_from_camera[camera]);
     collector.add(cameras().fov[camera]);
     collector.add(cameras().fov_axis[camera]);
-    collector.add(materials().kind);
-    collector.add(materials().reflectance);
+    collector.add(cameras().aperture_radius[camera]);
+    collector.add(cameras().focus_distance[camera]);
+    collector.add(materials().first_component);
+    collector.add(materials().component_count);
+    collector.add(materials().two_sided);
+    for (const BxdfComponent &component : materials().component) {
+        collector.add(component);
+    }
     collector.add(meshes().first_triangle);
     collector.add(meshes().triangle_count);
     collector.add(meshes().material);
     collector.add(meshes().light);
     collector.add(meshes().position);
+    collector.add(meshes().normal);
+    collector.add(meshes().uv);
     collector.add(meshes().triangle);
     collector.add(lights().kind);
     collector.add(lights().radiance);

@@ -41,10 +41,11 @@ class Scene {
     /// input) naming what is wrong with the scene.
     void update(double time);
 
-    const CameraArrays &cameras() const;
-    const MeshArrays &meshes() const;
-    const MaterialArrays &materials() const;
-    const LightArrays &lights() const;
+    const SceneArrays &arrays() const;
+    const CameraArrays &cameras() const { return arrays().cameras; }
+    const MeshArrays &meshes() const { return arrays().meshes; }
+    const MaterialArrays &materials() const { return arrays().materials; }
+    const LightArrays &lights() const { return arrays().lights; }
 
     /// Index of the camera to render from, into `cameras()`.
     int active_camera() const;

@@ -7,18 +7,59 @@
 #pragma once
 
 // X(name, what it says)
-#define RTRAYS_FEATURES(X)                                                                       \
-    X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")              \
-    X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")            \
-    X(lights, "the scene has emitters")                                                          \
-    X(many_lights, "more than one light: a selection table is searched")                         \
-    X(light_triangles, "a mesh light has more than one triangle: its area table is searched")    \
-    X(scattering, "a material reflects: paths go beyond the first hit")                          \
-    X(lambert, "diffuse reflection")                                                             \
-    X(roulette, "Russian roulette ends paths")                                                   \
-    X(adaptive, "paths end below a throughput threshold (biased)")                               \
-    X(depth_limit, "max_depth is finite")                                                        \
-    X(variance, "the film holds second moments")                                                 \
+#define RTRAYS_FEATURES(X)                                                                          \
+    /* strategies and termination */                                                                \
+    X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")                 \
+    X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")               \
+    X(roulette, "Russian roulette ends paths")                                                      \
+    X(adaptive, "paths end below a throughput threshold (biased)")                                  \
+    X(depth_limit, "max_depth is finite")                                                           \
+    /* geometry */                                                                                  \
+    X(triangles, "the scene has triangles: a hierarchy is built and traversed")                     \
+    X(shapes, "the scene has surfaces that are not made of triangles")                              \
+    X(quadrics, "some of them are quadrics, discs or planes")                                       \
+    X(julia, "some of them are quaternion Julia sets")                                              \
+    X(smooth_normals, "vertices have shading normals")                                              \
+    X(texture_coordinates, "a texture or a tangent is looked up on a mesh with (u, v)")             \
+    X(tangents, "a BxDF is anisotropic")                                                            \
+    /* materials */                                                                                 \
+    X(scattering, "a material reflects or refracts: paths go beyond the first hit")                 \
+    X(composite, "a material has more than one component")                                          \
+    X(one_sided, "a material is black from behind")                                                 \
+    X(delta, "a BxDF is a delta distribution")                                                      \
+    X(lambert, "diffuse reflection")                                                                \
+    X(oren_nayar, "rough diffuse reflection")                                                       \
+    X(ideal_reflection, "mirrors")                                                                  \
+    X(ideal_refraction, "smooth dielectrics")                                                       \
+    X(blinn, "Torrance-Sparrow with Blinn's distribution")                                          \
+    X(ward, "Ward's anisotropic reflection, bounded")                                               \
+    X(ward_original, "Ward's anisotropic reflection as published")                                  \
+    X(microfacet_reflection, "GGX or Beckmann, reflection")                                         \
+    X(microfacet_refraction, "GGX or Beckmann, refraction")                                         \
+    X(ggx, "a microfacet distribution is GGX")                                                      \
+    X(beckmann, "a microfacet distribution is Beckmann's")                                          \
+    X(fresnel, "a weight has a Fresnel term")                                                       \
+    X(fresnel_dielectric, "exact dielectric")                                                       \
+    X(fresnel_conductor, "exact conductor")                                                         \
+    X(fresnel_conductor_approximate, "the thesis' conductor")                                       \
+    X(fresnel_schlick, "Schlick's")                                                                 \
+    X(textures, "a weight has a texture")                                                           \
+    /* lights */                                                                                    \
+    X(lights, "the scene has emitters")                                                             \
+    X(many_lights, "more than one light: a selection table is searched")                            \
+    X(independent_lights, "every vertex is joined to every light, one after the other")             \
+    X(area_lights, "emitting triangles")                                                            \
+    X(light_triangles, "a mesh light has more than one triangle: its area table is searched")       \
+    X(shape_lights, "emitting discs and spheres")                                                   \
+    X(point_lights, "point lights")                                                                 \
+    X(spot_lights, "spot lights")                                                                   \
+    X(directional_lights, "directional lights")                                                     \
+    X(infinite_lights, "radiance from infinity (dome, environment): misses are lit")                \
+    X(dome, "uniform radiance from infinity")                                                       \
+    X(environment, "radiance from infinity by an image")                                            \
+    /* camera and film */                                                                           \
+    X(lens, "the camera has an aperture")                                                           \
+    X(variance, "the film holds second moments")                                                    \
     X(int64_atomics, "the device adds 64-bit integers atomically")
 
 #ifndef __OPENCL_VERSION__
@@ -42,14 +83,15 @@ class FeatureMask {
   public:
     constexpr FeatureMask() = default;
 
-    static constexpr FeatureMask all() { return FeatureMask((1u << static_cast<uint32_t>(Feature::count)) - 1u); }
+    static constexpr FeatureMask all() { return FeatureMask((uint64_t{1} << static_cast<uint32_t>(Feature::count)) - 1u); }
 
     constexpr bool has(Feature feature) const { return (bits_ >> static_cast<uint32_t>(feature) & 1u) != 0; }
     constexpr FeatureMask with(Feature feature, bool on = true) const {
-        const uint32_t bit = 1u << static_cast<uint32_t>(feature);
+        const uint64_t bit = uint64_t{1} << static_cast<uint32_t>(feature);
         return FeatureMask(on ? bits_ | bit : bits_ & ~bit);
     }
-    constexpr uint32_t bits() const { return bits_; }
+    constexpr FeatureMask operator|(FeatureMask other) const { return FeatureMask(bits_ | other.bits_); }
+    constexpr uint64_t bits() const { return bits_; }
 
     /// Without the features whose requirement is missing (explicit_light needs lights and scattering, ...).
     FeatureMask closed() const;
@@ -61,9 +103,9 @@ class FeatureMask {
     std::map<std::string, std::string> defines() const;
 
   private:
-    constexpr explicit FeatureMask(uint32_t bits) : bits_(bits) {}
+    constexpr explicit FeatureMask(uint64_t bits) : bits_(bits) {}
 
-    uint32_t bits_ = 0;
+    uint64_t bits_ = 0;
 };
 
 }  // namespace rtrays

@@ -6,9 +6,10 @@
 #include "declare.h"
 
 // X(feature, type, name)
-#define SURFACE_BUFFERS(X)                         \
-    X(ALWAYS, SurfaceTriangle, surface_triangles)  \
-    X(FEATURE_scattering, MaterialRecord, materials)
+#define SURFACE_BUFFERS(X)                                       \
+    X(FEATURE_triangles, SurfaceTriangle, surface_triangles)     \
+    X(FEATURE_scattering, MaterialRecord, materials)             \
+    X(FEATURE_scattering, BxdfRecord, components)
 
 #define LIGHT_BUFFERS(X)                      \
     X(FEATURE_lights, LightRecord, lights)    \

@@ -6,7 +6,7 @@
 
 #define NO_EMITTER 0xffffffffu
 
-/// A perspective camera (pinhole). The ray through film position (x, y), in pixels from the top left corner,
+/// A perspective camera: pinhole or thin lens. The ray through film position (x, y), in pixels from the top left corner,
 /// is corner + x * step_x + y * step_y, before normalization.
 typedef struct CameraRecord {
     float position[3];
@@ -16,6 +16,10 @@ typedef struct CameraRecord {
     float step_x[3];
     uint height;        ///< pixels
     float step_y[3];
+    float aperture_radius;  ///< of the lens; 0 for a pinhole
+    float axis_x[3];        ///< unit, to the right
+    float focus_distance;   ///< of the plane in focus, along the axis
+    float axis_y[3];        ///< unit, up
     float padding;
 } CameraRecord;
 
@@ -31,21 +35,124 @@ typedef struct SurfaceTriangle {
     float padding;
 } SurfaceTriangle;
 
-/// Reflection of a surface: for now a Lambert reflector, both sides alike.
+/// The components of a material, and what holds for all of them.
 typedef struct MaterialRecord {
-    float reflectance[3];  ///< albedo
-    float padding;
+    uint first_component;
+    uint component_count;
+    uint flags;          ///< MATERIAL_*
+    uint padding;
 } MaterialRecord;
 
-/// A light as the sampler sees it. Diffuse area light on a mesh, emitting from the front side.
+#define MATERIAL_BOUNDARY 1u   ///< refracts: the indices on its two sides differ, its sides are told apart
+#define MATERIAL_ONE_SIDED 2u  ///< black from behind
+#define MATERIAL_DELTA 4u      ///< all components are deltas: there is nothing to join to a light
+
+/// One atomic BxDF of a material (renderer/scene/stores.h says what each is).
+typedef struct BxdfRecord {
+    uint kind;               ///< BXDF_*
+    uint flags;              ///< FRESNEL_*, BXDF_FLAG_*
+    uint texture;            ///< NO_TEXTURE for none
+    float parameter;         ///< sigma of BXDF_OREN_NAYAR, exponent of BXDF_BLINN
+    float weight[3];
+    float alpha_x;           ///< roughness along the tangent
+    float eta[3];            ///< Fresnel: relative index of refraction (dielectric: [0]) or reflectance (Schlick)
+    float alpha_y;           ///< roughness across the tangent
+    float k[3];              ///< extinction coefficient of a conductor
+    float padding;
+} BxdfRecord;
+
+#define NO_TEXTURE 0xffffffffu
+
+#define BXDF_LAMBERT 0u
+#define BXDF_OREN_NAYAR 1u
+#define BXDF_IDEAL_REFLECTION 2u
+#define BXDF_IDEAL_REFRACTION 3u
+#define BXDF_BLINN 4u
+#define BXDF_WARD 5u
+#define BXDF_WARD_ORIGINAL 6u
+#define BXDF_MICROFACET_REFLECTION 7u
+#define BXDF_MICROFACET_REFRACTION 8u
+
+#define FRESNEL_MASK 7u
+#define FRESNEL_IDEAL 0u
+#define FRESNEL_DIELECTRIC 1u
+#define FRESNEL_CONDUCTOR 2u
+#define FRESNEL_CONDUCTOR_APPROXIMATE 3u
+#define FRESNEL_SCHLICK 4u
+#define BXDF_FLAG_COMPLEMENT 8u      ///< 1 - F
+#define BXDF_FLAG_FRESNEL_OF_WO 16u  ///< not symmetric in wi and wo
+#define BXDF_FLAG_BECKMANN 32u       ///< else GGX
+
+/// A texture: a range of the texel buffer. 8-bit texels take one word each (R in the lowest byte), float texels
+/// three.
+typedef struct TextureRecord {
+    uint first_word;
+    uint width;
+    uint height;
+    uint flags;         ///< TEXTURE_*
+    float uv_scale[2];
+    float uv_offset[2];
+} TextureRecord;
+
+#define TEXTURE_FLOAT 1u     ///< else 8 bits
+#define TEXTURE_SRGB 2u
+#define TEXTURE_BILINEAR 4u  ///< else nearest
+#define TEXTURE_CLAMP 8u     ///< else repeat
+
+/// Shading normals and texture coordinates of a triangle's corners, each in a buffer that exists where needed.
+typedef struct TriangleNormals {
+    float normal[3][3];
+    float padding[3];
+} TriangleNormals;
+typedef struct TriangleUv {
+    float uv[3][2];
+} TriangleUv;
+
+/// A surface that is not made of triangles.
+typedef struct ShapeRecord {
+    float world_from_object[3][4];
+    float object_from_world[3][4];
+    uint kind;              ///< SHAPE_QUADRIC or SHAPE_JULIA
+    uint material;
+    uint light;             ///< index into the lights, NO_EMITTER when it emits nothing
+    uint iterations;        ///< of a Julia set
+    // Quadric: the surface a (x^2 + y^2) + b z^2 + c z + d = 0 with z in [z_lower, z_upper], x^2 + y^2 <= radius2.
+    // Julia set: its constant in (a, b, c, d), the fourth coordinate of the slice in z_lower.
+    float a, b, c, d;
+    float z_lower, z_upper;
+    float radius2;
+    uint uv_kind;           ///< ShapeArrays::Kind: decides (u, v)
+} ShapeRecord;
+
+#define SHAPE_QUADRIC 0u
+#define SHAPE_JULIA 1u
+
+/// A light as the sampler sees it.
 typedef struct LightRecord {
-    float radiance[3];        ///< W / (sr m^2)
+    float radiance[3];        ///< W / (sr m^2), W / sr or W / m^2 (LightArrays); environment: factor of the image
     float selection;          ///< probability that light selection takes this light
     uint selection_end;       ///< this light is taken by random words below this end (and not below its predecessor's)
-    uint first_triangle;      ///< its range of emitter triangles
+    uint kind;                ///< LIGHT_*
+    uint first_triangle;      ///< mesh: its range of emitter triangles. Shape: index of the shape
     uint triangle_count;
-    uint padding;
+    float axis_x[3];          ///< x, y and z axes of light space, unit
+    float area;               ///< of a shape
+    float axis_y[3];
+    float cos_outer;          ///< of a spot
+    float axis_z[3];
+    float angle_scale;        ///< of a spot: 1 / (outer angle - inner angle)
+    float position[3];
+    float outer_angle;        ///< of a spot, radians
 } LightRecord;
+
+#define LIGHT_MESH 0u
+#define LIGHT_DISC 1u
+#define LIGHT_SPHERE 2u
+#define LIGHT_POINT 3u
+#define LIGHT_SPOT 4u
+#define LIGHT_DIRECTIONAL 5u
+#define LIGHT_DOME 6u
+#define LIGHT_ENVIRONMENT 7u
 
 /// A triangle of a mesh light.
 typedef struct EmitterTriangle {
@@ -56,9 +163,14 @@ typedef struct EmitterTriangle {
 } EmitterTriangle;
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(CameraRecord) == 64, "layout shared with the device");
+static_assert(sizeof(CameraRecord) == 96, "layout shared with the device");
 static_assert(sizeof(SurfaceTriangle) == 64, "layout shared with the device");
 static_assert(sizeof(MaterialRecord) == 16, "layout shared with the device");
-static_assert(sizeof(LightRecord) == 32, "layout shared with the device");
+static_assert(sizeof(BxdfRecord) == 64, "layout shared with the device");
+static_assert(sizeof(TextureRecord) == 32, "layout shared with the device");
+static_assert(sizeof(TriangleNormals) == 48, "layout shared with the device");
+static_assert(sizeof(TriangleUv) == 24, "layout shared with the device");
+static_assert(sizeof(ShapeRecord) == 144, "layout shared with the device");
+static_assert(sizeof(LightRecord) == 96, "layout shared with the device");
 static_assert(sizeof(EmitterTriangle) == 16, "layout shared with the device");
 #endif

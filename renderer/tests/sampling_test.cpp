@@ -95,7 +95,7 @@ const float3 tilted = normalize(make_float3(0.3f, -0.8f, -0.5f));
 
 float3 lambert_direction(uint32_t i) {
     const uint4 w = words(i, 1);
-    return bsdf_sample(MaterialRecord{{0.5f, 0.5f, 0.5f}, 0}, tilted, uniform_float(w.x), uniform_float(w.y)).wi;
+    return bsdf_sample(BxdfRecord{}, tilted, uniform_float(w.x), uniform_float(w.y)).wi;
 }
 
 TEST(Lambert, SamplesItsDensity) {
@@ -110,7 +110,8 @@ TEST(Lambert, PlantedErrorOfTwoPercentIsRejected) {
 }
 
 TEST(Lambert, SampleAgreesWithEvaluateAndPdf) {
-    const MaterialRecord material{{0.25f, 0.5f, 0.75f}, 0};
+    BxdfRecord material{};
+    std::copy_n(std::array{0.25f, 0.5f, 0.75f}.data(), 3, material.weight);
     for (uint32_t i = 0; i < 1000; ++i) {
         const uint4 w = words(i, 2);
         const BsdfSample sample = bsdf_sample(material, tilted, uniform_float(w.x), uniform_float(w.y));
@@ -125,7 +126,8 @@ TEST(Lambert, SampleAgreesWithEvaluateAndPdf) {
 
 // White furnace: the albedo is the reflectance, from every side.
 TEST(Lambert, ReflectsItsAlbedo) {
-    const MaterialRecord material{{0.25f, 0.5f, 1.0f}, 0};
+    BxdfRecord material{};
+    std::copy_n(std::array{0.25f, 0.5f, 1.0f}.data(), 3, material.weight);
     const auto reflected = [&](double z, double) {
         const auto w = make_float3(static_cast<float>(std::sqrt(1 - z * z)), 0.0f, static_cast<float>(z));
         return static_cast<double>(bsdf_evaluate(material, make_float3(0, 0, 1), w).z) * z;

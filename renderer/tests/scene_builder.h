@@ -58,8 +58,8 @@ void expect_input_error(const std::string &fragment, const Body &body) {
 
 /// Every index of the serialized scene is valid and every record belongs to one object: what readers rely on.
 inline void expect_consistent(const SceneGraph &graph) {
-    const MeshArrays &meshes = graph.meshes().arrays;
-    const LightArrays &lights = graph.lights().arrays;
+    const MeshArrays &meshes = graph.arrays().meshes;
+    const LightArrays &lights = graph.arrays().lights;
     uint32_t triangles = 0;
     uint32_t vertices = 0;
     for (uint32_t mesh = 0; mesh < meshes.name.size(); ++mesh) {
@@ -67,7 +67,7 @@ inline void expect_consistent(const SceneGraph &graph) {
         ASSERT_EQ(meshes.first_vertex[mesh], vertices);
         triangles += meshes.triangle_count[mesh];
         vertices += meshes.vertex_count[mesh];
-        ASSERT_LT(meshes.material[mesh], graph.materials().arrays.name.size());
+        ASSERT_LT(meshes.material[mesh], graph.arrays().materials.name.size());
         if (meshes.light[mesh] != no_index) {
             ASSERT_LT(meshes.light[mesh], lights.mesh.size());
             ASSERT_EQ(lights.mesh[meshes.light[mesh]], mesh);

@@ -94,12 +94,12 @@ TEST(Graph, ABranchCanBeTakenOutAndPutBackElsewhere) {
     graph.update(0);
     std::unique_ptr<Node> taken = left.remove_child(leaf);
     graph.update(0);
-    EXPECT_TRUE(graph.meshes().arrays.name.empty());
+    EXPECT_TRUE(graph.arrays().meshes.name.empty());
     leaf.set_core(right_triangle("other"));  // edits outside a graph are legal
     right.add_child(std::move(taken));
     graph.update(0);
-    ASSERT_EQ(graph.meshes().arrays.name.size(), 1u);
-    EXPECT_EQ(graph.meshes().arrays.position[0], Vector3f(5, 0, 0));
+    ASSERT_EQ(graph.arrays().meshes.name.size(), 1u);
+    EXPECT_EQ(graph.arrays().meshes.position[0], Vector3f(5, 0, 0));
     expect_consistent(graph);
 }
 
@@ -114,7 +114,7 @@ TEST(Graph, DepthIsNotLimitedByTheCallStack) {
     node->set_core(right_triangle());
     graph.root().set_core(moved(0, 0, 7));
     graph.update(0);
-    EXPECT_EQ(graph.meshes().arrays.position[0], Vector3f(0, 0, 7));
+    EXPECT_EQ(graph.arrays().meshes.position[0], Vector3f(0, 0, 7));
 }
 
 TEST(Transform, LookAtPointsMinusZAtTheTarget) {

@@ -62,7 +62,7 @@ TEST(SceneJson, ReadsNodesCoresAndReferences) {
     EXPECT_LT((meshes.position[1] - Vector3f(0, 2, 1)).norm(), 1e-6f);
     EXPECT_EQ(meshes.position[4], Vector3f(10, 0, 1));
     EXPECT_EQ(scene.materials().name, (std::vector<std::string>{"white", "c"}));
-    EXPECT_EQ(scene.materials().reflectance[1], Vector3f(0, 0.25f, 1));
+    EXPECT_EQ(scene.materials().component[1].weight, Vector3f(0, 0.25f, 1));
     EXPECT_EQ(scene.lights().radiance[0], Vector3f(1, 2, 3));
     EXPECT_DOUBLE_EQ(scene.lights().area[0], 2);
     scene.set_property("b.visible", "true");

@@ -38,15 +38,15 @@ T &core_at(SceneGraph &graph, const std::string &name, CoreRole role) {
 TEST(Stores, HoldTheSceneInWorldSpace) {
     const auto graph = row_of_triangles(4);
     graph->update(0);
-    const MeshArrays &meshes = graph->meshes().arrays;
+    const MeshArrays &meshes = graph->arrays().meshes;
     EXPECT_EQ(meshes.name, (std::vector<std::string>{"0", "1", "2", "3"}));
     EXPECT_EQ(meshes.position[7], Vector3f(5, 0, 0));
     EXPECT_EQ(meshes.triangle[2], (Triangle{6, 7, 8}));
     EXPECT_EQ(meshes.light, (std::vector<uint32_t>{0, no_index, no_index, 1}));
-    EXPECT_EQ(graph->lights().arrays.mesh, (std::vector<uint32_t>{0, 3}));
-    EXPECT_EQ(graph->lights().arrays.radiance[1], Vector3f(3, 1, 1));
-    EXPECT_DOUBLE_EQ(graph->lights().arrays.area[1], 0.5);
-    EXPECT_EQ(graph->materials().arrays.name, (std::vector<std::string>{"grey"}));
+    EXPECT_EQ(graph->arrays().lights.mesh, (std::vector<uint32_t>{0, 3}));
+    EXPECT_EQ(graph->arrays().lights.radiance[1], Vector3f(3, 1, 1));
+    EXPECT_DOUBLE_EQ(graph->arrays().lights.area[1], 0.5);
+    EXPECT_EQ(graph->arrays().materials.name, (std::vector<std::string>{"grey"}));
     EXPECT_EQ(graph->mesh_counts().allocated, 4u);
     EXPECT_EQ(graph->mesh_counts().written, 4u);
     EXPECT_EQ(graph->material_counts().written, 1u) << "a shared material has one record";
@@ -72,17 +72,17 @@ TEST(Stores, OnlyWhatChangedIsRewritten) {
     graph->update(0);
     EXPECT_EQ(graph->mesh_counts().written, 1u);
     EXPECT_EQ(graph->light_counts().written + graph->material_counts().written, 0u);
-    EXPECT_EQ(graph->meshes().arrays.position[12], Vector3f(0, 0, 9));
+    EXPECT_EQ(graph->arrays().meshes.position[12], Vector3f(0, 0, 9));
 
     core_at<LambertMaterial>(*graph, "all", CoreRole::material).set_reflectance({1, 0, 0});
     graph->update(0);
     EXPECT_EQ(graph->material_counts().written, 1u);
     EXPECT_EQ(graph->mesh_counts().written, 0u) << "meshes refer to a material, they do not copy it";
-    EXPECT_EQ(graph->materials().arrays.reflectance[0], Vector3f(1, 0, 0));
+    EXPECT_EQ(graph->arrays().materials.component[0].weight, Vector3f(1, 0, 0));
 
     graph->find("all")->set_core(grey("other"));
     graph->update(0);
-    EXPECT_EQ(graph->materials().arrays.name, (std::vector<std::string>{"other"}));
+    EXPECT_EQ(graph->arrays().materials.name, (std::vector<std::string>{"other"}));
     EXPECT_EQ(graph->mesh_counts().written, 10u);
     expect_consistent(*graph);
 }
@@ -99,7 +99,7 @@ TEST(Stores, SeveralEditsOfOneNodeAreWrittenOnce) {
     EXPECT_EQ(graph->visited_nodes(), 11u);
     EXPECT_EQ(graph->mesh_counts().written, 10u);
     EXPECT_EQ(graph->light_counts().written, 4u);
-    EXPECT_EQ(graph->meshes().arrays.position[9], Vector3f(1, 0, 4));
+    EXPECT_EQ(graph->arrays().meshes.position[9], Vector3f(1, 0, 4));
 }
 
 TEST(Stores, HiddenObjectsLeaveNoHole) {
@@ -108,9 +108,9 @@ TEST(Stores, HiddenObjectsLeaveNoHole) {
     graph->find("0")->set_core(std::make_shared<VisibilityCore>("", false));
     graph->find("4")->set_core(std::make_shared<VisibilityCore>("", false));
     graph->update(0);
-    EXPECT_EQ(graph->meshes().arrays.name, (std::vector<std::string>{"1", "2", "3", "5", "6"}));
-    EXPECT_EQ(graph->meshes().arrays.position[6], Vector3f(6, 0, 0));
-    EXPECT_EQ(graph->lights().arrays.name, (std::vector<std::string>{"3", "6"}));
+    EXPECT_EQ(graph->arrays().meshes.name, (std::vector<std::string>{"1", "2", "3", "5", "6"}));
+    EXPECT_EQ(graph->arrays().meshes.position[6], Vector3f(6, 0, 0));
+    EXPECT_EQ(graph->arrays().lights.name, (std::vector<std::string>{"3", "6"}));
     EXPECT_EQ(graph->mesh_counts().freed, 2u);
     EXPECT_EQ(graph->mesh_counts().moved, 5u);
     EXPECT_EQ(graph->mesh_counts().written, 0u);
@@ -118,7 +118,7 @@ TEST(Stores, HiddenObjectsLeaveNoHole) {
 
     core_at<VisibilityCore>(*graph, "0", CoreRole::visibility).set_visible(true);
     graph->update(0);
-    EXPECT_EQ(graph->meshes().arrays.name.back(), "0");
+    EXPECT_EQ(graph->arrays().meshes.name.back(), "0");
     EXPECT_EQ(graph->mesh_counts().written, 1u);
     expect_consistent(*graph);
 }
@@ -132,9 +132,9 @@ TEST(Stores, RemovedNodesAndCoresDisappear) {
     graph->find("0")->remove_core(CoreRole::light);
     graph->find("0")->remove_core(CoreRole::geometry);
     graph->update(0);
-    EXPECT_EQ(graph->meshes().arrays.name, (std::vector<std::string>{"2", "3", "4"}));
-    EXPECT_TRUE(graph->lights().arrays.name.empty());
-    EXPECT_EQ(graph->meshes().arrays.light, (std::vector<uint32_t>(3, no_index)));
+    EXPECT_EQ(graph->arrays().meshes.name, (std::vector<std::string>{"2", "3", "4"}));
+    EXPECT_TRUE(graph->arrays().lights.name.empty());
+    EXPECT_EQ(graph->arrays().meshes.light, (std::vector<uint32_t>(3, no_index)));
     EXPECT_EQ(graph->mesh_counts().freed, 2u);
     expect_consistent(*graph);
 }
@@ -144,7 +144,7 @@ TEST(Stores, AMeshThatGrowsGetsANewRecord) {
     graph->update(0);
     graph->find("1")->set_core(unit_square());
     graph->update(0);
-    const MeshArrays &meshes = graph->meshes().arrays;
+    const MeshArrays &meshes = graph->arrays().meshes;
     EXPECT_EQ(meshes.name, (std::vector<std::string>{"0", "2", "1"}));
     EXPECT_EQ(meshes.position.size(), 10u);
     expect_consistent(*graph);
@@ -204,12 +204,12 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
         }
     }
     // What was reached by edits equals what one update of everything writes.
-    const std::vector<Vector3f> positions = graph->meshes().arrays.position;
-    const std::vector<Triangle> triangles = graph->meshes().arrays.triangle;
+    const std::vector<Vector3f> positions = graph->arrays().meshes.position;
+    const std::vector<Triangle> triangles = graph->arrays().meshes.triangle;
     graph->root().mark(Dirty::subtree);
     graph->update(0);
-    EXPECT_EQ(graph->meshes().arrays.position, positions);
-    EXPECT_EQ(graph->meshes().arrays.triangle, triangles);
+    EXPECT_EQ(graph->arrays().meshes.position, positions);
+    EXPECT_EQ(graph->arrays().meshes.triangle, triangles);
 }
 
 TEST(Stores, InstancesShareACoreAndHaveRecordsOfTheirOwn) {
@@ -223,12 +223,12 @@ TEST(Stores, InstancesShareACoreAndHaveRecordsOfTheirOwn) {
     second.set_core(std::make_shared<TransformCore>("", scaling({3, 1, 1})));
     graph.update(0);
     EXPECT_EQ(triangle->nodes().size(), 2u);
-    EXPECT_EQ(graph.meshes().arrays.position[1], Vector3f(1, 0, 0));
-    EXPECT_EQ(graph.meshes().arrays.position[4], Vector3f(3, 0, 0));
+    EXPECT_EQ(graph.arrays().meshes.position[1], Vector3f(1, 0, 0));
+    EXPECT_EQ(graph.arrays().meshes.position[4], Vector3f(3, 0, 0));
     triangle->set_geometry({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
     graph.update(0);
     EXPECT_EQ(graph.mesh_counts().written, 2u);
-    EXPECT_EQ(graph.meshes().arrays.position[4], Vector3f(6, 0, 0));
+    EXPECT_EQ(graph.arrays().meshes.position[4], Vector3f(6, 0, 0));
 }
 
 TEST(Stores, AMirrorKeepsTheFrontOfASurface) {
@@ -241,7 +241,7 @@ TEST(Stores, AMirrorKeepsTheFrontOfASurface) {
          {std::pair{Vector3d(-1, 1, 1), 1.0f}, std::pair{Vector3d(1, 1, -1), -1.0f}}) {
         node.set_core(std::make_shared<TransformCore>("", scaling(factors)));
         graph.update(0);
-        const MeshArrays &meshes = graph.meshes().arrays;
+        const MeshArrays &meshes = graph.arrays().meshes;
         const Triangle &t = meshes.triangle[0];
         const Vector3f a = meshes.position[t[0]];
         EXPECT_EQ((meshes.position[t[1]] - a).cross(meshes.position[t[2]] - a), Vector3f(0, 0, facing));
@@ -256,9 +256,9 @@ TEST(Stores, CamerasAreRigid) {
     node.set_core(std::make_shared<TransformCore>("", look_at({0, 0, 4}, {4, 0, 4}, {0, 1, 0})));
     parent.set_core(std::make_shared<TransformCore>("", scaling({10, 10, 10})));
     graph.update(0);
-    const Eigen::Matrix4d &pose = graph.cameras().arrays.world_from_camera[0];
+    const Eigen::Matrix4d &pose = graph.arrays().cameras.world_from_camera[0];
     EXPECT_TRUE(pose.isApprox(look_at({0, 0, 40}, {1, 0, 40}, {0, 1, 0}), 1e-14)) << pose;
-    EXPECT_DOUBLE_EQ(graph.cameras().arrays.fov[0], std::acos(-1.0) / 2);
+    EXPECT_DOUBLE_EQ(graph.arrays().cameras.fov[0], std::acos(-1.0) / 2);
     parent.set_core(std::make_shared<TransformCore>("", scaling({-1, 1, 1})));
     expect_input_error("camera 'camera': its transform mirrors", [&] { graph.update(0); });
     parent.set_core(std::make_shared<TransformCore>("", scaling({1, 2, 1})));
@@ -279,7 +279,7 @@ TEST(Stores, WhatCannotBeRepresentedIsAnErrorUntilItIsMended) {
     node.set_core(std::make_shared<TransformCore>("", scaling({1e-30, 1e-30, 1})));
     node.set_core(std::make_shared<DiffuseAreaLight>("", Vector3d(1, 1, 1)));
     graph.update(0);
-    EXPECT_NEAR(graph.lights().arrays.area[0] / 0.5e-60, 1, 1e-6);
+    EXPECT_NEAR(graph.arrays().lights.area[0] / 0.5e-60, 1, 1e-6);
     node.set_core(std::make_shared<MeshCore>("line", std::vector<Vector3d>{{0, 0, 0}, {1, 1, 1}},
                                              std::vector<Triangle>{{0, 1, 1}}));
     expect_input_error("light 'node': its mesh has no area", [&] { graph.update(0); });
@@ -304,14 +304,14 @@ TEST(Stores, AnimatedCoresFollowTheTime) {
     graph->find("5")->set_core(std::make_shared<Slider>());
     graph->update(0);
     graph->update(2.5);
-    EXPECT_EQ(graph->meshes().arrays.position[15], Vector3f(2.5f, 0, 0));
+    EXPECT_EQ(graph->arrays().meshes.position[15], Vector3f(2.5f, 0, 0));
     EXPECT_EQ(graph->mesh_counts().written, 1u);
     EXPECT_EQ(graph->visited_nodes(), 1u);
     graph->update(2.5);
     EXPECT_EQ(graph->visited_nodes(), 0u);
     graph->find("5")->remove_core(CoreRole::transform);
     graph->update(3);
-    EXPECT_EQ(graph->meshes().arrays.position[15], Vector3f(0, 0, 0));
+    EXPECT_EQ(graph->arrays().meshes.position[15], Vector3f(0, 0, 0));
 }
 
 /// Median seconds of an update after one node has moved.
@@ -350,11 +350,11 @@ TEST(Stores, AFarOriginCostsNoPrecision) {
         std::make_shared<TransformCore>("", translation({1e6, 1e6, 1e6}) * scaling({1e-3, 1e-3, 1e-3})));
     node.set_core(right_triangle());
     graph.update(0);
-    EXPECT_EQ(graph.meshes().arrays.position[0], graph.meshes().arrays.position[1])
+    EXPECT_EQ(graph.arrays().meshes.position[0], graph.arrays().meshes.position[1])
         << "an ulp of 1e6 is 1/16";
     graph.set_origin({1e6, 1e6, 1e6});
     graph.update(0);
-    EXPECT_NEAR(graph.meshes().arrays.position[1].x(), 1e-3, 1e-9);
+    EXPECT_NEAR(graph.arrays().meshes.position[1].x(), 1e-3, 1e-9);
 }
 
 }  // namespace

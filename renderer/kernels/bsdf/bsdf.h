@@ -19,18 +19,18 @@ typedef struct BsdfSample {
 // Lambert reflector, thesis (3.31): f = reflectance / pi on wo's side of the surface. The normal `n` is on that
 // side.
 
-DEVICE float3 lambert_evaluate(MaterialRecord material, float3 n, float3 wi) {
-    const float3 reflectance = make_float3(material.reflectance[0], material.reflectance[1], material.reflectance[2]);
+DEVICE float3 lambert_evaluate(BxdfRecord component, float3 n, float3 wi) {
+    const float3 reflectance = make_float3(component.weight[0], component.weight[1], component.weight[2]);
     return dot(n, wi) > 0.0f ? reflectance * INV_PI : make_float3(0.0f, 0.0f, 0.0f);
 }
 
 DEVICE float lambert_pdf(float3 n, float3 wi) { return max(dot(n, wi), 0.0f) * INV_PI; }
 
-DEVICE BsdfSample lambert_sample(MaterialRecord material, float3 n, float u, float v) {
+DEVICE BsdfSample lambert_sample(BxdfRecord component, float3 n, float u, float v) {
     const float3 tangent_wi = sample_cosine_hemisphere(u, v);
     BsdfSample sample;
     sample.wi = normalize(to_world(frame_from_z(n), tangent_wi));
-    sample.weight = make_float3(material.reflectance[0], material.reflectance[1], material.reflectance[2]);
+    sample.weight = make_float3(component.weight[0], component.weight[1], component.weight[2]);
     sample.pdf_w = tangent_wi.z * INV_PI;
     return sample;
 }
@@ -38,9 +38,9 @@ DEVICE BsdfSample lambert_sample(MaterialRecord material, float3 n, float u, flo
 #endif
 
 /// f(wi, wo), 1/sr; `n` is the geometric normal on wo's side.
-DEVICE float3 bsdf_evaluate(MaterialRecord material, float3 n, float3 wi) {
+DEVICE float3 bsdf_evaluate(BxdfRecord component, float3 n, float3 wi) {
 #if FEATURE_lambert
-    return lambert_evaluate(material, n, wi);
+    return lambert_evaluate(component, n, wi);
 #else
     return make_float3(0.0f, 0.0f, 0.0f);
 #endif
@@ -54,9 +54,9 @@ DEVICE float bsdf_pdf(float3 n, float3 wi) {
 #endif
 }
 
-DEVICE BsdfSample bsdf_sample(MaterialRecord material, float3 n, float u, float v) {
+DEVICE BsdfSample bsdf_sample(BxdfRecord component, float3 n, float u, float v) {
 #if FEATURE_lambert
-    return lambert_sample(material, n, u, v);
+    return lambert_sample(component, n, u, v);
 #else
     BsdfSample nothing;
     nothing.wi = n;
