@@ -15,7 +15,7 @@ constexpr double fov = 0.8;
 
 /// A camera at the origin with camera space equal to world space.
 Camera camera_at_origin(FovAxis axis, int width, int height) {
-    return Camera({{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {axis}}, 0, width, height);
+    return Camera({{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {axis}, {0}, {1}}, 0, width, height);
 }
 
 /// tan of the half angles towards the middle of the film's right and top edge.

@@ -18,6 +18,7 @@ constexpr std::array<std::pair<Feature, const char *>, static_cast<size_t>(Featu
 
 /// What a feature's code is built upon.
 constexpr std::pair<Feature, Feature> requirements[] = {
+    {Feature::scattering, Feature::triangles},       {Feature::lights, Feature::triangles},
     {Feature::lambert, Feature::scattering},         {Feature::roulette, Feature::scattering},
     {Feature::adaptive, Feature::scattering},        {Feature::depth_limit, Feature::scattering},
     {Feature::implicit_light, Feature::lights},      {Feature::implicit_light, Feature::scattering},

@@ -190,8 +190,12 @@ struct Lights {
                                     static_cast<float>(table.probability[static_cast<size_t>(i)] / areas[static_cast<size_t>(i)])});
                 area.push_back(areas[static_cast<size_t>(i)]);
             }
-            lights.push_back({{1, 1, 1}, static_cast<float>(selection.probability[k]), selection.end[k], first,
-                              static_cast<uint32_t>(counts[k]), 0});
+            LightRecord light{};
+            light.selection = static_cast<float>(selection.probability[k]);
+            light.selection_end = selection.end[k];
+            light.first_triangle = first;
+            light.triangle_count = static_cast<uint32_t>(counts[k]);
+            lights.push_back(light);
         }
     }
 
@@ -226,6 +230,8 @@ TEST(Camera, RaysHitTheCornersOfTheFieldOfView) {
     cameras.name = {"camera"};
     cameras.world_from_camera = {Eigen::Matrix4d::Identity()};
     cameras.fov = {pi / 2};
+    cameras.aperture_radius = {0};
+    cameras.focus_distance = {1};
     using Axis = CameraArrays::FovAxis;
     // A film of 40 x 20 pixels; tan of half the field is 1 along the named axis.
     for (const auto &[axis, x, y] : {std::tuple(Axis::x, 1.0f, 0.5f), std::tuple(Axis::y, 2.0f, 1.0f),
