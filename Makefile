@@ -33,7 +33,7 @@ reproduce-chapter4: programs
 report:
 	build/bin/rtrays-experiment report $(addprefix $(CHAPTER4)/,$(EXPERIMENTS))
 
-# Host code under address and undefined-behaviour sanitizers, then everything; the last lines are ctest's summary.
+# The renderer's host code under address and undefined-behaviour sanitizers, then everything; the last lines are ctest's summary.
 test: build test-asan lint
 	ctest --test-dir build --output-on-failure -j $(JOBS)
 

@@ -31,7 +31,7 @@ def band(curve_points, key):
 
 
 def draw_guide(axes, x, y):
-    """A line of slope -1/2 below the curves."""
+    """A line of slope -1/2 over the range of x, from y at its left end."""
     ends = numpy.array([min(x), max(x)], dtype=float)
     axes.plot(ends, y * (ends / ends[0]) ** -0.5, color="black", linewidth=0.8, linestyle=":", label="slope $-1/2$")
 
@@ -40,7 +40,7 @@ def curves_figure(run, x_key):
     """RMSE against `x_key`, log-log. Curves stop where the reference's noise passes 10 % of their MSE."""
     figure, axes = pyplot.subplots(figsize=(5.6, 4.2), layout="constrained")
     floor = run.get("reference.noise_floor.rmse")
-    first_x, first_y = [], []
+    all_x, first_y = [], []
     for index, curve in enumerate(run.curves):
         points = usable_points(curve)
         x = [value(point, x_key) for point in points]
@@ -49,9 +49,9 @@ def curves_figure(run, x_key):
         axes.fill_between(x, *band(points, "rmse"), color=colour, alpha=0.2, linewidth=0)
         axes.plot(x, y, color=colour, marker=MARKERS[index % len(MARKERS)], markersize=4, linewidth=1.2,
                   label=f"{label(curve)}, slope {value(curve, 'slope.value'):.3f}")
-        first_x += x
+        all_x += x
         first_y.append(y[0])
-    draw_guide(axes, first_x, 0.6 * min(first_y))
+    draw_guide(axes, all_x, 0.6 * min(first_y))
     axes.axhline(floor, color="gray", linestyle="--", linewidth=0.9,
                  label=f"noise of the reference ({run.get('reference.spp')} spp)")
     axes.set(xscale="log", yscale="log", xlabel=AXES[x_key], ylabel="RMSE",

@@ -37,22 +37,21 @@ def provenance(run):
     """Where the numbers come from, a line each."""
     context = run.get("context")
     load = [", ".join(f"{average:.2f}" for average in value(context, f"load_average_{end}")) for end in ("start", "end")]
-    use = value(context, "cpu_use")
-    lines = [
-        f"commit {value(context, 'commit')}{' with uncommitted changes' if context['dirty'] else ''}, "
+    own, foreign, steal = (100 * value(context, f"cpu_use.{part}") for part in ("own", "foreign", "steal"))
+    return [
+        f"commit {value(context, 'commit')}{' with uncommitted changes' if value(context, 'dirty') else ''}, "
         f"profile {run.get('experiment.profile')}, {value(context, 'started_at')} to {value(context, 'finished_at')}",
         f"device: {value(context, 'device.name')}, {value(context, 'device.platform')}, driver "
         f"{value(context, 'device.driver')}, {value(context, 'device.c_version')}, "
         f"{value(context, 'device.compute_units')} compute units; kernel options: {value(context, 'kernel_options')}",
         f"host: {value(context, 'host.cpu')}, {value(context, 'host.cores')} cores, {value(context, 'host.kernel')}; "
         f"{value(context, 'host.compiler')}, {value(context, 'host.build_type')}",
-        f"load average {load[0]} at the start, {load[1]} at the end; CPU time: this run {100 * use['own']:.0f} %, others "
-        f"{100 * use['foreign']:.0f} %, stolen {100 * use['steal']:.1f} %",
+        f"load average {load[0]} at the start, {load[1]} at the end; CPU time: this run {own:.0f} %, others "
+        f"{foreign:.0f} %, stolen {steal:.1f} %",
         f"reference: {', '.join(run.get('reference.files'))}, {run.get('reference.engine')}, "
         f"{run.get('reference.spp')} spp together, noise RMSE {run.get('reference.noise_floor.rmse'):.3g}, "
         f"scene hash {run.get('reference.scene_hash')}",
     ]
-    return lines
 
 
 def title(run):

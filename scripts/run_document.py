@@ -4,6 +4,7 @@
 Everything made from a run is a pure function of its folder. A missing value is an error, never a zero.
 """
 
+import argparse
 import json
 import math
 import pathlib
@@ -31,10 +32,6 @@ class Run:
         version = value(self.document, "schema_version")
         if version != self.schema_version:
             raise RunError(f"{path}: schema_version {version}, these scripts read {self.schema_version}; run it anew")
-
-    @property
-    def name(self):
-        return value(self.document, "experiment.name")
 
     @property
     def curves(self):
@@ -86,9 +83,10 @@ def usable_points(curve):
 def slope_verdict(slope, expected, tolerance):
     """Whether an interval lies within, outside of, or across expected +/- tolerance."""
     low, high = expected - tolerance, expected + tolerance
-    if low <= slope["low"] and slope["high"] <= high:
+    measured_low, measured_high = value(slope, "low"), value(slope, "high")
+    if low <= measured_low and measured_high <= high:
         return "reproduced"
-    if slope["high"] < low or slope["low"] > high:
+    if measured_high < low or measured_low > high:
         return "not reproduced"
     return "undecided"
 
@@ -112,10 +110,16 @@ def write_text(path, text):
     temporary.replace(path)
 
 
-def main_guard(program, body):
-    """Runs `body`; a RunError becomes one line on stderr and exit code 2."""
+def run_script(program, description, body):
+    """A script's main: calls `body` with the runs of the folders named on the command line; returns the exit code.
+
+    An error becomes one line on stderr: exit code 2 for a folder that cannot be used, 1 for anything else.
+    """
+    parser = argparse.ArgumentParser(prog=program, description=description)
+    parser.add_argument("runs", metavar="DIR", nargs="+", help="folder of a finished run")
+    folders = parser.parse_args().runs
     try:
-        body()
+        body([Run(folder) for folder in folders])
     except RunError as error:
         print(f"{program}: {error}", file=sys.stderr)
         return 2

@@ -4,7 +4,7 @@
 import csv
 import io
 
-from run_document import label, value
+from run_document import label, value, write_text
 
 POINT_METRICS = ("l2", "rmse", "mae", "relmse", "mse", "mse_unbiased")
 
@@ -137,16 +137,15 @@ def throughput_table(run):
 
 
 def repetitions_table(run):
-    """Every raw measurement, one row each."""
+    """Every raw measurement, one row each, with all digits."""
+    keys = ("seconds_device", "seconds_wall", "l2", "rmse", "mae", "relmse", "mse")
     rows = []
     for curve in run.curves:
         for point in value(curve, "points"):
             for repetition in value(point, "repetitions"):
                 rows.append([value(curve, "id"), str(value(point, "spp")), str(value(repetition, "seed"))]
-                            + [repr(value(repetition, key)) for key in
-                               ("seconds_device", "seconds_wall", "l2", "rmse", "mae", "relmse", "mse")])
-    return Table("all repetitions", ["curve", "spp", "seed", "seconds_device", "seconds_wall", "l2", "rmse", "mae",
-                                     "relmse", "mse"], rows)
+                            + [repr(value(repetition, key)) for key in keys])
+    return Table("all repetitions", ["curve", "spp", "seed", *keys], rows)
 
 
 TABLES = {
@@ -158,7 +157,7 @@ TABLES = {
 }
 
 
-def write_tables(run, folder, write_text):
+def write_tables(run, folder):
     """All tables as CSV, Markdown and LaTeX, the raw repetitions as CSV; returns the tables by name."""
     folder.mkdir(parents=True, exist_ok=True)
     tables = {name: make(run) for name, make in TABLES.items()}

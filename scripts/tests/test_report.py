@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -175,7 +176,7 @@ class Reports(RunFolder):
     def test_several_runs_get_an_index(self):
         self.run_object()
         other = self.folder.parent / "other"
-        subprocess.run(["cp", "-r", self.folder, other], check=True)
+        shutil.copytree(self.folder, other)
         done = self.script("report", self.folder, other)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("box/index.html", pathlib.Path(done.stdout.strip()).read_text())
