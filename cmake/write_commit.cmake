@@ -4,15 +4,22 @@ execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD OUTPUT_VARIAB
 if(NOT commit)
     set(commit "unknown")
 endif()
+# Only what the programs are made of counts: a new report or result leaves them clean.
 execute_process(COMMAND git -C ${SOURCE} status --porcelain --untracked-files=no -- renderer reference experiments scenes
                         cmake CMakeLists.txt
                 OUTPUT_VARIABLE changes OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(changes)
     set(dirty "true")
+    set(version "${commit}-dirty")
 else()
     set(dirty "false")
+    set(version "${commit}")
 endif()
-set(content "#pragma once\n#define RTRAYS_COMMIT \"${commit}\"\n#define RTRAYS_DIRTY ${dirty}\n")
+set(content "#pragma once
+#define RTRAYS_COMMIT \"${commit}\"
+#define RTRAYS_DIRTY ${dirty}
+#define RTRAYS_VERSION \"${version}\"
+")
 if(EXISTS ${OUTPUT})
     file(READ ${OUTPUT} previous)
 endif()

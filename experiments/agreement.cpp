@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "experiments/metrics.h"
 #include "renderer/base/error.h"
+#include "renderer/base/statistics.h"
 
 namespace rtrays {
 
@@ -28,11 +30,15 @@ void add_pixel(BlockSums &block, double image, double reference, double variance
     block.variance += variance;
 }
 
-BlockTest test_block(const BlockSums &block, int x, int y, const std::string &channel) {
+/// The difference of one channel's means.
+struct BlockTest {
+    double difference = 0;      ///< mean of image less mean of reference
+    double standard_error = 0;  ///< of `difference`
+    double z = 0;
+};
+
+BlockTest test_block(const BlockSums &block) {
     BlockTest test;
-    test.x = x;
-    test.y = y;
-    test.channel = channel;
     test.difference = (block.image - block.reference) / block.pixels;
     // Pixels are rounded to float32: half an ulp each, in the worst case all the same way.
     const double rounding = std::numeric_limits<float>::epsilon() *
@@ -44,15 +50,9 @@ BlockTest test_block(const BlockSums &block, int x, int y, const std::string &ch
 }
 
 void require_comparable(const Image &image, const Image &reference) {
-    if (image.width() != reference.width() || image.height() != reference.height()) {
-        throw input_error(fmt::format("images differ in size: {}x{} and {}x{}", image.width(), image.height(),
-                                      reference.width(), reference.height()));
-    }
-    for (const auto &name : rgb_names("variance")) {
-        if (!image.has(name) || !reference.has(name)) {
-            throw input_error(
-                fmt::format("both images need the layer {} (variance of the mean) to be tested", name));
-        }
+    require_same_size(image, reference);
+    if (!has_variance(image) || !has_variance(reference)) {
+        throw input_error("both images need the layers variance.* (variance of the mean) to be tested");
     }
 }
 
@@ -76,7 +76,7 @@ Agreement test_agreement(const Image &image, const Image &reference, const Agree
     const int columns = (width + size - 1) / size, rows = (image.height() + size - 1) / size;
     const auto colours = rgb_names(), variances = rgb_names("variance");
 
-    Agreement result;
+    std::vector<BlockTest> tests;
     double mean_difference = 0, mean_error = 0, mean_reference = 0;
     for (size_t c = 0; c < colours.size(); ++c) {
         std::vector<BlockSums> blocks(static_cast<size_t>(columns) * static_cast<size_t>(rows));
@@ -87,32 +87,33 @@ Agreement test_agreement(const Image &image, const Image &reference, const Agree
             const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
             const double variance = static_cast<double>(variance_a[i]) + variance_b[i];
             if (!std::isfinite(variance) || variance < 0 || !std::isfinite(a[i]) || !std::isfinite(b[i])) {
-                throw input_error(fmt::format("pixel ({}, {}), channel {}: value {} and {} with variance {}",
-                                              x, y, colours[c], a[i], b[i], variance));
+                throw input_error(
+                    fmt::format("pixel ({}, {}), channel {}: values {} and {} with variance {}; "
+                                "all must be finite, the variance not negative",
+                                x, y, colours[c], a[i], b[i], variance));
             }
             add_pixel(blocks[static_cast<size_t>(y / size * columns + x / size)], a[i], b[i], variance);
             add_pixel(whole, a[i], b[i], variance);
         }
-        for (size_t i = 0; i < blocks.size(); ++i) {
-            const int block = static_cast<int>(i);
-            result.tests.push_back(test_block(blocks[i], block % columns, block / columns, colours[c]));
+        for (const BlockSums &block : blocks) {
+            tests.push_back(test_block(block));
         }
-        result.tests.push_back(test_block(whole, -1, -1, colours[c]));
-        mean_difference += result.tests.back().difference / 3;
-        mean_error += result.tests.back().standard_error / 3;
+        tests.push_back(test_block(whole));
+        mean_difference += tests.back().difference / 3;
+        mean_error += tests.back().standard_error / 3;
         mean_reference += whole.reference / whole.pixels / 3;
     }
 
+    Agreement result;
+    result.tests = tests.size();
     std::vector<double> p_values;
-    for (const auto &test : result.tests) {
+    for (const auto &test : tests) {
         p_values.push_back(normal_p_value(test.z));
         result.largest_z = std::max(result.largest_z, std::abs(test.z));
     }
-    const auto adjusted = holm_adjusted(p_values);
-    for (size_t i = 0; i < adjusted.size(); ++i) {
-        result.tests[i].adjusted_p = adjusted[i];
-        result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, adjusted[i]);
-        result.rejected += adjusted[i] <= policy.alpha ? 1 : 0;
+    for (const double adjusted : holm_adjusted(p_values)) {
+        result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, adjusted);
+        result.rejected += adjusted <= policy.alpha ? 1 : 0;
     }
 
     if (!(mean_reference > 0)) {

@@ -8,7 +8,8 @@
 namespace rtrays {
 
 /// Writes R, G, B as a NumPy array file (format 1.0): shape (height, width, 3), float32, little-endian, rows
-/// from the top. Debian has no Python reader of EXR; this is what the plots read. Whole or not at all.
+/// from the top. The plots read this and need no library for EXR. Whole or not at all: throws `Error` (run
+/// failed).
 void write_array(const Image &image, const std::filesystem::path &path);
 
 }  // namespace rtrays

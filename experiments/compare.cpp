@@ -14,7 +14,7 @@ nlohmann::json compare_images(const std::filesystem::path &image_path,
     nlohmann::json comparison = to_json(compute_metrics(image, reference));
     comparison["image"] = image_path.string();
     comparison["reference"] = reference_path.string();
-    if (image.has("variance.R") && reference.has("variance.R")) {
+    if (has_variance(image) && has_variance(reference)) {
         const AgreementPolicy policy;
         comparison["agreement"] = to_json(test_agreement(image, reference, policy), policy);
     }
@@ -23,7 +23,7 @@ nlohmann::json compare_images(const std::filesystem::path &image_path,
 
 std::string comparison_text(const nlohmann::json &comparison) {
     std::string text;
-    for (const char *key : {"l2", "rmse", "mae", "relmse", "mse"}) {
+    for (const auto &[key, field] : metric_keys) {
         text += fmt::format("{:8} {:.6g}\n", key, comparison.at(key).get<double>());
     }
     if (!comparison.contains("agreement")) {

@@ -11,24 +11,41 @@
 
 namespace rtrays {
 
-namespace {
+std::filesystem::path DescriptionFile::resolve(const Json &relative) const {
+    return (path.parent_path() / relative.get<std::string>()).lexically_normal();
+}
 
-void check_description(const ExperimentDescription &experiment, const std::string &source) {
-    for (size_t i = 1; i < experiment.spp.size(); ++i) {
-        if (experiment.spp[i] <= experiment.spp[i - 1]) {
-            throw input_error(fmt::format("{}: profile {}: \"spp\" must increase; {} follows {}", source,
-                                          experiment.profile, experiment.spp[i], experiment.spp[i - 1]));
-        }
-    }
+DescriptionFile load_description(const std::filesystem::path &path, const std::string &schema) {
+    DescriptionFile file{path, read_file(path), {}};
+    file.json = parse_json(file.text, path.string());
+    validate_json(file.json, std::string(embedded::experiment_schemas().text(schema)), path.string(),
+                  file.text);
+    return file;
+}
+
+void read_measured_scene(const DescriptionFile &file, const Json &size, MeasuredScene &scene) {
+    scene.scene = file.resolve(file.json.at("scene"));
+    scene.reference_folder = file.resolve(file.json.at("reference").at("folder"));
+    file.json.at("reference").at("engine").get_to(scene.reference_engine);
+    size.at(0).get_to(scene.width);
+    size.at(1).get_to(scene.height);
     std::set<std::string> ids;
-    for (const auto &curve : experiment.curves) {
-        if (!ids.insert(curve.id()).second) {
-            throw input_error(fmt::format("{}: two curves are both {}", source, curve.id()));
+    for (const Json &curve : file.json.at("curves")) {
+        scene.curves.push_back({parse_render_settings(curve)});
+        if (const std::string id = scene.curves.back().id(); !ids.insert(id).second) {
+            throw input_error(fmt::format("{}: two curves are both {}; algorithm or strategies must differ",
+                                          file.location("/curves"), id));
         }
     }
 }
 
-}  // namespace
+void require_increasing(const std::vector<uint64_t> &spp, const std::string &location) {
+    for (size_t i = 1; i < spp.size(); ++i) {
+        if (spp[i] <= spp[i - 1]) {
+            throw input_error(fmt::format("{}: must increase; {} follows {}", location, spp[i], spp[i - 1]));
+        }
+    }
+}
 
 RenderSettings parse_render_settings(const Json &curve) {
     RenderSettings settings;
@@ -44,16 +61,13 @@ RenderSettings parse_render_settings(const Json &curve) {
 }
 
 ExperimentDescription load_experiment(const std::filesystem::path &path, const std::string &profile) {
-    const std::string source = path.string(), text = read_file(path);
-    const Json json = parse_json(text, source);
-    validate_json(json, std::string(embedded::experiment_schemas().text("experiment.schema.json")), source,
-                  text);
+    const DescriptionFile file = load_description(path, "experiment.schema.json");
+    const Json &json = file.json;
     if (!json.at("profiles").contains(profile)) {
         throw input_error(
-            fmt::format("{}: there is no profile '{}'; there are: quick, full, ci", source, profile));
+            fmt::format("{}: there is no profile '{}'; there are: quick, full, ci", path.string(), profile));
     }
 
-    const auto folder = path.parent_path();
     const Json &chosen = json.at("profiles").at(profile);
     ExperimentDescription experiment;
     json.at("name").get_to(experiment.name);
@@ -62,22 +76,14 @@ ExperimentDescription load_experiment(const std::filesystem::path &path, const s
     json.at("claim").get_to(experiment.claim);
     json.at("expected_slope").at("value").get_to(experiment.expected_slope);
     json.at("expected_slope").at("tolerance").get_to(experiment.slope_tolerance);
-    experiment.scene = (folder / json.at("scene").get<std::string>()).lexically_normal();
-    experiment.reference_folder =
-        (folder / json.at("reference").at("folder").get<std::string>()).lexically_normal();
-    json.at("reference").at("engine").get_to(experiment.reference_engine);
-    for (const Json &curve : json.at("curves")) {
-        experiment.curves.push_back({parse_render_settings(curve)});
-    }
+    read_measured_scene(file, chosen.at("size"), experiment);
     experiment.profile = profile;
-    chosen.at("size").at(0).get_to(experiment.width);
-    chosen.at("size").at(1).get_to(experiment.height);
     chosen.at("spp").get_to(experiment.spp);
+    require_increasing(experiment.spp, file.location("/profiles/" + profile + "/spp"));
     chosen.at("seeds").get_to(experiment.seeds);
     chosen.at("throughput").at("repetitions").get_to(experiment.throughput.repetitions);
     chosen.at("throughput").at("spp").get_to(experiment.throughput.spp);
     experiment.source = json;
-    check_description(experiment, source);
     return experiment;
 }
 

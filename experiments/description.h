@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/statistics.h"
 #include "renderer/base/json.h"
 #include "renderer/pipeline/settings.h"
 
@@ -27,16 +26,20 @@ struct ThroughputDescription {
     uint64_t spp = 0;  ///< of one repetition
 };
 
-struct ExperimentDescription {
+/// What experiments and gates have in common; paths are resolved against the file.
+struct MeasuredScene {
+    std::filesystem::path scene;
+    std::filesystem::path reference_folder;
+    std::string reference_engine;
+    std::vector<CurveDescription> curves;  ///< no two of the same id
+    int width = 0, height = 0;             ///< of the film, pixels
+};
+
+struct ExperimentDescription : MeasuredScene {
     std::string name, title, thesis, claim;
     double expected_slope = 0, slope_tolerance = 0;
-    std::filesystem::path scene;             ///< resolved against the experiment file
-    std::filesystem::path reference_folder;  ///< likewise
-    std::string reference_engine;
-    std::vector<CurveDescription> curves;
     // of the chosen profile
     std::string profile;
-    int width = 0, height = 0;
     std::vector<uint64_t> spp;  ///< strictly increasing
     int seeds = 0;              ///< seeds 1 .. seeds
     ThroughputDescription throughput;
@@ -46,6 +49,32 @@ struct ExperimentDescription {
 /// Reads and checks an experiment; `profile` is "quick", "full" or "ci". Throws `Error` (bad input) naming
 /// file, key and alternatives.
 ExperimentDescription load_experiment(const std::filesystem::path &path, const std::string &profile);
+
+/// A description file, checked against its schema.
+struct DescriptionFile {
+    std::filesystem::path path;
+    std::string text;
+    Json json;
+
+    /// The head of a message about the value at a JSON pointer.
+    std::string location(const std::string &pointer) const {
+        return json_location(path.string(), text, pointer);
+    }
+
+    /// A path that the file gives relative to itself.
+    std::filesystem::path resolve(const Json &relative) const;
+};
+
+/// Reads a file and checks it against `schema` ("gate.schema.json"). Throws `Error` (bad input) naming file,
+/// key and alternatives.
+DescriptionFile load_description(const std::filesystem::path &path, const std::string &schema);
+
+/// Fills in "scene", "reference" and "curves" of a file and the film's size. Throws `Error` (bad input) for
+/// two curves of one id.
+void read_measured_scene(const DescriptionFile &file, const Json &size, MeasuredScene &scene);
+
+/// Throws `Error` (bad input), its message beginning with `location`, unless the sample counts increase.
+void require_increasing(const std::vector<uint64_t> &spp, const std::string &location);
 
 /// Render settings from {"algorithm", "settings": {"integrator.beta": 2, ...}} with the names of `--set`.
 /// What is not named keeps the renderer's default. Throws `Error` (bad usage) naming the alternatives.

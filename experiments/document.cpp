@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "embedded/experiment_schemas.h"
 #include "renderer/base/error.h"
-#include "renderer/base/json.h"
 
 namespace rtrays {
 
@@ -16,39 +16,36 @@ using nlohmann::json;
 
 namespace {
 
-/// The median over seeds of one number at one rung.
-template <typename Get>
-double median_of(const std::vector<Repetition> &repetitions, size_t point, Get get) {
-    std::vector<double> values;
-    for (const auto &repetition : repetitions) {
-        values.push_back(get(repetition.points[point]));
-    }
-    return median(values);
+constexpr double slope_confidence = 0.95;
+
+/// Errors and times, `spp` apart.
+json to_json(const Measurement &measurement) {
+    json numbers = to_json(measurement.error);
+    numbers["seconds_device"] = measurement.seconds_device;
+    numbers["seconds_wall"] = measurement.seconds_wall;
+    return numbers;
 }
 
+/// Every number of one rung as its median over seeds, beside the raw repetitions.
 json summarise_point(const std::vector<Repetition> &repetitions, size_t point, double noise_mse) {
-    const auto of = [&](auto get) { return median_of(repetitions, point, get); };
-    const double mse = of([](const Measurement &m) { return m.error.mse; });
     json raw = json::array();
+    std::map<std::string, std::vector<double>> values;
     for (const auto &repetition : repetitions) {
-        const auto &measurement = repetition.points[point];
-        json entry = to_json(measurement.error);
+        json entry = to_json(repetition.points[point]);
+        for (const auto &[key, number] : entry.items()) {
+            values[key].push_back(number);
+        }
         entry["seed"] = repetition.seed;
-        entry["seconds_device"] = measurement.seconds_device;
-        entry["seconds_wall"] = measurement.seconds_wall;
         raw.push_back(entry);
     }
-    return {{"spp", repetitions.front().points[point].spp},
-            {"seconds_device", of([](const Measurement &m) { return m.seconds_device; })},
-            {"seconds_wall", of([](const Measurement &m) { return m.seconds_wall; })},
-            {"l2", of([](const Measurement &m) { return m.error.l2; })},
-            {"rmse", of([](const Measurement &m) { return m.error.rmse; })},
-            {"mae", of([](const Measurement &m) { return m.error.mae; })},
-            {"relmse", of([](const Measurement &m) { return m.error.relmse; })},
-            {"mse", mse},
-            {"mse_unbiased", unbiased_mse(mse, noise_mse)},
-            {"noise_dominates", noise_dominates(mse, noise_mse)},
-            {"repetitions", raw}};
+    json summary = {{"spp", repetitions.front().points[point].spp}, {"repetitions", raw}};
+    for (const auto &[key, numbers] : values) {
+        summary[key] = median(numbers);
+    }
+    const double mse = summary.at("mse");
+    summary["mse_unbiased"] = unbiased_mse(mse, noise_mse);
+    summary["noise_dominates"] = noise_dominates(mse, noise_mse);
+    return summary;
 }
 
 /// The slope over the first `count` rungs, of the RMSE or of the RMSE less the reference's noise.
@@ -64,8 +61,8 @@ json slope_of(const std::vector<Repetition> &repetitions, size_t count, double n
             errors.back().push_back(std::sqrt(unbiased_mse(repetition.points[p].error.mse, noise_mse)));
         }
     }
-    json slope = to_json(convergence_slope(spp, errors));
-    slope["confidence"] = 0.95;
+    json slope = to_json(convergence_slope(spp, errors, slope_confidence));
+    slope["confidence"] = slope_confidence;
     slope["spp"] = {repetitions.front().points.front().spp, repetitions.front().points[count - 1].spp};
     return slope;
 }
@@ -77,11 +74,11 @@ json to_json(const Interval &interval) {
 }
 
 json to_json(const ErrorMetrics &metrics) {
-    return {{"l2", metrics.l2},
-            {"rmse", metrics.rmse},
-            {"mae", metrics.mae},
-            {"relmse", metrics.relmse},
-            {"mse", metrics.mse}};
+    json document;
+    for (const auto &[key, field] : metric_keys) {
+        document[key] = metrics.*field;
+    }
+    return document;
 }
 
 json to_json(const Agreement &agreement, const AgreementPolicy &policy) {
@@ -90,7 +87,7 @@ json to_json(const Agreement &agreement, const AgreementPolicy &policy) {
     difference["limit"] = policy.equivalence_limit;
     return {{"block_size", policy.block_size},
             {"alpha", policy.alpha},
-            {"tests", agreement.tests.size()},
+            {"tests", agreement.tests},
             {"rejected", agreement.rejected},
             {"agrees", agreement.agrees()},
             {"largest_z", agreement.largest_z},
@@ -102,10 +99,8 @@ json to_json(const Agreement &agreement, const AgreementPolicy &policy) {
 json to_json(const Repetition &repetition) {
     json points = json::array();
     for (const auto &measurement : repetition.points) {
-        json point = to_json(measurement.error);
+        json point = to_json(measurement);
         point["spp"] = measurement.spp;
-        point["seconds_device"] = measurement.seconds_device;
-        point["seconds_wall"] = measurement.seconds_wall;
         points.push_back(point);
     }
     return {{"seed", repetition.seed}, {"points", points}};
@@ -119,11 +114,9 @@ Repetition parse_repetition(const json &document) {
         point.at("spp").get_to(measurement.spp);
         point.at("seconds_device").get_to(measurement.seconds_device);
         point.at("seconds_wall").get_to(measurement.seconds_wall);
-        point.at("l2").get_to(measurement.error.l2);
-        point.at("rmse").get_to(measurement.error.rmse);
-        point.at("mae").get_to(measurement.error.mae);
-        point.at("relmse").get_to(measurement.error.relmse);
-        point.at("mse").get_to(measurement.error.mse);
+        for (const auto &[key, field] : metric_keys) {
+            point.at(key).get_to(measurement.error.*field);
+        }
         repetition.points.push_back(measurement);
     }
     return repetition;
@@ -141,8 +134,7 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
     if (usable < 3) {
         throw run_error(
             fmt::format("the reference (RMSE of its own noise {:.3g}) is too noisy: only {} of {} points lie "
-                        "above its floor; make a "
-                        "reference with more samples per pixel (make references)",
+                        "above its floor; make a reference with more samples per pixel (make references)",
                         std::sqrt(noise_mse), usable, points.size()));
     }
     return {{"points", points},
@@ -150,12 +142,10 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
             {"slope_unbiased", slope_of(repetitions, usable, noise_mse)}};
 }
 
-void check_run(const json &run, const std::string &source) {
-    try {
-        validate_json(run, std::string(embedded::experiment_schemas().text("run.schema.json")), source);
-    } catch (const Error &error) {
-        throw run_error(fmt::format("the run is incomplete and was not written: {}", error.what()));
-    }
+json parse_run(const std::string &text, const std::string &source) {
+    json run = parse_json(text, source);
+    validate_json(run, std::string(embedded::experiment_schemas().text("run.schema.json")), source, text);
+    return run;
 }
 
 }  // namespace rtrays

@@ -10,6 +10,7 @@
 #include "experiments/agreement.h"
 #include "experiments/metrics.h"
 #include "experiments/statistics.h"
+#include "renderer/base/json.h"
 
 namespace rtrays {
 
@@ -32,6 +33,8 @@ struct Repetition {
 nlohmann::json to_json(const Interval &interval);
 nlohmann::json to_json(const ErrorMetrics &metrics);
 nlohmann::json to_json(const Agreement &agreement, const AgreementPolicy &policy);
+
+/// One seed's ladder in full, and back: how a stopped run keeps what is done.
 nlohmann::json to_json(const Repetition &repetition);
 Repetition parse_repetition(const nlohmann::json &json);
 
@@ -40,8 +43,8 @@ Repetition parse_repetition(const nlohmann::json &json);
 /// taken off. Throws `Error` (run failed) when fewer than three points are left, naming the remedy.
 nlohmann::json summarise_curve(const std::vector<Repetition> &repetitions, double noise_mse);
 
-/// Throws `Error` (run failed) when the document does not match run.schema.json: a run is never written
-/// with a value missing.
-void check_run(const nlohmann::json &run, const std::string &source);
+/// The run.json of `text`. Throws `Error` (bad input) naming `source`, line and key when it does not match
+/// run.schema.json; a number that is not finite was written as null and does not.
+nlohmann::json parse_run(const std::string &text, const std::string &source);
 
 }  // namespace rtrays

@@ -54,11 +54,6 @@ Json load_baseline(const GateDescription &gate, const Scene &scene) {
     return baseline;
 }
 
-StoredReference reference_of(const GateDescription &gate, const Scene &scene) {
-    return load_reference({gate.reference_folder, scene.name(), scene.hash(), gate.reference_engine,
-                           gate.width, gate.height, gate.scene.string()});
-}
-
 std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredReference &reference) {
     const Json baseline = load_baseline(bench.gate, bench.scene);
     std::vector<CheckLine> lines;
@@ -102,7 +97,7 @@ void update_baseline(const GateBench &bench, const StoredReference &reference) {
     require_writable(gate.baseline);
     Json baseline = {{"schema_version", 1},
                      {"gate", gate.name},
-                     {"commit", fmt::format("{}{}", RTRAYS_COMMIT, RTRAYS_DIRTY ? "-dirty" : "")},
+                     {"commit", RTRAYS_VERSION},
                      {"scene_hash", bench.scene.hash()},
                      {"reference_spp", reference.description.at("spp")},
                      {"size", {gate.width, gate.height}}};
@@ -130,7 +125,7 @@ ExitCode run_gate(const GateOptions &options) {
     const auto wants = [&](const char *check) { return options.check == "all" || options.check == check; };
     StoredReference reference;
     if (options.update_baseline || wants("convergence") || wants("planted_errors")) {
-        reference = reference_of(gate, scene);  // before anything is rendered
+        reference = load_reference(gate, scene);  // before anything is rendered
     }
     DeviceContext device(options.device);
     const GateBench bench{gate, scene, device, options.quiet};

@@ -28,13 +28,11 @@ struct PlantedError {
     std::string file, search, replacement;
 };
 
-/// A gate file (schema/gate.schema.json), paths resolved against it.
-struct GateDescription {
-    std::string name, source;
-    std::filesystem::path scene, reference_folder, baseline;
-    std::string reference_engine;
-    int width = 0, height = 0;
-    std::vector<CurveDescription> curves;
+/// A gate file (schema/gate.schema.json).
+struct GateDescription : MeasuredScene {
+    std::string name;
+    std::string source;  ///< path of the file, for the remedy in messages
+    std::filesystem::path baseline;
     struct {
         uint64_t spp = 0, split = 0;
         std::vector<uint32_t> group_sizes, stream_capacities;

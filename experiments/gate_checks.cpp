@@ -12,12 +12,6 @@ namespace rtrays {
 
 namespace {
 
-void render_range(RenderSession &session, uint64_t begin, uint64_t end) {
-    if (session.render(begin, end) < end) {
-        throw interrupted_error();
-    }
-}
-
 bool same_bits(const Image &a, const Image &b) {
     if (a.channels().size() != b.channels().size() || a.pixel_count() != b.pixel_count()) {
         return false;
@@ -64,19 +58,17 @@ class BitwiseCheck {
     }
 
   private:
-    /// The samples [0, split) and [split, spp) one after the other.
+    /// The samples [0, split) and, if any, [split, spp) one after the other.
     Image render(const RenderSettings &settings, uint64_t split) {
         RenderSession session = bench_.session(settings);
-        render_range(session, 0, split);
-        if (split < spp_) {
-            render_range(session, split, spp_);
-        }
+        render_whole(session, 0, split);
+        render_whole(session, split, spp_);
         return session.develop();
     }
 
     FilmState film(uint64_t begin, uint64_t end) {
         RenderSession session = bench_.session(curve_.settings);
-        render_range(session, begin, end);
+        render_whole(session, begin, end);
         return session.film();
     }
 
@@ -108,11 +100,12 @@ CheckLine describe(const std::string &pair, const Interval &change, const char *
             decision == GateDecision::pass};
 }
 
-const std::vector<double> &stored(const StageErrors &stage, uint64_t spp, const std::string &pair) {
+const std::vector<double> &stored(const StageErrors &stage, uint64_t spp, int renders,
+                                  const std::string &pair) {
     const auto found = stage.find(spp);
-    if (found == stage.end()) {
-        throw input_error(
-            fmt::format("the baseline has no errors for {}; update it (--update-baseline)", pair));
+    if (found == stage.end() || found->second.size() != static_cast<size_t>(renders)) {
+        throw input_error(fmt::format(
+            "the baseline does not hold {} errors for {}; update it (--update-baseline)", renders, pair));
     }
     return found->second;
 }
@@ -146,7 +139,7 @@ StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve
         session.restart(first_seed + static_cast<uint32_t>(k));
         uint64_t done = 0;
         for (uint64_t spp : bench.gate.convergence.spp) {
-            render_range(session, done, spp);
+            render_whole(session, done, spp);
             done = spp;
             const ErrorMetrics error = compute_metrics(session.develop(), reference.image);
             if (noise_dominates(error.mse, reference.noise_mse)) {
@@ -171,7 +164,8 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
     const StageErrors first = measure_errors(bench, curve, reference, first_stage_seed, rule.renders);
     for (uint64_t spp : rule.spp) {
         const auto pair = pair_name(spp);
-        const Interval change = paired_error_ratio(first.at(spp), stored(baseline.first_stage, spp, pair));
+        const Interval change =
+            paired_error_ratio(first.at(spp), stored(baseline.first_stage, spp, rule.renders, pair));
         const GateDecision decision = decide_gate(change);
         if (decision == GateDecision::undecided) {
             undecided.push_back(spp);
@@ -184,8 +178,8 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
             measure_errors(bench, curve, reference, second_stage_seed, rule.second_stage_renders);
         for (uint64_t spp : undecided) {
             const auto pair = pair_name(spp);
-            const Interval change =
-                paired_error_ratio(second.at(spp), stored(baseline.second_stage, spp, pair));
+            const Interval change = paired_error_ratio(
+                second.at(spp), stored(baseline.second_stage, spp, rule.second_stage_renders, pair));
             lines.push_back(describe(pair, change, "second stage", decide_gate(change)));
         }
     }

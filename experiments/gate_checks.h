@@ -27,6 +27,7 @@ struct GateBench {
     DeviceContext &device;
     bool quiet = false;
 
+    /// A session of the gate's film size.
     RenderSession session(RenderSettings settings) const;
 };
 

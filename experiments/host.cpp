@@ -7,11 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
 #include "renderer/base/error.h"
@@ -49,7 +47,7 @@ Json describe_host() {
 Json load_average() {
     double load[3] = {};
     if (getloadavg(load, 3) != 3) {
-        throw run_error("the load average cannot be read");
+        throw run_error("the load average cannot be read: the load of the machine is unknown");
     }
     return {load[0], load[1], load[2]};
 }
@@ -87,6 +85,7 @@ CpuUse CpuMeter::use() const {
     // /proc/stat counts whole ticks: an interval below one tick has no total.
     const double total = std::max(now.total - start_.total, 0.01);
     const double own = now.own - start_.own;
+    // The process' own time is finer than ticks: of an idle machine a fraction of one may be left below zero.
     return {own / total, std::max(0.0, now.busy - start_.busy - own) / total,
             (now.steal - start_.steal) / total};
 }

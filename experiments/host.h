@@ -17,14 +17,14 @@ Json load_average();
 /// "2026-01-31T12:00:00Z".
 std::string utc_now();
 
-/// Shares of all CPU time since the last `start`, each in [0, 1].
+/// Shares of all CPU time since the last `start`, in [0, 1] up to the granularity of ticks.
 struct CpuUse {
     double own = 0;      ///< this process, all threads
     double foreign = 0;  ///< other processes
     double steal = 0;    ///< taken by the hypervisor
 };
 
-/// Reads /proc/stat and this process' CPU time.
+/// Reads /proc/stat and this process' CPU time; throws `Error` (run failed) where there is no /proc/stat.
 class CpuMeter {
   public:
     CpuMeter() { start(); }

@@ -5,7 +5,6 @@
 
 #include <memory>
 
-#include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 
@@ -16,8 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path partial_file(const LadderTask &task, uint32_t seed, const char *extension) {
-    return task.partial /
-           fmt::format("{}.{}.seed{}.{}", task.settings.algorithm, task.settings.strategies, seed, extension);
+    return task.partial / fmt::format("{}.seed{}.{}", CurveDescription{task.settings}.id(), seed, extension);
 }
 
 /// The session is made when the first seed needs it: a resumed run may need none.
@@ -28,8 +26,6 @@ class LazySession {
     RenderSession &get() {
         if (!session_) {
             session_ = std::make_unique<RenderSession>(task_.scene, task_.settings, task_.device);
-            // Group functions are compiled at the first enqueue: one sample warms up, outside all times.
-            session_->render(0, 1);
         }
         return *session_;
     }
@@ -41,30 +37,21 @@ class LazySession {
 
 Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_t seed) {
     session.restart(seed);
-    const RenderStats before = session.stats();
     Repetition repetition;
     repetition.seed = seed;
     uint64_t done = 0;
     for (uint64_t spp : task.spp) {
-        const uint64_t from = done;
-        done = session.render(done, spp);
-        if (done < spp) {
-            throw interrupted_error();
-        }
-        const RenderStats now = session.stats();
-        repetition.points.push_back({spp, now.device_seconds - before.device_seconds,
-                                     now.wall_seconds - before.wall_seconds,
+        render_whole(session, done, spp);
+        const RenderStats stats = session.stats();
+        repetition.points.push_back({spp, stats.device_seconds, stats.wall_seconds,
                                      compute_metrics(session.develop(), task.reference)});
-        task.advance(spp - from);
+        task.advance(spp - done);
+        done = spp;
     }
     return repetition;
 }
 
 }  // namespace
-
-Error interrupted_error() {
-    return {ExitCode::interrupted, "interrupted; the same command continues where it stopped"};
-}
 
 LadderResult render_ladders(const LadderTask &task) {
     LadderResult result;

@@ -2,6 +2,7 @@
 // Renders one curve: for each seed a ladder of sample counts on one session, resumable seed by seed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -38,7 +39,14 @@ struct LadderResult {
 /// on SIGINT and SIGTERM.
 LadderResult render_ladders(const LadderTask &task);
 
-/// Thrown by what stops at a signal: the same command continues.
-Error interrupted_error();
+/// Renders the samples [begin, end), or throws `Error` (interrupted). `Renderer` is `RenderSession` or
+/// `ReferenceRenderer`.
+template <class Renderer>
+void render_whole(Renderer &renderer, uint64_t begin, uint64_t end) {
+    if (renderer.render(begin, end) < end) {
+        throw Error(ExitCode::interrupted,
+                    "interrupted; the same command again continues a run, or starts a gate anew");
+    }
+}
 
 }  // namespace rtrays

@@ -8,13 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "experiments/array_file.h"
 #include "experiments/compare.h"
 #include "experiments/gate.h"
 #include "experiments/report.h"
 #include "experiments/runner.h"
 #include "renderer/base/error.h"
-#include "renderer/base/image.h"
 #include "renderer/base/progress.h"
 #include "rtrays_commit.h"
 
@@ -28,15 +26,14 @@ namespace fs = std::filesystem;
 struct Arguments {
     RunOptions run;
     GateOptions gate;
-    fs::path image, reference, array;
+    fs::path image, reference;
     bool json = false;
     std::vector<fs::path> folders;
 };
 
 void declare(CLI::App &app, Arguments &arguments) {
     app.require_subcommand(1);
-    app.set_version_flag("--version",
-                         fmt::format("rtrays-experiment {}{}", RTRAYS_COMMIT, RTRAYS_DIRTY ? "-dirty" : ""));
+    app.set_version_flag("--version", "rtrays-experiment " RTRAYS_VERSION);
 
     auto *run = app.add_subcommand("run", "measure an experiment and write OUT/run.json");
     run->add_option("FILE", arguments.run.experiment, "experiment (JSON)")->required();
@@ -66,10 +63,6 @@ void declare(CLI::App &app, Arguments &arguments) {
                    "measure and replace the baseline, print what changed; checks nothing");
     gate->add_option("--device", arguments.gate.device, "OpenCL device, as for rtrays-render");
     gate->add_flag("--quiet", arguments.gate.quiet, "no progress");
-
-    auto *convert = app.add_subcommand("export", "write R, G, B of an image as a NumPy array");
-    convert->add_option("IMAGE", arguments.image, "image (OpenEXR)")->required();
-    convert->add_option("-o,--output", arguments.array, "array file (.npy)")->required();
 }
 
 ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
@@ -83,10 +76,8 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
         fmt::print("{}", arguments.json ? comparison.dump(2) + "\n" : comparison_text(comparison));
     } else if (app.got_subcommand("report")) {
         return static_cast<ExitCode>(make_report(arguments.folders));
-    } else if (app.got_subcommand("gate")) {
-        return run_gate(arguments.gate);
     } else {
-        write_array(read_exr(arguments.image), arguments.array);
+        return run_gate(arguments.gate);
     }
     return ExitCode::ok;
 }
@@ -94,8 +85,7 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
 ExitCode run(int argc, char **argv) {
     CLI::App app{
         "Measures the renderer against independent references: error over samples and over time, tables, "
-        "plots "
-        "and the regression gate."};
+        "plots and the regression gate."};
     Arguments arguments;
     declare(app, arguments);
     try {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/base/error.h"
@@ -10,6 +11,33 @@
 namespace rtrays {
 
 namespace {
+
+/// The layers that survive averaging: colour, its variance, the sample count.
+std::vector<std::string> mean_layers(const Image &image) {
+    std::vector<std::string> names = rgb_names();
+    if (has_variance(image)) {
+        for (const auto &name : rgb_names("variance")) {
+            names.push_back(name);
+        }
+    }
+    if (image.has("samples")) {
+        names.push_back("samples");
+    }
+    return names;
+}
+
+/// Makes a layer of a mean from the sums of `count` independent values: counts stay sums, and the variance of
+/// a mean falls with the square.
+void set_mean(Image &image, const std::string &name, const std::vector<double> &sum, double count) {
+    const bool is_variance = name.rfind("variance.", 0) == 0;
+    const double divisor = name == "samples" ? 1 : is_variance ? count * count : count;
+    auto &values = image.has(name) ? image.channel(name) : image.add_channel(name);
+    for (size_t i = 0; i < sum.size(); ++i) {
+        values[i] = static_cast<float>(sum[i] / divisor);
+    }
+}
+
+}  // namespace
 
 void require_same_size(const Image &a, const Image &b) {
     if (a.width() != b.width() || a.height() != b.height()) {
@@ -21,38 +49,10 @@ void require_same_size(const Image &a, const Image &b) {
     }
 }
 
-bool have_variance(const Image &image) {
-    for (const auto &name : rgb_names("variance")) {
-        if (!image.has(name)) {
-            return false;
-        }
-    }
-    return true;
+bool has_variance(const Image &image) {
+    const auto names = rgb_names("variance");
+    return std::all_of(names.begin(), names.end(), [&](const auto &name) { return image.has(name); });
 }
-
-/// The layers that survive averaging: colour, its variance, the sample count.
-std::vector<std::string> mean_layers(const Image &image) {
-    std::vector<std::string> names = rgb_names();
-    if (have_variance(image)) {
-        for (const auto &name : rgb_names("variance")) {
-            names.push_back(name);
-        }
-    }
-    if (image.has("samples")) {
-        names.push_back("samples");
-    }
-    return names;
-}
-
-bool is_variance(const std::string &name) {
-    return name.rfind("variance.", 0) == 0;
-}
-
-std::vector<float> &writable_channel(Image &image, const std::string &name) {
-    return image.has(name) ? image.channel(name) : image.add_channel(name);
-}
-
-}  // namespace
 
 ErrorMetrics compute_metrics(const Image &image, const Image &reference) {
     require_same_size(image, reference);
@@ -96,7 +96,6 @@ Image average_images(const std::vector<Image> &images) {
     const Image &first = images.front();
     Image result = Image::rgb(first.width(), first.height());
     result.attributes() = first.attributes();
-    const double count = static_cast<double>(images.size());
     for (const auto &name : mean_layers(first)) {
         std::vector<double> sum(first.pixel_count(), 0.0);
         for (const auto &image : images) {
@@ -106,11 +105,7 @@ Image average_images(const std::vector<Image> &images) {
                 sum[i] += values[i];
             }
         }
-        const double divisor = name == "samples" ? 1 : is_variance(name) ? count * count : count;
-        auto &values = writable_channel(result, name);
-        for (size_t i = 0; i < sum.size(); ++i) {
-            values[i] = static_cast<float>(sum[i] / divisor);
-        }
+        set_mean(result, name, sum, static_cast<double>(images.size()));
     }
     return result;
 }
@@ -132,11 +127,7 @@ Image downsample(const Image &image, int factor) {
         for (size_t i = 0; i < values.size(); ++i) {
             sum[(i / width / step) * small_width + (i % width) / step] += values[i];
         }
-        const double divisor = name == "samples" ? 1 : is_variance(name) ? area * area : area;
-        auto &small = writable_channel(result, name);
-        for (size_t i = 0; i < sum.size(); ++i) {
-            small[i] = static_cast<float>(sum[i] / divisor);
-        }
+        set_mean(result, name, sum, area);
     }
     return result;
 }

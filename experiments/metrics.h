@@ -2,14 +2,16 @@
 // The error of an image against a reference that is itself noisy.
 #pragma once
 
-#include <cstddef>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "renderer/base/image.h"
 
 namespace rtrays {
 
-/// Error of an image over all pixels and colour channels, d = image - reference, r = reference.
+/// Error of an image over all pixels and colour channels, d = image - reference, r = reference, in the unit
+/// of the pixels (radiance) or its square.
 struct ErrorMetrics {
     double l2 = 0;      ///< sqrt(sum d^2), the norm of the thesis (4.2)
     double rmse = 0;    ///< l2 / sqrt(3 W H)
@@ -17,6 +19,21 @@ struct ErrorMetrics {
     double relmse = 0;  ///< mean(d^2 / (r^2 + 0.01))
     double mse = 0;     ///< rmse^2
 };
+
+/// The metrics by their keys: run.json is written and read, and comparisons are printed, by this table.
+constexpr std::array<std::pair<const char *, double ErrorMetrics::*>, 5> metric_keys{{
+    {"l2", &ErrorMetrics::l2},
+    {"rmse", &ErrorMetrics::rmse},
+    {"mae", &ErrorMetrics::mae},
+    {"relmse", &ErrorMetrics::relmse},
+    {"mse", &ErrorMetrics::mse},
+}};
+
+/// Throws `Error` (bad input) when sizes differ or there are no pixels.
+void require_same_size(const Image &a, const Image &b);
+
+/// Whether the layers variance.R, .G and .B are there.
+bool has_variance(const Image &image);
 
 /// Sums in double. Throws `Error` (bad input) when sizes differ, a colour channel is missing or a value is
 /// not finite.
@@ -31,8 +48,8 @@ struct Reference {
 /// For independent a and b of equal variance v, Var((a + b) / 2) = v / 2 = E[((a - b) / 2)^2].
 Reference combine_halves(const Image &a, const Image &b);
 
-/// MSE of an image that shares no samples with the reference, less the reference's own noise; may be
-/// negative when the image is better than the reference can tell.
+/// MSE of an image that shares no samples with the reference, less the reference's own noise; negative when
+/// the image is better than the reference can tell.
 inline double unbiased_mse(double mse, double noise_mse) {
     return mse - noise_mse;
 }

@@ -13,17 +13,15 @@ namespace {
 
 Agreement agreement_of(const GateBench &bench, const RenderSettings &settings, const Reference &reference) {
     RenderSession session = bench.session(settings);
-    if (session.render(0, bench.gate.planted.spp) < bench.gate.planted.spp) {
-        throw interrupted_error();
-    }
+    render_whole(session, 0, bench.gate.planted.spp);
     return test_agreement(session.develop(), reference.image);
 }
 
 std::string describe(const Agreement &agreement) {
     const auto &[value, low, high] = agreement.relative_difference;
     return fmt::format("{} of {} tests reject, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, {:+.3f}]",
-                       agreement.rejected, agreement.tests.size(), agreement.largest_z, 100 * value,
-                       100 * low, 100 * high);
+                       agreement.rejected, agreement.tests, agreement.largest_z, 100 * value, 100 * low,
+                       100 * high);
 }
 
 }  // namespace

@@ -25,11 +25,11 @@ std::string file_name(const ReferenceRequest &request, size_t half) {
 Error missing(const ReferenceRequest &request, size_t half, const std::string &what) {
     const std::string manifest = (request.folder / "manifest.json").string();
     return {ExitCode::reference_missing,
-            fmt::format("{}; make it with:\n  rtrays-reference {} -o {} --spp 16384 --size {}x{} --seed {} "
-                        "--manifest {}\n"
+            // The scene's own film: smaller ones are averaged from it.
+            fmt::format("{}; make it with:\n  rtrays-reference {} -o {} --spp 16384 --seed {} --manifest {}\n"
                         "or all of them with: make references",
                         what, request.scene_path, (request.folder / file_name(request, half)).string(),
-                        request.width, request.height, half + 1, manifest)};
+                        half + 1, manifest)};
 }
 
 /// The manifest's entry of one half, checked against the request and the file.
@@ -50,8 +50,10 @@ Json checked_entry(const ReferenceRequest &request, const Json &manifest, size_t
                         path.string(), entry.at("scene_hash").get<std::string>(), request.scene_hash));
     }
     if (entry.at("sha256") != reference::sha256_of(path)) {
-        throw input_error(fmt::format(
-            "{}: its SHA-256 is not that of the manifest: the file was changed or damaged", path.string()));
+        throw input_error(
+            fmt::format("{}: its SHA-256 is not that of the manifest: the file was changed or damaged; "
+                        "restore it or make it anew (make references)",
+                        path.string()));
     }
     return entry;
 }
@@ -61,9 +63,10 @@ int reduction(const Image &stored, const ReferenceRequest &request) {
     const int factor = stored.width() / request.width;
     if (factor < 1 || stored.width() != factor * request.width ||
         stored.height() != factor * request.height) {
-        throw input_error(
-            fmt::format("the reference of {} is {}x{}; a film of {}x{} cannot be averaged from it",
-                        request.scene_name, stored.width(), stored.height(), request.width, request.height));
+        throw input_error(fmt::format(
+            "the reference of {} is {}x{}; a film of {}x{} cannot be averaged from it: ask for one "
+            "that divides it, or render the reference with --size",
+            request.scene_name, stored.width(), stored.height(), request.width, request.height));
     }
     return factor;
 }
@@ -78,13 +81,15 @@ StoredReference load_reference(const ReferenceRequest &request) {
     const Json manifest = reference::load_manifest(manifest_path);
     const Json entry_a = checked_entry(request, manifest, 0), entry_b = checked_entry(request, manifest, 1);
     if (entry_a.at("seed") == entry_b.at("seed")) {
-        throw input_error(fmt::format("{}: both halves of {} have the seed {}: they are not independent",
-                                      manifest_path.string(), request.scene_name, entry_a.at("seed").dump()));
+        throw input_error(
+            fmt::format("{}: both halves of {} have the seed {}: they are not independent; "
+                        "make one anew with another --seed",
+                        manifest_path.string(), request.scene_name, entry_a.at("seed").dump()));
     }
     if (entry_a.at("spp") != entry_b.at("spp")) {
         throw input_error(fmt::format(
-            "{}: the halves of {} have {} and {} spp; their noise cannot be told from their "
-            "difference",
+            "{}: the halves of {} have {} and {} spp; their noise cannot be told from their difference; "
+            "extend the shorter one (make references)",
             manifest_path.string(), request.scene_name, entry_a.at("spp").dump(), entry_b.at("spp").dump()));
     }
 
@@ -103,6 +108,11 @@ StoredReference load_reference(const ReferenceRequest &request) {
         {"scene_hash", request.scene_hash},
         {"noise_floor", {{"mse", noise}, {"rmse", std::sqrt(noise)}, {"l2", std::sqrt(noise * values)}}}};
     return result;
+}
+
+StoredReference load_reference(const MeasuredScene &wanted, const Scene &scene) {
+    return load_reference({wanted.reference_folder, scene.name(), scene.hash(), wanted.reference_engine,
+                           wanted.width, wanted.height, wanted.scene.string()});
 }
 
 }  // namespace rtrays

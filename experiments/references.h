@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "experiments/description.h"
 #include "experiments/metrics.h"
+#include "renderer/scene/scene.h"
 
 namespace rtrays {
 
@@ -22,8 +24,8 @@ struct ReferenceRequest {
 
 struct StoredReference {
     Reference reference;
-    nlohmann::json
-        description;  ///< "reference" of run.json: engine, files, spp, size, scene_hash, noise floor
+    /// "reference" of run.json: engine, files, spp of both halves, reduced_by, scene_hash, noise_floor.
+    nlohmann::json description;
 };
 
 /// Reads FOLDER/SCENE.ENGINE.{a,b}.exr, checks them against FOLDER/manifest.json (scene hash, seeds, size)
@@ -33,5 +35,8 @@ struct StoredReference {
 /// there, and `Error` (bad input) when it was made of another scene, when its halves share a seed or when its
 /// size does not fit.
 StoredReference load_reference(const ReferenceRequest &request);
+
+/// The same for the scene of an experiment or a gate.
+StoredReference load_reference(const MeasuredScene &wanted, const Scene &scene);
 
 }  // namespace rtrays

@@ -14,7 +14,7 @@
 #include "experiments/array_file.h"
 #include "experiments/document.h"
 #include "renderer/base/error.h"
-#include "renderer/base/json.h"
+#include "renderer/base/files.h"
 
 namespace rtrays {
 
@@ -27,14 +27,13 @@ void export_images(const fs::path &folder) {
         throw input_error(fmt::format("{}: there is no run.json; rtrays-experiment run ... --out {} makes it",
                                       folder.string(), folder.string()));
     }
-    const Json run = load_json(folder / "run.json");
-    check_run(run, (folder / "run.json").string());
+    const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
     std::vector<std::string> images{run.at("reference").at("image")};
     for (const Json &curve : run.at("curves")) {
         images.push_back(curve.at("image"));
     }
     for (const auto &image : images) {
-        write_array(read_exr(folder / image), fs::path(folder / image).replace_extension(".npy"));
+        write_array(read_exr(folder / image), (folder / image).replace_extension(".npy"));
     }
 }
 

@@ -90,15 +90,13 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
     const uint64_t spp = experiment.throughput.spp;
     const auto contestant = [&](auto &renderer) {
         return [&renderer, spp, done = uint64_t{0}]() mutable {
-            done = renderer.render(done, done + spp);
-            if (interrupted()) {
-                throw interrupted_error();
-            }
+            render_whole(renderer, done, done + spp);
+            done += spp;
         };
     };
-    const Contestant first{"renderer", contestant(session)}, second{"reference", contestant(reference)};
-    first.render();  // warm up: first enqueue, caches, threads
-    second.render();
+    const Contestant first = contestant(session), second = contestant(reference);
+    first();  // warm up: caches, threads
+    second();
 
     ThroughputSettings rules;
     rules.repetitions = experiment.throughput.repetitions;
@@ -113,14 +111,14 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
     };
     const auto measured = measure_throughput(rules, first, second, use_since,
                                              [&](int done) { progress.update(static_cast<uint64_t>(done)); });
-    Json json = to_json(measured, rules, first.name, second.name);
+    Json json = to_json(measured, rules);
     json["curve"] = experiment.curves.back().id();
     return json;
 }
 
 /// One entry of "curves"; writes the curve's image.
 Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description, LadderTask task,
-               const StoredReference &reference, const std::string &scene_name, const fs::path &out) {
+               double noise_mse, const fs::path &out) {
     task.settings = description.settings;
     task.settings.width = experiment.width;
     task.settings.height = experiment.height;
@@ -129,14 +127,14 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     write_exr(ladder.image, out / image);
 
     const AgreementPolicy policy;
-    Json curve = summarise_curve(ladder.repetitions, reference.reference.noise_mse);
+    Json curve = summarise_curve(ladder.repetitions, noise_mse);
     curve.update(ladder.cost);
     curve["id"] = description.id();
-    curve["scene"] = scene_name;
+    curve["scene"] = task.scene.name();
     curve["algorithm"] = description.settings.algorithm;
     curve["strategies"] = description.settings.strategies;
     curve["settings"] = image_settings(description.settings);
-    curve["agreement"] = to_json(test_agreement(ladder.image, reference.reference.image, policy), policy);
+    curve["agreement"] = to_json(test_agreement(ladder.image, task.reference, policy), policy);
     curve["image"] = image;
     curve["image_spp"] = experiment.spp.back() * static_cast<uint64_t>(experiment.seeds);
     return curve;
@@ -144,6 +142,17 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
 
 fs::path output_folder(const RunOptions &options, const ExperimentDescription &experiment) {
     return options.out.empty() ? fs::path(experiment.name + "." + experiment.profile) : options.out;
+}
+
+/// A run is never written with a value missing.
+void write_run(const Json &run, const fs::path &path) {
+    const std::string text = run.dump(2) + "\n";
+    try {
+        parse_run(text, path.string());
+    } catch (const Error &error) {
+        throw run_error(fmt::format("the run is incomplete and was not written: {}", error.what()));
+    }
+    write_file(path, text);
 }
 
 void create_folder(const fs::path &folder) {
@@ -159,9 +168,7 @@ void create_folder(const fs::path &folder) {
 fs::path run_experiment(const RunOptions &options) {
     const ExperimentDescription experiment = load_experiment(options.experiment, options.profile);
     const Scene scene = load_scene(experiment.scene.string());
-    StoredReference reference =
-        load_reference({experiment.reference_folder, scene.name(), scene.hash(), experiment.reference_engine,
-                        experiment.width, experiment.height, experiment.scene.string()});
+    StoredReference reference = load_reference(experiment, scene);
     if (options.dry_run) {
         print_plan(experiment, reference);
         return {};
@@ -199,7 +206,8 @@ fs::path run_experiment(const RunOptions &options) {
                               partial,
                               [&](uint64_t spp) { progress.update(done += spp); }};
         for (const auto &description : experiment.curves) {
-            run["curves"].push_back(run_curve(experiment, description, task, reference, scene.name(), out));
+            run["curves"].push_back(
+                run_curve(experiment, description, task, reference.reference.noise_mse, out));
         }
     }
     run["throughput"] = run_throughput(experiment, scene, device, options.quiet);
@@ -212,8 +220,7 @@ fs::path run_experiment(const RunOptions &options) {
     context["load_average_end"] = load_average();
     context["finished_at"] = utc_now();
     run["context"] = context;
-    check_run(run, (out / "run.json").string());
-    write_file(out / "run.json", run.dump(2) + "\n");
+    write_run(run, out / "run.json");
     fs::remove_all(out / ".partial");
     return out;
 }

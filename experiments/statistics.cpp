@@ -38,16 +38,18 @@ double standard_error(const std::vector<double> &values) {
 double checked_log(double error) {
     if (!(error > 0) || !std::isfinite(error)) {
         throw run_error(
-            fmt::format("an error of {} has no logarithm: image and reference may be the same file", error));
+            fmt::format("an error of {} has no logarithm: image and reference may be the same file, or the "
+                        "reference too noisy (make references)",
+                        error));
     }
     return std::log(error);
 }
 
 /// Inverse variances over seeds. A point without spread (identical seeds) would weigh infinitely: variances
 /// are bounded below by 1e-6 of the largest, and all weights are 1 when there is no spread at all.
-std::vector<double> inverse_variances(const std::vector<std::vector<double>> &logs, size_t points) {
-    std::vector<double> weights(points);
-    for (size_t p = 0; p < points; ++p) {
+std::vector<double> inverse_variances(const std::vector<std::vector<double>> &logs) {
+    std::vector<double> weights(logs.front().size());
+    for (size_t p = 0; p < weights.size(); ++p) {
         std::vector<double> column;
         for (const auto &row : logs) {
             column.push_back(row[p]);
@@ -127,13 +129,12 @@ Interval convergence_slope(const std::vector<double> &spp, const std::vector<std
     std::transform(spp.begin(), spp.end(), x.begin(), checked_log);
     std::vector<std::vector<double>> logs;
     for (const auto &row : errors) {
-        logs.emplace_back(points);
-        std::transform(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(points), logs.back().begin(),
-                       checked_log);
+        logs.emplace_back(row.size());
+        std::transform(row.begin(), row.end(), logs.back().begin(), checked_log);
     }
     // With fixed weights the slope is linear in y: the slope of the mean curve is the mean of the seeds'
     // slopes.
-    const std::vector<double> weights = inverse_variances(logs, points);
+    const std::vector<double> weights = inverse_variances(logs);
     std::vector<double> slopes;
     for (const auto &row : logs) {
         slopes.push_back(weighted_slope(x, row, weights));
@@ -155,26 +156,6 @@ Interval convergence_slope(const std::vector<double> &spp, const std::vector<std
     }
     const double tail = (1 - confidence) / 2;
     return {center, center - quantile(t_values, 1 - tail) * error, center - quantile(t_values, tail) * error};
-}
-
-std::vector<double> holm_adjusted(const std::vector<double> &p_values) {
-    std::vector<size_t> order(p_values.size());
-    std::iota(order.begin(), order.end(), size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return p_values[a] < p_values[b]; });
-    std::vector<double> adjusted(p_values.size());
-    double largest = 0;
-    for (size_t rank = 0; rank < order.size(); ++rank) {
-        const double scaled = static_cast<double>(order.size() - rank) * p_values[order[rank]];
-        largest = std::max(largest, std::min(1.0, scaled));
-        adjusted[order[rank]] = largest;
-    }
-    return adjusted;
-}
-
-double normal_p_value(double z) {
-    // erfc keeps its relative precision far out in the tail, where 1 - cdf is zero.
-    return std::erfc(std::abs(z) / std::sqrt(2.0));
 }
 
 double normal_quantile_two_sided(double confidence) {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Intervals and decisions: medians, convergence slopes, multiple testing and the gate's rule.
+// Intervals and decisions: medians, convergence slopes and the gate's rule.
 #pragma once
 
-#include <cstdint>
-#include <string>
 #include <vector>
 
 namespace rtrays {
@@ -31,19 +29,13 @@ double weighted_slope(const std::vector<double> &x, const std::vector<double> &y
 
 /// Slope of log error against log spp with its interval.
 ///
-/// `errors[seed][point]` are the errors (> 0) of independent seeds at `spp[point]`. Points of one seed share
-/// samples, so SEEDS are resampled, never points. Weights are inverse variances of the log error over seeds;
-/// the interval is a bootstrap-t (Efron & Tibshirani 1993, 12.5), because with about eight seeds percentile
-/// intervals cover too little. Needs >= 8 seeds and >= 2 points, throws `Error` (run failed) otherwise.
-/// The resampling is seeded, so equal input gives equal output.
+/// `errors[seed][point]` are the errors (> 0) of independent seeds, each at all of `spp[point]`. Points of
+/// one seed share samples, so SEEDS are resampled, never points. Weights are inverse variances of the log
+/// error over seeds; the interval is a bootstrap-t (Efron & Tibshirani 1993, 12.5), because with about eight
+/// seeds percentile intervals cover too little. Needs >= 8 seeds and >= 2 points, throws `Error` (run failed)
+/// otherwise. The resampling is seeded, so equal input gives equal output.
 Interval convergence_slope(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors,
                            double confidence = 0.95, int resamples = 4000);
-
-/// Holm's (1979) adjusted p-values: test i is rejected at level alpha when adjusted[i] <= alpha.
-std::vector<double> holm_adjusted(const std::vector<double> &p_values);
-
-/// Two-sided p-value of a standard normal z.
-double normal_p_value(double z);
 
 /// The z for which P(|N(0,1)| <= z) = confidence.
 double normal_quantile_two_sided(double confidence);

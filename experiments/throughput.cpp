@@ -12,39 +12,39 @@ namespace rtrays {
 
 namespace {
 
-double wall_seconds(const std::function<void()> &body) {
+double wall_seconds(const Contestant &render) {
     const auto start = std::chrono::steady_clock::now();
-    body();
+    render();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
 
-Throughput measure_throughput(const ThroughputSettings &settings, const Contestant &first,
-                              const Contestant &second, const std::function<CpuUse()> &use_since,
+Throughput measure_throughput(const ThroughputSettings &settings, const Contestant &renderer,
+                              const Contestant &reference, const std::function<CpuUse()> &use_since,
                               const std::function<void(int)> &progress) {
     Throughput result;
-    std::vector<double> first_rates, second_rates, ratios;
+    std::vector<double> renderer_rates, reference_rates, ratios;
     const int attempts = settings.repetitions * settings.attempts_per_repetition;
     for (int attempt = 0; attempt < attempts && static_cast<int>(ratios.size()) < settings.repetitions;
          ++attempt) {
         ThroughputRepetition turn;
         use_since();
         if (attempt % 2 == 0) {
-            turn.first_seconds = wall_seconds(first.render);
-            turn.second_seconds = wall_seconds(second.render);
+            turn.renderer_seconds = wall_seconds(renderer);
+            turn.reference_seconds = wall_seconds(reference);
         } else {
-            turn.second_seconds = wall_seconds(second.render);
-            turn.first_seconds = wall_seconds(first.render);
+            turn.reference_seconds = wall_seconds(reference);
+            turn.renderer_seconds = wall_seconds(renderer);
         }
         const CpuUse use = use_since();
         turn.foreign = use.foreign + use.steal;
         turn.accepted = turn.foreign <= settings.foreign_limit;
         result.repetitions.push_back(turn);
         if (turn.accepted) {
-            first_rates.push_back(settings.samples / turn.first_seconds);
-            second_rates.push_back(settings.samples / turn.second_seconds);
-            ratios.push_back(turn.second_seconds / turn.first_seconds);
+            renderer_rates.push_back(settings.samples / turn.renderer_seconds);
+            reference_rates.push_back(settings.samples / turn.reference_seconds);
+            ratios.push_back(turn.reference_seconds / turn.renderer_seconds);
         }
         progress(static_cast<int>(ratios.size()));
     }
@@ -55,27 +55,26 @@ Throughput measure_throughput(const ThroughputSettings &settings, const Contesta
         return result;
     }
     result.accepted = true;
-    result.first = median_interval(first_rates);
-    result.second = median_interval(second_rates);
+    result.renderer = median_interval(renderer_rates);
+    result.reference = median_interval(reference_rates);
     result.ratio = median_interval(ratios);
     return result;
 }
 
-Json to_json(const Throughput &throughput, const ThroughputSettings &settings, const std::string &first,
-             const std::string &second) {
+Json to_json(const Throughput &throughput, const ThroughputSettings &settings) {
     Json json;
     json["samples_per_repetition"] = settings.samples;
     json["accepted"] = throughput.accepted;
     json["repetitions"] = Json::array();
     for (const auto &turn : throughput.repetitions) {
-        json["repetitions"].push_back({{first + "_seconds_wall", turn.first_seconds},
-                                       {second + "_seconds_wall", turn.second_seconds},
+        json["repetitions"].push_back({{"renderer_seconds_wall", turn.renderer_seconds},
+                                       {"reference_seconds_wall", turn.reference_seconds},
                                        {"foreign_load", turn.foreign},
                                        {"accepted", turn.accepted}});
     }
     if (throughput.accepted) {
-        json[first + "_samples_per_second"] = to_json(throughput.first);
-        json[second + "_samples_per_second"] = to_json(throughput.second);
+        json["renderer_samples_per_second"] = to_json(throughput.renderer);
+        json["reference_samples_per_second"] = to_json(throughput.reference);
         json["ratio"] = to_json(throughput.ratio);
     } else {
         json["reason"] = throughput.reason;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples per second of two renderers in turns on one machine.
+// Samples per second of renderer and reference in turns on one machine.
 #pragma once
 
 #include <functional>
@@ -11,10 +11,8 @@
 
 namespace rtrays {
 
-struct Contestant {
-    std::string name;
-    std::function<void()> render;  ///< renders `samples` camera paths, warmed up
-};
+/// Renders `ThroughputSettings::samples` camera paths; warmed up.
+using Contestant = std::function<void()>;
 
 struct ThroughputSettings {
     int repetitions = 9;         ///< accepted ones, at least 9
@@ -25,27 +23,27 @@ struct ThroughputSettings {
 
 /// One turn of both.
 struct ThroughputRepetition {
-    double first_seconds = 0, second_seconds = 0;  ///< wall
-    double foreign = 0;                            ///< share of CPU time used by others, steal included
+    double renderer_seconds = 0, reference_seconds = 0;  ///< wall
+    double foreign = 0;                                  ///< share of CPU time used by others, steal included
     bool accepted = false;
 };
 
 struct Throughput {
     std::vector<ThroughputRepetition> repetitions;
-    bool accepted = false;   ///< enough repetitions without foreign load; otherwise no figures are given
-    std::string reason;      ///< why not
-    Interval first, second;  ///< samples per second, median with 95 % interval
-    Interval ratio;          ///< first over second, from the repetitions' own ratios
+    bool accepted = false;  ///< enough repetitions without foreign load; otherwise no figures are given
+    std::string reason;     ///< why not
+    Interval renderer, reference;  ///< samples per second, median with 95 % interval
+    Interval ratio;                ///< renderer over reference, from the repetitions' own ratios
 };
 
 /// Renders in the order AB BA AB ... until enough repetitions ran undisturbed or the attempts are used up.
-/// `use_since` tells the CPU use since its previous call (replaced in tests).
-Throughput measure_throughput(const ThroughputSettings &settings, const Contestant &first,
-                              const Contestant &second, const std::function<CpuUse()> &use_since,
+/// `use_since` tells the CPU use since its previous call (replaced in tests); `progress` is told the number
+/// of accepted repetitions.
+Throughput measure_throughput(const ThroughputSettings &settings, const Contestant &renderer,
+                              const Contestant &reference, const std::function<CpuUse()> &use_since,
                               const std::function<void(int)> &progress);
 
 /// As run.json holds it.
-Json to_json(const Throughput &throughput, const ThroughputSettings &settings, const std::string &first,
-             const std::string &second);
+Json to_json(const Throughput &throughput, const ThroughputSettings &settings);
 
 }  // namespace rtrays

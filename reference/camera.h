@@ -16,7 +16,7 @@ struct Ray {
 class Camera {
   public:
     /// Camera `index` of the store with a film of `width` x `height` square pixels. Throws `Error` (bad
-    /// input) for an index out of range or an angle of view outside (0, pi).
+    /// input) for an index out of range, a film without pixels or an angle of view outside (0, pi).
     Camera(const CameraArrays &cameras, size_t index, int width, int height);
 
     /// The ray through (x, y) in pixels from the top left corner of the film: x in [0, width] to the

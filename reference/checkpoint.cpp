@@ -112,9 +112,10 @@ void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_
     }
     const Film &film = checkpoint.film;
     if (film.begin != begin || film.end > end) {
-        throw input_error(
-            fmt::format("{}: holds the samples {}:{}, which the range {}:{} asked for does not continue",
-                        path.string(), film.begin, film.end, begin, end));
+        throw input_error(fmt::format(
+            "{}: holds the samples {}:{}, which the range {}:{} asked for does not continue; give "
+            "another range or --state, or delete it to start anew",
+            path.string(), film.begin, film.end, begin, end));
     }
 }
 

@@ -31,7 +31,14 @@ void check_outputs(const Options &options) {
         }
     }
     if (!options.manifest.empty()) {
-        parse_reference_name(options.output);
+        if (const std::string engine = parse_reference_name(options.output).engine; engine != "embree") {
+            throw input_error(fmt::format("{}: the engine is embree, not {}; name it SCENE.embree.HALF.exr",
+                                          options.output, engine));
+        }
+        if (fs::absolute(options.output).parent_path() != fs::absolute(options.manifest).parent_path()) {
+            throw input_error(
+                fmt::format("{}: must lie beside its manifest {}", options.output, options.manifest));
+        }
         if (fs::exists(options.manifest)) {
             load_manifest(options.manifest);
         }
@@ -56,7 +63,7 @@ std::vector<std::string> begin_or_resume(const Options &options, const Json &con
                 options.state, checkpoint.film.count(), checkpoint.target - checkpoint.film.begin));
         }
     }
-    const std::string commit = fmt::format("{}{}", RTRAYS_COMMIT, RTRAYS_DIRTY ? "-dirty" : "");
+    const std::string commit = RTRAYS_VERSION;
     const bool has_work = renderer.samples() < options.end - options.begin;
     if (has_work && std::find(commits.begin(), commits.end(), commit) == commits.end()) {
         commits.push_back(commit);

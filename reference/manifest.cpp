@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -32,7 +34,7 @@ class FolderLock {
     explicit FolderLock(const fs::path &folder)
         : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
         if (descriptor_ < 0 || flock(descriptor_, LOCK_EX) != 0) {
-            throw run_error(fmt::format("{}: cannot be locked", folder.string()));
+            throw run_error(fmt::format("{}: cannot be locked: {}", folder.string(), std::strerror(errno)));
         }
     }
     ~FolderLock() { close(descriptor_); }

@@ -15,8 +15,8 @@ namespace {
 Json statistics(const Options &options, const Json &config, const ReferenceStats &stats, const Film &film) {
     const auto rays = static_cast<double>(stats.camera_rays + stats.bounce_rays + stats.shadow_rays);
     const double all_samples = static_cast<double>(film.count()) * static_cast<double>(film.pixels.size());
-    // Restored samples have their time in `seconds` but no rays counted here.
-    const double share = static_cast<double>(stats.samples) / all_samples;
+    // Restored samples have their time in `seconds` but no rays counted here; a camera ray is a path.
+    const double share = static_cast<double>(stats.camera_rays) / all_samples;
     return {{"schema_version", 1},
             {"config", config},
             {"sample_range", {film.begin, film.end}},
@@ -28,7 +28,7 @@ Json statistics(const Options &options, const Json &config, const ReferenceStats
             {"samples_per_second", all_samples / stats.seconds},
             {"rays",
              {{"camera", stats.camera_rays}, {"bounce", stats.bounce_rays}, {"shadow", stats.shadow_rays}}},
-            {"rays_per_second", stats.samples > 0 ? Json(rays / (stats.seconds * share)) : Json()}};
+            {"rays_per_second", stats.camera_rays > 0 ? Json(rays / (stats.seconds * share)) : Json()}};
 }
 
 }  // namespace

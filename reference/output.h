@@ -10,7 +10,8 @@ namespace rtrays::reference {
 /// What a manifest entry says about the settings of a run that ends with `spp` samples.
 Json describe_run(const Options &options, const Json &config, uint64_t spp);
 
-/// Writes the EXR, then the manifest entry and the statistics when asked for. Throws `Error`.
+/// Writes the EXR, then the manifest entry and the statistics when asked for. `commits` are those of the
+/// programs that worked on the film. Throws `Error` (run failed) naming the file that cannot be written.
 void write_results(const Options &options, const Json &config, const ReferenceRenderer &renderer,
                    const std::vector<std::string> &commits);
 

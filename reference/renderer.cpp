@@ -117,6 +117,7 @@ void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> 
 
 void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
     const auto start = std::chrono::steady_clock::now();
+    // The arena alone gets no more threads than there are cores; tests ask for more.
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<size_t>(threads));
     const tbb::blocked_range2d<uint64_t> pixels(0, static_cast<uint64_t>(settings.height), tile_size, 0,
@@ -161,13 +162,6 @@ uint64_t ReferenceRenderer::batch_size() const {
     return std::clamp<uint64_t>(paths_per_batch / state_->film.pixels.size(), 1, 1024);
 }
 
-void ReferenceRenderer::restart(uint64_t seed) {
-    state_->settings.seed = seed;
-    state_->film = Film(state_->settings.width, state_->settings.height, 0);
-    state_->seconds = 0.0;
-    state_->counts.clear();
-}
-
 Image ReferenceRenderer::develop() const {
     Image image = state_->film.develop();
     image.attributes()["samplesPerPixel"] = static_cast<int>(samples());
@@ -191,7 +185,7 @@ ReferenceStats ReferenceRenderer::stats() const {
     const GeometryStats &geometry = state_->geometry.stats();
     return {geometry.engine,        geometry.triangles, geometry.degenerate_triangles,
             geometry.build_seconds, seconds(),          total.camera,
-            total.camera,           total.bounce,       total.shadow};
+            total.bounce,           total.shadow};
 }
 
 const Film &ReferenceRenderer::film() const {

@@ -22,8 +22,7 @@ struct ReferenceStats {
     uint64_t degenerate_triangles = 0;  ///< of zero area, left out
     double build_seconds = 0;           ///< BVH
     double seconds = 0;                 ///< wall time of `render`, restored time included
-    uint64_t samples = 0;               ///< camera paths rendered by this object
-    uint64_t camera_rays = 0;
+    uint64_t camera_rays = 0;           ///< and so camera paths, of this object alone
     uint64_t bounce_rays = 0;
     uint64_t shadow_rays = 0;
 };
@@ -47,9 +46,6 @@ class ReferenceRenderer {
     /// Samples per pixel and call of `render` that take a fraction of a second: a good step between
     /// checkpoints.
     uint64_t batch_size() const;
-
-    /// Empties the film and sets another seed; the BVH is kept.
-    void restart(uint64_t seed);
 
     /// R, G, B, variance.R, .G, .B (of the mean), samples; attributes samplesPerPixel, renderTimeSeconds.
     Image develop() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,12 +43,13 @@ class AliasTable {
     /// `weights`: finite, not negative, at least one positive (throws `Error`, run failed, otherwise).
     explicit AliasTable(const std::vector<double> &weights);
 
-    size_t size() const { return slots_.size(); }
-
     /// Probability of index `i`.
     double probability(size_t i) const { return slots_[i].probability; }
 
+    /// An index, each with its probability. The table must not be empty.
     uint32_t sample(Rng &rng) const {
+        // Below the size even when rounded: u <= 1 - 2^-53 lowers it by at least half the spacing of doubles
+        // there.
         const double scaled = rng.uniform() * static_cast<double>(slots_.size());
         const auto i = static_cast<uint32_t>(scaled);
         return scaled - i < slots_[i].keep ? i : slots_[i].alias;

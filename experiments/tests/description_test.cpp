@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "experiments/gate.h"
 #include "renderer/base/error.h"
@@ -18,12 +17,16 @@ namespace fs = std::filesystem;
 
 const fs::path shipped = RTRAYS_EXPERIMENTS;
 
-/// The message of the error that loading the text gives.
-std::string error_of(const std::string &text) {
+/// The message of the error that loading the text as an experiment (or a gate) gives.
+std::string error_of(const std::string &text, bool as_gate = false) {
     const fs::path path = fs::path(testing::TempDir()) / "broken_experiment.json";
     write_file(path, text);
     try {
-        load_experiment(path, "quick");
+        if (as_gate) {
+            load_gate(path);
+        } else {
+            load_experiment(path, "quick");
+        }
     } catch (const Error &error) {
         EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
         return error.what();
@@ -72,6 +75,18 @@ TEST(Description, UnknownProfileListsTheProfiles) {
     } catch (const Error &error) {
         EXPECT_NE(std::string(error.what()).find("quick, full, ci"), std::string::npos);
     }
+}
+
+TEST(Description, ErrorsOfGatesNameTheKey) {
+    const std::string good = read_file(shipped / "gate_path_tracing.json");
+    EXPECT_NE(
+        error_of(replaced(good, "\"split\": 3", "\"split\": 8"), true).find("/bitwise/split: 8 is not below"),
+        std::string::npos);
+    EXPECT_NE(
+        error_of(replaced(good, "[4, 16, 64]", "[4, 64, 16]"), true).find("/convergence/spp: must increase"),
+        std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"explicit\"", "\"implicit\""), true).find("two curves"),
+              std::string::npos);
 }
 
 TEST(Description, ShippedGateLoads) {

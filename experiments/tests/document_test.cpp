@@ -65,8 +65,22 @@ TEST(Document, RepetitionsRoundTrip) {
     EXPECT_EQ(to_json(again), to_json(repetition));
 }
 
+/// The message of the error that reading the text as a run.json gives.
+std::string error_of(const std::string &text) {
+    try {
+        parse_run(text, "run.json");
+    } catch (const Error &error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
+        return error.what();
+    }
+    return "no error";
+}
+
 TEST(Document, AnIncompleteRunIsRefused) {
-    EXPECT_THROW(check_run({{"schema_version", 1}}, "run.json"), Error);
+    EXPECT_NE(error_of(R"({"schema_version": 1})").find("missing key 'experiment'"), std::string::npos);
+    // JSON has no NaN: it is written as null.
+    const nlohmann::json run = {{"schema_version", std::nan("")}};
+    EXPECT_NE(error_of(run.dump()).find("null is not of type"), std::string::npos) << error_of(run.dump());
 }
 
 }  // namespace

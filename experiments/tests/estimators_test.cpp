@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Independent estimators of one picture agree: implicit, explicit and MIS paths of the renderer, and the reference,
-// pairwise, by blocks of 16 x 16 pixels and on the mean.
+// Independent estimators of one picture agree: implicit, explicit and MIS paths of the renderer, and the
+// reference, pairwise, by blocks of 16 x 16 pixels and on the mean.
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <map>
+#include <string>
 
 #include "experiments/agreement.h"
 #include "reference/renderer.h"
@@ -16,13 +18,14 @@ namespace {
 
 constexpr int size = 64;
 
-/// Samples, enough that an error of 2 % is seen (asserted below; implicit paths are the noisiest), and seed: each its
-/// own, since the tests take the images as independent.
+/// Samples, enough that an error of 2 % is seen (asserted below; implicit paths are the noisiest), and seed:
+/// each its own, since the tests take the images as independent.
 struct Run {
     uint64_t spp;
     uint32_t seed;
 };
-const std::map<std::string, Run> runs = {{"implicit", {2048, 101}}, {"explicit", {256, 102}}, {"mis", {256, 103}}};
+const std::map<std::string, Run> runs = {
+    {"implicit", {2048, 101}}, {"explicit", {256, 102}}, {"mis", {256, 103}}};
 
 Image render(const Scene &scene, const std::string &strategies, DeviceContext &device) {
     RenderSettings settings;
@@ -55,15 +58,17 @@ TEST(Estimators, AgreePairwiseAndWithTheReference) {
     for (auto a = images.begin(); a != images.end(); ++a) {
         for (auto b = std::next(a); b != images.end(); ++b) {
             const Agreement agreement = test_agreement(a->second, b->second, policy);
-            EXPECT_TRUE(agreement.agrees()) << a->first << " against " << b->first << ": " << agreement.rejected
-                                            << " tests rejected, largest |z| " << agreement.largest_z;
+            EXPECT_TRUE(agreement.agrees())
+                << a->first << " against " << b->first << ": " << agreement.rejected
+                << " tests rejected, largest |z| " << agreement.largest_z;
             Image brighter = a->second;
             for (const std::string &channel : rgb_names()) {
                 for (float &value : brighter.channel(channel)) {
                     value *= 1.02f;
                 }
             }
-            EXPECT_FALSE(test_agreement(brighter, b->second, policy).agrees()) << "a planted error of 2 % of " << a->first;
+            EXPECT_FALSE(test_agreement(brighter, b->second, policy).agrees())
+                << "a planted error of 2 % of " << a->first;
         }
     }
 }

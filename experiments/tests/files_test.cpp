@@ -6,7 +6,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <random>
 
 #include "experiments/array_file.h"
@@ -121,7 +120,7 @@ TEST_F(StoredReferences, CompareHasTheKeysOfRuns) {
     write_exr(noise_image(8, 8, 1), folder_ / "a.exr");
     write_exr(noise_image(8, 8, 2), folder_ / "b.exr");
     const auto comparison = compare_images(folder_ / "a.exr", folder_ / "b.exr");
-    for (const char *key : {"l2", "rmse", "mae", "relmse"}) {
+    for (const char *key : {"l2", "rmse", "mae", "relmse", "mse"}) {
         EXPECT_GT(comparison.at(key).get<double>(), 0) << key;
     }
     EXPECT_TRUE(comparison.at("agreement").at("agrees"));

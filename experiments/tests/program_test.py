@@ -111,7 +111,13 @@ class Program(unittest.TestCase):
                 pass
         process.terminate()
         message = process.communicate()[1]
+        # What was done when it stopped: {(curve, seed): ladder}. Empty only if it finished before the signal.
+        kept = {}
+        for path_of_seed in out.glob(".partial/*/*.json"):
+            curve, seed, _ = path_of_seed.name.rsplit(".", 2)
+            kept[curve, int(seed.removeprefix("seed"))] = json.loads(path_of_seed.read_text())["repetition"]["points"]
         if process.returncode != 0:  # it was stopped in time
+            self.assertTrue(kept)
             self.assertEqual(process.returncode, 130, message)
             self.assertFalse((out / "run.json").exists())
         done = self.call(*command)
@@ -123,6 +129,11 @@ class Program(unittest.TestCase):
                 self.assertEqual([r["seed"] for r in point["repetitions"]], list(range(1, 9)))
                 self.assertGreater(point["seconds_device"], 0)
             self.assertTrue(curve["agreement"]["agrees"])
+        # A seed that was done is not rendered again: not even its times change.
+        points_of = {curve["id"]: curve["points"] for curve in run["curves"]}
+        for (curve, seed), ladder in kept.items():
+            for point, before in zip(points_of[curve], ladder, strict=True):
+                self.assertEqual(point["repetitions"][seed - 1]["seconds_wall"], before["seconds_wall"])
         reported = self.call("report", out)
         self.assertEqual(reported.returncode, 0, reported.stderr)
         self.assertTrue(pathlib.Path(reported.stdout.strip()).exists())

@@ -39,8 +39,8 @@ class CheckpointFile : public testing::Test {
     fs::path folder_, path_;
 };
 
-Checkpoint rendered_checkpoint(uint64_t seed = 1) {
-    const ReferenceSettings settings = small_settings(8, seed);
+Checkpoint rendered_checkpoint() {
+    const ReferenceSettings settings = small_settings(8, 1);
     auto renderer = cornell_like_box().renderer(settings);
     renderer.render(0, 5);
     return {make_config("box", "abc123", settings, "embree 3.13.5"),

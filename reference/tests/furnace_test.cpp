@@ -59,7 +59,7 @@ TEST(Furnace, survives_an_albedo_of_a_millionth_less_than_one) {
     EXPECT_LT(below, 0.9995);
 }
 
-TEST(Furnace, direct_light_alone_is_the_first_two_terms_of_the_series) {
+TEST(Furnace, a_depth_limit_cuts_the_series_after_as_many_terms) {
     for (const uint32_t depth : {1u, 2u, 3u}) {
         ReferenceSettings settings = small_settings(size, 22);
         settings.max_depth = depth;

@@ -4,6 +4,7 @@
 
 #include "reference/tests/statistics.h"
 #include "reference/tests/test_scenes.h"
+#include "renderer/base/statistics.h"
 
 namespace rtrays::reference {
 namespace {

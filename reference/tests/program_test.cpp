@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -244,8 +245,13 @@ TEST_F(Program, adds_a_complete_manifest_entry) {
     EXPECT_FALSE(again("9"));
     write_file(image, "damaged");
     EXPECT_TRUE(again("9"));
-    expect_refused({furnace, "-o", in_folder("x.exr"), "--spp", "1", "--manifest", manifest},
-                   "SCENE.ENGINE.HALF.exr");
+    const auto refused = [&](const std::string &output, const std::string &text) {
+        expect_refused({furnace, "-o", in_folder(output), "--spp", "1", "--manifest", manifest}, text);
+    };
+    refused("x.exr", "SCENE.ENGINE.HALF.exr");
+    refused("furnace_050.cycles.a.exr", "the engine is embree");
+    fs::create_directory(folder_ / "elsewhere");
+    refused("elsewhere/furnace_050.embree.a.exr", "beside its manifest");
 }
 
 TEST_F(Program, refuses_bad_usage_with_code_2_and_one_line) {

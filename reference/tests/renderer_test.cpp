@@ -55,19 +55,15 @@ TEST(ReferenceRenderer, bits_do_not_depend_on_being_restored) {
 
 TEST(ReferenceRenderer, seeds_and_ranges_give_other_samples) {
     const TestScene scene = cornell_like_box();
-    auto renderer = scene.renderer(small_settings(16, 1));
-    renderer.render(0, 4);
-    const auto first = renderer.develop().channel("R");
-    renderer.restart(2);
-    EXPECT_EQ(renderer.samples(), 0u);
-    renderer.render(0, 4);
-    EXPECT_NE(renderer.develop().channel("R"), first);
-    renderer.restart(1);
-    renderer.render(4, 8);
-    EXPECT_NE(renderer.develop().channel("R"), first);
-    renderer.restart(1);
-    renderer.render(0, 4);
-    EXPECT_EQ(renderer.develop().channel("R"), first);
+    const auto red = [&](uint64_t seed, uint64_t begin, uint64_t end) {
+        auto renderer = scene.renderer(small_settings(16, seed));
+        renderer.render(begin, end);
+        return renderer.develop().channel("R");
+    };
+    const auto first = red(1, 0, 4);
+    EXPECT_NE(red(2, 0, 4), first);
+    EXPECT_NE(red(1, 4, 8), first);
+    EXPECT_EQ(red(1, 0, 4), first);
 }
 
 TEST(ReferenceRenderer, refuses_a_range_that_does_not_continue) {
@@ -81,8 +77,7 @@ TEST(ReferenceRenderer, counts_samples_and_rays) {
     auto renderer = cornell_like_box().renderer(small_settings(16, 1));
     renderer.render(0, 4);
     const ReferenceStats stats = renderer.stats();
-    EXPECT_EQ(stats.samples, 16u * 16u * 4u);
-    EXPECT_EQ(stats.camera_rays, stats.samples);
+    EXPECT_EQ(stats.camera_rays, 16u * 16u * 4u);
     EXPECT_GT(stats.bounce_rays, 0u);
     EXPECT_GT(stats.shadow_rays, 0u);
     EXPECT_GT(stats.seconds, 0.0);

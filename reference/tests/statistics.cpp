@@ -4,53 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+
+#include "renderer/base/statistics.h"
 
 namespace rtrays::reference {
 
-double normal_p_value(double z) {
-    return std::erfc(std::abs(z) / std::sqrt(2.0));
-}
+namespace {
 
-double chi_square_p_value(const std::vector<double> &observed, const std::vector<double> &expected) {
-    double statistic = 0.0, pooled_observed = 0.0, pooled_expected = 0.0;
-    int cells = 0;
-    const auto add = [&](double o, double e) {
-        statistic += (o - e) * (o - e) / e;
-        ++cells;
-    };
-    for (size_t i = 0; i < observed.size(); ++i) {
-        if (expected[i] < 5.0) {
-            pooled_observed += observed[i];
-            pooled_expected += expected[i];
-        } else {
-            add(observed[i], expected[i]);
-        }
-    }
-    if (pooled_expected > 0.0) {
-        add(pooled_observed, pooled_expected);
-    } else if (pooled_observed > 0.0) {
-        return 0.0;  // something happened that cannot happen
-    }
-    const boost::math::chi_squared distribution(std::max(cells - 1, 1));
-    return boost::math::cdf(boost::math::complement(distribution, statistic));
-}
-
-std::vector<std::string> holm_rejected(std::vector<Comparison> comparisons) {
-    std::sort(comparisons.begin(), comparisons.end(),
-              [](const Comparison &a, const Comparison &b) { return a.p_value < b.p_value; });
-    std::vector<std::string> rejected;
-    for (size_t i = 0; i < comparisons.size(); ++i) {
-        // A p-value that is not a number is a failed comparison, not a passed one.
-        if (comparisons[i].p_value > family_alpha / static_cast<double>(comparisons.size() - i)) {
-            break;
-        }
-        rejected.push_back(fmt::format("{} (p = {:.2g})", comparisons[i].name, comparisons[i].p_value));
-    }
-    return rejected;
-}
-
+/// Over the pixels [x0, x1) x [y0, y1).
 BlockMean block_mean(const Image &image, const std::string &channel, int x0, int y0, int x1, int y1) {
     const auto &values = image.channel(channel);
     const auto &variances = image.channel("variance." + channel);
@@ -66,6 +28,23 @@ BlockMean block_mean(const Image &image, const std::string &channel, int x0, int
     result.mean /= count;
     result.variance /= count * count;
     return result;
+}
+
+}  // namespace
+
+std::vector<std::string> holm_rejected(const std::vector<Comparison> &comparisons) {
+    std::vector<double> p_values;
+    for (const Comparison &comparison : comparisons) {
+        p_values.push_back(comparison.p_value);
+    }
+    const std::vector<double> adjusted = holm_adjusted(p_values);
+    std::vector<std::string> rejected;
+    for (size_t i = 0; i < comparisons.size(); ++i) {
+        if (adjusted[i] <= family_alpha) {
+            rejected.push_back(fmt::format("{} (adjusted p = {:.2g})", comparisons[i].name, adjusted[i]));
+        }
+    }
+    return rejected;
 }
 
 BlockMean image_mean(const Image &image, const std::string &channel) {

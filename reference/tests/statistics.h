@@ -10,13 +10,6 @@
 
 namespace rtrays::reference {
 
-/// Two-sided p-value of a standard normal deviate.
-double normal_p_value(double z);
-
-/// p-value of Pearson's chi-square of observed against expected counts; cells of fewer than 5 expected are
-/// pooled. `expected` must sum to the sum of `observed`.
-double chi_square_p_value(const std::vector<double> &observed, const std::vector<double> &expected);
-
 /// One comparison of a suite.
 struct Comparison {
     std::string name;
@@ -25,8 +18,8 @@ struct Comparison {
 
 constexpr double family_alpha = 0.01;
 
-/// Names of the comparisons that Holm's procedure rejects at `family_alpha`.
-std::vector<std::string> holm_rejected(std::vector<Comparison> comparisons);
+/// Names and adjusted p-values of the comparisons that Holm's procedure rejects at `family_alpha`.
+std::vector<std::string> holm_rejected(const std::vector<Comparison> &comparisons);
 
 /// Mean and variance of the mean of a block of pixels of one channel.
 struct BlockMean {
@@ -34,9 +27,7 @@ struct BlockMean {
     double variance = 0.0;
 };
 
-/// Over the pixels [x0, x1) x [y0, y1), from the layers R and variance.R (and so on); pixels are independent.
-BlockMean block_mean(const Image &image, const std::string &channel, int x0, int y0, int x1, int y1);
-
+/// Over all pixels, from the layers R and variance.R (and so on); pixels are independent.
 BlockMean image_mean(const Image &image, const std::string &channel);
 
 /// Compares two independent images block by block (16x16) and on the whole mean, per channel.

@@ -70,8 +70,7 @@ void TestScene::add_box(const Vec3 &low, const Vec3 &high, bool inside, uint32_t
     add_mesh(corners, triangles, material, radiance);
 }
 
-void TestScene::set_camera(const Vec3 &position, const Vec3 &target, const Vec3 &up, double fov,
-                           CameraArrays::FovAxis axis) {
+void TestScene::set_camera(const Vec3 &position, const Vec3 &target, const Vec3 &up, double fov) {
     const Vec3 z = (position - target).normalized();
     const Vec3 x = up.cross(z).normalized();
     Eigen::Matrix4d world_from_camera = Eigen::Matrix4d::Identity();
@@ -79,7 +78,7 @@ void TestScene::set_camera(const Vec3 &position, const Vec3 &target, const Vec3 
     world_from_camera.block<3, 1>(0, 1) = z.cross(x);
     world_from_camera.block<3, 1>(0, 2) = z;
     world_from_camera.topRightCorner<3, 1>() = position;
-    cameras = {{"camera"}, {world_from_camera}, {fov}, {axis}, {0}, {1}};
+    cameras = {{"camera"}, {world_from_camera}, {fov}, {CameraArrays::FovAxis::x}, {0}, {1}};
 }
 
 TestScene furnace_box(float albedo, const Rgb &emission, const Vec3 &centre, double size) {

@@ -27,9 +27,8 @@ struct TestScene : SceneArrays {
     void add_box(const Vec3 &low, const Vec3 &high, bool inside, uint32_t material,
                  const Rgb &radiance = Rgb::Zero());
 
-    /// Camera looking from `position` to `target`.
-    void set_camera(const Vec3 &position, const Vec3 &target, const Vec3 &up, double fov,
-                    CameraArrays::FovAxis axis = CameraArrays::FovAxis::x);
+    /// Camera looking from `position` to `target`; `fov` is horizontal, in radians.
+    void set_camera(const Vec3 &position, const Vec3 &target, const Vec3 &up, double fov);
 
     ReferenceRenderer renderer(const ReferenceSettings &settings) const {
         return ReferenceRenderer(*this, settings);

@@ -421,7 +421,7 @@ void describe_image(Image &image, const FilmState &film) {
     attributes["samplesPerPixel"] = static_cast<int>(film.samples());
     attributes["renderTimeSeconds"] = static_cast<float>(film.wall_seconds);
     attributes["rtrays:deviceSeconds"] = film.device_seconds;
-    attributes["rtrays:commit"] = std::string(RTRAYS_COMMIT) + (RTRAYS_DIRTY ? "-dirty" : "");
+    attributes["rtrays:commit"] = std::string(RTRAYS_VERSION);
     attributes["rtrays:seed"] = std::to_string(film.seed);
     attributes["rtrays:samples"] = ranges;
     attributes["rtrays:config"] = film.config;
