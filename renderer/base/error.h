@@ -14,8 +14,8 @@ enum class ExitCode {
     bad_input = 2,
     regression = 3,
     reference_missing = 4,
-    interrupted = 130,
-    skipped = 77,
+    skipped = 77,       ///< a peer is not installed
+    interrupted = 130,  ///< as a shell reports SIGINT
 };
 
 /// The one error type of all libraries. Its message is complete: it names the file, key or device

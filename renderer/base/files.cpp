@@ -39,10 +39,16 @@ fs::path temporary_beside(const fs::path &path) {
 
 std::string reason() { return std::strerror(errno); }
 
+/// Paths that cannot be looked at count as none: opening them then says why.
+bool names_directory(const fs::path &path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
 }  // namespace
 
 std::string read_file(const fs::path &path) {
-    if (fs::is_directory(path)) {
+    if (names_directory(path)) {
         throw input_error(fmt::format("{}: is a directory, not a file", path.string()));
     }
     std::ifstream stream(path, std::ios::binary);
@@ -94,7 +100,7 @@ void write_file(const fs::path &path, const std::string &content) {
 }
 
 void require_writable(const fs::path &path) {
-    if (fs::is_directory(path)) {
+    if (names_directory(path)) {
         throw input_error(fmt::format("{}: is a directory; name an output file", path.string()));
     }
     const fs::path temporary = temporary_beside(path);

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 #include <type_traits>
 
 #include "renderer/base/error.h"
@@ -27,7 +28,7 @@ namespace {
 /// Larger sides are taken for a damaged header rather than allocated.
 constexpr int max_side = 1 << 16;
 
-// The stored type of each alternative of `Attribute`.
+/// The stored type of each alternative of `Attribute`.
 template <typename T>
 using ImfAttribute = Imf::TypedAttribute<T>;
 
@@ -82,7 +83,8 @@ std::vector<float> &Image::add_channel(const std::string &name) {
 }
 
 Image read_exr(const std::filesystem::path &path) {
-    if (!std::filesystem::exists(path)) {
+    std::error_code unknown;  // then opening the file says why
+    if (!std::filesystem::exists(path, unknown) && !unknown) {
         throw input_error(fmt::format("{}: no such file", path.string()));
     }
     try {

@@ -21,8 +21,8 @@ namespace rtrays {
 
 namespace {
 
-/// Where the lexer is: the library does not tell its SAX callbacks, so the characters are counted as they
-/// are taken.
+/// Where the lexer is: the library does not tell its SAX callbacks, so lines are counted as characters are
+/// taken.
 struct Position {
     size_t line = 1;
     char last = 0;
@@ -252,7 +252,7 @@ std::vector<const Json *> schema_nodes(const Json &root, const std::vector<std::
     return nodes;
 }
 
-/// Values of the string array or string at `keyword`, over all nodes.
+/// What stands at `keyword` in any of the nodes, the elements of arrays one by one.
 std::vector<Json> gathered(const std::vector<const Json *> &nodes, const char *keyword) {
     std::vector<Json> values;
     for (const Json *node : nodes) {

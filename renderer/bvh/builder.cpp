@@ -113,8 +113,8 @@ void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uin
     constexpr double gib = 1024.0 * 1024.0 * 1024.0;
     if (triangle_count > BVH_MAX_TRIANGLES) {
         throw input_error(
-            fmt::format("{} triangles are more than a BVH can hold ({}); building it would take {:.1f} GiB "
-                        "of device memory ({} bytes per triangle)",
+            fmt::format("{} triangles are more than a BVH can hold ({}): take a smaller scene; building it "
+                        "would take {:.1f} GiB of device memory ({} bytes per triangle)",
                         triangle_count, BVH_MAX_TRIANGLES,
                         static_cast<double>(triangle_count * bytes_per_triangle) / gib, bytes_per_triangle));
     }
@@ -123,7 +123,8 @@ void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uin
     if (largest > device.max_allocation || total > device.global_memory) {
         throw input_error(fmt::format(
             "building a BVH over {} triangles takes {:.2f} GiB of device memory, {:.2f} GiB of it in one "
-            "piece, but device '{}' has {:.2f} GiB and allows {:.2f} GiB in one piece",
+            "piece, but device '{}' has {:.2f} GiB and allows {:.2f} GiB in one piece: take another device or a "
+            "smaller scene",
             triangle_count, static_cast<double>(total) / gib, static_cast<double>(largest) / gib, device.name,
             static_cast<double>(device.global_memory) / gib,
             static_cast<double>(device.max_allocation) / gib));

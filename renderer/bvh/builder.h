@@ -32,7 +32,10 @@ void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uin
 /// Keeps its compiled kernels: one builder serves any number of builds.
 class BvhBuilder {
   public:
+    /// With `BvhBuildParameters::for_device`.
     explicit BvhBuilder(DeviceContext &device);
+
+    /// Throws `Error` (bad input) when a parameter is out of range.
     BvhBuilder(DeviceContext &device, const BvhBuildParameters &parameters);
 
     /// `positions`: 3 floats per vertex; `indices`: 3 vertex numbers per triangle; both on the device. Zero
@@ -44,8 +47,6 @@ class BvhBuilder {
     /// The same for arrays on the host.
     Bvh build(const std::vector<Eigen::Vector3f> &positions,
               const std::vector<std::array<uint32_t, 3>> &triangles);
-
-    const BvhBuildParameters &parameters() const { return parameters_; }
 
   private:
     struct Workspace;

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "renderer/base/error.h"
@@ -13,7 +14,8 @@
 
 namespace rtrays {
 
-/// A device array of `T`. Copies to and from the host are blocking.
+/// A device array of `T`. Copies to and from the host are blocking. Every operation throws `Error` (run failed)
+/// naming the buffer when the device refuses it.
 template <typename T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>, "device records are plain data");
@@ -22,9 +24,9 @@ class Buffer {
     Buffer() = default;
 
     /// Uninitialized. PoCL's vectoriser may read past the end (pocl#757), hence 64 bytes of padding.
-    Buffer(DeviceContext &device, std::string name, size_t count, cl_mem_flags flags = CL_MEM_READ_WRITE)
+    Buffer(DeviceContext &device, std::string name, size_t count)
         : device_(&device), name_(std::move(name)), count_(count) {
-        memory_ = device.allocate(name_, bytes() + padding, flags);
+        memory_ = device.allocate(name_, bytes() + padding);
     }
 
     Buffer(DeviceContext &device, std::string name, const std::vector<T> &values)
@@ -49,13 +51,10 @@ class Buffer {
         }
     }
 
-    std::vector<T> read() const { return read(0, count_); }
-
-    std::vector<T> read(size_t first, size_t count) const {
-        std::vector<T> values(count);
-        if (count > 0) {
-            check_cl(clEnqueueReadBuffer(device_->queue(), get(), CL_TRUE, first * sizeof(T), count * sizeof(T), values.data(), 0,
-                                         nullptr, nullptr),
+    std::vector<T> read() const {
+        std::vector<T> values(count_);
+        if (count_ > 0) {
+            check_cl(clEnqueueReadBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(), values.data(), 0, nullptr, nullptr),
                      "reading buffer " + name_);
         }
         return values;

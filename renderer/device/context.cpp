@@ -110,12 +110,11 @@ std::vector<DeviceInfo> list_devices() {
     check_cl(clGetPlatformIDs(platform_count, platforms.data(), nullptr), "listing OpenCL platforms");
     std::vector<DeviceInfo> devices;
     for (const cl_platform_id platform : platforms) {
+        // A driver without its hardware must not take the devices of the others with it.
         cl_uint count = 0;
-        const cl_int status = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count);
-        if (status == CL_DEVICE_NOT_FOUND || count == 0) {
+        if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS || count == 0) {
             continue;
         }
-        check_cl(status, "listing OpenCL devices");
         std::vector<cl_device_id> ids(count);
         check_cl(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr), "listing OpenCL devices");
         for (const cl_device_id id : ids) {
@@ -138,14 +137,15 @@ void DeviceContext::finish() {
     profiler_.collect();
 }
 
-ClMemory DeviceContext::allocate(const std::string &name, uint64_t bytes, cl_mem_flags flags) {
+ClMemory DeviceContext::allocate(const std::string &name, uint64_t bytes) {
     if (bytes > info_.max_allocation) {
-        throw run_error(fmt::format("buffer '{}' needs {:.1f} MiB; '{}' allocates at most {:.1f} MiB at once", name,
+        throw run_error(fmt::format("buffer '{}' needs {:.1f} MiB; '{}' allocates at most {:.1f} MiB at once: take a "
+                                    "device with more memory, or a smaller scene, image or stream", name,
                                     static_cast<double>(bytes) / 0x1p20, info_.name,
                                     static_cast<double>(info_.max_allocation) / 0x1p20));
     }
     cl_int status = CL_SUCCESS;
-    ClMemory memory(clCreateBuffer(context(), flags, bytes, nullptr, &status));
+    ClMemory memory(clCreateBuffer(context(), CL_MEM_READ_WRITE, bytes, nullptr, &status));
     check_cl(status, fmt::format("allocating buffer '{}' of {} bytes", name, bytes));
     return memory;
 }

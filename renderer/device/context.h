@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -27,11 +26,10 @@ struct DeviceInfo {
     uint64_t global_memory;       ///< bytes
 };
 
-/// All devices of all platforms, platform by platform.
+/// All devices of all platforms, platform by platform; platforms that cannot list their devices have none.
 std::vector<DeviceInfo> list_devices();
 
-/// One device with its context, an in-order profiling queue, and the account of what was allocated on it
-/// and launched.
+/// One device with its context, an in-order profiling queue, and the account of what was launched on it.
 class DeviceContext {
   public:
     /// `spec`: "" (the first GPU, else the first device), "cpu", "gpu", "PLATFORM:DEVICE" by index, or a part
@@ -47,8 +45,9 @@ class DeviceContext {
     /// Waits until everything enqueued is done and books the events.
     void finish();
 
-    /// Allocates device memory booked under `name`; throws `Error` naming buffer and size when it fails.
-    ClMemory allocate(const std::string &name, uint64_t bytes, cl_mem_flags flags);
+    /// Device memory that kernels read and write, uninitialized; throws `Error` (run failed) naming buffer and size
+    /// when there is not so much of it.
+    ClMemory allocate(const std::string &name, uint64_t bytes);
 
   private:
     DeviceInfo info_;

@@ -24,7 +24,7 @@ std::string argument_type(cl_kernel kernel, cl_uint index) {
 
 std::string KernelArgument::type_name(const std::type_info &type) {
     static const std::map<std::string, std::string> fundamental = {
-        {"unsigned int", "uint"}, {"unsigned long", "ulong"}, {"unsigned char", "uchar"}};
+        {"unsigned int", "uint"}, {"unsigned long", "ulong"}};
     const std::unique_ptr<char, decltype(&std::free)> demangled(abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr),
                                                                 &std::free);
     const std::string name = demangled.get();

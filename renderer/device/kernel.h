@@ -26,10 +26,10 @@ class KernelArgument {
     const std::string &type() const { return type_; }
     const std::string &bytes() const { return bytes_; }
 
+  private:
     /// OpenCL's name of a C++ type: "uint" for unsigned int, "BvhNode" for a shared record.
     static std::string type_name(const std::type_info &type);
 
-  private:
     template <typename T>
     static std::string to_bytes(const T &value) {
         static_assert(std::is_trivially_copyable_v<T>, "kernel arguments are plain data");
@@ -46,13 +46,13 @@ class Kernel {
   public:
     Kernel() = default;
 
-    /// Throws `Error` when the program has no kernel `name`.
+    /// `group_size`: work-items per group. Throws `Error` (run failed) when the program has no kernel `name`.
     Kernel(const Program &program, const std::string &name, uint32_t group_size);
 
-    /// Binds all arguments in order. Throws `Error` when their number or a type differs from the kernel's.
+    /// Binds all arguments in order. Throws `Error` (run failed) when their number or a type differs from the kernel's.
     void bind(const std::vector<KernelArgument> &arguments);
 
-    /// Binds one argument that changes between launches, by position.
+    /// Binds one argument that changes between launches, by position; throws likewise.
     void bind(uint32_t index, const KernelArgument &argument);
 
     /// Throws `Error` unless the kernel takes that many arguments.
@@ -61,9 +61,6 @@ class Kernel {
     /// Enqueues at least `items` work-items (rounded up to whole groups; kernels guard the rest). The launch
     /// is booked under the kernel's name. Zero items are not launched.
     void enqueue(uint64_t items);
-
-    const std::string &name() const { return name_; }
-    uint32_t group_size() const { return group_size_; }
 
   private:
     DeviceContext *device_ = nullptr;

@@ -34,7 +34,6 @@ class ClHandle {
     }
 
     T get() const { return object_; }
-    explicit operator bool() const { return object_ != nullptr; }
 
   private:
     T object_ = nullptr;

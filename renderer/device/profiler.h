@@ -15,17 +15,16 @@ namespace rtrays {
 class Profiler {
   public:
     struct Stage {
-        double seconds = 0;
+        double seconds = 0;  ///< between the start and the end of its launches on the device
         uint64_t launches = 0;
     };
 
-    /// Takes over the event of one launch of `stage` (a reference that must stay valid until `collect`).
+    /// Takes over the event of one launch of `stage`.
     void add(const std::string &stage, ClEvent event) { pending_.emplace_back(&stages_[stage], std::move(event)); }
 
-    /// Books all events so far; they must have completed. Throws when a launch had failed.
+    /// Books all events so far; they must have completed. Throws `Error` (run failed) when a launch had failed.
     void collect();
 
-    size_t pending() const { return pending_.size(); }
     const std::map<std::string, Stage> &stages() const { return stages_; }
 
     /// The stages booked so far, which start again from nothing: how users of one device keep accounts apart.
@@ -36,7 +35,7 @@ class Profiler {
     std::vector<std::pair<Stage *, ClEvent>> pending_;
 };
 
-/// Sums over stages.
+/// Device seconds of all stages together.
 double total_seconds(const std::map<std::string, Profiler::Stage> &stages);
 
 }  // namespace rtrays

@@ -21,8 +21,6 @@ const char *const program_options = "-cl-std=CL1.2 -cl-kernel-arg-info";
 
 namespace {
 
-constexpr size_t hash_digits = 32;
-
 /// An exclusive advisory lock on a file, held for the object's life. Without it two processes would only
 /// compile twice, so a cache directory that cannot be locked is not an error.
 class FileLock {

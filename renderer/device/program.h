@@ -3,7 +3,6 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "renderer/device/context.h"
 #include "renderer/device/source.h"

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "embedded/device_sources.h"
@@ -33,6 +34,14 @@ std::optional<std::string> find_source(const std::string &path, const SourceOver
     return std::nullopt;
 }
 
+std::string required_source(const std::string &path, const SourceOverlays &overlays) {
+    std::optional<std::string> text = find_source(path, overlays);
+    if (!text) {
+        throw run_error(fmt::format("device source '{}' does not exist", path));
+    }
+    return *std::move(text);
+}
+
 /// The path between quotes of an `#include "..."` line, empty for any other line.
 std::string included_path(const std::string &line) {
     const size_t hash = line.find_first_not_of(" \t");
@@ -53,11 +62,7 @@ class Expander {
     explicit Expander(const SourceOverlays &overlays) : overlays_(overlays) {}
 
     std::string run(const std::string &path) {
-        const std::optional<std::string> text = find_source(path, overlays_);
-        if (!text) {
-            throw run_error(fmt::format("device source '{}' does not exist", path));
-        }
-        expand(path, *text);
+        expand(path, required_source(path, overlays_));
         return output_;
     }
 
@@ -113,13 +118,7 @@ class Expander {
 
 }  // namespace
 
-std::string device_source(const std::string &path) {
-    const std::optional<std::string> text = find_source(path, {});
-    if (!text) {
-        throw run_error(fmt::format("device source '{}' does not exist", path));
-    }
-    return *text;
-}
+std::string device_source(const std::string &path) { return required_source(path, {}); }
 
 std::string expand_source(const std::string &path, const SourceOverlays &overlays) { return Expander(overlays).run(path); }
 

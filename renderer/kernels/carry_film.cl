@@ -10,5 +10,5 @@ __kernel void carry_film(GLOBAL long *film, uint sums) {
         return;
     }
     const ulong pixel = i / PIXEL_SUMS;
-    film_carry_sum(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), i % PIXEL_SUMS);
+    film_carry_sum(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), PIXEL_SUMS, i % PIXEL_SUMS);
 }

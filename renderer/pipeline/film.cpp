@@ -19,7 +19,6 @@ namespace {
 
 constexpr int state_version = 1;
 const std::string magic = "RTRaysFilm";
-constexpr size_t hash_digits = 32;
 
 size_t pixel_words(const FilmState &film) { return FILM_PIXEL_WORDS(film.variance); }
 
@@ -27,23 +26,15 @@ size_t word_count(const FilmState &film) {
     return static_cast<size_t>(film.width) * static_cast<size_t>(film.height) * pixel_words(film);
 }
 
-/// The value of one sum, whose words are `stride` apart: words times their units. Adding from the top keeps the error
-/// below 2^-52 of the result: carried words below the top one are non-negative and smaller than the unit above.
+/// The value of one sum, whose words are `stride` apart: words times their units. Carried words below the top one are
+/// non-negative and smaller than the unit above, so that adding from the top cancels only where it is exact; the twelve
+/// roundings of 2^-53 keep the error below 2^-49 of the result.
 double sum_value(const int64_t *words, size_t stride, int lowest, int step) {
     double value = 0;
     for (int k = FILM_WORDS - 1; k >= 0; --k) {
         value += std::ldexp(static_cast<double>(words[static_cast<size_t>(k) * stride]), lowest + k * step);
     }
     return value;
-}
-
-/// As the stage carry_film does.
-void carry(int64_t *words, size_t stride, int step) {
-    for (int k = 0; k + 1 < FILM_WORDS; ++k, words += stride) {
-        const int64_t excess = *words >> step;
-        *words -= excess * (int64_t{1} << step);
-        words[stride] += excess;
-    }
 }
 
 }  // namespace
@@ -62,7 +53,7 @@ void FilmState::add_range(SampleRange range) {
     }
     for (const SampleRange &present : ranges) {
         if (range.begin < present.end && present.begin < range.end) {
-            throw input_error(fmt::format("samples {}:{} overlap {}:{}, which the film holds already", range.begin, range.end,
+            throw input_error(fmt::format("samples {}:{} overlap {}:{}, which the film holds already: render others", range.begin, range.end,
                                           present.begin, present.end));
         }
     }
@@ -88,8 +79,9 @@ void require_valid(const FilmState &film) {
 
 Image develop_film(const FilmState &film) {
     Image image = Image::rgb(film.width, film.height);
+    const std::vector<std::string> colour = rgb_names(), variance = rgb_names("variance");
     if (film.variance) {
-        for (const std::string &name : rgb_names("variance")) {
+        for (const std::string &name : variance) {
             image.add_channel(name);
         }
     }
@@ -99,20 +91,18 @@ Image develop_film(const FilmState &film) {
     if (film.samples() == 0) {
         return image;
     }
-    const std::vector<std::string> colour = rgb_names();
-    const std::vector<std::string> variance = rgb_names("variance");
     for (size_t c = 0; c < FILM_CHANNELS; ++c) {
         std::vector<float> &means = image.channel(colour[c]);
+        std::vector<float> *variances = film.variance && n > 1 ? &image.channel(variance[c]) : nullptr;
         for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
             const int64_t *words = film.words.data() + pixel * pixel_words(film) + c;
             const double mean = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
             means[pixel] = static_cast<float>(mean);
-            if (film.variance && n > 1) {
+            if (variances != nullptr) {
                 // Squares are rounded by up to 2^-21 each: where all samples are equal the difference may come out
                 // below zero by that much of the mean's square; 0 is then the nearest variance.
                 const double mean_square = sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
-                image.channel(variance[c])[pixel] =
-                    static_cast<float>(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
+                (*variances)[pixel] = static_cast<float>(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
             }
         }
     }
@@ -140,10 +130,10 @@ void merge_film(FilmState &film, const FilmState &other) {
     for (size_t i = 0; i < merged.words.size(); ++i) {
         merged.words[i] += other.words[i];
     }
-    const size_t sums = FILM_PIXEL_SUMS(merged.variance);
+    const uint32_t sums = FILM_PIXEL_SUMS(merged.variance);
     for (size_t pixel = 0; pixel < merged.words.size(); pixel += pixel_words(merged)) {
-        for (size_t sum = 0; sum < sums; ++sum) {
-            carry(merged.words.data() + pixel + sum, sums, sum < FILM_CHANNELS ? FILM_SUM_STEP : FILM_SQUARE_STEP);
+        for (uint32_t sum = 0; sum < sums; ++sum) {
+            film_carry_sum(merged.words.data() + pixel, sums, sum);
         }
     }
     film = std::move(merged);
@@ -168,17 +158,17 @@ FilmState load_film(const std::filesystem::path &path) {
     const std::string file = read_file(path);
     const auto fail = [&](const char *why) { return input_error(fmt::format("{}: {}", path.string(), why)); };
     if (file.compare(std::min(hash_digits, file.size()), magic.size(), magic) != 0) {
-        throw fail("not a film state");
+        throw fail("not a film state: name a file that --state wrote");
     }
     const std::string content = file.substr(hash_digits);
     if (content_hash(content) != file.substr(0, hash_digits)) {
-        throw fail("film state is truncated or damaged (checksum)");
+        throw fail("film state is truncated or damaged (checksum): render it again");
     }
     const size_t header_begin = magic.size() + 1;
     const size_t header_end = content.find('\n', header_begin);
     const Json header = parse_json(content.substr(header_begin, header_end - header_begin), path.string());
     if (header.at("version").get<int>() != state_version) {
-        throw fail("film state of another version");
+        throw fail("film state of another version of the program: render it again");
     }
     FilmState film;
     film.width = header.at("width");
@@ -195,7 +185,7 @@ FilmState load_film(const std::filesystem::path &path) {
     }
     film.words.resize(word_count(film));
     if (content.size() - header_end - 1 != film.words.size() * sizeof(int64_t)) {
-        throw fail("film state has the wrong length");
+        throw fail("film state has the wrong length: render it again");
     }
     std::memcpy(film.words.data(), content.data() + header_end + 1, film.words.size() * sizeof(int64_t));
     return film;

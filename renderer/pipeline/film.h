@@ -24,10 +24,10 @@ struct FilmState {
     uint32_t seed = 0;
     std::string config;               ///< hash of scene and settings: films of different configs never mix
     std::vector<SampleRange> ranges;  ///< of samples in the film, sorted, disjoint, adjacent ones joined
-    double device_seconds = 0;
+    double device_seconds = 0;        ///< of the stages
     double wall_seconds = 0;
     uint64_t non_finite = 0;          ///< samples that were not added
-    uint64_t out_of_range = 0;
+    uint64_t out_of_range = 0;        ///< likewise, of 2^40 or more in magnitude
     std::vector<int64_t> words;       ///< carried; per pixel FILM_PIXEL_WORDS
 
     /// Number of samples per pixel.
@@ -47,7 +47,8 @@ Image develop_film(const FilmState &film);
 /// Adds `other` into `film`. Throws `Error` (bad input) when size, seed, config or layout differ or ranges overlap.
 void merge_film(FilmState &film, const FilmState &other);
 
-/// The film's file: a JSON header, then the words; with a checksum, written whole or not at all.
+/// The film's file: a checksum, a line that names the format, a line of JSON and the words; written whole or not at
+/// all. Throws `Error` (run failed) naming the path.
 void save_film(const FilmState &film, const std::filesystem::path &path);
 
 /// Throws `Error` (bad input) naming the path when it is missing, not a film, truncated or damaged.

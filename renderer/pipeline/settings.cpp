@@ -83,6 +83,13 @@ T parse_number(const std::string &assignment, const std::string &text, T low, T 
     return value;
 }
 
+void require_value(const Setting &setting, const TextSetting &text, const std::string &value) {
+    if (std::find(text.values.begin(), text.values.end(), value) == text.values.end()) {
+        throw input_error(fmt::format("{}={}: the values of {} are {}", setting.name, value, setting.name,
+                                      fmt::join(text.values, ", ")));
+    }
+}
+
 }  // namespace
 
 const std::vector<std::string> &algorithm_names() {
@@ -100,9 +107,7 @@ void apply_setting(RenderSettings &settings, const std::string &assignment) {
     }
     const std::string value = assignment.substr(equals + 1);
     if (const auto *text = std::get_if<TextSetting>(&found->kind)) {
-        if (std::find(text->values.begin(), text->values.end(), value) == text->values.end()) {
-            throw input_error(fmt::format("{}: the values of {} are {}", assignment, name, fmt::join(text->values, ", ")));
-        }
+        require_value(*found, *text, value);
         settings.*text->field = value;
     } else if (const auto *count = std::get_if<CountSetting>(&found->kind)) {
         settings.*count->field = parse_number<uint32_t>(assignment, value, 0, count->largest, false);
@@ -117,8 +122,13 @@ void require_consistent(const RenderSettings &settings) {
     if (std::find(names.begin(), names.end(), settings.algorithm) == names.end()) {
         throw input_error(fmt::format("no algorithm '{}'; there are: {}", settings.algorithm, fmt::join(names, ", ")));
     }
+    for (const Setting &setting : setting_table()) {
+        if (const auto *text = std::get_if<TextSetting>(&setting.kind)) {
+            require_value(setting, *text, settings.*text->field);
+        }
+    }
     if (settings.termination == "fixed" && settings.max_depth == 0) {
-        throw input_error("integrator.termination=fixed needs integrator.max_depth");
+        throw input_error("integrator.termination=fixed needs a limit: --set integrator.max_depth=N");
     }
 }
 

@@ -44,7 +44,7 @@ struct RenderSettings {
 /// alternatives when the name or an enumerated value is unknown, or the value malformed or out of range.
 void apply_setting(RenderSettings &settings, const std::string &assignment);
 
-/// Throws `Error` (bad usage) when settings contradict each other.
+/// Throws `Error` (bad usage) when settings contradict each other or a name is none of its alternatives.
 void require_consistent(const RenderSettings &settings);
 
 /// All settings that decide the image ("integrator.*", algorithm), for provenance and for the config hash.
@@ -56,7 +56,11 @@ std::string describe_settings();
 /// Names of the algorithms there are.
 const std::vector<std::string> &algorithm_names();
 
+// Of consistent settings:
+
+/// The numbers as the stages take them.
 IntegratorSettings integrator_settings(const RenderSettings &settings);
+
 LightSelection light_selection(const RenderSettings &settings);
 
 /// The features that the settings add to those of the scene.

@@ -40,7 +40,6 @@
 
 using uint = unsigned int;
 using ulong = unsigned long;
-using uchar = unsigned char;
 
 struct float2 {
     float x, y;
@@ -109,7 +108,6 @@ DEVICE float as_float(uint bits) {
 
 // Atomics as the tests need them; orders as in OpenCL 1.2 (relaxed).
 DEVICE uint atomic_add(volatile uint *p, uint v) { return __atomic_fetch_add(p, v, __ATOMIC_RELAXED); }
-DEVICE uint atomic_inc(volatile uint *p) { return atomic_add(p, 1u); }
 DEVICE long atom_add(volatile long *p, long v) { return __atomic_fetch_add(p, v, __ATOMIC_RELAXED); }
 
 #endif

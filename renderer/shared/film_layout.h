@@ -29,3 +29,15 @@
 /// Words of one pixel. Word k of sum s is at k * FILM_PIXEL_SUMS + s: the sums of one magnitude, which a sample adds
 /// to together, share a cache line.
 #define FILM_PIXEL_WORDS(variance) (FILM_WORDS * FILM_PIXEL_SUMS(variance))
+
+/// Moves what exceeds a word's own range up to the next, so that equal sums have equal words: all but the top word end
+/// in [0, 2^step), the top word keeps the sign. `sum` numbers one of the `sums` (FILM_PIXEL_SUMS) of the pixel.
+DEVICE void film_carry_sum(GLOBAL long *pixel_words, uint sums, uint sum) {
+    const int step = sum < FILM_CHANNELS ? FILM_SUM_STEP : FILM_SQUARE_STEP;
+    for (uint word = 0; word + 1 < FILM_WORDS; ++word) {
+        GLOBAL long *low = pixel_words + word * sums + sum;
+        const long carry = *low >> step;  // arithmetic: rounds down
+        *low -= carry * (1L << step);
+        low[sums] += carry;
+    }
+}

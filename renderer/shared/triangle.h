@@ -11,11 +11,6 @@ typedef struct LeafTriangle {
     uint padding[2];
 } LeafTriangle;
 
-DEVICE float3 leaf_vertex(GLOBAL const LeafTriangle *triangle, uint vertex) {
-    return make_float3(triangle->coordinate[0][vertex], triangle->coordinate[1][vertex],
-                       triangle->coordinate[2][vertex]);
-}
-
 #ifdef __cplusplus
 static_assert(sizeof(LeafTriangle) == 48, "as in OpenCL C");
 static_assert(offsetof(LeafTriangle, id) == 36, "as in OpenCL C");

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 
-#include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/image.h"
+#include "renderer/tests/errors.h"
 
 namespace rtrays {
 namespace {
@@ -35,17 +35,6 @@ class Files : public testing::Test {
 };
 
 using Images = Files;
-
-template <typename Body>
-void expect_error(ExitCode code, const std::string &fragment, const Body &body) {
-    try {
-        body();
-        ADD_FAILURE() << "no error; expected one with " << fragment;
-    } catch (const Error &error) {
-        EXPECT_EQ(error.exit_code(), code) << error.what();
-        EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos) << error.what();
-    }
-}
 
 /// A disk that takes no more than `bytes` in a file: a write beyond fails as on a full one.
 class FullDisk {
@@ -110,8 +99,8 @@ TEST_F(Images, ExrKeepsEveryBitOfChannelsAndAttributes) {
 
 TEST_F(Images, ChannelsAreFoundByNameOnly) {
     Image image = Image::rgb(2, 2);
-    expect_error(ExitCode::bad_input, "no channel 'A'; it has: R, G, B", [&] { image.channel("A"); });
-    expect_error(ExitCode::run_failed, "already has a channel 'R'", [&] { image.add_channel("R"); });
+    expect_input_error("no channel 'A'; it has: R, G, B", [&] { image.channel("A"); });
+    expect_run_error("already has a channel 'R'", [&] { image.add_channel("R"); });
     EXPECT_EQ(rgb_names("variance"), (std::vector<std::string>{"variance.R", "variance.G", "variance.B"}));
 }
 
@@ -120,12 +109,12 @@ TEST_F(Images, DamagedExrIsAnErrorThatNamesIt) {
     const std::string whole = read_file(path("whole.exr"));
     for (size_t size = 0; size < whole.size(); size += size < 600 ? 11 : 197) {
         write_file(path("cut.exr"), whole.substr(0, size));
-        expect_error(ExitCode::bad_input, "cut.exr", [&] { read_exr(path("cut.exr")); });
+        expect_input_error("cut.exr", [&] { read_exr(path("cut.exr")); });
     }
     write_file(path("text.exr"), "not an image");
-    expect_error(ExitCode::bad_input, "text.exr: not a readable EXR", [&] { read_exr(path("text.exr")); });
-    expect_error(ExitCode::bad_input, "none.exr: no such file", [&] { read_exr(path("none.exr")); });
-    expect_error(ExitCode::bad_input, "", [&] { read_exr(path(".")); });
+    expect_input_error("text.exr: not a readable EXR", [&] { read_exr(path("text.exr")); });
+    expect_input_error("none.exr: no such file", [&] { read_exr(path("none.exr")); });
+    expect_input_error("not a readable EXR", [&] { read_exr(path(".")); });
 }
 
 TEST_F(Files, ReadAndWriteBytes) {
@@ -135,13 +124,17 @@ TEST_F(Files, ReadAndWriteBytes) {
     write_file(path("f"), "");
     EXPECT_EQ(read_file(path("f")), "");
     EXPECT_EQ(file_count(), 1u);
-    expect_error(ExitCode::bad_input, "none: cannot be read: No such file", [&] { read_file(path("none")); });
-    expect_error(ExitCode::bad_input, "is a directory", [&] { read_file(path(".")); });
+    expect_input_error("none: cannot be read: No such file", [&] { read_file(path("none")); });
+    expect_input_error("is a directory", [&] { read_file(path(".")); });
+    const fs::path unthinkable = path(std::string(5000, 'x'));  // no name may be that long: it cannot even be looked for
+    expect_input_error("cannot be read: File name too long", [&] { read_file(unthinkable); });
+    expect_input_error("cannot be written: File name too long", [&] { require_writable(unthinkable); });
+    expect_input_error("not a readable EXR", [&] { read_exr(unthinkable); });
 }
 
 TEST_F(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
     write_file(path("f"), "old");
-    expect_error(ExitCode::run_failed, "lost power", [&] {
+    expect_run_error("lost power", [&] {
         write_atomically(path("f"), [&](const fs::path &temporary) {
             write_file(temporary, "half");
             throw run_error("lost power");
@@ -157,9 +150,9 @@ TEST_F(Files, FullDiskIsAnErrorAndLeavesTheOldFile) {
     const std::string old_exr = read_file(path("f.exr"));
     {
         const FullDisk disk(4096);
-        expect_error(ExitCode::run_failed, "f: cannot be written: File too large",
+        expect_run_error("f: cannot be written: File too large",
                      [&] { write_file(path("f"), std::string(100000, 'x')); });
-        expect_error(ExitCode::run_failed, "f.exr: cannot be written",
+        expect_run_error("f.exr: cannot be written",
                      [&] { write_exr(test_image(64, 64), path("f.exr")); });
     }
     EXPECT_EQ(read_file(path("f")), "old");
@@ -170,12 +163,12 @@ TEST_F(Files, FullDiskIsAnErrorAndLeavesTheOldFile) {
 TEST_F(Files, UnwritablePlacesAreFoundBeforeARun) {
     // Not by permissions: tests may run as root.
     for (const fs::path &place : {path("no/such/folder/out.exr"), fs::path("/proc/out.exr")}) {
-        expect_error(ExitCode::bad_input, place.string() + ": cannot be written",
+        expect_input_error(place.string() + ": cannot be written",
                      [&] { require_writable(place); });
-        expect_error(ExitCode::run_failed, place.string(), [&] { write_file(place, "x"); });
-        expect_error(ExitCode::run_failed, place.string(), [&] { write_exr(test_image(2, 2), place); });
+        expect_run_error(place.string(), [&] { write_file(place, "x"); });
+        expect_run_error(place.string(), [&] { write_exr(test_image(2, 2), place); });
     }
-    expect_error(ExitCode::bad_input, "is a directory", [&] { require_writable(path(".")); });
+    expect_input_error("is a directory", [&] { require_writable(path(".")); });
     write_file(path("f"), "old");
     require_writable(path("f"));
     require_writable(path("new"));

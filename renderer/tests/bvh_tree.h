@@ -110,8 +110,8 @@ inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
                     const LeafTriangle &triangle = bvh.triangles[slot];
                     facts.leaf_ids.push_back(triangle.id);
                     for (uint32_t corner = 0; corner < 3; ++corner) {
-                        const float3 v = leaf_vertex(&triangle, corner);
-                        const Eigen::Vector3f p(v.x, v.y, v.z);
+                        const Eigen::Vector3f p(triangle.coordinate[0][corner], triangle.coordinate[1][corner],
+                                                triangle.coordinate[2][corner]);
                         if (p != mesh.vertex(triangle.id, corner)) {
                             fail("vertex differs from the mesh's");
                         }

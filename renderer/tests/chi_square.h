@@ -2,6 +2,7 @@
 // Chi-square goodness-of-fit of a sampler against its density.
 #pragma once
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstdint>
@@ -11,15 +12,15 @@
 
 namespace rtrays {
 
-/// p-value of Pearson's test of counts against expected counts. Cells expecting fewer than five are pooled; a
-/// sample in a cell that expects none rejects outright (p = 0).
+/// p-value of Pearson's test of counts against expected counts. Cells expecting fewer than five are pooled, with the
+/// smallest of the others where the pool itself expects fewer than five: no sample is left out. A sample in a cell
+/// that expects none rejects outright (p = 0).
 inline double chi_square_p(const std::vector<uint64_t> &observed, const std::vector<double> &expected) {
-    double statistic = 0, pooled_observed = 0, pooled_expected = 0;
-    int cells = 0;
-    const auto add = [&](double o, double e) {
-        statistic += (o - e) * (o - e) / e;
-        ++cells;
+    struct Cell {
+        double observed = 0, expected = 0;
     };
+    Cell pool;
+    std::vector<Cell> cells;
     for (size_t i = 0; i < observed.size(); ++i) {
         const auto o = static_cast<double>(observed[i]);
         if (expected[i] <= 0) {
@@ -27,19 +28,29 @@ inline double chi_square_p(const std::vector<uint64_t> &observed, const std::vec
                 return 0;
             }
         } else if (expected[i] < 5) {
-            pooled_observed += o;
-            pooled_expected += expected[i];
+            pool.observed += o;
+            pool.expected += expected[i];
         } else {
-            add(o, expected[i]);
+            cells.push_back({o, expected[i]});
         }
     }
-    if (pooled_expected >= 5) {
-        add(pooled_observed, pooled_expected);
+    if (pool.expected >= 5) {
+        cells.push_back(pool);
+    } else if (!cells.empty()) {
+        const auto smallest = std::min_element(
+            cells.begin(), cells.end(), [](const Cell &a, const Cell &b) { return a.expected < b.expected; });
+        smallest->observed += pool.observed;
+        smallest->expected += pool.expected;
     }
-    if (cells < 2) {
+    if (cells.size() < 2) {
         throw std::logic_error("chi-square needs two cells that expect five samples");
     }
-    return boost::math::cdf(boost::math::complement(boost::math::chi_squared(cells - 1), statistic));
+    double statistic = 0;
+    for (const Cell &cell : cells) {
+        statistic += (cell.observed - cell.expected) * (cell.observed - cell.expected) / cell.expected;
+    }
+    const boost::math::chi_squared distribution(static_cast<double>(cells.size()) - 1);
+    return boost::math::cdf(boost::math::complement(distribution, statistic));
 }
 
 /// Integral over the rectangle [x0, x1] x [y0, y1] by the midpoint rule on a fine grid.

@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The OpenCL layer: include resolver, program cache, argument checks, device choice.
-#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
-#include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/device/kernel.h"
+#include "renderer/tests/errors.h"
 
 namespace rtrays {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string error_of(const std::function<void()> &action) {
-    try {
-        action();
-    } catch (const Error &error) {
-        return error.what();
-    }
-    return "";
-}
 
 TEST(Source, ExpandsIncludesOnceWithLineDirectives) {
     const SourceOverlays files = {{"kernels/a.cl", "#include \"b.h\"\n#include \"kernels/b.h\"\nint a;\n"},
@@ -44,15 +34,17 @@ TEST(Source, ResolvesRelativeToTheIncludingFileFirst) {
 TEST(Source, NamesFileAndLineOfAMissingInclude) {
     const SourceOverlays files = {{"kernels/a.cl", "\n#include \"nowhere.h\"\n"}};
     EXPECT_NE(expand_source("kernels/a.cl", files).find("#error kernels/a.cl:2: include \"nowhere.h\""), std::string::npos);
-    EXPECT_NE(error_of([] { expand_source("kernels/none.cl"); }).find("kernels/none.cl"), std::string::npos);
+    expect_run_error("'kernels/none.cl' does not exist", [] { expand_source("kernels/none.cl"); });
+    expect_run_error("'kernels/none.cl' does not exist", [] { device_source("kernels/none.cl"); });
 }
 
 TEST(Source, CutsCycles) {
     const SourceOverlays files = {{"a.h", "#include \"b.h\"\nx\n"}, {"b.h", "#include \"a.h\"\ny\n"}};
-    EXPECT_NE(expand_source("a.h", files).find("y\n"), std::string::npos);
+    EXPECT_EQ(expand_source("a.h", files),
+              "#line 1 \"a.h\"\n#line 1 \"b.h\"\n#line 2 \"b.h\"\ny\n#line 2 \"a.h\"\nx\n");
 }
 
-/// A private cache directory, and one device for all tests here.
+/// A device and a cache directory of its own for every test.
 class Device : public testing::Test {
   protected:
     Device() : directory_(fs::temp_directory_path() / fs::path("rtrays_cache_" + std::to_string(getpid()))) {
@@ -89,11 +81,13 @@ TEST_F(Device, RunsAKernelWithCheckedArguments) {
     EXPECT_EQ(values.read(), (std::vector<uint32_t>{7, 8, 9, 10, 11}));
     EXPECT_EQ(device_.profiler().stages().at("test").launches, 1u);
 
-    EXPECT_NE(error_of([&] { kernel.bind({values, 5u}); }).find("takes 3 arguments, not 2"), std::string::npos);
-    EXPECT_NE(error_of([&] { kernel.bind({values, 5.0f, 3.0f}); }).find("argument 1 of kernel 'test' is 'uint', not 'float'"),
-              std::string::npos);
+    expect_run_error("takes 3 arguments, not 2", [&] { kernel.bind({values, 5u}); });
+    expect_run_error("argument 1 of kernel 'test' is 'uint', not 'float'", [&] { kernel.bind({values, 5.0f, 3.0f}); });
+    expect_run_error("there is no number 3", [&] { kernel.bind(3, 1.0f); });
     const Buffer<float> wrong(device_, "wrong", 5);
-    EXPECT_NE(error_of([&] { kernel.bind({wrong, 5u, 3.0f}); }).find("'uint*', not 'float*'"), std::string::npos);
+    expect_run_error("'uint*', not 'float*'", [&] { kernel.bind({wrong, 5u, 3.0f}); });
+    expect_run_error("buffer 'values' holds 5 items, not 4", [&] { values.write({1, 2, 3, 4}); });
+    expect_run_error("creating kernel 'none'", [&] { Kernel(program, "none", 8); });
 }
 
 TEST_F(Device, CachesProgramsByContent) {
@@ -128,20 +122,21 @@ TEST_F(Device, WorksWithoutAWritableCache) {
 }
 
 TEST_F(Device, ShowsTheBuildLogWithTheRealFileName) {
-    const std::string message =
-        error_of([&] { Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source("\n  undeclared = 1;")); });
+    const std::string message = error_of(ExitCode::run_failed, [&] {
+        Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source("\n  undeclared = 1;"));
+    });
     EXPECT_NE(message.find("kernels/test.cl:3"), std::string::npos) << message;
     EXPECT_NE(message.find("undeclared"), std::string::npos) << message;
 }
 
 TEST_F(Device, NamesTheDevicesWhenNoneMatches) {
-    const std::string message = error_of([] { DeviceContext("no such device"); });
+    const std::string message = error_of(ExitCode::bad_input, [] { DeviceContext("no such device"); });
     EXPECT_NE(message.find("'no such device'"), std::string::npos);
     EXPECT_NE(message.find(device_.info().name), std::string::npos);
 }
 
 TEST_F(Device, RefusesABufferBeyondTheDevice) {
-    EXPECT_NE(error_of([&] { Buffer<uint64_t>(device_, "huge", size_t{1} << 50); }).find("buffer 'huge'"), std::string::npos);
+    expect_run_error("buffer 'huge' needs", [&] { Buffer<uint64_t>(device_, "huge", size_t{1} << 50); });
 }
 
 }  // namespace

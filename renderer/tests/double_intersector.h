@@ -2,6 +2,8 @@
 // Brute force in double precision: the judge of what traversal finds.
 #pragma once
 
+#include <algorithm>
+
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/tests/bvh_meshes.h"
 
@@ -13,6 +15,7 @@ struct DoubleHit {
     double t = 0;          ///< where, in lengths of the direction; not finite for a parallel triangle
     double clearance = 0;  ///< least distance between the line and the lines of the three edges
     double cosine = 0;     ///< between the line and the normal, not negative
+    double shift = 0;      ///< length by which rounding may move a vertex across the ray in the float test
 };
 
 inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle, const Eigen::Vector3d &origin,
@@ -34,6 +37,10 @@ inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle, const Eig
     const Eigen::Vector3d normal = (v[1] - v[0]).cross(v[2] - v[0]);
     hit.t = normal.dot(v[0]) / normal.dot(direction);
     hit.cosine = std::abs(normal.dot(direction)) / (normal.norm() * direction.norm());
+    // 6 u E along each of the two axes (kernels/traversal/traversal_ray.h), u = 2^-24.
+    for (const Eigen::Vector3d &vertex : v) {
+        hit.shift = std::max(hit.shift, std::sqrt(2.0) * 6 * 0x1p-24 * vertex.cwiseAbs().maxCoeff());
+    }
     return hit;
 }
 
@@ -55,15 +62,18 @@ inline double distance_to_triangle(const Mesh &mesh, uint32_t triangle, const Ei
 }
 
 /// Whether a float hit (t, triangle; NO_HIT for none) is right within the tolerance, a length: its point lies
-/// on its triangle, and no triangle is crossed clearly (farther than a tenth of the tolerance from its edges)
-/// and clearly nearer. Where a ray meets a plane at a grazing angle, a shift of the vertices by their
-/// rounding in the ray's frame moves the crossing by that over the cosine; a tenth of the tolerance stands
-/// for the shift.
+/// on its triangle, and no triangle is crossed clearly and clearly nearer.
+///
+/// The float test is exact but for the rounding of the vertices in the ray's frame and, relative to the distance,
+/// of t: what it decides is right for a triangle whose vertices are moved across the ray by at most `shift`. That
+/// triangle is crossed for certain where the ray keeps farther than `shift` from the edges, and its plane is met up to
+/// shift / cosine from where the given one is. No bound without the cosine can hold for a test in floats: at 1e-5 from
+/// the plane (ray_sets.h) a change of one ulp of a vertex moves the crossing by 1e5 ulps.
 inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
                          float t, uint32_t triangle, double tolerance) {
     const Eigen::Vector3d o = origin.cast<double>(), d = direction.cast<double>();
     const auto slack = [&](const DoubleHit &hit) {
-        return (tolerance + 0.1 * tolerance / hit.cosine) / d.norm();
+        return (tolerance + hit.shift / hit.cosine) / d.norm();
     };
     double limit = INFINITY;
     if (triangle != NO_HIT) {
@@ -74,8 +84,7 @@ inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const 
     }
     for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const DoubleHit hit = intersect_double(mesh, i, o, d);
-        if (hit.crosses && hit.clearance > 0.1 * tolerance && hit.t > slack(hit) &&
-            hit.t + slack(hit) < limit) {
+        if (hit.crosses && hit.clearance > hit.shift && hit.t > slack(hit) && hit.t + slack(hit) < limit) {
             return false;
         }
     }

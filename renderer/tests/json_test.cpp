@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/base/json.h"
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
-#include "renderer/base/error.h"
+#include "renderer/tests/errors.h"
 
 namespace rtrays {
 namespace {
-
-/// The message of the bad-input error that `body` throws; fails the test when it throws none.
-template <typename Body>
-std::string input_error_of(const Body &body) {
-    try {
-        body();
-    } catch (const Error &error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
-        return error.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
-}
 
 struct BadText {
     const char *text;
@@ -31,7 +16,7 @@ struct BadText {
 class StrictSyntax : public testing::TestWithParam<BadText> {};
 
 TEST_P(StrictSyntax, NamesSourceLineAndPath) {
-    const std::string message = input_error_of([] { parse_json(GetParam().text, "in.json"); });
+    const std::string message = error_of(ExitCode::bad_input, [] { parse_json(GetParam().text, "in.json"); });
     EXPECT_EQ(message.rfind(GetParam().message, 0), 0u) << message;
 }
 
@@ -58,8 +43,7 @@ TEST(Json, RefusesNestingThatCouldExhaustTheStack) {
     const auto nested = [](size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
     EXPECT_NO_THROW(parse_json(nested(max_json_depth), "in.json"));
     for (const size_t depth : {max_json_depth + 1, size_t{1000000}}) {
-        const std::string message = input_error_of([&] { parse_json(nested(depth), "in.json"); });
-        EXPECT_NE(message.find("nested deeper than 256 levels"), std::string::npos) << message;
+        expect_input_error("nested deeper than 256 levels", [&] { parse_json(nested(depth), "in.json"); });
     }
 }
 
@@ -91,7 +75,7 @@ class Schema : public testing::TestWithParam<BadText> {};
 TEST_P(Schema, NamesPathFaultAndAlternatives) {
     const std::string text = GetParam().text;
     const Json document = parse_json(text, "in.json");
-    const std::string message = input_error_of([&] { validate_json(document, schema, "in.json", text); });
+    const std::string message = error_of(ExitCode::bad_input, [&] { validate_json(document, schema, "in.json", text); });
     EXPECT_EQ(message.rfind(GetParam().message, 0), 0u) << message;
 }
 

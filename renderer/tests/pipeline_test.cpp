@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The pipeline on the device: what is compiled, allocated and launched for a scene, and that it changes no bit.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "renderer/base/error.h"
 #include "renderer/device/context.h"
 #include "renderer/integrators/path_tracing.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
+#include "renderer/tests/errors.h"
 
 namespace rtrays {
 namespace {
@@ -96,7 +94,7 @@ TEST(Pipeline, ResumesAndMergesToTheSameBits) {
     merge_film(second, first);
     EXPECT_EQ(second.words, whole.words) << "merged";
 
-    EXPECT_THROW(session.render(3, 5), Error) << "samples rendered twice";
+    expect_input_error("samples 3:5 overlap 0:4", [&] { session.render(3, 5); });
     RenderSession other(cornell_box(), small({"integrator.beta=1"}), device());
     EXPECT_THROW(other.restore(first), Error) << "film of other settings";
 }
@@ -216,26 +214,22 @@ TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
 }
 
 TEST(Settings, NameTheAlternatives) {
-    const auto message = [](const std::string &assignment) {
+    for (const auto &[assignment, fragment] :
+         {std::pair("integrator.strategies=both", "implicit, explicit, mis"),
+          std::pair("integrator.strategy=mis", "integrator.strategies"), std::pair("integrator.max_depth=-1", "number"),
+          std::pair("integrator.max_depth=3x", "number"), std::pair("integrator.beta=nan", "number"),
+          std::pair("integrator.beta=0", "above 0"), std::pair("integrator.beta", "NAME=VALUE")}) {
         RenderSettings settings;
-        try {
-            apply_setting(settings, assignment);
-        } catch (const Error &error) {
-            EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    EXPECT_NE(message("integrator.strategies=both").find("implicit, explicit, mis"), std::string::npos);
-    EXPECT_NE(message("integrator.strategy=mis").find("integrator.strategies"), std::string::npos);
-    EXPECT_NE(message("integrator.max_depth=-1").find("number"), std::string::npos);
-    EXPECT_NE(message("integrator.max_depth=3x").find("number"), std::string::npos);
-    EXPECT_NE(message("integrator.beta=nan").find("number"), std::string::npos);
-    EXPECT_NE(message("integrator.beta=0").find("above 0"), std::string::npos);
-    EXPECT_NE(message("integrator.beta").find("NAME=VALUE"), std::string::npos);
-    RenderSettings fixed;
-    fixed.termination = "fixed";
-    EXPECT_THROW(require_consistent(fixed), Error);
+        expect_input_error(fragment, [&, text = assignment] { apply_setting(settings, text); });
+    }
+    RenderSettings settings;
+    EXPECT_NO_THROW(require_consistent(settings));
+    settings.termination = "fixed";
+    expect_input_error("integrator.max_depth", [&] { require_consistent(settings); });
+    settings.termination = "sudden";
+    expect_input_error("roulette, fixed, adaptive", [&] { require_consistent(settings); });
+    settings.algorithm = "magic";
+    expect_input_error("no algorithm 'magic'; there are: path_tracing", [&] { require_consistent(settings); });
 }
 
 }  // namespace

@@ -2,14 +2,13 @@
 // Fuzzed rays over a mesh: random, grazing its triangles, and along the axes through its vertices.
 #pragma once
 
-#include "renderer/kernels/traversal/trace_records.h"
+#include "renderer/kernels/traversal/ray_record.h"
 #include "renderer/tests/bvh_meshes.h"
 
 namespace rtrays::test {
 
-inline RayRecord make_ray(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
-                          float t_max = INFINITY) {
-    return {{origin.x(), origin.y(), origin.z()}, t_max, {direction.x(), direction.y(), direction.z()}, 0};
+inline RayRecord make_ray(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction) {
+    return {{origin.x(), origin.y(), origin.z()}, INFINITY, {direction.x(), direction.y(), direction.z()}, 0};
 }
 
 inline Eigen::Vector3f ray_origin(const RayRecord &ray) {

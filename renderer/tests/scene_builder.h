@@ -2,12 +2,9 @@
 // Small scene graphs for tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <memory>
 #include <string>
 
-#include "renderer/base/error.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/light.h"
 #include "renderer/scene/cores/material.h"
@@ -15,6 +12,7 @@
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/cores/visibility.h"
 #include "renderer/scene/graph.h"
+#include "renderer/tests/errors.h"
 
 namespace rtrays {
 
@@ -41,19 +39,6 @@ inline std::shared_ptr<MeshCore> unit_square(const std::string &name = "square")
 
 inline std::shared_ptr<TransformCore> moved(double x, double y, double z) {
     return std::make_shared<TransformCore>("", translation({x, y, z}));
-}
-
-/// Expects that `body` throws the error of bad input with this in its message.
-template <typename Body>
-void expect_input_error(const std::string &fragment, const Body &body) {
-    try {
-        body();
-        ADD_FAILURE() << "no error; expected one with: " << fragment;
-    } catch (const Error &error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::bad_input) << error.what();
-        EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos)
-            << "message:  " << error.what() << "\nexpected: " << fragment;
-    }
 }
 
 /// Every index of the serialized scene is valid and every record belongs to one object: what readers rely on.

@@ -105,9 +105,16 @@ TEST(SceneJson, FarScenesAreMovedToTheOriginInDouble) {
 }
 
 struct BadScene {
-    const char *nodes;    ///< beside a legal camera, material and geometry
+    std::string nodes;    ///< beside a legal camera, material and geometry
     const char *message;  ///< fragment
 };
+
+const std::string three_vertices = "[[0,0,0],[1,0,0],[0,1,0]]";
+
+std::string mesh_node(const std::string &vertices, const std::string &polygons) {
+    return R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": )" + vertices +
+           R"(, "polygons": )" + polygons + "}}";
+}
 
 class BadScenes : public testing::TestWithParam<BadScene> {};
 
@@ -152,37 +159,22 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"name": "a", "material": "white", "light": {"type": "diffuse_area", "radiance": [1, 1, 1]},
                      "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[2,0,0]], "polygons": [[0,1,2]]}})",
             "light 'a': its mesh has no area"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,null,0]], "polygons": [[0,1,2]]}})",
-            "/nodes/1/geometry/vertices/2/1 (in 'a'): null is not of type number"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1e999,0,0],[0,1,0]], "polygons": [[0,1,2]]}})",
-            "/nodes/1/geometry/vertices/1/0 (in 'a'): number overflow"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[NaN,0,0],[0,1,0]], "polygons": [[0,1,2]]}})",
-            "/nodes/1/geometry/vertices/1/0 (in 'a'): syntax error"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1e39,0,0],[0,1,0]], "polygons": [[0,1,2]]}})",
-            "mesh 'a': vertex 1, [1e+39, 0, 0], is beyond the range of float"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,3]]}})",
-            "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex 3, but there are only 3 "
-            "vertices"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,4294967296]]}})",
-            "has vertex 4294967296, but"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,-1]]}})",
-            "/nodes/1/geometry/polygons/0/2 (in 'a'): -1"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,1.5]]}})",
-            "1.5 is not of type integer"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1]]}})",
-            "/nodes/1/geometry/polygons/0"},
-        BadScene{
-            R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": [], "polygons": []}})",
-            "mesh 'a' has no triangle"},
+        BadScene{mesh_node("[[0,0,0],[1,0,0],[0,null,0]]", "[[0,1,2]]"),
+                 "/nodes/1/geometry/vertices/2/1 (in 'a'): null is not of type number"},
+        BadScene{mesh_node("[[0,0,0],[1e999,0,0],[0,1,0]]", "[[0,1,2]]"),
+                 "/nodes/1/geometry/vertices/1/0 (in 'a'): number overflow"},
+        BadScene{mesh_node("[[0,0,0],[NaN,0,0],[0,1,0]]", "[[0,1,2]]"),
+                 "/nodes/1/geometry/vertices/1/0 (in 'a'): syntax error"},
+        BadScene{mesh_node("[[0,0,0],[1e39,0,0],[0,1,0]]", "[[0,1,2]]"),
+                 "mesh 'a': vertex 1, [1e+39, 0, 0], is beyond the range of float"},
+        BadScene{mesh_node(three_vertices, "[[0,1,3]]"),
+                 "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex 3, but there are only "
+                 "3 vertices"},
+        BadScene{mesh_node(three_vertices, "[[0,1,4294967296]]"), "has vertex 4294967296, but"},
+        BadScene{mesh_node(three_vertices, "[[0,1,-1]]"), "/nodes/1/geometry/polygons/0/2 (in 'a'): -1"},
+        BadScene{mesh_node(three_vertices, "[[0,1,1.5]]"), "1.5 is not of type integer"},
+        BadScene{mesh_node(three_vertices, "[[0,1]]"), "/nodes/1/geometry/polygons/0"},
+        BadScene{mesh_node("[]", "[]"), "mesh 'a' has no triangle"},
         BadScene{
             R"({"name": "a", "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,1,0],[1,0,0],[0,2,0]], "polygons": [[0,1,2,3]]}})",
             "mesh 'a': polygon 0 crosses itself"},

@@ -97,8 +97,12 @@ TEST(TraversalHits, DeviceFindsWhatTheHostFinds) {
         const Bvh bvh = BvhBuilder(device).build(mesh.positions, mesh.triangles);
         const HostBvh host(bvh);
         std::vector<RayRecord> rays = fuzzed_rays(mesh, 100001, 7);
+        Random random(3);
+        for (size_t i = 0; i < rays.size(); i += 2) {
+            rays[i].t_max = uniform(random, 0, 1.5f * mesh.box().diagonal().norm());
+        }
         const Buffer<RayRecord> ray_buffer(device, "test rays", rays);
-        const Buffer<HitRecord> hit_buffer(device, "test hits", rays.size());
+        const Buffer<Hit> hit_buffer(device, "test hits", rays.size());
         const Buffer<uint32_t> occluded_buffer(device, "test occlusion", rays.size());
         const auto count = static_cast<uint32_t>(rays.size());
         Kernel nearest(program, "trace_nearest_rays", 64);
@@ -108,14 +112,15 @@ TEST(TraversalHits, DeviceFindsWhatTheHostFinds) {
         any.bind({bvh.nodes(), bvh.triangles(), ray_buffer, count, occluded_buffer});
         any.enqueue(count);
         device.finish();
-        const std::vector<HitRecord> hits = hit_buffer.read();
+        const std::vector<Hit> hits = hit_buffer.read();
         const std::vector<uint32_t> occluded = occluded_buffer.read();
         for (size_t i = 0; i < rays.size(); ++i) {
-            const Hit expected = host.nearest(ray_origin(rays[i]), ray_direction(rays[i]));
+            const Hit expected = host.nearest(ray_origin(rays[i]), ray_direction(rays[i]), rays[i].t_max);
             ASSERT_EQ(hits[i].triangle, expected.triangle) << i;
             ASSERT_EQ(hits[i].t, expected.t) << i;
             ASSERT_EQ(hits[i].u, expected.u) << i;
             ASSERT_EQ(hits[i].v, expected.v) << i;
+            ASSERT_EQ(hits[i].slot, expected.slot) << i;
             ASSERT_EQ(occluded[i] != 0, expected.triangle != NO_HIT) << i;
         }
     }

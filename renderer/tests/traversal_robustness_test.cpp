@@ -2,10 +2,13 @@
 // Watertightness, self-hits and leaks, on the shipped device functions compiled for the host.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "renderer/kernels/geometry/surface_point.h"
 #include "renderer/tests/bvh_tree.h"
+#include "renderer/tests/double_intersector.h"
 
 namespace rtrays {
 namespace {
@@ -95,6 +98,22 @@ TEST(EdgeFunction, HasTheExactSign) {
     }
 }
 
+LeafTriangle leaf_of(const Eigen::Vector3f &a, const Eigen::Vector3f &b, const Eigen::Vector3f &c) {
+    LeafTriangle leaf{};
+    for (int axis = 0; axis < 3; ++axis) {
+        leaf.coordinate[axis][0] = a[axis];
+        leaf.coordinate[axis][1] = b[axis];
+        leaf.coordinate[axis][2] = c[axis];
+    }
+    return leaf;
+}
+
+/// Weights of vertices 1 and 2 of a point of a triangle, uniform by area.
+std::pair<float, float> uniform_weights(Random &random) {
+    const float u = uniform(random), v = uniform(random);
+    return u + v > 1 ? std::pair(1 - u, 1 - v) : std::pair(u, v);
+}
+
 /// Rays leaving a random point of each of 1000 triangles: scales 1e-6 to 1e6, far from the origin, slivers.
 TEST(SelfHit, SingleTriangles) {
     Random random(4);
@@ -117,21 +136,12 @@ TEST(SelfHit, SingleTriangles) {
         } else {
             mesh.add_triangle(a, b, c);
         }
-        LeafTriangle leaf{};
-        for (uint32_t corner = 0; corner < 3; ++corner) {
-            for (int axis = 0; axis < 3; ++axis) {
-                leaf.coordinate[axis][corner] = mesh.positions[corner][axis];
-            }
-        }
+        const LeafTriangle leaf = leaf_of(mesh.positions[0], mesh.positions[1], mesh.positions[2]);
         const float3 lower = to_float3(mesh.box().min()), upper = to_float3(mesh.box().max());
         for (int i = 0; i < 1000; ++i, ++rays) {
-            float u = uniform(random), v = uniform(random);
-            if (u + v > 1) {
-                u = 1 - u;
-                v = 1 - v;
-            }
-            const SurfacePoint point =
-                surface_point(leaf_vertex(&leaf, 0), leaf_vertex(&leaf, 1), leaf_vertex(&leaf, 2), u, v);
+            const auto [u, v] = uniform_weights(random);
+            const SurfacePoint point = surface_point(to_float3(mesh.positions[0]), to_float3(mesh.positions[1]),
+                                                     to_float3(mesh.positions[2]), u, v);
             Eigen::Vector3f d = uniform_direction(random);
             if (i % 4 == 0) {  // grazing
                 const Eigen::Vector3f normal(point.normal.x, point.normal.y, point.normal.z);
@@ -150,9 +160,10 @@ TEST(SelfHit, SingleTriangles) {
     EXPECT_EQ(self_hits, 0);
 }
 
-/// Where a secondary ray starts: a random point of the mesh, uniform by area.
+/// Where a secondary ray starts: a random point of the mesh, uniform by area or within 1e-3 of an edge.
 struct Departure {
     uint32_t triangle;
+    float u, v;  ///< weights of vertices 1 and 2
     SurfacePoint point;
 };
 
@@ -161,16 +172,11 @@ Departure depart(const Mesh &mesh, const std::vector<double> &sums, bool near_ed
     const auto triangle = static_cast<uint32_t>(
         std::min<size_t>(static_cast<size_t>(std::upper_bound(sums.begin(), sums.end(), pick) - sums.begin()),
                          sums.size() - 1));
-    float u = uniform(random), v = uniform(random);
-    if (u + v > 1) {
-        u = 1 - u;
-        v = 1 - v;
-    }
-    if (near_edge) {
-        u *= 1e-3f;
-    }
-    return {triangle, surface_point(to_float3(mesh.vertex(triangle, 0)), to_float3(mesh.vertex(triangle, 1)),
-                                    to_float3(mesh.vertex(triangle, 2)), u, v)};
+    const auto [weight, v] = uniform_weights(random);
+    const float u = near_edge ? 1e-3f * weight : weight;
+    return {triangle, u, v,
+            surface_point(to_float3(mesh.vertex(triangle, 0)), to_float3(mesh.vertex(triangle, 1)),
+                          to_float3(mesh.vertex(triangle, 2)), u, v)};
 }
 
 std::vector<double> area_sums(const Mesh &mesh) {
@@ -183,57 +189,102 @@ std::vector<double> area_sums(const Mesh &mesh) {
     return sums;
 }
 
-struct SecondaryCounts {
-    int self_hits = 0, hits = 0, misses = 0;
+/// A ray that hit nothing.
+struct Escape {
+    Departure start;
+    float3 origin;  ///< of the ray, moved off the surface
+};
+
+struct Secondary {
+    int self_hits = 0;
+    std::vector<Escape> escapes;
 };
 
 /// Diffuse secondary rays on one side of the surface: `side` +1 along the normals, -1 against them.
-SecondaryCounts trace_secondary(const Mesh &mesh, float side, int rays, bool near_edges) {
+Secondary trace_secondary(const Mesh &mesh, float side, int rays, bool near_edges) {
     const HostBvh bvh = build_bvh(mesh);
     const std::vector<double> sums = area_sums(mesh);
     Random random(21);
-    SecondaryCounts counts;
+    Secondary result;
     for (int i = 0; i < rays; ++i) {
         const Departure start = depart(mesh, sums, near_edges, random);
         const Eigen::Vector3f normal(start.point.normal.x, start.point.normal.y, start.point.normal.z);
         const Eigen::Vector3f direction = (side * normal + 0.9999f * uniform_direction(random)).normalized();
         const float3 origin = offset_ray_origin(start.point, to_float3(direction));
         const Hit hit = bvh.nearest({origin.x, origin.y, origin.z}, direction);
-        counts.self_hits += hit.triangle == start.triangle ? 1 : 0;
-        counts.hits += hit.triangle != NO_HIT ? 1 : 0;
-        counts.misses += hit.triangle == NO_HIT ? 1 : 0;
+        result.self_hits += hit.triangle == start.triangle ? 1 : 0;
+        if (hit.triangle == NO_HIT) {
+            result.escapes.push_back({start, origin});
+        }
     }
-    return counts;
+    return result;
 }
 
 TEST(Secondary, NoSelfHitAndNoLeakInAClosedRoom) {
     Mesh box{"box", {}, {}};
     box.add_box({0, 0, 0}, {552.8f, 548.8f, 559.2f});
     for (const bool near_edges : {false, true}) {
-        const SecondaryCounts inside = trace_secondary(box, -1.0f, million / 2, near_edges);
+        const Secondary inside = trace_secondary(box, -1.0f, million / 2, near_edges);
         EXPECT_EQ(inside.self_hits, 0);
-        EXPECT_EQ(inside.misses, 0);
-        const SecondaryCounts outside = trace_secondary(box, 1.0f, million / 4, near_edges);
-        EXPECT_EQ(outside.hits, 0) << "a convex body does not shadow itself";
+        EXPECT_EQ(inside.escapes.size(), 0u);
+        const Secondary outside = trace_secondary(box, 1.0f, million / 4, near_edges);
+        EXPECT_EQ(outside.escapes.size(), size_t{million / 4}) << "a convex body does not shadow itself";
     }
 }
 
 TEST(Secondary, NoSelfHitAndNoLeakInAClosedSphere) {
     for (const float radius : {1e-6f, 1.0f, 1e6f}) {
-        const SecondaryCounts counts =
+        const Secondary rays =
             trace_secondary(sphere(40, 80, radius, 0.02f, {0, 0, 0}), -1.0f, million / 3, false);
-        EXPECT_EQ(counts.self_hits, 0) << radius;
-        EXPECT_EQ(counts.misses, 0) << radius;
+        EXPECT_EQ(rays.self_hits, 0) << radius;
+        EXPECT_EQ(rays.escapes.size(), 0u) << radius;
     }
 }
 
-/// Within 1e-3 of the edges of a crumpled sphere the offset, some 1e-6 of the coordinates, sometimes passes
-/// through the next face of an acute fold: no offset of float positions can exclude it.
-TEST(Secondary, LeaksAtAcuteFoldsAreRare) {
-    const SecondaryCounts counts =
-        trace_secondary(sphere(40, 80, 1.0f, 0.02f, {0, 0, 0}), -1.0f, million, true);
-    EXPECT_EQ(counts.self_hits, 0);
-    EXPECT_LE(counts.misses, 20);
+/// From the exact point of the triangle to the origin of the ray.
+Eigen::Vector3d step_off_the_surface(const Mesh &mesh, const Escape &escape) {
+    const Departure &start = escape.start;
+    const double u = static_cast<double>(start.u), v = static_cast<double>(start.v);
+    return Eigen::Vector3d(escape.origin.x, escape.origin.y, escape.origin.z) -
+           (1 - u - v) * mesh.vertex(start.triangle, 0).cast<double>() -
+           u * mesh.vertex(start.triangle, 1).cast<double>() - v * mesh.vertex(start.triangle, 2).cast<double>();
+}
+
+/// Whether that step leads through another triangle, in double.
+bool leads_through_a_fold(const Mesh &mesh, const Escape &escape) {
+    const Eigen::Vector3d step = step_off_the_surface(mesh, escape);
+    const Eigen::Vector3d point = Eigen::Vector3d(escape.origin.x, escape.origin.y, escape.origin.z) - step;
+    for (uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+        const DoubleHit hit = intersect_double(mesh, triangle, point, step);
+        if (triangle != escape.start.triangle && hit.crosses && hit.t >= 0 && hit.t <= 1) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Rays from within 1e-3 of the edges of a crumpled sphere, whose faces meet at acute angles near its poles. Zero leaks,
+/// as of the spheres and the room above, cannot be had here: an origin must leave its face by the offset h, the error of
+/// its own position and of the next triangle test, or the face is hit again; but h off the face and nearer than
+/// h / tan(angle) to the edge it is beyond the other face of the fold already, where nothing stops the ray. What
+/// can be had, and must: every leak is such a start, and h stays below 1e-6 of the coordinates: with coordinates of
+/// 1 and triangles of 0.1, gamma(7) + 16 u 0.1 = 5.2e-7 along each axis (surface_point.h), sqrt(3) times that in all.
+TEST(Secondary, OnlyFoldsThinnerThanTheOffsetLeak) {
+    const Mesh mesh = sphere(40, 80, 1.0f, 0.02f, {0, 0, 0});
+    const Secondary rays = trace_secondary(mesh, -1.0f, million, true);
+    EXPECT_EQ(rays.self_hits, 0);
+    RecordProperty("leaks_of_1e6", static_cast<int>(rays.escapes.size()));
+    for (const Escape &escape : rays.escapes) {
+        EXPECT_LT(step_off_the_surface(mesh, escape).norm(), 1e-6);
+        EXPECT_TRUE(leads_through_a_fold(mesh, escape));
+    }
+
+    // The judge excuses no start in the middle of a face.
+    const uint32_t triangle = 1000;
+    const SurfacePoint middle = surface_point(to_float3(mesh.vertex(triangle, 0)), to_float3(mesh.vertex(triangle, 1)),
+                                              to_float3(mesh.vertex(triangle, 2)), 0.25f, 0.25f);
+    EXPECT_FALSE(leads_through_a_fold(
+        mesh, {{triangle, 0.25f, 0.25f, middle}, offset_ray_origin(middle, -middle.normal)}));
 }
 
 TEST(BadRays, HitNothing) {
@@ -263,15 +314,10 @@ TEST(BadTriangles, AreNeverHit) {
     const float infinity = std::numeric_limits<float>::infinity();
     Random random(9);
     for (int i = 0; i < 100000; ++i) {
-        LeafTriangle leaf{};
         const Eigen::Vector3f v[3] = {uniform_direction(random), uniform_direction(random),
                                       uniform_direction(random)};
-        for (int corner = 0; corner < 3; ++corner) {
-            for (int axis = 0; axis < 3; ++axis) {
-                // Even: one coordinate not finite; odd: two vertices coincide.
-                leaf.coordinate[axis][corner] = v[i % 2 == 1 ? corner / 2 : corner][axis];
-            }
-        }
+        // Even: one coordinate not finite; odd: two vertices coincide.
+        LeafTriangle leaf = i % 2 == 0 ? leaf_of(v[0], v[1], v[2]) : leaf_of(v[0], v[0], v[1]);
         if (i % 2 == 0) {
             leaf.coordinate[i / 2 % 3][i / 6 % 3] = i % 4 == 0 ? nan : infinity;
         }

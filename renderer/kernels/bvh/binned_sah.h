@@ -19,7 +19,7 @@ DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
         const float extent = bounds->centroids[1][axis] - bounds->centroids[0][axis];
         binning.lower[axis] = bounds->centroids[0][axis];
         binning.scale[axis] =
-            extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;  // below, 16 / extent overflows
+            extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;  // far above where 16 / extent overflows
     }
     return binning;
 }

@@ -13,24 +13,17 @@ typedef struct PendingRange {
     RangeBounds bounds;
 } PendingRange;
 
-static void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds, uint link) {
-    for (uint axis = 0; axis < 3; ++axis) {
-        node->bounds[side][0][axis] = bounds->box[0][axis];
-        node->bounds[side][1][axis] = bounds->box[1][axis];
-    }
-    node->child[side] = link;
-    node->padding[side] = 0;
-}
-
-/// Stable partition of [begin, end): the left part stays in `primitives`, the right one waits in `scratch`.
-static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef *scratch, uint begin,
-                            uint end, PRIVATE const Split *split, PRIVATE const Binning *binning,
-                            PRIVATE RangeBounds *left_bounds, PRIVATE RangeBounds *right_bounds) {
+/// Stable partition of a range: the left part stays in `primitives`, the right one waits in `scratch`.
+static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef *scratch,
+                            PRIVATE const PendingRange *range, PRIVATE const Split *split,
+                            PRIVATE const Binning *binning, PRIVATE RangeBounds *left_bounds,
+                            PRIVATE RangeBounds *right_bounds) {
     *left_bounds = empty_bounds();
     *right_bounds = empty_bounds();
+    const uint begin = range->begin;
     uint left = begin;
     uint right = begin;
-    for (uint i = begin; i < end; ++i) {
+    for (uint i = begin; i < range->end; ++i) {
         const PrimitiveRef ref = primitives[i];
         if (goes_left(split, binning, &ref, i - begin)) {
             primitives[left] = ref;
@@ -102,8 +95,7 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
         const Split split = split_range(primitives, &range, &binning);
         PendingRange left = range;
         PendingRange right = range;
-        partition_range(primitives, scratch, range.begin, range.end, &split, &binning, &left.bounds,
-                        &right.bounds);
+        partition_range(primitives, scratch, &range, &split, &binning, &left.bounds, &right.bounds);
         const uint node = node_count;
         ++node_count;
         if (range.parent != BVH_NO_PARENT) {

@@ -21,15 +21,10 @@ __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subt
     BuildState total = *state;
     const bool root_is_leaf = total.top_node_count == 0 && subtrees[0].node_count == 0;
     if (root_is_leaf) {
-        for (uint axis = 0; axis < 3; ++axis) {
-            top_nodes[0].bounds[0][0][axis] = subtrees[0].bounds.box[0][axis];
-            top_nodes[0].bounds[0][1][axis] = subtrees[0].bounds.box[1][axis];
-            top_nodes[0].bounds[1][0][axis] = INFINITY;
-            top_nodes[0].bounds[1][1][axis] = -INFINITY;
-        }
-        top_nodes[0].child[0] = bvh_leaf(0, total.primitive_count);
-        top_nodes[0].child[1] = BVH_EMPTY_LEAF;
-        top_nodes[0].padding[0] = top_nodes[0].padding[1] = 0;
+        const RangeBounds all = subtrees[0].bounds;
+        const RangeBounds nothing = empty_bounds();
+        write_child(top_nodes, 0, &all, bvh_leaf(0, total.primitive_count));
+        write_child(top_nodes, 1, &nothing, BVH_EMPTY_LEAF);
         total.top_node_count = 1;
     }
     total.node_count = total.top_node_count;

@@ -43,8 +43,8 @@ DEVICE void merge_bounds(PRIVATE RangeBounds *bounds, GLOBAL const RangeBounds *
     }
 }
 
-/// 1 / the largest side of the box, by which areas are scaled before they are formed; 1 for an empty or
-/// flat-out pointlike box.
+/// 1 / the largest side of the box, by which areas are scaled before they are formed, so that none overflows;
+/// 1 for an empty box or a point.
 DEVICE float inverse_extent(PRIVATE const RangeBounds *bounds) {
     float extent = 0.0f;
     for (uint axis = 0; axis < 3; ++axis) {
@@ -61,7 +61,18 @@ DEVICE float half_area(float dx, float dy, float dz, float scale) {
     return x >= 0.0f ? x * y + y * z + z * x : 0.0f;
 }
 
+/// The same of a range's box.
 DEVICE float half_area_of(PRIVATE const RangeBounds *bounds, float scale) {
     return half_area(bounds->box[1][0] - bounds->box[0][0], bounds->box[1][1] - bounds->box[0][1],
                      bounds->box[1][2] - bounds->box[0][2], scale);
+}
+
+/// Child `side` of a node: the box of its range, and its link (bvh_node.h).
+DEVICE void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds, uint link) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        node->bounds[side][0][axis] = bounds->box[0][axis];
+        node->bounds[side][1][axis] = bounds->box[1][axis];
+    }
+    node->child[side] = link;
+    node->padding[side] = 0;
 }

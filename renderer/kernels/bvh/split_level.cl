@@ -118,15 +118,11 @@ __kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *ta
             for (uint chunk = task.first_chunk; chunk < task.first_chunk + task.chunk_count; ++chunk) {
                 merge_bounds(&bounds, &chunks[chunk].bounds[side]);
             }
-            for (uint axis = 0; axis < 3; ++axis) {
-                nodes[task.node].bounds[side][0][axis] = bounds.box[0][axis];
-                nodes[task.node].bounds[side][1][axis] = bounds.box[1][axis];
-            }
-            nodes[task.node].child[side] =
+            const uint link =
                 emit_range(&next, next_tasks, next_chunks, subtrees, chunk_size, subtree_size,
                            side == 0 ? task.begin : middle, side == 0 ? middle : task.end, task.depth + 1u,
                            task.node, side, buffer, &bounds);
-            nodes[task.node].padding[side] = 0;
+            write_child(nodes + task.node, side, &bounds, link);
         }
     }
     *state = next;

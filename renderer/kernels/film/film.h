@@ -62,15 +62,3 @@ DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
 #endif
     return 0u;
 }
-
-/// Moves what exceeds a word's own range up to the next, so that equal sums have equal words: all but the top word end
-/// in [0, 2^step), the top word keeps the sign. `sum` numbers the sums of the pixel.
-DEVICE void film_carry_sum(GLOBAL long *pixel_words, uint sum) {
-    const int step = sum < FILM_CHANNELS ? FILM_SUM_STEP : FILM_SQUARE_STEP;
-    for (int word = 0; word + 1 < FILM_WORDS; ++word) {
-        GLOBAL long *low = pixel_words + word * PIXEL_SUMS + sum;
-        const long carry = *low >> step;  // arithmetic: rounds down
-        *low -= carry << step;
-        low[PIXEL_SUMS] += carry;
-    }
-}

@@ -13,15 +13,19 @@
 #include "renderer/kernels/traversal/traversal_ray.h"
 #include "renderer/shared/triangle.h"
 
-/// The nearest intersection of a ray.
+/// The nearest intersection of a ray. Where nothing was hit, t is the query's t_max.
 typedef struct Hit {
     float t;        ///< distance in lengths of the direction
     float u, v;     ///< weights of vertices 1 and 2; vertex 0 weighs 1 - u - v
     uint triangle;  ///< index in the scene's list of triangles, NO_HIT when nothing was hit
-    uint slot;      ///< index in leaf order
+    uint slot;      ///< index in leaf order, NO_HIT when nothing was hit
 } Hit;
 
 #define NO_HIT 0xffffffffu
+
+#ifdef __cplusplus
+static_assert(sizeof(Hit) == 20, "as in OpenCL C");
+#endif
 
 /// ax * by - ay * bx to 1.5 ulp of the result, hence with the exact sign (Kahan's difference of products;
 /// C.-P. Jeannerod, N. Louvet, J.-M. Muller, Math. Comp. 82, 2013), as long as no product underflows.
@@ -33,9 +37,10 @@ DEVICE float edge_function(float ax, float ay, float bx, float by) {
 
 /// True when the ray meets the triangle, from either side, at 0 < t < t_max; then sets t, u and v of `hit`.
 /// A triangle with a NaN or infinite coordinate is never hit, nor one that is a line or a point in the ray's
-/// frame. The error of t is at most about 16 u (E + S / cos), where E is the largest distance from the origin
-/// to a vertex, S the triangle's size and cos that between its normal and the ray: for positions use the
-/// barycentrics (kernels/geometry/surface_point.h).
+/// frame. The error of t, as a length, is at most about u E (9 / cos + 12), where u = 2^-24, E is the largest
+/// distance from the origin to a vertex and cos that between its normal and the ray: the vertices' rounding
+/// across the ray, 6 u E on two axes (traversal_ray.h), tilts or shifts the plane, and t itself is rounded. For
+/// positions use the barycentrics (kernels/geometry/surface_point.h).
 DEVICE bool intersect_triangle(GLOBAL const LeafTriangle *triangle, PRIVATE const TraversalRay *ray,
                                float t_max, PRIVATE Hit *hit) {
     GLOBAL const float *xs = triangle->coordinate[ray->kx];

@@ -11,13 +11,6 @@ typedef struct RayRecord {
     uint padding;
 } RayRecord;
 
-/// Its nearest hit: `triangle` is NO_HIT, and t = t_max, when there is none.
-typedef struct HitRecord {
-    float t;
-    float u, v;
-    uint triangle;
-} HitRecord;
-
 #ifdef __cplusplus
-static_assert(sizeof(RayRecord) == 32 && sizeof(HitRecord) == 16, "as in OpenCL C");
+static_assert(sizeof(RayRecord) == 32, "as in OpenCL C");
 #endif
