@@ -108,24 +108,37 @@ typedef struct TriangleUv {
     float uv[3][2];
 } TriangleUv;
 
-/// A surface that is not made of triangles.
+/// A surface that is not made of triangles, in the object space of the record: that of ShapeArrays, but for the cone,
+/// whose apex is the origin here.
 typedef struct ShapeRecord {
-    float world_from_object[3][4];
-    float object_from_world[3][4];
-    uint kind;              ///< SHAPE_QUADRIC or SHAPE_JULIA
+    float world_from_object[3][4];  ///< affine; the last column is where the origin goes
+    float object_from_world[3][3];  ///< inverse of its linear part
+    uint kind;                      ///< SHAPE_QUADRIC or SHAPE_JULIA
     uint material;
-    uint light;             ///< index into the lights, NO_EMITTER when it emits nothing
-    uint iterations;        ///< of a Julia set
-    // Quadric: the surface a (x^2 + y^2) + b z^2 + c z + d = 0 with z in [z_lower, z_upper], x^2 + y^2 <= radius2.
-    // Julia set: its constant in (a, b, c, d), the fourth coordinate of the slice in z_lower.
+    uint light;       ///< index into the lights, NO_EMITTER when it emits nothing
+    uint iterations;  ///< of a Julia set
+    // Quadric: the surface a (x^2 + y^2) + b z^2 + c z + d = 0 with z in [z_lower, z_upper].
+    // Julia set: its constant in (a, b, c, d), the fourth coordinate of the slice in z_lower, and in z_upper the
+    // modulus from which iterates never come back, at least 4.
     float a, b, c, d;
     float z_lower, z_upper;
-    float radius2;
-    uint uv_kind;           ///< ShapeArrays::Kind: decides (u, v)
+    float bound2;  ///< x^2 + y^2 + z^2 of the surface's points is at most this (which clips a disc)
+    uint uv_kind;  ///< SHAPE_UV_*
+    float padding[3];
 } ShapeRecord;
 
 #define SHAPE_QUADRIC 0u
 #define SHAPE_JULIA 1u
+
+#define SHAPE_UNBOUNDED 3.40282347e38f  ///< bound2 of a plane: the largest float
+
+#define SHAPE_UV_SPHERE 0u
+#define SHAPE_UV_HEIGHT 1u      ///< (phi, z)
+#define SHAPE_UV_DEPTH 2u       ///< (phi, z + 1): the cone
+#define SHAPE_UV_SYMMETRIC 3u   ///< (phi, (z + 1) / 2): the hyperboloid
+#define SHAPE_UV_DISC 4u
+#define SHAPE_UV_PLANE 5u
+#define SHAPE_UV_NONE 6u
 
 /// A light as the sampler sees it.
 typedef struct LightRecord {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Rays against the shapes of a scene: all of them, one after the other. Scenes have few.
+#pragma once
+
+#include "renderer/kernels/geometry/quadric.h"
+#include "renderer/kernels/geometry/shape_space.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+
+#if FEATURE_shapes
+
+typedef struct ShapeHit {
+    float t;              ///< in lengths of the direction
+    uint shape;           ///< NO_HIT for none
+    float3 object_point;  ///< in the shape's object space, on its surface to within a few ulps of its size
+} ShapeHit;
+
+/// The nearest hit with one shape at 0 < t < t_max.
+DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction, float t_max,
+                            PRIVATE float *t, PRIVATE float3 *object_point) {
+    ShapeRay ray;
+    if (!make_shape_ray(shape, origin, direction, &ray)) {
+        return false;
+    }
+#if FEATURE_julia && FEATURE_quadrics
+    return shape->kind == SHAPE_JULIA ? intersect_julia(shape, ray, t_max, t, object_point)
+                                      : intersect_quadric(shape, ray, t_max, t, object_point);
+#elif FEATURE_julia
+    return intersect_julia(shape, ray, t_max, t, object_point);
+#else
+    return intersect_quadric(shape, ray, t_max, t, object_point);
+#endif
+}
+
+/// The nearest hit at 0 < t < t_max (which may be INFINITY). Directions may have any length; rays that are not finite
+/// hit nothing.
+DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, uint shape_count, float3 origin, float3 direction,
+                              float t_max) {
+    ShapeHit hit;
+    hit.t = t_max;
+    hit.shape = NO_HIT;
+    hit.object_point = make_float3(0.0f, 0.0f, 0.0f);
+    for (uint i = 0; i < shape_count; ++i) {
+        float t;
+        float3 p;
+        if (intersect_shape(shapes + i, origin, direction, hit.t, &t, &p)) {
+            hit.t = t;
+            hit.shape = i;
+            hit.object_point = p;
+        }
+    }
+    return hit;
+}
+
+/// Whether a shape is hit at 0 < t < t_max: true exactly when `nearest_shape` finds a hit, as both test the same
+/// shapes in the same order with the same bound up to the first that is hit.
+DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, uint shape_count, float3 origin, float3 direction,
+                      float t_max) {
+    for (uint i = 0; i < shape_count; ++i) {
+        float t;
+        float3 p;
+        if (intersect_shape(shapes + i, origin, direction, t_max, &t, &p)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+#endif

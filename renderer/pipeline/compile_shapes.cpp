@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/pipeline/compile_shapes.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "renderer/base/error.h"
+
+namespace rtrays {
+
+namespace {
+
+using Kind = ShapeArrays::Kind;
+
+constexpr float unbounded = INFINITY;  ///< no clipping in z
+/// Of bound2, so that rounding never clips what the bound only encloses.
+constexpr double margin = 1.0 + 0x1p-10;
+
+/// What the device needs of a canonical quadric; a hyperboloid's b and bounds depend on its flare.
+struct Quadric {
+    float a, b, c, d;
+    float z_lower, z_upper;
+    double bound2;
+    uint32_t uv_kind;
+};
+
+Quadric quadric_of(Kind kind, double flare) {
+    switch (kind) {
+        case Kind::sphere:
+            return {1, 1, 0, -1, -unbounded, unbounded, margin, SHAPE_UV_SPHERE};
+        case Kind::cylinder:
+            return {1, 0, 0, -1, 0, 1, 2 * margin, SHAPE_UV_HEIGHT};
+        case Kind::cone:  // its apex in the origin: nothing cancels near it
+            return {1, -1, 0, 0, -1, 0, 2 * margin, SHAPE_UV_DEPTH};
+        case Kind::paraboloid:  // nothing of it is below 0; rounding must not make a hole in the apex
+            return {1, 0, -1, 0, -unbounded, 1, 2 * margin, SHAPE_UV_HEIGHT};
+        case Kind::hyperboloid:
+            return {1, static_cast<float>(-flare), 0, -1, -1, 1, (2 + flare) * margin, SHAPE_UV_SYMMETRIC};
+        case Kind::disc:
+            return {0, 0, 1, 0, -unbounded, unbounded, 1, SHAPE_UV_DISC};
+        case Kind::plane:
+            return {0, 0, 1, 0, -unbounded, unbounded, SHAPE_UNBOUNDED, SHAPE_UV_PLANE};
+        case Kind::julia:
+            break;
+    }
+    throw std::logic_error("not a quadric");
+}
+
+void set_transform(const Eigen::Matrix4d &world_from_object, ShapeRecord &record) {
+    const Eigen::Matrix<float, 3, 4> world = world_from_object.topRows<3>().cast<float>();
+    // The inverse of the rounded matrix, so that the two differ from inverses by the rounding of one of them only.
+    const Eigen::Matrix3d linear = world.leftCols<3>().cast<double>();
+    const Eigen::Matrix3f inverse = Eigen::Matrix3d(linear.inverse()).cast<float>();
+    for (int row = 0; row < 3; ++row) {
+        std::copy_n(Eigen::RowVector4f(world.row(row)).data(), 4, record.world_from_object[row]);
+        std::copy_n(Eigen::RowVector3f(inverse.row(row)).data(), 3, record.object_from_world[row]);
+    }
+    if (!world.allFinite() || !inverse.allFinite()) {
+        throw input_error("its transform cannot be inverted in single precision");
+    }
+}
+
+/// The surface |z_n| = 4: |z_k+1| <= r needs |z_k|^2 <= r + |c|, from the last iterate back to the first.
+void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iterations, ShapeRecord &record) {
+    const double modulus = constant.norm();
+    if (!(modulus <= 1e6)) {
+        throw input_error("the modulus of its Julia constant exceeds 1e6");
+    }
+    double radius = 4;
+    for (uint32_t i = 0; i < iterations; ++i) {
+        radius = std::sqrt(radius + modulus);
+    }
+    const double bound2 = radius * radius - slice * slice;
+    if (!(bound2 > 1e-6 * radius * radius)) {
+        throw input_error(fmt::format("its Julia set does not reach the slice {}", slice));
+    }
+    record.iterations = iterations;
+    record.a = static_cast<float>(constant[0]);
+    record.b = static_cast<float>(constant[1]);
+    record.c = static_cast<float>(constant[2]);
+    record.d = static_cast<float>(constant[3]);
+    record.z_lower = static_cast<float>(slice);
+    // r^2 - |c| >= r from here on: |z| >= r stays.
+    record.z_upper = static_cast<float>(std::max(4.0, (1.0 + 1e-6) * (1.0 + std::sqrt(1.0 + 4.0 * modulus)) / 2.0));
+    record.bound2 = static_cast<float>(bound2 * margin);
+    record.uv_kind = SHAPE_UV_NONE;
+}
+
+}  // namespace
+
+std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes) {
+    std::vector<ShapeRecord> records;
+    records.reserve(shapes.kind.size());
+    for (size_t i = 0; i < shapes.kind.size(); ++i) {
+        ShapeRecord record{};
+        const Kind kind = shapes.kind[i];
+        record.kind = kind == Kind::julia ? SHAPE_JULIA : SHAPE_QUADRIC;
+        record.material = shapes.material[i];
+        record.light = shapes.light[i];
+        try {
+            Eigen::Matrix4d world_from_object = shapes.world_from_object[i];
+            if (kind == Kind::julia) {
+                set_julia(shapes.julia_constant[i], shapes.julia_slice[i], shapes.julia_iterations[i], record);
+            } else {
+                const Quadric quadric = quadric_of(kind, shapes.flare[i]);
+                record.a = quadric.a;
+                record.b = quadric.b;
+                record.c = quadric.c;
+                record.d = quadric.d;
+                record.z_lower = quadric.z_lower;
+                record.z_upper = quadric.z_upper;
+                record.bound2 = static_cast<float>(quadric.bound2);
+                record.uv_kind = quadric.uv_kind;
+            }
+            if (kind == Kind::cone) {
+                world_from_object.col(3) += world_from_object.col(2);
+            }
+            set_transform(world_from_object, record);
+        } catch (const Error &error) {
+            throw input_error(fmt::format("shape '{}': {}", shapes.name[i], error.what()));
+        }
+        records.push_back(record);
+    }
+    return records;
+}
+
+FeatureMask shape_features(const ShapeArrays &shapes) {
+    const auto julias = static_cast<size_t>(std::count(shapes.kind.begin(), shapes.kind.end(), Kind::julia));
+    return FeatureMask()
+        .with(Feature::shapes, !shapes.kind.empty())
+        .with(Feature::julia, julias > 0)
+        .with(Feature::quadrics, shapes.kind.size() > julias);
+}
+
+}  // namespace rtrays

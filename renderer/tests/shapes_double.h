@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Shapes in extended precision, written from their definitions in ShapeArrays: the judge of the device's. Knows
+// nothing of ShapeRecord.
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "renderer/scene/stores.h"
+
+namespace rtrays::test {
+
+using Kind = ShapeArrays::Kind;
+using Real = long double;
+using Vector3r = Eigen::Matrix<Real, 3, 1>;
+using Random = std::mt19937_64;
+
+inline double uniform(Random &random, double lower = 0, double upper = 1) {
+    return std::uniform_real_distribution<double>(lower, upper)(random);
+}
+
+/// 10^x with x uniform.
+inline double log_uniform(Random &random, double lower, double upper) { return std::pow(10.0, uniform(random, lower, upper)); }
+
+inline Eigen::Vector3d uniform_direction(Random &random) {
+    const double z = uniform(random, -1, 1), phi = uniform(random, 0, 2 * M_PI), r = std::sqrt(1 - z * z);
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+inline Eigen::Matrix3d uniform_rotation(Random &random) {
+    std::normal_distribution<double> normal;
+    return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+}
+
+/// One shape as ShapeArrays describes it.
+struct Shape {
+    Kind kind = Kind::sphere;
+    Eigen::Matrix4d world_from_object = Eigen::Matrix4d::Identity();
+    double flare = 0;
+
+    Eigen::Matrix3d linear() const { return world_from_object.topLeftCorner<3, 3>(); }
+    Eigen::Vector3d centre() const { return world_from_object.topRightCorner<3, 1>(); }
+
+    /// The length by which rounding of world coordinates is measured: size of the shape and of its coordinates.
+    double scale() const { return linear().cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(1 + flare) + centre().norm(); }
+
+    /// Norm of |inverse| |linear part|: how much transforms back and forth magnify rounding.
+    double condition() const {
+        return (linear().inverse().cwiseAbs() * linear().cwiseAbs()).rowwise().sum().maxCoeff();
+    }
+
+    /// The implicit function, zero on the unclipped surface, positive in front.
+    Real value(const Vector3r &p) const {
+        const Real r2 = p.x() * p.x() + p.y() * p.y(), z = p.z();
+        switch (kind) {
+            case Kind::sphere:
+                return r2 + z * z - 1;
+            case Kind::cylinder:
+                return r2 - 1;
+            case Kind::cone:
+                return r2 - (1 - z) * (1 - z);
+            case Kind::paraboloid:
+                return r2 - z;
+            case Kind::hyperboloid:
+                return r2 - 1 - static_cast<Real>(flare) * z * z;
+            default:
+                return z;
+        }
+    }
+
+    Vector3r gradient(const Vector3r &p) const {
+        switch (kind) {
+            case Kind::sphere:
+                return 2 * p;
+            case Kind::cylinder:
+                return {2 * p.x(), 2 * p.y(), 0};
+            case Kind::cone:
+                return {2 * p.x(), 2 * p.y(), 2 * (1 - p.z())};
+            case Kind::paraboloid:
+                return {2 * p.x(), 2 * p.y(), -1};
+            case Kind::hyperboloid:
+                return {2 * p.x(), 2 * p.y(), -2 * static_cast<Real>(flare) * p.z()};
+            default:
+                return {0, 0, 1};
+        }
+    }
+
+    bool clipped(const Vector3r &p) const {
+        switch (kind) {
+            case Kind::cylinder:
+            case Kind::cone:
+            case Kind::paraboloid:
+                return p.z() < 0 || p.z() > 1;
+            case Kind::hyperboloid:
+                return p.z() < -1 || p.z() > 1;
+            case Kind::disc:
+                return p.x() * p.x() + p.y() * p.y() > 1;
+            default:
+                return false;
+        }
+    }
+
+    Vector3r to_object(const Eigen::Vector3d &world) const {
+        return linear().cast<Real>().inverse() * (world - centre()).cast<Real>();
+    }
+
+    /// Some point of the surface; every part of it is likely.
+    Eigen::Vector3d surface_point(Random &random) const {
+        const double phi = uniform(random, 0, 2 * M_PI), h = uniform(random);
+        const auto ring = [&](double r, double z) { return Eigen::Vector3d(r * std::cos(phi), r * std::sin(phi), z); };
+        switch (kind) {
+            case Kind::sphere:
+                return uniform_direction(random);
+            case Kind::cylinder:
+                return ring(1, h);
+            case Kind::cone:
+                return ring(1 - h, h);
+            case Kind::paraboloid:
+                return ring(std::sqrt(h), h);
+            case Kind::hyperboloid:
+                return ring(std::sqrt(1 + flare * (2 * h - 1) * (2 * h - 1)), 2 * h - 1);
+            case Kind::disc:
+                return ring(h, 0);
+            default:
+                return ring(10 * h, 0);
+        }
+    }
+};
+
+/// Coefficients of A t^2 + 2 B t + C, the implicit function along a ray.
+struct RayQuadratic {
+    Real a, b, c;
+};
+
+inline RayQuadratic along_ray(const Shape &shape, const Vector3r &o, const Vector3r &d) {
+    if (shape.kind == Kind::disc || shape.kind == Kind::plane) {
+        return {0, d.z() / 2, o.z()};
+    }
+    // The function is quadratic: three values give it exactly.
+    const Real at_0 = shape.value(o), at_1 = shape.value(o + d), at_minus_1 = shape.value(o - d);
+    return {(at_1 + at_minus_1) / 2 - at_0, (at_1 - at_minus_1) / 4, at_0};
+}
+
+/// Distances of all hits at t > 0, ascending.
+inline std::vector<double> hits(const Shape &shape, const Eigen::Vector3d &origin, const Eigen::Vector3d &direction) {
+    const Vector3r d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();
+    // About the point of the ray nearest to the object's origin; extended precision does the rest.
+    const Vector3r o = shape.to_object(origin);
+    const Real shift = shape.kind == Kind::plane ? 0 : -o.dot(d) / d.squaredNorm();
+    const Vector3r unit = d / d.norm(), near = o + shift * d;
+    const auto [a, b, c] = along_ray(shape, near, unit);
+    std::vector<double> found;
+    const auto add = [&](Real s) {
+        const Real t = shift + s / d.norm();
+        const Vector3r p = near + s * unit;
+        if (std::isfinite(t) && t > 0 && !shape.clipped(p)) {
+            found.push_back(static_cast<double>(t));
+        }
+    };
+    const Real discriminant = b * b - a * c;
+    if (discriminant >= 0) {
+        const Real w = -(b + std::copysign(std::sqrt(discriminant), b));
+        add(c / w);
+        if (a != 0) {
+            add(w / a);
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+/// Whether a ray that first hits at `t` (infinite for a miss) overlooked nothing: some ray within `tolerance` (a length)
+/// of it has no hit before `t` either. That a hit is one is for the caller to check: its point lies on the surface and
+/// on the ray.
+inline bool nothing_before(const Shape &shape, const Eigen::Vector3d &origin, const Eigen::Vector3d &direction, double t,
+                           double tolerance, Random &random) {
+    const double slack = tolerance / direction.norm() + (std::isfinite(t) ? 1e-6 * t : 0);
+    const auto holds = [&](const Eigen::Vector3d &o) {
+        const std::vector<double> all = hits(shape, o, direction);
+        // A hit at the very origin may go either way.
+        return std::none_of(all.begin(), all.end(), [&](double hit) { return hit > slack && hit < t - slack; });
+    };
+    if (holds(origin)) {
+        return true;
+    }
+    // Shifts across the clipping planes, across the surface where the ray is nearest to it, and at random.
+    const Eigen::Matrix3d inverse_transpose = shape.linear().inverse().transpose();
+    const Vector3r o = shape.to_object(origin), d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();
+    const Eigen::Vector3d g = shape.gradient(o - o.dot(d) / d.squaredNorm() * d).cast<double>();
+    std::vector<Eigen::Vector3d> shifts = {inverse_transpose.col(2).normalized(), (inverse_transpose * g).normalized()};
+    for (int i = 0; i < 60; ++i) {
+        shifts.push_back(uniform_direction(random) * uniform(random));
+    }
+    return std::any_of(shifts.begin(), shifts.end(), [&](const Eigen::Vector3d &shift) {
+        return holds(origin + tolerance * shift) || holds(origin - tolerance * shift);
+    });
+}
+
+}  // namespace rtrays::test
