@@ -3,24 +3,130 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "renderer/base/error.h"
 
 namespace rtrays::reference {
 
-std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials) {
+Composite::Composite(std::vector<Component> components, bool two_sided) : components_(std::move(components)) {
+    const auto transmits = [](const Component &c) { return c.transmits(); };
+    const auto is_delta = [](const Component &c) { return c.is_delta(); };
+    boundary_ = std::any_of(components_.begin(), components_.end(), transmits);
+    visible_from_behind_ = boundary_ || two_sided;
+    delta_ = std::all_of(components_.begin(), components_.end(), is_delta);
+}
+
+Viewpoint Composite::viewpoint(const Vec3 &wo, const Eigen::Vector2d &uv) const {
+    return {{wo.x(), wo.y(), std::abs(wo.z())}, boundary_ && wo.z() < 0.0, uv};
+}
+
+namespace {
+
+/// wi as seen with wo mirrored to the upper side.
+Vec3 mirrored(const Vec3 &wi, const Vec3 &wo) {
+    return {wi.x(), wi.y(), std::copysign(1.0, wo.z()) * wi.z()};
+}
+
+}  // namespace
+
+Spectrum Composite::sum(const Vec3 &wi, const Viewpoint &view) const {
+    Spectrum total = Spectrum::Zero();
+    for (const Component &component : components_) {
+        if (component.transmits() == (wi.z() < 0.0)) {
+            total += component.evaluate(wi, view);
+        }
+    }
+    return total;
+}
+
+double Composite::density(const Vec3 &wi, const Viewpoint &view) const {
+    double weighted = 0.0, total = 0.0;
+    for (const Component &component : components_) {
+        const double importance = component.importance(view);
+        total += importance;
+        if (importance > 0.0 && component.transmits() == (wi.z() < 0.0)) {
+            weighted += importance * component.pdf_w(wi, view);
+        }
+    }
+    return total > 0.0 ? weighted / total : 0.0;
+}
+
+Spectrum Composite::evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
+    // A direction in the surface has no side.
+    return is_black(wo) || wi.z() * wo.z() == 0.0 ? Spectrum(Spectrum::Zero())
+                                                  : sum(mirrored(wi, wo), viewpoint(wo, uv));
+}
+
+double Composite::pdf_w(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
+    return is_black(wo) || wi.z() * wo.z() == 0.0 ? 0.0 : density(mirrored(wi, wo), viewpoint(wo, uv));
+}
+
+std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2d &uv, Rng &rng) const {
+    if (is_black(wo) || wo.z() == 0.0) {
+        return std::nullopt;
+    }
+    const Viewpoint view = viewpoint(wo, uv);
+    std::array<double, most_components> importance;
+    double total = 0.0;
+    for (size_t i = 0; i < components_.size(); ++i) {
+        importance[i] = components_[i].importance(view);
+        total += importance[i];
+    }
+    if (!(total > 0.0)) {
+        return std::nullopt;
+    }
+    double left = rng.uniform() * total;
+    size_t chosen = 0;
+    while (chosen + 1 < components_.size() && left >= importance[chosen]) {
+        left -= importance[chosen++];
+    }
+    const Component &component = components_[chosen];
+    if (!(importance[chosen] > 0.0)) {
+        return std::nullopt;  // the last one, reached by rounding
+    }
+    if (component.is_delta()) {
+        const auto event = component.scatter(view);
+        if (!event) {
+            return std::nullopt;
+        }
+        return BsdfSample{mirrored(event->wi, wo), event->coefficient * (total / importance[chosen]), 0.0,
+                          true};
+    }
+    const auto wi = component.sample(view, rng);
+    if (!wi || wi->z() == 0.0) {
+        return std::nullopt;
+    }
+    const double pdf = density(*wi, view);
+    if (!(pdf > 0.0)) {
+        return std::nullopt;  // so improbable that its density underflows
+    }
+    return BsdfSample{mirrored(*wi, wo), sum(*wi, view) * (std::abs(wi->z()) / pdf), pdf, false};
+}
+
+std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArrays &textures) {
     std::vector<Bsdf> bsdfs;
     for (size_t i = 0; i < materials.name.size(); ++i) {
-        const BxdfComponent &component = materials.component[materials.first_component[i]];
-        if (materials.component_count[i] != 1 || component.kind != BxdfComponent::Kind::lambert) {
-            throw input_error(fmt::format("material {} '{}': the reference does not know its kind", i,
-                                          materials.name[i]));
-        }
-        const Spectrum albedo = component.weight.cast<double>();
-        if (!(albedo >= 0.0).all() || !(albedo <= 1.0).all()) {
+        const uint32_t count = materials.component_count[i];
+        if (count > Composite::most_components) {
             throw input_error(
-                fmt::format("material {} '{}': reflectance must lie in [0, 1]", i, materials.name[i]));
+                fmt::format("material {} '{}': the reference takes at most {} components, not {}", i,
+                            materials.name[i], Composite::most_components, count));
         }
-        bsdfs.emplace_back(Lambert(albedo));
+        std::vector<Component> components;
+        for (uint32_t k = 0; k < count; ++k) {
+            const std::string what = fmt::format("material {} '{}', component {}", i, materials.name[i], k);
+            components.emplace_back(materials.component[materials.first_component[i] + k], textures, what);
+        }
+        const bool two_sided = materials.two_sided[i] != 0;
+        const BxdfComponent *first =
+            count == 1 ? &materials.component[materials.first_component[i]] : nullptr;
+        const bool plain = first != nullptr && two_sided && first->kind == BxdfComponent::Kind::lambert &&
+                           first->texture == no_index && first->fresnel == BxdfComponent::Fresnel::ideal &&
+                           !first->complement;
+        bsdfs.emplace_back(plain ? Bsdf(Lambert(first->weight.cast<double>()))
+                                 : Bsdf(Composite(std::move(components), two_sided)));
     }
     return bsdfs;
 }

@@ -52,8 +52,11 @@ bool make_record(const MeshArrays &meshes, uint32_t index, TriangleRecord &recor
     record.offset = offset_half_ulps * half_ulp * magnitude;
     const double smallest_height = doubled_area / longest;
     record.margin = std::min(margin_over_offset * record.offset / smallest_height, 0.25);
-    record.material = meshes.material[meshes.triangle_mesh[index]];
-    record.light = meshes.light[meshes.triangle_mesh[index]];
+    const uint32_t mesh = meshes.triangle_mesh[index];
+    record.has_normals = meshes.has_normals[mesh] != 0;
+    record.has_uv = meshes.has_uv[mesh] != 0;
+    record.material = meshes.material[mesh];
+    record.light = meshes.light[mesh];
     return true;
 }
 
@@ -100,6 +103,15 @@ Geometry::Geometry(const MeshArrays &meshes) {
     }
     stats_.triangles = triangles_.size();
     stats_.degenerate_triangles = count - triangles_.size();
+
+    const auto any = [](const std::vector<uint8_t> &flags) {
+        return std::find(flags.begin(), flags.end(), 1) != flags.end();
+    };
+    if (any(meshes.has_normals) || any(meshes.has_uv)) {
+        vertices_ = indices;
+        normals_ = meshes.normal;
+        uvs_ = meshes.uv;
+    }
 
     scene_.reset(rtcNewScene(device_.get()));
     require(scene_ != nullptr, device_.get(), "rtcNewScene");
@@ -178,6 +190,36 @@ bool Geometry::occluded(const Vec3 &from, const Vec3 &to) const {
     query.flags = 0;
     rtcOccluded1(scene_.get(), &context, &query);
     return query.tfar < 0.0f;
+}
+
+Parametrization Geometry::parametrize(const SurfacePoint &point) const {
+    const TriangleRecord &triangle = triangles_[point.triangle];
+    Parametrization result{triangle.normal, triangle.edge1, Eigen::Vector2d::Zero()};
+    if (!triangle.has_normals && !triangle.has_uv) {
+        return result;
+    }
+    const auto &[a, b, c] = vertices_[point.triangle];
+    const double u = point.barycentric.x(), v = point.barycentric.y();
+    if (triangle.has_normals) {
+        const Vec3 normal = (1.0 - u - v) * normals_[a].cast<double>() + u * normals_[b].cast<double>() +
+                            v * normals_[c].cast<double>();
+        const double length = normal.norm();
+        // Opposite normals cancel; what is left of them below 1e-6 is rounding to float.
+        if (length > 1e-6) {
+            result.shading_normal = normal / length;
+        }
+    }
+    if (triangle.has_uv) {
+        const Eigen::Vector2d uv0 = uvs_[a].cast<double>();
+        const Eigen::Vector2d along1 = uvs_[b].cast<double>() - uv0, along2 = uvs_[c].cast<double>() - uv0;
+        result.uv = uv0 + u * along1 + v * along2;
+        // edge = dp/du du + dp/dv dv for both edges, solved for dp/du.
+        const double determinant = along1.x() * along2.y() - along2.x() * along1.y();
+        if (std::abs(determinant) > 1e-12 * along1.norm() * along2.norm()) {
+            result.tangent = (along2.y() * triangle.edge1 - along1.y() * triangle.edge2) / determinant;
+        }
+    }
+    return result;
 }
 
 Vec3 Geometry::spawn_point(const SurfacePoint &point, const Vec3 &direction) const {

@@ -26,6 +26,8 @@ struct TriangleRecord {
     double margin;  ///< barycentric distance from the edges kept by ray origins
     uint32_t material;
     uint32_t light;  ///< `no_index` when it does not emit
+    bool has_normals;
+    bool has_uv;
 
     /// Second and third barycentric coordinate in, world position out.
     Vec3 point(const Eigen::Vector2d &barycentric) const {
@@ -39,6 +41,13 @@ struct SurfacePoint {
     Vec3 position;
     Eigen::Vector2d barycentric;
     uint32_t triangle;
+};
+
+/// What interpolation and texturing need to know of a point.
+struct Parametrization {
+    Vec3 shading_normal;  ///< unit; the geometric one where the surface has no other
+    Vec3 tangent;         ///< along dp/du, any length
+    Eigen::Vector2d uv;   ///< zero where the surface has no coordinates
 };
 
 /// How a ray batch relates to its neighbours: a hint to Embree, without effect on the result.
@@ -63,6 +72,17 @@ class Geometry {
     const std::vector<TriangleRecord> &triangles() const { return triangles_; }
     const GeometryStats &stats() const { return stats_; }
 
+    const Vec3 &normal(const SurfacePoint &point) const { return triangles_[point.triangle].normal; }
+    uint32_t material(const SurfacePoint &point) const { return triangles_[point.triangle].material; }
+    uint32_t light(const SurfacePoint &point) const { return triangles_[point.triangle].light; }
+    bool has_shading_normal(const SurfacePoint &point) const {
+        return triangles_[point.triangle].has_normals;
+    }
+
+    /// Interpolated normal and coordinates. The tangent of a triangle is dp/du of its texture coordinates;
+    /// without these, or where they are degenerate, its first edge.
+    Parametrization parametrize(const SurfacePoint &point) const;
+
     /// Nearest hit of a ray. Returns false when there is none.
     bool intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit) const;
 
@@ -84,6 +104,10 @@ class Geometry {
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
     std::vector<TriangleRecord> triangles_;
+    // Of vertices, for meshes that have them; `vertices_` is empty when none has.
+    std::vector<Triangle> vertices_;  ///< per triangle
+    std::vector<Eigen::Vector3f> normals_;
+    std::vector<Eigen::Vector2f> uvs_;
     GeometryStats stats_;
 };
 

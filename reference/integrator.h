@@ -12,6 +12,7 @@
 #include "reference/rng.h"
 #include "reference/sampling.h"
 #include "reference/settings.h"
+#include "reference/shading.h"
 
 namespace rtrays::reference {
 
@@ -67,31 +68,34 @@ class PathIntegrator {
                                            hit)) {
                 return result;
             }
-            const TriangleRecord &triangle = world_.geometry.triangle(hit.triangle);
+            const uint32_t light = world_.geometry.light(hit);
             const Vec3 wo = -ray.direction;
 
-            if (triangle.light != no_index) {
-                const Spectrum emitted = world_.lights.emitted(world_.geometry, triangle.light, hit, wo);
+            if (light != no_index) {
+                const Spectrum emitted = world_.lights.emitted(world_.geometry, light, hit, wo);
                 if ((emitted > 0.0).any()) {
-                    result +=
-                        throughput * emitted *
-                        implicit_weight(light_sampled_too, pdf_of_direction, triangle.light, previous, hit);
+                    result += throughput * emitted *
+                              implicit_weight(light_sampled_too, pdf_of_direction, light, previous, hit);
                 }
             }
             if (max_depth_ != 0 && depth == max_depth_) {
                 return result;
             }
 
-            const BsdfModel &bsdf = world_.bsdfs[triangle.material];
-            const Frame frame(triangle.normal);
-            const Vec3 wo_local = frame.to_local(wo);
+            const BsdfModel &bsdf = world_.bsdfs[world_.geometry.material(hit)];
+            const Shading shading = make_shading(world_.geometry, hit, wo, bsdf.needs_parametrization());
+            const Vec3 wo_local = shading.frame.to_local(wo);
             light_sampled_too = samples_lights_ && !bsdf.is_delta();
             if (light_sampled_too) {
-                result += throughput * direct_light(bsdf, frame, wo_local, hit, rng, counts);
+                result += throughput * direct_light(bsdf, shading, wo_local, hit, rng, counts);
             }
 
-            const auto sample = bsdf.sample(wo_local, rng);
+            const auto sample = bsdf.sample(wo_local, shading.uv, rng);
             if (!sample) {
+                return result;
+            }
+            ray.direction = shading.frame.to_world(sample->wi);
+            if (!shading.agrees(ray.direction, sample->wi)) {
                 return result;
             }
             throughput *= sample->weight;
@@ -104,7 +108,6 @@ class PathIntegrator {
             light_sampled_too = light_sampled_too && !sample->delta;
             pdf_of_direction = sample->pdf_w;
             previous = hit;
-            ray.direction = frame.to_world(sample->wi);
             ray.origin = world_.geometry.spawn_point(hit, ray.direction);
             ++counts.bounce;
         }
@@ -125,14 +128,17 @@ class PathIntegrator {
     }
 
     /// One explicit connection, weighted: f Le |cos| / pdf_w.
-    Spectrum direct_light(const BsdfModel &bsdf, const Frame &frame, const Vec3 &wo_local,
+    Spectrum direct_light(const BsdfModel &bsdf, const Shading &shading, const Vec3 &wo_local,
                           const SurfacePoint &point, Rng &rng, RayCounts &counts) const {
         const auto light = world_.lights.sample(world_.geometry, point.position, rng);
         if (!light) {
             return Spectrum::Zero();
         }
-        const Vec3 wi_local = frame.to_local(light->wi);
-        const Spectrum f = bsdf.evaluate(wi_local, wo_local);
+        const Vec3 wi_local = shading.frame.to_local(light->wi);
+        if (!shading.agrees(light->wi, wi_local)) {
+            return Spectrum::Zero();
+        }
+        const Spectrum f = bsdf.evaluate(wi_local, wo_local, shading.uv);
         if (!(f > 0.0).any()) {
             return Spectrum::Zero();
         }
@@ -141,7 +147,7 @@ class PathIntegrator {
             return Spectrum::Zero();
         }
         const double weight = counts_hits_ && !light->delta
-                                  ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local))
+                                  ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local, shading.uv))
                                   : 1.0;
         return f * light->radiance * (weight * std::abs(wi_local.z()) / light->pdf_w);
     }

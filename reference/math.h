@@ -29,6 +29,21 @@ class Frame {
         y_ = {b, sign + square(normal.y()) * a, -normal.y()};
     }
 
+    /// x axis along the part of `tangent` (any length) that lies in the plane; an arbitrary one where the
+    /// tangent is zero or along the normal.
+    Frame(const Vec3 &normal, const Vec3 &tangent) : Frame(normal) {
+        const Vec3 in_plane = tangent - tangent.dot(normal) * normal;
+        const double length = in_plane.norm();
+        // What is left is rounding below 1e-8 of the tangent. Also false for NaN.
+        if (length > 1e-8 * tangent.norm()) {
+            x_ = in_plane / length;
+            y_ = z_.cross(x_);
+        }
+    }
+
+    const Vec3 &x() const { return x_; }
+    const Vec3 &z() const { return z_; }
+
     Vec3 to_local(const Vec3 &v) const { return {x_.dot(v), y_.dot(v), z_.dot(v)}; }
     Vec3 to_world(const Vec3 &v) const { return v.x() * x_ + v.y() * y_ + v.z() * z_; }
 

@@ -68,7 +68,7 @@ struct ReferenceRenderer::State {
         : settings(wanted),
           camera(scene.cameras, wanted.camera, wanted.width, wanted.height),
           geometry(scene.meshes),
-          bsdfs(make_bsdfs(scene.materials)),
+          bsdfs(make_bsdfs(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
           integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth),
           film(wanted.width, wanted.height, 0),

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int samples = 1000000;
 constexpr int cells = 16;
+const Eigen::Vector2d no_uv = Eigen::Vector2d::Zero();
 
 size_t cell(double unit) {
     return static_cast<size_t>(std::min(unit, 0x1.fffffep-1) * cells);
@@ -70,7 +71,7 @@ TEST(Sampling, every_sampler_has_the_density_it_claims) {
     const Lambert lambert(Spectrum(0.2, 0.5, 0.8));
     const Vec3 below = Vec3(0.3, 0.4, -0.5).normalized();
     add("Lambert from below", count_square([&](int) {
-            const auto sample = lambert.sample(below, rng);
+            const auto sample = lambert.sample(below, no_uv, rng);
             EXPECT_LT(sample->wi.z(), 0.0);
             return to_square(sample->wi);
         }));
@@ -128,14 +129,15 @@ TEST(Lambert, evaluate_pdf_and_sample_agree) {
     Rng rng(13, 0, 0);
     const Vec3 wo = Vec3(0.1, 0.2, 0.7).normalized();
     for (int i = 0; i < 1000; ++i) {
-        const auto sample = lambert.sample(wo, rng);
+        const auto sample = lambert.sample(wo, no_uv, rng);
         ASSERT_TRUE(sample);
         EXPECT_NEAR(sample->wi.norm(), 1.0, 1e-14);
-        EXPECT_DOUBLE_EQ(sample->pdf_w, lambert.pdf_w(sample->wi, wo));
-        const Spectrum weight = lambert.evaluate(sample->wi, wo) * std::abs(sample->wi.z()) / sample->pdf_w;
+        EXPECT_DOUBLE_EQ(sample->pdf_w, lambert.pdf_w(sample->wi, wo, no_uv));
+        const Spectrum weight =
+            lambert.evaluate(sample->wi, wo, no_uv) * std::abs(sample->wi.z()) / sample->pdf_w;
         EXPECT_TRUE(weight.isApprox(sample->weight, 1e-14));
-        EXPECT_TRUE((lambert.evaluate(-sample->wi, wo) == 0.0).all());  // no transmission
-        EXPECT_EQ(lambert.pdf_w(-sample->wi, wo), 0.0);
+        EXPECT_TRUE((lambert.evaluate(-sample->wi, wo, no_uv) == 0.0).all());  // no transmission
+        EXPECT_EQ(lambert.pdf_w(-sample->wi, wo, no_uv), 0.0);
     }
 }
 

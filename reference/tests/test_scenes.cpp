@@ -4,11 +4,17 @@
 namespace rtrays::reference {
 
 uint32_t TestScene::add_material(const Rgb &reflectance) {
+    BxdfComponent lambert;
+    lambert.weight = reflectance;
+    return add_material(std::vector<BxdfComponent>{lambert});
+}
+
+uint32_t TestScene::add_material(const std::vector<BxdfComponent> &components, bool two_sided) {
     materials.name.push_back("material" + std::to_string(materials.name.size()));
     materials.first_component.push_back(static_cast<uint32_t>(materials.component.size()));
-    materials.component_count.push_back(1);
-    materials.two_sided.push_back(1);
-    materials.component.emplace_back().weight = reflectance;
+    materials.component_count.push_back(static_cast<uint32_t>(components.size()));
+    materials.two_sided.push_back(two_sided ? 1 : 0);
+    materials.component.insert(materials.component.end(), components.begin(), components.end());
     return static_cast<uint32_t>(materials.name.size() - 1);
 }
 
@@ -35,17 +41,40 @@ void TestScene::add_mesh(const std::vector<Vec3> &positions, const std::vector<T
         meshes.light.push_back(no_index);
         return;
     }
-    meshes.light.push_back(static_cast<uint32_t>(lights.name.size()));
+    const uint32_t light = add_light(LightArrays::Kind::diffuse_area, radiance);
+    meshes.light.push_back(light);
+    lights.mesh[light] = mesh;
+    lights.area[light] = area;
+}
+
+uint32_t TestScene::add_light(LightArrays::Kind kind, const Rgb &radiance) {
     lights.name.push_back("light" + std::to_string(lights.name.size()));
-    lights.kind.push_back(LightArrays::Kind::diffuse_area);
+    lights.kind.push_back(kind);
     lights.radiance.push_back(radiance);
-    lights.mesh.push_back(mesh);
+    lights.mesh.push_back(no_index);
     lights.shape.push_back(no_index);
-    lights.area.push_back(area);
+    lights.area.push_back(0.0);
     lights.world_from_light.push_back(Eigen::Matrix4d::Identity());
-    lights.inner_angle.push_back(0);
-    lights.outer_angle.push_back(0);
+    lights.inner_angle.push_back(0.0);
+    lights.outer_angle.push_back(0.0);
     lights.image.emplace_back();
+    return static_cast<uint32_t>(lights.name.size() - 1);
+}
+
+void TestScene::set_normals(const std::vector<Vec3> &normals) {
+    meshes.has_normals.back() = 1;
+    meshes.normal.resize(meshes.position.size() - normals.size(), Eigen::Vector3f::Zero());
+    for (const Vec3 &normal : normals) {
+        meshes.normal.push_back(normal.cast<float>());
+    }
+}
+
+void TestScene::set_uv(const std::vector<Eigen::Vector2d> &uv) {
+    meshes.has_uv.back() = 1;
+    meshes.uv.resize(meshes.position.size() - uv.size(), Eigen::Vector2f::Zero());
+    for (const Eigen::Vector2d &coordinates : uv) {
+        meshes.uv.push_back(coordinates.cast<float>());
+    }
 }
 
 void TestScene::add_quad(const std::array<Vec3, 4> &corners, uint32_t material, const Rgb &radiance) {

@@ -15,10 +15,18 @@ namespace rtrays::reference {
 /// The arrays of a scene, filled by hand.
 struct TestScene : SceneArrays {
     uint32_t add_material(const Rgb &reflectance);
+    uint32_t add_material(const std::vector<BxdfComponent> &components, bool two_sided = true);
+
+    /// A light of no geometry and the identity as its transform; returns its index.
+    uint32_t add_light(LightArrays::Kind kind, const Rgb &radiance);
 
     /// `radiance` of zero: no light.
     void add_mesh(const std::vector<Vec3> &positions, const std::vector<Triangle> &triangles,
                   uint32_t material, const Rgb &radiance = Rgb::Zero());
+
+    /// Of the last mesh, one per vertex.
+    void set_normals(const std::vector<Vec3> &normals);
+    void set_uv(const std::vector<Eigen::Vector2d> &uv);
 
     /// Corners counter-clockwise seen from the front.
     void add_quad(const std::array<Vec3, 4> &corners, uint32_t material, const Rgb &radiance = Rgb::Zero());

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// White furnaces, reciprocity, sides.
+#include <gtest/gtest.h>
+
+#include "reference/tests/sphere_grid.h"
+#include "reference/tests/statistics.h"
+#include "reference/tests/test_materials.h"
+#include "renderer/base/error.h"
+#include "renderer/base/statistics.h"
+
+namespace rtrays::reference {
+namespace {
+
+using Distribution = BxdfComponent::Distribution;
+
+constexpr double quadrature_error = 1e-4;
+const Eigen::Vector2d no_uv = Eigen::Vector2d::Zero();
+
+Vec3 at(double degrees) {
+    const double theta = degrees * pi / 180.0;
+    return {std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7), std::cos(theta)};
+}
+
+/// Radiance is compressed by eta^-2 on the side of the lower index: multiplied back it is energy.
+double energy_factor(const TestMaterial &material, const Vec3 &wi, const Vec3 &wo) {
+    if (wi.z() * wo.z() > 0.0) {
+        return 1.0;
+    }
+    const double eta = material.components.back().eta[0];
+    return wo.z() > 0.0 ? square(eta) : 1.0 / square(eta);
+}
+
+/// What leaves when 1 arrives along wo, delta events included.
+double albedo(const TestMaterial &material, const Bsdf &bsdf, const Vec3 &wo) {
+    double total = integrate_sphere(
+        [&](const Vec3 &wi) {
+            return bsdf.evaluate(wi, wo, no_uv).maxCoeff() * std::abs(wi.z()) *
+                   energy_factor(material, wi, wo);
+        },
+        quadrature_error);
+    for (const BxdfComponent &component : material.components) {
+        if (component.kind == BxdfComponent::Kind::ideal_reflection) {
+            total += Fresnel(component).evaluate(std::abs(wo.z()), false).maxCoeff();
+        }
+    }
+    return total;
+}
+
+TEST(BsdfEnergy, no_surface_reflects_more_than_it_receives) {
+    for (const TestMaterial &material : rough_materials()) {
+        if (!material.conserves_energy) {
+            continue;
+        }
+        const Bsdf bsdf = make_bsdf(material.components);
+        for (const double degrees : {0.0, 30.0, 60.0, 80.0, 88.0, 110.0, 160.0}) {
+            const double value = albedo(material, bsdf, at(degrees));
+            EXPECT_LE(value, 1.0 + quadrature_error) << material.name << " " << degrees;
+            EXPECT_GT(value, 0.0) << material.name << " " << degrees;
+        }
+    }
+}
+
+TEST(BsdfEnergy, the_originals_that_cannot_are_as_far_off_as_known) {
+    const auto value = [](const std::vector<BxdfComponent> &components, double degrees) {
+        const TestMaterial material{"", components};
+        return albedo(material, make_bsdf(components), at(degrees));
+    };
+    EXPECT_NEAR(value({oren_nayar(0.1)}, 88.0), 1.008, 0.004);  // digest, section 6
+    // Diverges as 1 / sqrt(cos): tenfold for an angle a hundredth as far from the horizon.
+    const double diverging = value({ward(0.3, 0.3, false)}, 89.9999);
+    EXPECT_GT(diverging, 5.0);
+    EXPECT_NEAR(diverging / value({ward(0.3, 0.3, false)}, 89.99), 10.0, 0.1);
+    EXPECT_LE(value({ward(0.3, 0.3, true)}, 89.9999), 1.0);
+}
+
+TEST(BsdfEnergy, sampled_weights_have_the_albedo_as_their_mean) {
+    constexpr int samples = 200000;
+    std::vector<Comparison> suite;
+    Rng rng(85, 0, 0);
+    for (const TestMaterial &material : rough_materials()) {
+        const Bsdf bsdf = make_bsdf(material.components);
+        for (const double degrees : {20.0, 70.0, 140.0}) {
+            const Vec3 wo = at(degrees);
+            double sum = 0.0, squares = 0.0;
+            for (int i = 0; i < samples; ++i) {
+                const auto sample = bsdf.sample(wo, no_uv, rng);
+                const double weight =
+                    sample ? sample->weight[0] * energy_factor(material, sample->wi, wo) : 0.0;
+                sum += weight;
+                squares += square(weight);
+            }
+            // In the red channel, whose colour is the largest of no test material.
+            const double expected =
+                integrate_sphere(
+                    [&](const Vec3 &wi) {
+                        return bsdf.evaluate(wi, wo, no_uv)[0] * std::abs(wi.z()) *
+                               energy_factor(material, wi, wo);
+                    },
+                    quadrature_error) +
+                (material.components[0].kind == BxdfComponent::Kind::ideal_reflection
+                     ? Fresnel(material.components[0]).evaluate(std::abs(wo.z()), false)[0]
+                     : 0.0);
+            const double mean = sum / samples;
+            const double deviation = std::sqrt(std::max(squares / samples - square(mean), 0.0) / samples);
+            // The quadrature's error matters where all weights are equal and the variance is rounding.
+            suite.push_back({material.name + " " + std::to_string(degrees),
+                             normal_p_value((mean - expected) / std::hypot(deviation, quadrature_error))});
+        }
+    }
+    EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
+}
+
+TEST(BsdfReciprocity, exchanging_the_directions_changes_nothing_but_eta_squared) {
+    Rng rng(86, 0, 0);
+    for (const TestMaterial &material : rough_materials()) {
+        const Bsdf bsdf = make_bsdf(material.components);
+        double largest = 0.0;
+        int compared = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const Vec3 wo = Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized();
+            const Vec3 wi = Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized();
+            const Spectrum forth = bsdf.evaluate(wi, wo, no_uv) * energy_factor(material, wi, wo);
+            const Spectrum back = bsdf.evaluate(wo, wi, no_uv);
+            if (forth.maxCoeff() + back.maxCoeff() < 1e-100) {
+                continue;
+            }
+            ++compared;
+            largest = std::max(largest, ((forth - back).abs() / (forth + back)).maxCoeff());
+        }
+        EXPECT_GT(compared, 1000) << material.name;
+        if (material.reciprocal) {
+            EXPECT_LT(largest, 1e-7) << material.name;  // half vectors of directions that nearly cancel
+        } else {
+            EXPECT_GT(largest, 0.1) << material.name;  // exempt by name, and rightly so
+        }
+    }
+}
+
+TEST(Bsdf, one_sided_materials_are_black_from_behind_and_boundaries_are_not) {
+    Rng rng(87, 0, 0);
+    const Bsdf one_sided = make_bsdf({lambert(0.5), ideal_reflection()}, false);
+    EXPECT_TRUE((one_sided.evaluate(at(100.0), at(120.0), no_uv) == 0.0).all());
+    EXPECT_EQ(one_sided.pdf_w(at(100.0), at(120.0), no_uv), 0.0);
+    EXPECT_FALSE(one_sided.sample(at(120.0), no_uv, rng));
+    EXPECT_GT(one_sided.evaluate(at(10.0), at(20.0), no_uv)[0], 0.0);
+    const Bsdf plain = make_bsdf({lambert(0.5)}, false);
+    EXPECT_TRUE((plain.evaluate(at(100.0), at(120.0), no_uv) == 0.0).all());
+    EXPECT_TRUE(make_bsdf(smooth_glass(1.5), false).sample(at(120.0), no_uv, rng));
+    EXPECT_FALSE(make_bsdf({}).sample(at(20.0), no_uv, rng));  // black
+    EXPECT_TRUE(make_bsdf({}).is_delta());
+}
+
+TEST(Bsdf, smooth_glass_obeys_snell_and_fresnel) {
+    constexpr int samples = 100000;
+    Rng rng(88, 0, 0);
+    const Bsdf glass = make_bsdf(smooth_glass(1.5));
+    EXPECT_TRUE(glass.is_delta());
+    std::vector<Comparison> suite;
+    for (const double degrees : {30.0, 80.0, 150.0, 120.0}) {  // the last beyond the critical angle
+        const Vec3 wo = at(degrees);
+        const double eta = wo.z() > 0.0 ? 1.5 : 1.0 / 1.5;
+        const double reflectance = fresnel_dielectric(std::abs(wo.z()), eta);
+        int reflected = 0;
+        for (int i = 0; i < samples; ++i) {
+            const auto sample = glass.sample(wo, no_uv, rng);
+            ASSERT_TRUE(sample && sample->delta);
+            if (sample->wi.z() * wo.z() > 0.0) {
+                ++reflected;
+                ASSERT_NEAR((sample->wi - Vec3(-wo.x(), -wo.y(), wo.z())).norm(), 0.0, 1e-14);
+                ASSERT_NEAR(sample->weight[0], 1.0, 1e-12);
+            } else {
+                ASSERT_NEAR((eta * sample->wi.head<2>() + wo.head<2>()).norm(), 0.0, 1e-14);
+                ASSERT_NEAR(sample->weight[0], 1.0 / square(eta), 1e-12);
+            }
+        }
+        const double deviation = std::sqrt(samples * reflectance * (1.0 - reflectance));
+        if (deviation > 0.0) {
+            suite.push_back(
+                {std::to_string(degrees), normal_p_value((reflected - samples * reflectance) / deviation)});
+        } else {
+            EXPECT_EQ(reflected, samples);
+        }
+    }
+    EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
+}
+
+TEST(Bsdf, refuses_parameters_out_of_range) {
+    BxdfComponent component = lambert(1.5);
+    EXPECT_THROW(make_bsdf({component}), Error);
+    EXPECT_THROW(make_bsdf({ward(0.0, 0.1)}), Error);
+    EXPECT_THROW(make_bsdf({blinn(0.0)}), Error);
+    EXPECT_THROW(make_bsdf({oren_nayar(-0.1)}), Error);
+    EXPECT_THROW(make_bsdf({ideal_refraction(0.0)}), Error);
+    component = lambert(0.5);
+    component.texture = 3;
+    EXPECT_THROW(make_bsdf({component}), Error);
+    EXPECT_THROW(make_bsdf(std::vector<BxdfComponent>(17, lambert(0.01))), Error);
+}
+
+}  // namespace
+}  // namespace rtrays::reference

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// One material per model and per kind of composite, for tests of the BSDFs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/bsdf.h"
+
+namespace rtrays::reference {
+
+struct TestMaterial {
+    std::string name;
+    std::vector<BxdfComponent> components;
+    bool reciprocal = true;
+    bool conserves_energy = true;
+};
+
+BxdfComponent lambert(double weight);
+BxdfComponent oren_nayar(double sigma);
+BxdfComponent ideal_reflection();
+BxdfComponent ideal_refraction(double eta);
+BxdfComponent blinn(double exponent);
+BxdfComponent ward(double alpha_x, double alpha_y, bool bounded = true);
+BxdfComponent microfacet(BxdfComponent::Distribution distribution, double alpha_x, double alpha_y);
+BxdfComponent rough_refraction(BxdfComponent::Distribution distribution, double alpha, double eta);
+BxdfComponent with_dielectric(BxdfComponent component, double eta, bool complement = false);
+
+/// Not a delta material among them.
+std::vector<TestMaterial> rough_materials();
+
+/// Reflection and refraction, ideal or rough, weighted by F and 1 - F.
+std::vector<BxdfComponent> smooth_glass(double eta);
+std::vector<BxdfComponent> rough_glass(BxdfComponent::Distribution distribution, double alpha, double eta);
+
+Bsdf make_bsdf(const std::vector<BxdfComponent> &components, bool two_sided = true,
+               const TextureArrays &textures = {});
+
+}  // namespace rtrays::reference

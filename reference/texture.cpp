@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "reference/texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/base/error.h"
+
+namespace rtrays::reference {
+
+namespace {
+
+/// IEC 61966-2-1, the decoding half.
+double decode_srgb(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+using ByteTable = std::array<double, 256>;
+
+ByteTable make_table(bool srgb) {
+    ByteTable table;
+    for (size_t i = 0; i < table.size(); ++i) {
+        const double value = static_cast<double>(i) / 255.0;
+        table[i] = srgb ? decode_srgb(value) : value;
+    }
+    return table;
+}
+
+const std::array<ByteTable, 2> byte_tables{make_table(false), make_table(true)};
+
+}  // namespace
+
+Spectrum texel(const TextureImage &image, int column, int row) {
+    const size_t first =
+        3 * (static_cast<size_t>(row) * static_cast<size_t>(image.width) + static_cast<size_t>(column));
+    if (image.bytes.empty()) {
+        const float *values = image.floats.data() + first;
+        return {static_cast<double>(values[0]), static_cast<double>(values[1]),
+                static_cast<double>(values[2])};
+    }
+    const ByteTable &table = byte_tables[image.srgb ? 1 : 0];
+    const uint8_t *values = image.bytes.data() + first;
+    return {table[values[0]], table[values[1]], table[values[2]]};
+}
+
+void require_valid(const TextureImage *image, const std::string &what) {
+    if (image == nullptr || image->width < 1 || image->height < 1) {
+        throw input_error(fmt::format("{}: there is no image", what));
+    }
+    const size_t values = 3 * static_cast<size_t>(image->width) * static_cast<size_t>(image->height);
+    if (image->bytes.size() + image->floats.size() != values ||
+        (!image->bytes.empty() && !image->floats.empty())) {
+        throw input_error(fmt::format("{}: the image holds another number of texels than {}x{}", what,
+                                      image->width, image->height));
+    }
+    const auto usable = [](float value) { return value >= 0.0f && std::isfinite(value); };
+    if (!std::all_of(image->floats.begin(), image->floats.end(), usable)) {
+        throw input_error(fmt::format("{}: a texel is negative or not finite", what));
+    }
+}
+
+Texture::Texture(const TextureArrays &textures, size_t index)
+    : image_(textures.image.at(index)),
+      filter_(textures.filter.at(index)),
+      wrap_(textures.wrap.at(index)),
+      scale_(textures.uv_scale.at(index)),
+      offset_(textures.uv_offset.at(index)) {
+    require_valid(image_.get(), fmt::format("texture '{}'", textures.name.at(index)));
+}
+
+int Texture::wrap(int64_t i, int size) const {
+    if (wrap_ == TextureArrays::Wrap::clamp) {
+        return static_cast<int>(std::clamp<int64_t>(i, 0, size - 1));
+    }
+    const int64_t remainder = i % size;
+    return static_cast<int>(remainder < 0 ? remainder + size : remainder);
+}
+
+Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
+    const int width = image_->width, height = image_->height;
+    // Texel coordinates from the lower left corner. Coordinates beyond 2^52 texels have no fraction left
+    // and would overflow the integers below: they are held there, where every texel is as good.
+    const auto coordinate = [](double x) { return std::clamp(x, -0x1p52, 0x1p52); };
+    const double x = coordinate((scale_.x() * uv.x() + offset_.x()) * width);
+    const double y = coordinate((scale_.y() * uv.y() + offset_.y()) * height);
+    const auto look_up = [&](double column, double row_from_below) {
+        return texel(*image_, wrap(static_cast<int64_t>(column), width),
+                     height - 1 - wrap(static_cast<int64_t>(row_from_below), height));
+    };
+    if (filter_ == TextureArrays::Filter::nearest) {
+        return look_up(std::floor(x), std::floor(y));
+    }
+    const double column = std::floor(x - 0.5), row = std::floor(y - 0.5);
+    const double right = x - 0.5 - column, up = y - 0.5 - row;
+    const Spectrum below = (1.0 - right) * look_up(column, row) + right * look_up(column + 1.0, row);
+    const Spectrum above =
+        (1.0 - right) * look_up(column, row + 1.0) + right * look_up(column + 1.0, row + 1.0);
+    return (1.0 - up) * below + up * above;
+}
+
+}  // namespace rtrays::reference
