@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "renderer/scene/stores.h"
+#include "renderer/shared/compat.h"
 
 namespace rtrays::test {
 
@@ -33,6 +34,16 @@ inline Eigen::Vector3d uniform_direction(Random &random) {
 inline Eigen::Matrix3d uniform_rotation(Random &random) {
     std::normal_distribution<double> normal;
     return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+}
+
+/// Not inlined: GCC 12 takes (double)(float)x for x once it has vectorized two components, and the judge must see the
+/// ray that the device sees.
+[[gnu::noinline]] inline float3 to_float3(const Eigen::Vector3d &v) {
+    return make_float3(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
+}
+
+inline Eigen::Vector3d to_double(float3 v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
 /// One shape as ShapeArrays describes it.

@@ -19,11 +19,6 @@ constexpr Kind quadrics[] = {Kind::sphere,      Kind::cylinder, Kind::cone, Kind
                              Kind::hyperboloid, Kind::disc,     Kind::plane};
 constexpr double half_ulp = 0x1p-24;
 
-float3 to_float3(const Eigen::Vector3d &v) {
-    return make_float3(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
-}
-Eigen::Vector3d to_double(float3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
-
 ShapeRecord compile(const Shape &shape) {
     ShapeArrays arrays;
     arrays.name = {"shape"};

@@ -2,6 +2,7 @@
 // Rays against the shapes of a scene: all of them, one after the other. Scenes have few.
 #pragma once
 
+#include "renderer/kernels/geometry/julia.h"
 #include "renderer/kernels/geometry/quadric.h"
 #include "renderer/kernels/geometry/shape_space.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"

@@ -25,6 +25,7 @@
 // discriminant B^2 - A C is negative.
 #pragma once
 
+#include "renderer/kernels/geometry/julia.h"
 #include "renderer/kernels/geometry/quadric.h"
 #include "renderer/kernels/geometry/shape_space.h"
 #include "renderer/kernels/geometry/surface_point.h"
