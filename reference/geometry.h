@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Triangles and ray queries. Embree finds WHICH triangle a ray hits, in float and with its robust
-// (watertight) traversal; where on it is computed again in double.
+// Surfaces and ray queries. Embree finds WHICH triangle a ray hits, in float and with its robust
+// (watertight) traversal; where on it is computed again in double. Other shapes are user geometry,
+// intersected in double from the start; infinite planes, which have no bounds, are tried one by one.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -12,35 +13,19 @@
 
 #include "reference/camera.h"
 #include "reference/math.h"
+#include "reference/shape.h"
+#include "reference/triangle.h"
 #include "renderer/scene/stores.h"
 
 namespace rtrays::reference {
 
-/// A triangle of non-zero area, world space.
-struct TriangleRecord {
-    Vec3 vertex;    ///< the first one
-    Vec3 edge1;     ///< to the second vertex
-    Vec3 edge2;     ///< to the third vertex
-    Vec3 normal;    ///< unit, towards the side from which the vertices run counter-clockwise
-    double offset;  ///< distance from the plane at which float rays start (see `spawn_point`)
-    double margin;  ///< barycentric distance from the edges kept by ray origins
-    uint32_t material;
-    uint32_t light;  ///< `no_index` when it does not emit
-    bool has_normals;
-    bool has_uv;
-
-    /// Second and third barycentric coordinate in, world position out.
-    Vec3 point(const Eigen::Vector2d &barycentric) const {
-        return vertex + barycentric.x() * edge1 + barycentric.y() * edge2;
-    }
-    double area() const { return 0.5 * edge1.cross(edge2).norm(); }
-};
-
-/// A point on a triangle.
+/// A point on a surface.
 struct SurfacePoint {
     Vec3 position;
-    Eigen::Vector2d barycentric;
-    uint32_t triangle;
+    Vec3 local;          ///< triangles: second and third barycentric coordinate; shapes: object space
+    uint32_t primitive;  ///< triangles first, then shapes
+
+    Eigen::Vector2d barycentric() const { return local.head<2>(); }
 };
 
 /// What interpolation and texturing need to know of a point.
@@ -57,26 +42,44 @@ enum class Coherence { coherent, incoherent };
 struct GeometryStats {
     size_t triangles = 0;
     size_t degenerate_triangles = 0;  ///< of zero area, left out
+    size_t shapes = 0;
     double build_seconds = 0;
     std::string engine;  ///< "embree 3.13.5"
 };
 
-/// All meshes of a scene in one Embree scene. Immutable, shared by all threads.
+/// All surfaces of a scene. Immutable, shared by all threads.
 class Geometry {
   public:
-    /// Throws `Error` (bad input) for vertex positions that are not finite, (run failed) when Embree
-    /// reports an error.
-    explicit Geometry(const MeshArrays &meshes);
+    /// Throws `Error` (bad input) for vertex positions that are not finite and shapes out of range, (run
+    /// failed) when Embree reports an error.
+    Geometry(const MeshArrays &meshes, const ShapeArrays &shapes);
+    Geometry(const Geometry &) = delete;
+    Geometry &operator=(const Geometry &) = delete;
 
-    const TriangleRecord &triangle(uint32_t index) const { return triangles_[index]; }
     const std::vector<TriangleRecord> &triangles() const { return triangles_; }
+    const std::vector<Shape> &shapes() const { return shapes_; }
     const GeometryStats &stats() const { return stats_; }
 
-    const Vec3 &normal(const SurfacePoint &point) const { return triangles_[point.triangle].normal; }
-    uint32_t material(const SurfacePoint &point) const { return triangles_[point.triangle].material; }
-    uint32_t light(const SurfacePoint &point) const { return triangles_[point.triangle].light; }
+    /// Of all bounded surfaces; empty when there is none.
+    const Eigen::AlignedBox3d &bounds() const { return bounds_; }
+
+    bool is_triangle(const SurfacePoint &point) const { return point.primitive < triangles_.size(); }
+    const TriangleRecord &triangle(const SurfacePoint &point) const { return triangles_[point.primitive]; }
+    const Shape &shape(const SurfacePoint &point) const {
+        return shapes_[point.primitive - triangles_.size()];
+    }
+
+    Vec3 normal(const SurfacePoint &point) const {
+        return is_triangle(point) ? triangle(point).normal : shape(point).normal(point.local);
+    }
+    uint32_t material(const SurfacePoint &point) const {
+        return is_triangle(point) ? triangle(point).material : shape(point).material();
+    }
+    uint32_t light(const SurfacePoint &point) const {
+        return is_triangle(point) ? triangle(point).light : shape(point).light();
+    }
     bool has_shading_normal(const SurfacePoint &point) const {
-        return triangles_[point.triangle].has_normals;
+        return is_triangle(point) && triangle(point).has_normals;
     }
 
     /// Interpolated normal and coordinates. The tangent of a triangle is dp/du of its texture coordinates;
@@ -88,22 +91,33 @@ class Geometry {
 
     /// Whether anything lies strictly between two points; both must have left their surfaces already
     /// (`spawn_point`).
-    bool occluded(const Vec3 &from, const Vec3 &to) const;
+    bool occluded(const Vec3 &from, const Vec3 &to) const { return blocked({from, to - from}, 1.0); }
 
-    /// Where a ray that leaves `point` to the side of `direction` starts: off the plane by a multiple of
-    /// what float rounding and Embree's float arithmetic can do, so that it never meets its own triangle,
-    /// and away from the edges by four times as much, so that it is not pushed through a neighbour that
-    /// meets this triangle at an edge with more than 14 degrees.
-    Vec3 spawn_point(const SurfacePoint &point, const Vec3 &direction) const;
+    /// Whether anything lies in the direction of the ray, however far.
+    bool occluded(const Ray &ray) const;
+
+    /// Where a ray that leaves `point` to the side of `direction` starts, so that it never meets its own
+    /// surface again (see `TriangleRecord` and `Shape`).
+    Vec3 spawn_point(const SurfacePoint &point, const Vec3 &direction) const {
+        return is_triangle(point) ? triangle(point).spawn_point(point.barycentric(), direction)
+                                  : shape(point).spawn_point(point.local, direction);
+    }
 
   private:
     struct Release {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
     };
+    void attach_triangles(const MeshArrays &meshes, const std::vector<Triangle> &indices);
+    /// The ray's direction need not be of unit length; t in (0, t_max).
+    bool blocked(const Ray &ray, double t_max) const;
+
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
     std::vector<TriangleRecord> triangles_;
+    std::vector<Shape> shapes_;
+    std::vector<uint32_t> unbounded_;  ///< indices of shapes
+    Eigen::AlignedBox3d bounds_;
     // Of vertices, for meshes that have them; `vertices_` is empty when none has.
     std::vector<Triangle> vertices_;  ///< per triangle
     std::vector<Eigen::Vector3f> normals_;

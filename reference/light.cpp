@@ -18,7 +18,7 @@ std::vector<double> triangle_areas(const Geometry &geometry, const std::vector<u
     std::vector<double> areas;
     areas.reserve(triangles.size());
     for (const uint32_t triangle : triangles) {
-        areas.push_back(geometry.triangle(triangle).area());
+        areas.push_back(geometry.triangles()[triangle].area());
     }
     return areas;
 }
@@ -36,11 +36,12 @@ DiffuseAreaLight::DiffuseAreaLight(const Geometry &geometry, std::vector<uint32_
 std::optional<LightSample> DiffuseAreaLight::sample(const Geometry &geometry, const Vec3 &from,
                                                     Rng &rng) const {
     const uint32_t triangle = triangles_[choose_.sample(rng)];
-    const TriangleRecord &record = geometry.triangle(triangle);
+    const TriangleRecord &record = geometry.triangles()[triangle];
     SurfacePoint point;
-    point.triangle = triangle;
-    point.barycentric = sample_triangle(rng);
-    point.position = record.point(point.barycentric);
+    point.primitive = triangle;
+    const Eigen::Vector2d barycentric = sample_triangle(rng);
+    point.local = {barycentric.x(), barycentric.y(), 0.0};
+    point.position = record.point(barycentric);
 
     const Vec3 to_light = point.position - from;
     const double distance_squared = to_light.squaredNorm();
@@ -57,7 +58,7 @@ std::optional<LightSample> DiffuseAreaLight::sample(const Geometry &geometry, co
 
 double DiffuseAreaLight::pdf_w(const Geometry &geometry, const Vec3 &from, const SurfacePoint &hit) const {
     const Vec3 to_light = hit.position - from;
-    const double projected = -geometry.triangle(hit.triangle).normal.dot(to_light);
+    const double projected = -geometry.normal(hit).dot(to_light);
     if (!(projected > 0.0)) {
         return 0.0;
     }
@@ -66,13 +67,13 @@ double DiffuseAreaLight::pdf_w(const Geometry &geometry, const Vec3 &from, const
 }
 
 Spectrum DiffuseAreaLight::emitted(const Geometry &geometry, const SurfacePoint &hit, const Vec3 &wo) const {
-    return geometry.triangle(hit.triangle).normal.dot(wo) > 0.0 ? radiance_ : Spectrum::Zero();
+    return geometry.normal(hit).dot(wo) > 0.0 ? radiance_ : Spectrum::Zero();
 }
 
 LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {
     std::vector<std::vector<uint32_t>> triangles(lights.kind.size());
     for (uint32_t i = 0; i < geometry.triangles().size(); ++i) {
-        const uint32_t light = geometry.triangle(i).light;
+        const uint32_t light = geometry.triangles()[i].light;
         if (light != no_index) {
             triangles.at(light).push_back(i);
         }

@@ -33,16 +33,22 @@ namespace {
 constexpr uint64_t tile_size = 16;
 constexpr uint64_t paths_per_batch = 1 << 18;  // a fraction of a second: an interrupt is soon obeyed
 
+/// That every surface's material exists, and its light, if it has one.
 void check_indices(const SceneArrays &scene) {
-    const MeshArrays &meshes = scene.meshes;
-    for (size_t i = 0; i < meshes.name.size(); ++i) {
-        if (meshes.material[i] >= scene.materials.name.size()) {
-            throw input_error(fmt::format("mesh '{}' has no material", meshes.name[i]));
+    const auto check = [&](const char *what, const std::string &name, uint32_t material, uint32_t light) {
+        if (material >= scene.materials.name.size()) {
+            throw input_error(fmt::format("{} '{}' has no material", what, name));
         }
-        if (meshes.light[i] != no_index && meshes.light[i] >= scene.lights.kind.size()) {
-            throw input_error(fmt::format("mesh '{}' names light {} of {}", meshes.name[i], meshes.light[i],
-                                          scene.lights.kind.size()));
+        if (light != no_index && light >= scene.lights.kind.size()) {
+            throw input_error(
+                fmt::format("{} '{}' names light {} of {}", what, name, light, scene.lights.kind.size()));
         }
+    };
+    for (size_t i = 0; i < scene.meshes.name.size(); ++i) {
+        check("mesh", scene.meshes.name[i], scene.meshes.material[i], scene.meshes.light[i]);
+    }
+    for (size_t i = 0; i < scene.shapes.name.size(); ++i) {
+        check("shape", scene.shapes.name[i], scene.shapes.material[i], scene.shapes.light[i]);
     }
 }
 
@@ -67,7 +73,7 @@ struct ReferenceRenderer::State {
     State(const SceneArrays &scene, const ReferenceSettings &wanted)
         : settings(wanted),
           camera(scene.cameras, wanted.camera, wanted.width, wanted.height),
-          geometry(scene.meshes),
+          geometry(scene.meshes, scene.shapes),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
           integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth),

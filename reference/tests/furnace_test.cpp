@@ -103,7 +103,7 @@ template <class BsdfModel, class Lights>
 double planted_z(Strategies strategies) {
     const double albedo = 0.5;
     const TestScene scene = furnace_box(0.5f, emission);
-    const Geometry geometry(scene.meshes);
+    const Geometry geometry(scene.meshes, scene.shapes);
     const Lights lights(geometry, scene.lights);
     const std::vector<BsdfModel> bsdfs{BsdfModel(Spectrum::Constant(albedo))};
     const PathIntegrator<BsdfModel, Lights> integrator({geometry, bsdfs, lights}, strategies, 0);

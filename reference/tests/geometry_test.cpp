@@ -34,10 +34,10 @@ Escapes walk(const Geometry &geometry, const Vec3 &start, int steps, uint64_t se
             last = no_index;
             continue;
         }
-        escapes.self_hits += hit.triangle == last;
+        escapes.self_hits += hit.primitive == last;
         escapes.behind += (hit.position - ray.origin).dot(ray.direction) <= 0.0;
-        last = hit.triangle;
-        const Vec3 &normal = geometry.triangle(hit.triangle).normal;
+        last = hit.primitive;
+        const Vec3 normal = geometry.normal(hit);
         const Vec3 inward = normal.dot(ray.direction) < 0.0 ? normal : Vec3(-normal);
         Vec3 local = sample_cosine_hemisphere(rng);
         if (i % 8 == 0) {
@@ -94,7 +94,7 @@ TEST_P(ClosedMesh, box_neither_leaks_nor_hits_itself) {
     const Placement &p = GetParam();
     const Vec3 centre = p.scale * p.offset;
     const TestScene scene = furnace_box(0.5f, Rgb::Zero(), centre, p.scale);
-    const Escapes escapes = walk(Geometry(scene.meshes), centre, 1000000, 51);
+    const Escapes escapes = walk(Geometry(scene.meshes, scene.shapes), centre, 1000000, 51);
     EXPECT_EQ(escapes.self_hits, 0);
     EXPECT_EQ(escapes.misses, 0);
     EXPECT_EQ(escapes.behind, 0);
@@ -104,7 +104,7 @@ TEST_P(ClosedMesh, sphere_neither_leaks_nor_hits_itself) {
     const Placement &p = GetParam();
     TestScene scene;
     add_sphere(scene, p.scale * p.offset, p.scale, 4);
-    const Escapes escapes = walk(Geometry(scene.meshes), p.scale * p.offset, 1000000, 52);
+    const Escapes escapes = walk(Geometry(scene.meshes, scene.shapes), p.scale * p.offset, 1000000, 52);
     EXPECT_EQ(escapes.self_hits, 0);
     EXPECT_EQ(escapes.misses, 0);
 }
@@ -121,7 +121,7 @@ TEST(Geometry, hit_points_are_exact_in_double) {
     TestScene scene;
     scene.add_quad({Vec3(-4096, 0, -4096), Vec3(-4096, 0, 4096), Vec3(4096, 0, 4096), Vec3(4096, 0, -4096)},
                    scene.add_material(Rgb::Constant(0.5f)));
-    const Geometry geometry(scene.meshes);
+    const Geometry geometry(scene.meshes, scene.shapes);
     Rng rng(53, 0, 0);
     for (int i = 0; i < 10000; ++i) {
         const Vec3 origin(100.0 * rng.uniform(), 1000.0, 100.0 * rng.uniform());
@@ -137,7 +137,7 @@ TEST(Geometry, sees_occluders_between_points_and_nothing_beyond) {
     TestScene scene;
     scene.add_quad({Vec3(-1, 0, -1), Vec3(-1, 0, 1), Vec3(1, 0, 1), Vec3(1, 0, -1)},
                    scene.add_material(Rgb::Constant(0.5f)));
-    const Geometry geometry(scene.meshes);
+    const Geometry geometry(scene.meshes, scene.shapes);
     EXPECT_TRUE(geometry.occluded({0, 1, 0}, {0, -1, 0}));
     EXPECT_FALSE(geometry.occluded({0, 1, 0}, {0, 0.001, 0}));
     EXPECT_FALSE(geometry.occluded({0, 1, 0}, {2.5, -0.5, 0}));
@@ -147,23 +147,23 @@ TEST(Geometry, leaves_out_and_counts_triangles_without_area) {
     TestScene scene;
     scene.add_mesh({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(0, 1, 0)},
                    {{0, 1, 2}, {0, 1, 3}, {1, 1, 3}}, scene.add_material(Rgb::Constant(0.5f)));
-    const Geometry geometry(scene.meshes);
+    const Geometry geometry(scene.meshes, scene.shapes);
     EXPECT_EQ(geometry.stats().triangles, 1u);
     EXPECT_EQ(geometry.stats().degenerate_triangles, 2u);
     SurfacePoint hit;
     ASSERT_TRUE(geometry.intersect({Vec3(0.2, 0.2, 1), -Vec3::UnitZ()}, Coherence::incoherent, hit));
-    EXPECT_EQ(geometry.triangle(hit.triangle).normal, Vec3::UnitZ());
+    EXPECT_EQ(geometry.normal(hit), Vec3::UnitZ());
 }
 
 TEST(Geometry, refuses_vertices_that_are_not_finite_and_accepts_an_empty_scene) {
     TestScene scene;
-    const Geometry empty(scene.meshes);
+    const Geometry empty(scene.meshes, scene.shapes);
     SurfacePoint hit;
     EXPECT_FALSE(empty.intersect({Vec3::Zero(), Vec3::UnitX()}, Coherence::coherent, hit));
     scene.add_quad({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)},
                    scene.add_material(Rgb::Constant(0.5f)));
     scene.meshes.position[2].y() = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THROW(Geometry(scene.meshes), Error);
+    EXPECT_THROW(Geometry(scene.meshes, scene.shapes), Error);
 }
 
 }  // namespace

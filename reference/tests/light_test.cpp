@@ -34,7 +34,7 @@ TestScene three_lights() {
 TEST(LightSet, sampled_directions_integrate_to_the_lights_solid_angle) {
     // The mean of 1 / pdf_w over samples that land on a triangle is its solid angle.
     const TestScene scene = three_lights();
-    const Geometry geometry(scene.meshes);
+    const Geometry geometry(scene.meshes, scene.shapes);
     const LightSet lights(geometry, scene.lights);
     const Vec3 from = Vec3::Zero();
     constexpr int samples = 400000;
@@ -49,7 +49,7 @@ TEST(LightSet, sampled_directions_integrate_to_the_lights_solid_angle) {
         }
         SurfacePoint hit;
         ASSERT_TRUE(geometry.intersect({from, sample->wi}, Coherence::incoherent, hit));
-        const uint32_t light = geometry.triangle(hit.triangle).light;
+        const uint32_t light = geometry.light(hit);
         ASSERT_NE(light, no_index);
         if (geometry.occluded(from, sample->target)) {
             continue;
@@ -58,14 +58,14 @@ TEST(LightSet, sampled_directions_integrate_to_the_lights_solid_angle) {
         // Both sides of MIS must see one density.
         ASSERT_NEAR(lights.pdf_w(geometry, light, from, hit) / sample->pdf_w, 1.0, 1e-9);
         ASSERT_TRUE((lights.emitted(geometry, light, hit, -sample->wi) == sample->radiance).all());
-        sum[hit.triangle] += 1.0 / sample->pdf_w;
-        squares[hit.triangle] += square(1.0 / sample->pdf_w);
+        sum[hit.primitive] += 1.0 / sample->pdf_w;
+        squares[hit.primitive] += square(1.0 / sample->pdf_w);
     }
     EXPECT_GT(visible, samples / 3);
 
     std::vector<Comparison> suite;
     for (uint32_t t = 0; t < sum.size(); ++t) {
-        const TriangleRecord &triangle = geometry.triangle(t);
+        const TriangleRecord &triangle = geometry.triangles()[t];
         const double mean = sum[t] / samples;
         const double deviation = std::sqrt((squares[t] / samples - mean * mean) / samples);
         const bool faces = triangle.normal.dot(from - triangle.vertex) > 0.0;
@@ -79,7 +79,7 @@ TEST(LightSet, sampled_directions_integrate_to_the_lights_solid_angle) {
 
 TEST(LightSet, has_no_density_behind_a_light) {
     const TestScene scene = three_lights();
-    const Geometry geometry(scene.meshes);
+    const Geometry geometry(scene.meshes, scene.shapes);
     const LightSet lights(geometry, scene.lights);
     const Vec3 above(0.3, 6.0, 0.1);
     SurfacePoint hit;

@@ -22,7 +22,7 @@ TestScene floor_with_normal(const Vec3 &normal) {
 }
 
 Shading shade(const TestScene &scene, const Vec3 &wo, double x = 0.25, double z = 0.5) {
-    const Geometry geometry(scene.meshes);
+    const Geometry geometry(scene.meshes, scene.shapes);
     SurfacePoint hit;
     EXPECT_TRUE(geometry.intersect({Vec3(x, 1, z), -Vec3::UnitY()}, Coherence::coherent, hit));
     return make_shading(geometry, hit, wo, true);

@@ -61,6 +61,34 @@ uint32_t TestScene::add_light(LightArrays::Kind kind, const Rgb &radiance) {
     return static_cast<uint32_t>(lights.name.size() - 1);
 }
 
+uint32_t TestScene::add_shape(ShapeArrays::Kind kind, const Eigen::Matrix4d &world_from_object,
+                              uint32_t material, const Rgb &radiance) {
+    const auto shape = static_cast<uint32_t>(shapes.name.size());
+    shapes.name.push_back("shape" + std::to_string(shape));
+    shapes.kind.push_back(kind);
+    shapes.world_from_object.push_back(world_from_object);
+    shapes.material.push_back(material);
+    shapes.light.push_back(no_index);
+    shapes.flare.push_back(kind == ShapeArrays::Kind::hyperboloid ? 1.0 : 0.0);
+    shapes.julia_constant.emplace_back(Eigen::Vector4d::Zero());
+    shapes.julia_slice.push_back(0.0);
+    shapes.julia_iterations.push_back(0);
+    if (!radiance.isZero()) {
+        shapes.light.back() = add_light(LightArrays::Kind::diffuse_area, radiance);
+        lights.shape.back() = shape;
+        const double r = world_from_object.col(0).norm();
+        lights.area.back() = (kind == ShapeArrays::Kind::sphere ? 4.0 : 1.0) * pi * r * r;
+    }
+    return shape;
+}
+
+Eigen::Matrix4d placed(const Vec3 &position, double scale) {
+    Eigen::Matrix4d transform = scale * Eigen::Matrix4d::Identity();
+    transform.topRightCorner<3, 1>() = position;
+    transform(3, 3) = 1.0;
+    return transform;
+}
+
 void TestScene::set_normals(const std::vector<Vec3> &normals) {
     meshes.has_normals.back() = 1;
     meshes.normal.resize(meshes.position.size() - normals.size(), Eigen::Vector3f::Zero());

@@ -24,6 +24,10 @@ struct TestScene : SceneArrays {
     void add_mesh(const std::vector<Vec3> &positions, const std::vector<Triangle> &triangles,
                   uint32_t material, const Rgb &radiance = Rgb::Zero());
 
+    /// Returns the index of the shape; a hyperboloid has a flare of 1.
+    uint32_t add_shape(ShapeArrays::Kind kind, const Eigen::Matrix4d &world_from_object, uint32_t material,
+                       const Rgb &radiance = Rgb::Zero());
+
     /// Of the last mesh, one per vertex.
     void set_normals(const std::vector<Vec3> &normals);
     void set_uv(const std::vector<Eigen::Vector2d> &uv);
@@ -42,6 +46,9 @@ struct TestScene : SceneArrays {
         return ReferenceRenderer(*this, settings);
     }
 };
+
+/// Uniform scale, then translation.
+Eigen::Matrix4d placed(const Vec3 &position, double scale);
 
 /// Closed box of walls that all emit `emission` and reflect `albedo`: the radiance is emission / (1 - albedo)
 /// everywhere inside, in every direction, since L = E + rho L. Centred at `centre`, edge length `size`.

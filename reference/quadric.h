@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "reference/math.h"
+#include "renderer/scene/stores.h"
+
+namespace rtrays::reference {
+
+/// The zero set of F = x^2 + y^2 + a z^2 + b z + c between two heights: sphere, cylinder, cone, paraboloid
+/// and hyperboloid of ShapeArrays in their object spaces.
+class Quadric {
+  public:
+    Quadric(ShapeArrays::Kind kind, double flare)
+        : surface_(coefficients(kind, flare)), spherical_(kind == ShapeArrays::Kind::sphere) {}
+
+    /// Nearest t in (0, t_max) at which origin + t direction crosses the surface; false when there is none.
+    bool intersect(const Vec3 &origin, const Vec3 &direction, double t_max, double &t) const;
+
+    /// The nearest point of the surface to one that is off by rounding.
+    Vec3 project(const Vec3 &point) const;
+
+    /// Gradient of F, half of it; outwards or away from the axis.
+    Vec3 gradient(const Vec3 &point) const {
+        return {point.x(), point.y(), surface_.a * point.z() + 0.5 * surface_.b};
+    }
+
+    Eigen::Vector2d uv(const Vec3 &point) const;
+
+    double low() const { return surface_.low; }
+    double high() const { return surface_.high; }
+    double radius() const { return surface_.radius; }  ///< greatest distance from the axis
+
+  private:
+    struct Coefficients {
+        double a, b, c;
+        double low, high;
+        double radius;
+    };
+    static Coefficients coefficients(ShapeArrays::Kind kind, double flare);
+
+    double value(const Vec3 &p) const {
+        return square(p.x()) + square(p.y()) + (surface_.a * p.z() + surface_.b) * p.z() + surface_.c;
+    }
+    Coefficients surface_;
+    bool spherical_;  ///< v by the angle, not the height
+};
+
+}  // namespace rtrays::reference
