@@ -85,7 +85,7 @@ LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {
             throw input_error(
                 fmt::format("light {} '{}': radiance must be finite and not negative", i, lights.name[i]));
         }
-        if (lights.kind[i] != LightArrays::Kind::diffuse_area) {
+        if (lights.kind[i] != LightArrays::Kind::diffuse_area || lights.shape[i] != no_index) {
             throw input_error(
                 fmt::format("light {} '{}': the reference does not know its kind", i, lights.name[i]));
         }
