@@ -21,7 +21,7 @@ Scene load_scene(const std::string &path) {
     const bool named_by_folder = file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();
     const std::filesystem::path named =
         named_by_folder ? std::filesystem::absolute(file).parent_path().filename() : file.stem();
-    return parse_scene_json(text, path, named.string());
+    return parse_scene_json(text, path, named.string(), file.parent_path());
 }
 
 }  // namespace rtrays

@@ -7,18 +7,17 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "embedded/scene_schemas.h"
 #include "renderer/base/error.h"
 #include "renderer/base/json.h"
-#include "renderer/import/triangulate.h"
+#include "renderer/import/scene_json_geometry.h"
+#include "renderer/import/scene_json_material.h"
+#include "renderer/import/scene_json_values.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/light.h"
-#include "renderer/scene/cores/material.h"
-#include "renderer/scene/cores/mesh.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/cores/visibility.h"
 #include "renderer/scene/graph.h"
@@ -33,40 +32,33 @@ constexpr double degree = 3.14159265358979323846 / 180;
 /// is rounded to float: by then four bits of every coordinate would be lost to the distance.
 constexpr double far_away = 16;
 
-/// An error that already says where.
-struct LocatedError : Error {
-    explicit LocatedError(const std::string &message) : Error(ExitCode::bad_input, message) {}
-};
-
-Eigen::Vector3d vector3(const Json &value) {
-    return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
-}
-
 /// Builds the graph from a document that the schema has accepted; what a schema cannot say is checked here.
 class SceneReader {
   public:
-    SceneReader(const Json &document, const std::string &text, const std::string &source_name, Scene &scene)
-        : document_(document), text_(text), source_name_(source_name), scene_(scene) {}
+    SceneReader(const Json &document, SceneSource source, Scene &scene)
+        : document_(document), source_(std::move(source)), scene_(scene) {}
 
     void read() {
         const Json &film = document_.at("film");
         scene_.set_film_size(film.at("width"), film.at("height"));
-        for (const auto &entry : section("materials").items()) {
-            const std::string path = "/materials/" + entry.key();
-            located(path, [&] { materials_[entry.key()] = material(entry.value(), entry.key()); });
-            scene_.graph().share("materials." + entry.key(), materials_[entry.key()]);
-        }
-        for (const auto &entry : section("geometries").items()) {
-            const std::string path = "/geometries/" + entry.key();
-            geometries_[entry.key()] = geometry(entry.value(), entry.key(), path);
-            scene_.graph().share("geometries." + entry.key(), geometries_[entry.key()]);
-        }
+        read_section("textures", textures_,
+                     [this](const Json &value, const std::string &name, const std::string &path) {
+                         return read_texture(value, name, source_, path, files_);
+                     });
+        read_section("materials", materials_,
+                     [this](const Json &value, const std::string &name, const std::string &path) {
+                         return material(value, name, path);
+                     });
+        read_section("geometries", geometries_,
+                     [this](const Json &value, const std::string &name, const std::string &path) {
+                         return read_geometry(value, name, source_, path);
+                     });
         read_nodes(document_.at("nodes"), "/nodes", scene_.graph().root());
     }
 
     /// Writes the arrays and checks the scene as a whole.
     void finish() {
-        located("", [&] {
+        source_.located("", [&] {
             scene_.update(0);
             const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
             const bool has_geometry = !bounds.isEmpty();
@@ -88,20 +80,16 @@ class SceneReader {
     }
 
   private:
-    const Json &section(const char *name) const {
-        static const Json empty = Json::object();
-        return document_.contains(name) ? document_.at(name) : empty;
-    }
-
-    /// Runs `body`; an `Error` from it gets source, line and path, the innermost one that is known.
-    template <typename Body>
-    std::invoke_result_t<Body> located(const std::string &path, const Body &body) const {
-        try {
-            return body();
-        } catch (const LocatedError &) {
-            throw;
-        } catch (const Error &error) {
-            throw LocatedError(fmt::format("{}: {}", json_location(source_name_, text_, path), error.what()));
+    /// Reads the objects that a section of the document shares by name.
+    template <typename Map, typename Read>
+    void read_section(const std::string &section, Map &shared, const Read &read) {
+        if (!document_.contains(section)) {
+            return;
+        }
+        for (const auto &entry : document_.at(section).items()) {
+            const std::string path = "/" + section + "/" + entry.key();
+            shared[entry.key()] = read(entry.value(), entry.key(), path);
+            scene_.graph().share(section + "." + entry.key(), shared[entry.key()]);
         }
     }
 
@@ -120,41 +108,36 @@ class SceneReader {
         return found->second;
     }
 
-    static std::shared_ptr<MaterialCore> material(const Json &value, const std::string &name) {
-        return std::make_shared<LambertMaterial>(name, vector3(value.at("reflectance")));
+    std::shared_ptr<MaterialCore> material(const Json &value, const std::string &name,
+                                           const std::string &path) {
+        const auto lookup = [this](const Json &texture, const std::string &texture_name,
+                                   const std::string &at) {
+            return texture.is_string()
+                       ? source_.located(at, [&] { return reference(textures_, texture, "texture"); })
+                       : read_texture(texture, texture_name, source_, at, files_);
+        };
+        return read_material(value, name, source_, path, lookup);
     }
 
-    std::shared_ptr<MeshCore> geometry(const Json &value, const std::string &name,
-                                       const std::string &path) const {
-        std::vector<Eigen::Vector3d> vertices;
-        for (const Json &vertex : value.at("vertices")) {
-            vertices.push_back(vector3(vertex));
+    std::shared_ptr<LightCore> light(const Json &value, const std::string &name, const std::string &path) {
+        const LightType &type = find_type(light_types(), value.at("type"), "light");
+        if (type.kind != LightArrays::Kind::environment) {
+            return std::make_shared<LightCore>(
+                name, type.name, parameter_values(value, type.name, type.parameters, {}, source_, path));
         }
-        std::vector<Triangle> triangles;
-        const Json &polygons = value.at("polygons");
-        for (size_t i = 0; i < polygons.size(); ++i) {
-            const auto corners = polygons[i].get<std::vector<uint64_t>>();
-            located(fmt::format("{}/polygons/{}", path, i), [&] {
-                std::vector<uint32_t> indices;
-                for (const uint64_t corner : corners) {
-                    if (corner >= vertices.size()) {
-                        throw input_error(
-                            fmt::format("mesh '{}': polygon {} has vertex {}, but there are only {} vertices",
-                                        name, i, corner, vertices.size()));
-                    }
-                    indices.push_back(static_cast<uint32_t>(corner));
-                }
-                try {
-                    const std::vector<Triangle> parts = triangulate(vertices, indices);
-                    triangles.insert(triangles.end(), parts.begin(), parts.end());
-                } catch (const Error &error) {
-                    throw input_error(fmt::format("mesh '{}': polygon {} {}", name, i, error.what()));
-                }
-            });
-        }
-        return located(path, [&] {
-            return std::make_shared<MeshCore>(name, std::move(vertices), std::move(triangles));
+        check_keys(value, type.name, {"file"}, {"scale"});
+        const ParameterValues values =
+            parameter_values(value, type.name, type.parameters, {"file"}, source_, path);
+        return source_.located(path + "/file", [&] {
+            return std::make_shared<LightCore>(
+                name, files_.load(source_.file(value.at("file")), TextureEncoding::linear), values);
         });
+    }
+
+    std::shared_ptr<CameraCore> camera(const Json &value, const std::string &name, const std::string &path) {
+        const CoreType &type = find_type(camera_types(), value.at("type"), "camera");
+        return std::make_shared<CameraCore>(
+            name, type.name, parameter_values(value, type.name, type.parameters, {}, source_, path));
     }
 
     static Eigen::Matrix4d operation(const Json &value) {
@@ -186,13 +169,13 @@ class SceneReader {
                                              const std::string &path) const {
         Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
         for (size_t i = 0; i < operations.size(); ++i) {
-            located(fmt::format("{}/{}", path, i), [&] {
+            source_.located(fmt::format("{}/{}", path, i), [&] {
                 // Each by itself, so that the message names the one at fault.
                 const TransformCore checked(name, operation(operations[i]));
                 matrix = checked.matrix() * matrix;
             });
         }
-        return located(path, [&] { return std::make_shared<TransformCore>(name, matrix); });
+        return source_.located(path, [&] { return std::make_shared<TransformCore>(name, matrix); });
     }
 
     void read_nodes(const Json &nodes, const std::string &path, Node &parent) {
@@ -203,7 +186,7 @@ class SceneReader {
 
     void read_node(const Json &value, const std::string &path, Node &parent) {
         const std::string name = value.at("name");
-        Node &node = *located(path + "/name", [&] {
+        Node &node = *source_.located(path + "/name", [&] {
             if (name.find('.') != std::string::npos) {
                 throw input_error(fmt::format(
                     "'{}': a name must not contain a dot, which separates it from its properties", name));
@@ -214,51 +197,46 @@ class SceneReader {
             if (value.contains(key)) {
                 const std::string at = path + "/" + key;
                 node.set_core(
-                    located(at, [&]() -> std::shared_ptr<Core> { return build(value.at(key), at); }));
+                    source_.located(at, [&]() -> std::shared_ptr<Core> { return build(value.at(key), at); }));
             }
         };
         // Every node gets these two, so that each can be moved and hidden by name.
         const Json operations = value.value("transform", Json::array());
         node.set_core(transform(operations, name, path + "/transform"));
         node.set_core(std::make_shared<VisibilityCore>(name, value.value("visible", true)));
-        with("material", [&](const Json &v, const std::string &) {
-            return v.is_string() ? reference(materials_, v.get<std::string>(), "material")
-                                 : material(v, name);
+        with("material", [&](const Json &v, const std::string &at) {
+            return v.is_string() ? reference(materials_, v, "material") : material(v, name, at);
         });
         with("geometry", [&](const Json &v, const std::string &at) {
-            return v.is_string() ? reference(geometries_, v.get<std::string>(), "geometry")
-                                 : geometry(v, name, at);
+            return v.is_string() ? reference(geometries_, v, "geometry")
+                                 : read_geometry(v, name, source_, at);
         });
-        with("light", [&](const Json &v, const std::string &) {
-            return std::make_shared<DiffuseAreaLight>(name, vector3(v.at("radiance")));
-        });
-        with("camera", [&](const Json &v, const std::string &) {
-            return std::make_shared<PinholeCamera>(name, v.at("fov").get<double>(),
-                                                   parse_fov_axis(v.at("fov_axis")));
-        });
+        with("light", [&](const Json &v, const std::string &at) { return light(v, name, at); });
+        with("camera", [&](const Json &v, const std::string &at) { return camera(v, name, at); });
         if (value.contains("children")) {
             read_nodes(value.at("children"), path + "/children", node);
         }
     }
 
     const Json &document_;
-    const std::string &text_;
-    const std::string &source_name_;
+    SceneSource source_;
     Scene &scene_;
+    TextureFiles files_;
+    std::map<std::string, std::shared_ptr<Texture>> textures_;
     std::map<std::string, std::shared_ptr<MaterialCore>> materials_;
-    std::map<std::string, std::shared_ptr<MeshCore>> geometries_;
+    std::map<std::string, std::shared_ptr<Core>> geometries_;
 };
 
 }  // namespace
 
 Scene parse_scene_json(const std::string &text, const std::string &source_name,
-                       const std::string &default_name) {
+                       const std::string &default_name, const std::filesystem::path &directory) {
     const Json document = parse_json(text, source_name);
     validate_json(document, std::string(embedded::scene_schemas().text("scene.schema.json")), source_name,
                   text);
     Scene scene;
     scene.set_name(document.value("name", default_name));
-    SceneReader reader(document, text, source_name, scene);
+    SceneReader reader(document, {text, source_name, directory}, scene);
     reader.read();
     reader.finish();
     return scene;

@@ -7,12 +7,12 @@
 
 namespace rtrays {
 
-void AttributeSet::merge(const Attribute &own) {
+void AttributeSet::merge(const NodeAttribute &own) {
     const auto inherited = std::find_if(values_.begin(), values_.end(), [&](const auto &value) {
-        const Attribute &candidate = *value;
+        const NodeAttribute &candidate = *value;
         return typeid(candidate) == typeid(own);
     });
-    std::unique_ptr<Attribute> merged =
+    std::unique_ptr<NodeAttribute> merged =
         inherited == values_.end() ? own.default_value() : (*inherited)->clone();
     merged->merge(own);
     if (inherited == values_.end()) {

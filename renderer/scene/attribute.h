@@ -7,29 +7,30 @@
 
 namespace rtrays {
 
-/// One accumulating quantity. The three operations are the thesis'; how two values combine is up to the
-/// type: transforms multiply, visibility is a logical AND, a material replaces the inherited one.
-class Attribute {
+/// One accumulating quantity ("attribute" in the thesis). The three operations are the thesis'; how two
+/// values combine is up to the type: transforms multiply, visibility is a logical AND, a material replaces
+/// the inherited one.
+class NodeAttribute {
   public:
-    virtual ~Attribute() = default;
+    virtual ~NodeAttribute() = default;
 
     /// What a root without any value of this type starts from.
-    virtual std::unique_ptr<Attribute> default_value() const = 0;
+    virtual std::unique_ptr<NodeAttribute> default_value() const = 0;
 
-    virtual std::unique_ptr<Attribute> clone() const = 0;
+    virtual std::unique_ptr<NodeAttribute> clone() const = 0;
 
     /// Makes this (inherited) value the one below a node that contributes `own`, of the same type.
-    virtual void merge(const Attribute &own) = 0;
+    virtual void merge(const NodeAttribute &own) = 0;
 };
 
 /// Implements all but the combination for a type with a default constructor. `Derived` has
 /// `void combine(const Derived &own)`.
 template <typename Derived>
-class AttributeOf : public Attribute {
+class AttributeOf : public NodeAttribute {
   public:
-    std::unique_ptr<Attribute> default_value() const final { return std::make_unique<Derived>(); }
-    std::unique_ptr<Attribute> clone() const final { return std::make_unique<Derived>(self()); }
-    void merge(const Attribute &own) final {
+    std::unique_ptr<NodeAttribute> default_value() const final { return std::make_unique<Derived>(); }
+    std::unique_ptr<NodeAttribute> clone() const final { return std::make_unique<Derived>(self()); }
+    void merge(const NodeAttribute &own) final {
         static_cast<Derived &>(*this).combine(static_cast<const Derived &>(own));
     }
 
@@ -42,7 +43,7 @@ class AttributeOf : public Attribute {
 class AttributeSet {
   public:
     /// Accumulates what a node contributes. Never touches values shared with other nodes.
-    void merge(const Attribute &own);
+    void merge(const NodeAttribute &own);
 
     /// The value of one type: the accumulated one, or the default.
     template <typename T>
@@ -57,7 +58,7 @@ class AttributeSet {
     }
 
   private:
-    std::vector<std::shared_ptr<const Attribute>> values_;
+    std::vector<std::shared_ptr<const NodeAttribute>> values_;
 };
 
 }  // namespace rtrays

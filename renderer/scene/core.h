@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "renderer/scene/attribute.h"
-#include "renderer/scene/property.h"
+#include "renderer/scene/property_holder.h"
 
 namespace rtrays {
 
@@ -29,25 +29,16 @@ enum class Dirty : uint8_t {
 };
 
 /// The base of all cores. A core may be shared by any number of nodes; it lives as long as one of them.
-class Core {
+class Core : public PropertyHolder {
   public:
-    explicit Core(std::string name) : name_(std::move(name)) {}
-    virtual ~Core() = default;
-    Core(const Core &) = delete;
-    Core &operator=(const Core &) = delete;
+    using PropertyHolder::PropertyHolder;
 
-    const std::string &name() const { return name_; }
     const std::vector<Node *> &nodes() const { return nodes_; }
 
     virtual CoreRole role() const = 0;
 
-    /// The type as scene files call it.
-    virtual const char *type_name() const = 0;
-
-    virtual std::vector<Property> properties() = 0;
-
     /// What the core contributes to the attributes of its nodes, if anything.
-    virtual const Attribute *attribute() const { return nullptr; }
+    virtual const NodeAttribute *attribute() const { return nullptr; }
 
     /// Whether `update` is to be called whenever the time changes.
     virtual bool is_animated() const { return false; }
@@ -55,20 +46,16 @@ class Core {
     /// Brings the core to scene time `time` (seconds), through its setters.
     virtual void update(double) {}
 
-    /// What a change of this core outdates at its nodes.
-    virtual Dirty outdates() const { return Dirty::object; }
-
     /// Grows with every change: a record written at the same version is up to date.
     uint64_t version() const { return version_; }
 
   protected:
     /// Every setter ends here: marks the nodes that hold the core.
-    void changed();
+    void changed(Dirty outdated);
 
   private:
     friend class Node;
 
-    std::string name_;
     std::vector<Node *> nodes_;
     uint64_t version_ = 1;
 };

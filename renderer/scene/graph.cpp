@@ -9,8 +9,8 @@
 
 #include "renderer/base/error.h"
 #include "renderer/scene/cores/mesh.h"
+#include "renderer/scene/cores/shape.h"
 #include "renderer/scene/cores/transform.h"
-#include "renderer/scene/cores/visibility.h"
 
 namespace rtrays {
 
@@ -46,8 +46,9 @@ std::string described(const std::string &owner, const Property &property) {
 
 SceneGraph::SceneGraph()
     : meshes_(arrays_.meshes, materials_, lights_),
-      lights_(arrays_.lights, meshes_),
-      stores_{&materials_, &cameras_, &meshes_, &lights_},
+      shapes_(arrays_.shapes, materials_, lights_),
+      lights_(arrays_.lights, meshes_, shapes_),
+      stores_{&materials_, &cameras_, &meshes_, &shapes_, &lights_},
       root_(std::make_unique<Node>("")) {
     attach(*root_);
 }
@@ -97,19 +98,15 @@ void SceneGraph::detach(Node &subtree) {
                  dirty_.end());
 }
 
-Store *SceneGraph::store(CoreRole role) {
-    const auto found =
-        std::find_if(stores_.begin(), stores_.end(), [&](const Store *s) { return s->role() == role; });
-    return found == stores_.end() ? nullptr : *found;
-}
-
 void SceneGraph::core_added(const Node &node, CoreRole role) {
     Core *core = node.core(role);
     if (core == nullptr) {
         return;
     }
-    if (Store *own = store(role)) {
-        own->add_object(node);
+    for (Store *store : stores_) {
+        if (store->holds(*core)) {
+            store->add_object(node);
+        }
     }
     if (core->is_animated()) {
         animated_.push_back(core);
@@ -121,8 +118,10 @@ void SceneGraph::core_removed(const Node &node, CoreRole role) {
     if (core == nullptr) {
         return;
     }
-    if (Store *own = store(role)) {
-        own->remove_object(node);
+    for (Store *store : stores_) {
+        if (store->holds(*core)) {
+            store->remove_object(node);
+        }
     }
     if (core->is_animated()) {
         animated_.erase(std::find(animated_.begin(), animated_.end(), core));
@@ -164,13 +163,11 @@ std::vector<Node *> SceneGraph::nodes_to_write() {
 }
 
 void SceneGraph::allocate(Node &node) {
-    const bool visible = node.attributes().get<VisibilityAttribute>().visible;
     for (Store *store : stores_) {
-        if (node.core(store->role()) == nullptr) {
+        if (!store->concerns(node)) {
             continue;
         }
-        const bool can_hide = store == &meshes_ || store == &lights_;
-        if (visible || !can_hide) {
+        if (store->wants_record(node, node.attributes())) {
             store->allocate_object(node);
         } else {
             store->free_object(node);
@@ -182,12 +179,17 @@ void SceneGraph::compact() {
     cameras_.compact();
     if (const std::vector<uint32_t> moved = materials_.compact(); !moved.empty()) {
         remap(meshes_.arrays.material, moved);
+        remap(shapes_.arrays.material, moved);
     }
     if (const std::vector<uint32_t> moved = meshes_.compact(); !moved.empty()) {
         remap(lights_.arrays.mesh, moved);
     }
+    if (const std::vector<uint32_t> moved = shapes_.compact(); !moved.empty()) {
+        remap(lights_.arrays.shape, moved);
+    }
     if (const std::vector<uint32_t> moved = lights_.compact(); !moved.empty()) {
         remap(meshes_.arrays.light, moved);
+        remap(shapes_.arrays.light, moved);
     }
 }
 
@@ -206,12 +208,13 @@ void SceneGraph::update(double time) {
     compact();
     for (Store *store : stores_) {
         for (const Node *node : nodes) {
-            if (node->core(store->role()) != nullptr && store->slot(*node) != no_index) {
+            if (store->concerns(*node) && store->slot(*node) != no_index) {
                 store->write_object(*node, node->attributes());
             }
         }
         store->finish_update();
     }
+    meshes_.drop_unused();
     for (Node *node : dirty_) {
         node->dirty_ = Dirty::nothing;
     }
@@ -221,10 +224,19 @@ void SceneGraph::update(double time) {
 Eigen::AlignedBox3d SceneGraph::bounds() const {
     Eigen::AlignedBox3d box;
     visit_subtree(*root_, [&](const Node &node) {
+        const Eigen::Matrix4d &m = node.attributes().get<TransformAttribute>().world_from_object;
         if (const auto *mesh = node.core_of<MeshCore>(CoreRole::geometry)) {
-            const Eigen::Matrix4d &m = node.attributes().get<TransformAttribute>().world_from_object;
             for (const Eigen::Vector3d &vertex : mesh->vertices()) {
                 box.extend(m.topLeftCorner<3, 3>() * vertex + m.topRightCorner<3, 1>());
+            }
+        }
+        if (const auto *shape = node.core_of<ShapeCore>(CoreRole::geometry);
+            shape != nullptr && !shape->canonical_bounds().isEmpty()) {
+            const Eigen::Matrix4d placed = m * shape->object_from_canonical();
+            const Eigen::AlignedBox3d bounds = shape->canonical_bounds();
+            for (int corner = 0; corner < 8; ++corner) {
+                const auto at = bounds.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+                box.extend(placed.topLeftCorner<3, 3>() * at + placed.topRightCorner<3, 1>());
             }
         }
     });
@@ -234,12 +246,14 @@ Eigen::AlignedBox3d SceneGraph::bounds() const {
 void SceneGraph::set_origin(const Eigen::Vector3d &origin) {
     cameras_.origin = origin;
     meshes_.origin = origin;
+    shapes_.origin = origin;
+    lights_.origin = origin;
     root_->mark(Dirty::subtree);
 }
 
-void SceneGraph::share(const std::string &address, std::shared_ptr<Core> core) {
-    if (!shared_cores_.emplace(address, std::move(core)).second) {
-        throw input_error(fmt::format("two shared cores are called '{}'", address));
+void SceneGraph::share(const std::string &address, std::shared_ptr<PropertyHolder> holder) {
+    if (!shared_.emplace(address, std::move(holder)).second) {
+        throw input_error(fmt::format("two shared objects are called '{}'", address));
     }
 }
 
@@ -252,7 +266,7 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
     const std::string name = address.substr(dot + 1);
 
     std::vector<Property> properties;
-    if (const auto shared = shared_cores_.find(owner); shared != shared_cores_.end()) {
+    if (const auto shared = shared_.find(owner); shared != shared_.end()) {
         properties = shared->second->properties();
     } else if (const Node *node = find(owner)) {
         properties = properties_of(*node);
@@ -261,7 +275,7 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
         for (const auto &named : names_) {
             names.push_back(named.first);
         }
-        for (const auto &named : shared_cores_) {
+        for (const auto &named : shared_) {
             names.push_back(named.first);
         }
         throw input_error(
@@ -285,8 +299,8 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
 
 std::string SceneGraph::list_properties() const {
     std::string text;
-    for (const auto &[address, core] : shared_cores_) {
-        for (const Property &property : core->properties()) {
+    for (const auto &[address, holder] : shared_) {
+        for (const Property &property : holder->properties()) {
             text += described(address, property);
         }
     }

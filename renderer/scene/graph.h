@@ -10,7 +10,11 @@
 #include <vector>
 
 #include "renderer/scene/node.h"
-#include "renderer/scene/object_stores.h"
+#include "renderer/scene/stores/camera_store.h"
+#include "renderer/scene/stores/light_store.h"
+#include "renderer/scene/stores/material_store.h"
+#include "renderer/scene/stores/mesh_store.h"
+#include "renderer/scene/stores/shape_store.h"
 
 namespace rtrays {
 
@@ -26,11 +30,11 @@ class SceneGraph {
     /// The node of that name, or nullptr. Names are unique; nameless nodes are not found.
     Node *find(const std::string &name) const;
 
-    /// Registers a core under an address like "materials.white", for `set_property` and listings.
-    void share(const std::string &address, std::shared_ptr<Core> core);
-    const std::map<std::string, std::shared_ptr<Core>> &shared_cores() const { return shared_cores_; }
+    /// Registers a core or a texture under an address like "materials.white", for `set_property` and
+    /// listings.
+    void share(const std::string &address, std::shared_ptr<PropertyHolder> holder);
 
-    /// Sets "NODE.PROPERTY" or "SECTION.CORE.PROPERTY" from text. A core shared by several nodes changes for
+    /// Sets "NODE.PROPERTY" or "SECTION.NAME.PROPERTY" from text. A core shared by several nodes changes for
     /// all of them. Throws `Error` (bad input) naming the address and the alternatives.
     void set_property(const std::string &address, const std::string &text);
 
@@ -46,6 +50,7 @@ class SceneGraph {
     const StoreCounts &camera_counts() const { return cameras_.counts(); }
     const StoreCounts &material_counts() const { return materials_.counts(); }
     const StoreCounts &mesh_counts() const { return meshes_.counts(); }
+    const StoreCounts &shape_counts() const { return shapes_.counts(); }
     const StoreCounts &light_counts() const { return lights_.counts(); }
 
     /// How many nodes the last update visited.
@@ -54,7 +59,7 @@ class SceneGraph {
     /// What the graph serializes into; current after `update`.
     const SceneArrays &arrays() const { return arrays_; }
 
-    /// Box around all geometry in the coordinates of the scene file (walks the whole graph).
+    /// Box around all bounded geometry in the coordinates of the scene file (walks the whole graph).
     Eigen::AlignedBox3d bounds() const;
 
     /// Makes this point the origin of the baked world; everything is rewritten by the next update.
@@ -70,7 +75,6 @@ class SceneGraph {
     void core_added(const Node &node, CoreRole role);
     void core_removed(const Node &node, CoreRole role);
 
-    Store *store(CoreRole role);
     void accumulate(Node &node) const;
     std::vector<Node *> nodes_to_write();
     void allocate(Node &node);
@@ -78,13 +82,14 @@ class SceneGraph {
 
     SceneArrays arrays_;
     CameraStore cameras_{arrays_.cameras};
-    MaterialStore materials_{arrays_.materials};
+    MaterialStore materials_{arrays_.materials, arrays_.textures};
     MeshStore meshes_;
+    ShapeStore shapes_;
     LightStore lights_;
-    std::array<Store *, 4> stores_;  ///< in the order in which they are to be written
+    std::array<Store *, 5> stores_;  ///< in the order in which they are to be written
 
     std::unordered_map<std::string, Node *> names_;
-    std::map<std::string, std::shared_ptr<Core>> shared_cores_;
+    std::map<std::string, std::shared_ptr<PropertyHolder>> shared_;
     std::vector<Core *> animated_;  ///< once per node that holds it
     std::vector<Node *> dirty_;
     double time_ = 0;

@@ -10,10 +10,10 @@
 
 namespace rtrays {
 
-void Core::changed() {
+void Core::changed(Dirty outdated) {
     ++version_;
     for (Node *node : nodes_) {
-        node->mark(outdates());
+        node->mark(outdated);
     }
 }
 

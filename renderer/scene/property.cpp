@@ -41,8 +41,9 @@ std::vector<double> parse_numbers(const std::string &text, size_t count) {
 struct ToText {
     std::string operator()(bool value) const { return value ? "true" : "false"; }
     std::string operator()(double value) const { return fmt::format("{}", value); }
-    std::string operator()(const Eigen::Vector3d &v) const {
-        return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+    template <int size>
+    std::string operator()(const Eigen::Matrix<double, size, 1> &v) const {
+        return fmt::format("[{}]", fmt::join(v.data(), v.data() + size, ", "));
     }
     std::string operator()(const Eigen::Matrix4d &m) const {
         std::vector<std::string> rows;
@@ -67,9 +68,16 @@ struct FromText {
         value = numbers.empty() ? value : numbers[0];
         return !numbers.empty();
     }
-    bool operator()(Eigen::Vector3d &value) const {
-        const std::vector<double> numbers = parse_numbers(text, 3);
-        value = numbers.empty() ? value : Eigen::Vector3d(numbers.data());
+    template <int size>
+    bool operator()(Eigen::Matrix<double, size, 1> &value) const {
+        std::vector<double> numbers = parse_numbers(text, size);
+        if (size == 2 && numbers.empty()) {
+            const std::vector<double> both = parse_numbers(text, 1);
+            numbers.assign(2 * both.size(), both.empty() ? 0 : both[0]);
+        }
+        if (!numbers.empty()) {
+            value = Eigen::Map<const Eigen::Matrix<double, size, 1>>(numbers.data());
+        }
         return !numbers.empty();
     }
     bool operator()(Eigen::Matrix4d &value) const {
@@ -87,17 +95,26 @@ struct FromText {
 
 }  // namespace
 
+std::string property_text(const PropertyValue &value) {
+    return std::visit(ToText{}, value);
+}
+
+const char *property_type(const PropertyValue &value) {
+    constexpr const char *names[] = {"boolean",      "number",     "two numbers", "three numbers",
+                                     "four numbers", "4x4 matrix", "text"};
+    static_assert(std::size(names) == std::variant_size_v<PropertyValue>);
+    return names[value.index()];
+}
+
 std::string Property::type() const {
     if (!choices.empty()) {
         return fmt::format("one of: {}", fmt::join(choices, ", "));
     }
-    constexpr const char *names[] = {"boolean", "number", "three numbers", "4x4 matrix", "text"};
-    static_assert(std::size(names) == std::variant_size_v<PropertyValue>);
-    return names[get().index()];
+    return property_type(get());
 }
 
 std::string Property::text() const {
-    return std::visit(ToText{}, get());
+    return property_text(get());
 }
 
 void Property::set_text(const std::string &text) const {

@@ -12,7 +12,14 @@
 
 namespace rtrays {
 
-using PropertyValue = std::variant<bool, double, Eigen::Vector3d, Eigen::Matrix4d, std::string>;
+using PropertyValue = std::variant<bool, double, Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector4d,
+                                   Eigen::Matrix4d, std::string>;
+
+/// The value as `Property::set_text` reads it.
+std::string property_text(const PropertyValue &value);
+
+/// "boolean", "number", "two numbers", ..., "4x4 matrix" or "text".
+const char *property_type(const PropertyValue &value);
 
 /// One parameter of one core. Values go through the core's own setter, which validates them and marks the
 /// nodes concerned as dirty.
@@ -23,14 +30,15 @@ struct Property {
     std::function<PropertyValue()> get;
     std::function<void(const PropertyValue &)> set;  ///< empty when the property can only be read
 
-    /// "boolean", "number", "three numbers", "4x4 matrix" or "text"; a choice lists its alternatives.
+    /// As `property_type`; a choice lists its alternatives.
     std::string type() const;
 
     /// The value as `set_text` reads it.
     std::string text() const;
 
-    /// Parses and sets: `true`; `1.5`; `1,2,3` or `[1, 2, 3]`; 16 numbers, row by row; plain text. Throws
-    /// `Error` (bad input) when the text is of another type, the value is illegal or the property read-only.
+    /// Parses and sets: `true`; `1.5`; `1,2,3` or `[1, 2, 3]`; 16 numbers, row by row; plain text; one number
+    /// where two are equal. Throws `Error` (bad input) when the text is of another type, the value is illegal
+    /// or the property read-only.
     void set_text(const std::string &text) const;
 };
 

@@ -56,11 +56,67 @@ class ByteCollector {
         add(component.alpha);
         add(component.distribution);
     }
+    void add(const TextureImage &image) {
+        add(image.width);
+        add(image.height);
+        add(image.srgb);
+        add(image.bytes);
+        add(image.floats);
+    }
+    /// Begins a section that only some scenes have.
+    void begin(const std::string &name) { bytes_ += name; }
     const std::string &bytes() const { return bytes_; }
 
   private:
     std::string bytes_ = "rtrays scene 2";
 };
+
+/// What only some scenes have, so that the others keep their hash when scenes learn something new.
+void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
+    const MeshArrays &meshes = arrays.meshes;
+    if (!meshes.normal.empty() || !meshes.uv.empty()) {
+        collector.begin("interpolated");
+        collector.add(meshes.has_normals);
+        collector.add(meshes.has_uv);
+    }
+    const TextureArrays &textures = arrays.textures;
+    if (!textures.image.empty()) {
+        collector.begin("textures");
+        for (const auto &image : textures.image) {
+            collector.add(*image);
+        }
+        collector.add(textures.filter);
+        collector.add(textures.wrap);
+        collector.add(textures.uv_scale);
+        collector.add(textures.uv_offset);
+    }
+    const ShapeArrays &shapes = arrays.shapes;
+    if (!shapes.kind.empty()) {
+        collector.begin("shapes");
+        collector.add(shapes.kind);
+        collector.add(shapes.world_from_object);
+        collector.add(shapes.material);
+        collector.add(shapes.light);
+        collector.add(shapes.flare);
+        collector.add(shapes.julia_constant);
+        collector.add(shapes.julia_slice);
+        collector.add(shapes.julia_iterations);
+    }
+    const LightArrays &lights = arrays.lights;
+    if (std::any_of(lights.mesh.begin(), lights.mesh.end(), [](uint32_t mesh) { return mesh == no_index; })) {
+        collector.begin("lights");
+        collector.add(lights.shape);
+        collector.add(lights.world_from_light);
+        collector.add(lights.inner_angle);
+        collector.add(lights.outer_angle);
+        for (const auto &image : lights.image) {
+            collector.add(image != nullptr);
+            if (image != nullptr) {
+                collector.add(*image);
+            }
+        }
+    }
+}
 
 }  // namespace
 
@@ -85,9 +141,12 @@ void Scene::set_property(const std::string &address, const std::string &text) {
 
 std::string Scene::describe() const {
     return fmt::format(
-        "scene '{}': {} triangles in {} meshes, {} materials, {} lights, {} cameras, film {} x {}\n{}", name_,
-        meshes().triangle.size(), meshes().name.size(), materials().name.size(), lights().name.size(),
-        cameras().name.size(), film_width_, film_height_, graph_->list_properties());
+        "scene '{}': {} triangles in {} meshes, {} shapes, {} materials, {} textures, {} lights, {} cameras, "
+        "film {} x "
+        "{}\n{}",
+        name_, meshes().triangle.size(), meshes().name.size(), arrays().shapes.name.size(),
+        materials().name.size(), arrays().textures.name.size(), lights().name.size(), cameras().name.size(),
+        film_width_, film_height_, graph_->list_properties());
 }
 
 void Scene::update(double time) {
@@ -151,6 +210,7 @@ std::string Scene::hash() const {
     collector.add(lights().kind);
     collector.add(lights().radiance);
     collector.add(lights().mesh);
+    add_sections(arrays(), collector);
     return content_hash(collector.bytes());
 }
 

@@ -6,12 +6,12 @@
 namespace rtrays {
 
 void Store::add_object(const Node &node) {
-    ++objects_[identity(node)].nodes;
+    ++objects_[identity(node)].uses;
 }
 
 void Store::remove_object(const Node &node) {
     const auto found = objects_.find(identity(node));
-    if (found != objects_.end() && --found->second.nodes == 0) {
+    if (found != objects_.end() && --found->second.uses == 0) {
         release(found->second);
         objects_.erase(found);
     }

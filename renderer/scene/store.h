@@ -22,23 +22,32 @@ struct StoreCounts {
 
 /// The part common to all stores: which objects there are and at which index ("slot") each has its record.
 ///
-/// An object is a node's core of the store's role. It is added when the core joins the graph, gets a record
+/// An object is a node's core that the store holds. It is added when the core joins the graph, gets a record
 /// when it is allocated, and loses it again when it is freed (hidden) or removed. Freed records leave holes;
 /// `compact` closes them, so that readers of the arrays after an update never meet one.
 class Store {
   public:
-    explicit Store(CoreRole role) : role_(role) {}
+    Store() = default;
     virtual ~Store() = default;
     Store(const Store &) = delete;
     Store &operator=(const Store &) = delete;
 
     virtual const char *type_name() const = 0;
-    CoreRole role() const { return role_; }
 
-    /// Registers the object of `node`; no record is allocated.
+    /// Whether a node with this core may have a record here.
+    virtual bool holds(const Core &core) const = 0;
+
+    /// Whether one of the node's cores may have a record here.
+    virtual bool concerns(const Node &node) const = 0;
+
+    /// Whether the object of a node that the store concerns is to have a record.
+    virtual bool wants_record(const Node &node, const AttributeSet &attributes) const = 0;
+
+    /// Registers the object of `node`, once for each of its cores that the store holds; no record is
+    /// allocated.
     void add_object(const Node &node);
 
-    /// Forgets the object, and frees its record if it has one.
+    /// Takes back one `add_object`; the last one frees the record if there is one.
     void remove_object(const Node &node);
 
     /// Appends a record for the object, unless it has one of the right size.
@@ -83,12 +92,11 @@ class Store {
   private:
     struct Object {
         uint32_t slot = no_index;
-        size_t nodes = 0;  ///< how many nodes share it
+        size_t uses = 0;  ///< by nodes and their cores
     };
 
     void release(Object &object);
 
-    CoreRole role_;
     std::unordered_map<const void *, Object> objects_;
     std::vector<Object *> owners_;  ///< of each slot, nullptr for a hole
     bool has_holes_ = false;

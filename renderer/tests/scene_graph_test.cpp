@@ -57,7 +57,7 @@ TEST(Attributes, ARemovedCoreNoLongerCounts) {
 TEST(Attributes, DefaultCloneAndMergeAreThoseOfTheThesis) {
     TransformAttribute scale;
     scale.world_from_object = scaling({2, 3, 4});
-    const std::unique_ptr<Attribute> copy = scale.clone();
+    const std::unique_ptr<NodeAttribute> copy = scale.clone();
     TransformAttribute offset;
     offset.world_from_object = translation({1, 1, 1});
     copy->merge(offset);
@@ -147,8 +147,8 @@ TEST(Transform, RefusesWhatCannotBeInverted) {
 TEST(Properties, AreListedReadAndSetByName) {
     SceneGraph graph;
     Node &lamp = add_node(graph.root(), "lamp");
-    const auto camera = std::make_shared<PinholeCamera>("", 40, FovAxis::smaller);
-    const auto light = std::make_shared<DiffuseAreaLight>("", Vector3d(1, 2, 3));
+    const auto camera = pinhole(40, "smaller");
+    const auto light = area_light(Vector3d(1, 2, 3));
     const auto material = grey("white");
     lamp.set_core(camera);
     lamp.set_core(light);
@@ -163,11 +163,11 @@ TEST(Properties, AreListedReadAndSetByName) {
     graph.set_property("lamp.radiance", "[7, 8, 9e0]");
     EXPECT_EQ(light->radiance(), Vector3d(7, 8, 9));
     graph.set_property("materials.white.reflectance", "0.1,0.2,0.3");
-    EXPECT_EQ(material->reflectance(), Vector3d(0.1, 0.2, 0.3));
+    EXPECT_EQ(material->parameters().vector3("reflectance"), Vector3d(0.1, 0.2, 0.3));
     graph.set_property("lamp.fov", "0.5");
-    EXPECT_EQ(camera->fov_degrees(), 0.5);
+    EXPECT_EQ(camera->parameters().number("fov"), 0.5);
     graph.set_property("lamp.fov_axis", "y");
-    EXPECT_EQ(camera->fov_axis(), FovAxis::y);
+    EXPECT_EQ(camera->parameters().choice<FovAxis>("fov_axis"), FovAxis::y);
     graph.set_property("lamp.visible", "false");
     graph.set_property("lamp.transform", "[[1,0,0,9],[0,1,0,8],[0,0,1,7],[0,0,0,1]]");
     graph.set_property("lamp.translation", "3,2,1");
@@ -189,7 +189,7 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
     Node &node = add_node(graph.root(), "box");
     node.set_core(grey("white"));
     node.set_core(unit_square());
-    node.set_core(std::make_shared<PinholeCamera>("", 40, FovAxis::x));
+    node.set_core(pinhole(40, "x"));
     node.set_core(std::make_shared<VisibilityCore>("", true));
     node.set_core(moved(0, 0, 0));
     graph.share("materials.white", grey("white"));
@@ -199,7 +199,7 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
     expect_input_error("'lamp.fov': the scene has no 'lamp'; it has: box, materials.white",
                        set("lamp.fov", "1"));
     expect_input_error(
-        "'box.size': 'box' has no property 'size'; it has: fov, fov_axis, reflectance, transform, ",
+        "'box.size': 'box' has no property 'size'; it has: emission, fov, fov_axis, reflectance, ",
         set("box.size", "1"));
     expect_input_error("expected NODE.PROPERTY", set("fov", "1"));
     expect_input_error("'box.fov': 'wide' is not a value of type number", set("box.fov", "wide"));
@@ -207,7 +207,8 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
         expect_input_error("is not a value of type number", set("box.fov", text));
     }
     for (const char *fov : {"0", "180", "-1", "1e308"}) {
-        expect_input_error("is not between 0 and 180 degrees", set("box.fov", fov));
+        expect_input_error("is not within (0, 180) (full angle of view along fov_axis, degrees)",
+                           set("box.fov", fov));
     }
     expect_input_error("'box.fov_axis': 'z' is not one of: x, y, smaller, larger", set("box.fov_axis", "z"));
     expect_input_error("is not a value of type three numbers", set("box.reflectance", "1,2"));
@@ -221,9 +222,9 @@ TEST(Cores, RefuseValuesOutOfRange) {
     const double nan = std::nan("");
     expect_input_error("reflectance", [&] { grey("", nan); });
     expect_input_error("reflectance", [&] { grey("", -1e-9); });
-    expect_input_error("radiance", [&] { DiffuseAreaLight("", Vector3d(0, nan, 0)); });
-    expect_input_error("radiance", [&] { DiffuseAreaLight("", Vector3d(0, 1e39, 0)); });
-    expect_input_error("radiance", [&] { DiffuseAreaLight("", Vector3d(0, 0, -1)); });
+    expect_input_error("radiance", [&] { area_light(Vector3d(0, nan, 0)); });
+    expect_input_error("radiance", [&] { area_light(Vector3d(0, 1e39, 0)); });
+    expect_input_error("radiance", [&] { area_light(Vector3d(0, 0, -1)); });
     expect_input_error("mesh 'm': vertex 2 is not finite", [&] {
         MeshCore("m", {{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}, {{0, 1, 2}});
     });

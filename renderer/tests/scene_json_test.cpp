@@ -150,11 +150,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{R"({"name": "a", "light": {"type": "diffuse_area", "radiance": [1, 1, 1]}})",
                  "light 'a': an area light needs geometry"},
         BadScene{R"({"name": "a", "light": {"type": "diffuse_area", "radiance": [1, 1, 1e39]}})",
-                 "/nodes/1/light: radiance: [1, 1, 1e+39] is not within"},
+                 "/nodes/1/light/radiance: radiance: [1, 1, 1e+39] is not within"},
         BadScene{R"({"name": "a", "light": {"type": "diffuse_area", "radiance": [1, -1, 1]}})",
                  "/nodes/1/light/radiance/1"},
-        BadScene{R"({"name": "a", "light": {"type": "point", "radiance": [1, 1, 1]}})",
-                 "\"point\" is not one of: diffuse_area"},
+        BadScene{R"({"name": "a", "light": {"type": "laser", "radiance": [1, 1, 1]}})",
+                 "\"laser\" is not one of: diffuse_area, point, spot, directional, dome, environment"},
         BadScene{
             R"({"name": "a", "material": "white", "light": {"type": "diffuse_area", "radiance": [1, 1, 1]},
                      "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[2,0,0]], "polygons": [[0,1,2]]}})",
@@ -167,9 +167,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "/nodes/1/geometry/vertices/1/0 (in 'a'): syntax error"},
         BadScene{mesh_node("[[0,0,0],[1e39,0,0],[0,1,0]]", "[[0,1,2]]"),
                  "mesh 'a': vertex 1, [1e+39, 0, 0], is beyond the range of float"},
-        BadScene{mesh_node(three_vertices, "[[0,1,3]]"),
-                 "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex 3, but there are only "
-                 "3 vertices"},
+        BadScene{
+            mesh_node(three_vertices, "[[0,1,3]]"),
+            "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex 3, but there are only "
+            "3 vertices"},
         BadScene{mesh_node(three_vertices, "[[0,1,4294967296]]"), "has vertex 4294967296, but"},
         BadScene{mesh_node(three_vertices, "[[0,1,-1]]"), "/nodes/1/geometry/polygons/0/2 (in 'a'): -1"},
         BadScene{mesh_node(three_vertices, "[[0,1,1.5]]"), "1.5 is not of type integer"},

@@ -24,7 +24,7 @@ std::unique_ptr<SceneGraph> row_of_triangles(int count) {
         node.set_core(triangle);
         node.set_core(moved(2.0 * i, 0, 0));
         if (i % 3 == 0) {
-            node.set_core(std::make_shared<DiffuseAreaLight>("", Vector3d(i, 1, 1)));
+            node.set_core(area_light(Vector3d(i, 1, 1)));
         }
     }
     return graph;
@@ -74,7 +74,7 @@ TEST(Stores, OnlyWhatChangedIsRewritten) {
     EXPECT_EQ(graph->light_counts().written + graph->material_counts().written, 0u);
     EXPECT_EQ(graph->arrays().meshes.position[12], Vector3f(0, 0, 9));
 
-    core_at<LambertMaterial>(*graph, "all", CoreRole::material).set_reflectance({1, 0, 0});
+    core_at<MaterialCore>(*graph, "all", CoreRole::material).set("reflectance", Vector3d(1, 0, 0));
     graph->update(0);
     EXPECT_EQ(graph->material_counts().written, 1u);
     EXPECT_EQ(graph->mesh_counts().written, 0u) << "meshes refer to a material, they do not copy it";
@@ -92,7 +92,7 @@ TEST(Stores, SeveralEditsOfOneNodeAreWrittenOnce) {
     graph->update(0);
     for (int i = 0; i < 5; ++i) {
         core_at<TransformCore>(*graph, "3", CoreRole::transform).set_translation({0, 0, 1.0 * i});
-        core_at<DiffuseAreaLight>(*graph, "3", CoreRole::light).set_radiance({1, 1, 1.0 * i});
+        core_at<LightCore>(*graph, "3", CoreRole::light).set("radiance", Vector3d(1, 1, 1.0 * i));
     }
     graph->find("all")->set_core(moved(1, 0, 0));
     graph->update(0);
@@ -154,7 +154,7 @@ TEST(Stores, AMeshThatGrowsGetsANewRecord) {
         graph->find(name)->set_core(square);
     }
     graph->update(0);
-    square->set_geometry(unit_square()->vertices(), unit_square()->triangles());
+    square->set_geometry({unit_square()->vertices(), unit_square()->triangles()});
     graph->update(0);
     EXPECT_EQ(meshes.position.size(), 12u);
     EXPECT_EQ(graph->mesh_counts().written, 3u);
@@ -181,7 +181,7 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
                     node->set_core(random() % 2 == 0 ? unit_square() : right_triangle());
                     break;
                 case 3:
-                    node->set_core(std::make_shared<DiffuseAreaLight>("", Vector3d(1, 1, 1)));
+                    node->set_core(area_light(Vector3d(1, 1, 1)));
                     break;
                 case 4:
                     node->remove_core(CoreRole::light);
@@ -225,7 +225,7 @@ TEST(Stores, InstancesShareACoreAndHaveRecordsOfTheirOwn) {
     EXPECT_EQ(triangle->nodes().size(), 2u);
     EXPECT_EQ(graph.arrays().meshes.position[1], Vector3f(1, 0, 0));
     EXPECT_EQ(graph.arrays().meshes.position[4], Vector3f(3, 0, 0));
-    triangle->set_geometry({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    triangle->set_geometry({{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
     graph.update(0);
     EXPECT_EQ(graph.mesh_counts().written, 2u);
     EXPECT_EQ(graph.arrays().meshes.position[4], Vector3f(6, 0, 0));
@@ -252,7 +252,7 @@ TEST(Stores, CamerasAreRigid) {
     SceneGraph graph;
     Node &parent = add_node(graph.root(), "parent");
     Node &node = add_node(parent, "camera");
-    node.set_core(std::make_shared<PinholeCamera>("", 90, FovAxis::y));
+    node.set_core(pinhole(90, "y"));
     node.set_core(std::make_shared<TransformCore>("", look_at({0, 0, 4}, {4, 0, 4}, {0, 1, 0})));
     parent.set_core(std::make_shared<TransformCore>("", scaling({10, 10, 10})));
     graph.update(0);
@@ -277,7 +277,7 @@ TEST(Stores, WhatCannotBeRepresentedIsAnErrorUntilItIsMended) {
     expect_input_error("mesh 'node': vertex 1, [1, 0, 0], is beyond the range of float",
                        [&] { graph.update(0); });
     node.set_core(std::make_shared<TransformCore>("", scaling({1e-30, 1e-30, 1})));
-    node.set_core(std::make_shared<DiffuseAreaLight>("", Vector3d(1, 1, 1)));
+    node.set_core(area_light(Vector3d(1, 1, 1)));
     graph.update(0);
     EXPECT_NEAR(graph.arrays().lights.area[0] / 0.5e-60, 1, 1e-6);
     node.set_core(std::make_shared<MeshCore>("line", std::vector<Vector3d>{{0, 0, 0}, {1, 1, 1}},

@@ -4,38 +4,25 @@
 #include <string>
 #include <vector>
 
-#include "renderer/scene/core.h"
+#include "renderer/scene/cores/parameter_core.h"
 #include "renderer/scene/stores.h"
 
 namespace rtrays {
 
 using FovAxis = CameraArrays::FovAxis;
 
-/// Names of the axes as in scene files, in the order of `FovAxis`.
-const std::vector<std::string> &fov_axis_names();
+/// "pinhole" and "thin_lens".
+const std::vector<CoreType> &camera_types();
 
-/// Throws `Error` (bad input) listing the names when `name` is none of them.
-FovAxis parse_fov_axis(const std::string &name);
-
-/// A perspective camera with a point aperture. Its pose is the transform of its node: it stands at the origin
-/// and looks along -z, +y up, +x right.
-class PinholeCamera : public Core {
+/// A perspective camera. Its pose is the transform of its node: it stands at the origin and looks along -z,
+/// +y up, +x right. The lengths of a thin lens grow with the scale of its node.
+class CameraCore : public ParameterCore {
   public:
-    /// `fov_degrees`: full angle of view along `axis`; throws `Error` (bad input) outside (0, 180).
-    PinholeCamera(std::string name, double fov_degrees, FovAxis axis);
+    /// Parameters: fov (degrees), fov_axis, and of a thin lens aperture_radius and focus_distance. Throws
+    /// `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of them.
+    CameraCore(std::string name, const std::string &type, const ParameterValues &values);
 
     CoreRole role() const override { return CoreRole::camera; }
-    const char *type_name() const override { return "pinhole"; }
-    std::vector<Property> properties() override;
-
-    double fov_degrees() const { return fov_degrees_; }
-    FovAxis fov_axis() const { return fov_axis_; }
-    void set_fov_degrees(double fov_degrees);
-    void set_fov_axis(FovAxis axis);
-
-  private:
-    double fov_degrees_;
-    FovAxis fov_axis_;
 };
 
 }  // namespace rtrays

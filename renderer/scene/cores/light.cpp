@@ -3,33 +3,87 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <utility>
-
-#include "renderer/base/error.h"
 
 namespace rtrays {
 
-DiffuseAreaLight::DiffuseAreaLight(std::string name, const Eigen::Vector3d &radiance)
-    : Core(std::move(name)) {
-    set_radiance(radiance);
+namespace {
+
+using Kind = LightArrays::Kind;
+
+Parameter colour(const char *name, const char *help) {
+    return {name, help, Eigen::Vector3d(0, 0, 0), Parameter::Need::required, ranges::not_negative};
 }
 
-void DiffuseAreaLight::set_radiance(const Eigen::Vector3d &radiance) {
-    constexpr double largest = std::numeric_limits<float>::max();
-    // Written so that NaN fails.
-    if (!((radiance.array() >= 0).all() && (radiance.array() <= largest).all())) {
-        throw input_error(fmt::format("radiance: [{}, {}, {}] is not within [0, {}]", radiance[0],
-                                      radiance[1], radiance[2], largest));
+void check_cones(const ParameterSet &spot) {
+    const double inner = spot.number("inner_degrees");
+    const double outer = spot.number("outer_degrees");
+    if (!(inner < outer)) {
+        throw input_error(fmt::format(
+            "inner_degrees: {} is not below outer_degrees, {}: between them the light falls to zero", inner,
+            outer));
     }
-    radiance_ = radiance;
-    changed();
 }
 
-std::vector<Property> DiffuseAreaLight::properties() {
-    return {make_property<Eigen::Vector3d>(
-        "radiance", "radiance leaving the front, W / (sr m^2), linear Rec. 709", [this] { return radiance_; },
-        [this](const Eigen::Vector3d &value) { set_radiance(value); })};
+}  // namespace
+
+const std::vector<LightType> &light_types() {
+    constexpr Range half{0, 90, true, true};
+    constexpr auto required = Parameter::Need::required;
+    static const std::vector<LightType> types = {
+        {{"diffuse_area", {colour("radiance", "leaving the front, W / (sr m^2), linear Rec. 709")}, {}},
+         Kind::diffuse_area,
+         "radiance"},
+        {{"point", {colour("intensity", "radiant intensity, W / sr, linear Rec. 709")}, {}},
+         Kind::point,
+         "intensity"},
+        {{"spot",
+          {colour("intensity", "radiant intensity on the axis, W / sr, linear Rec. 709"),
+           {"inner_degrees", "angle from the axis within which the intensity is full, degrees", 0.0, required,
+            half},
+           {"outer_degrees", "angle from the axis beyond which there is none, degrees", 0.0, required, half}},
+          check_cones},
+         Kind::spot,
+         "intensity"},
+        {{"directional", {colour("irradiance", "of a plane facing the light, W / m^2, linear Rec. 709")}, {}},
+         Kind::directional,
+         "irradiance"},
+        {{"dome", {colour("radiance", "from everywhere, W / (sr m^2), linear Rec. 709")}, {}},
+         Kind::dome,
+         "radiance"},
+        {{"environment",
+          {{"scale", "factor of the image", Eigen::Vector3d(1, 1, 1), Parameter::Need::defaulted,
+            ranges::not_negative}},
+          {}},
+         Kind::environment,
+         "scale"},
+    };
+    return types;
+}
+
+LightCore::LightCore(std::string name, const std::string &type, const ParameterValues &values)
+    : ParameterCore(std::move(name), static_type<CoreType>(find_type(light_types(), type, "light")), values) {
+    if (kind() == Kind::environment) {
+        throw input_error("an environment light needs an image");
+    }
+}
+
+LightCore::LightCore(std::string name, std::shared_ptr<const TextureImage> image,
+                     const ParameterValues &values)
+    : ParameterCore(std::move(name), static_type<CoreType>(find_type(light_types(), "environment", "light")),
+                    values),
+      image_(std::move(image)) {
+    if (image_ == nullptr || image_->floats.empty()) {
+        throw input_error("file: an environment needs an image of floats (.hdr, .exr), not of 8 bits");
+    }
+}
+
+Kind LightCore::kind() const {
+    return static_cast<const LightType &>(type()).kind;
+}
+
+const Eigen::Vector3d &LightCore::radiance() const {
+    return parameters().vector3(static_cast<const LightType &>(type()).radiance);
 }
 
 }  // namespace rtrays

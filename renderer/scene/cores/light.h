@@ -1,27 +1,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
 
-#include "renderer/scene/core.h"
+#include "renderer/scene/cores/parameter_core.h"
+#include "renderer/scene/stores.h"
 
 namespace rtrays {
 
-/// Constant radiance leaving the front of the geometry of the same node.
-class DiffuseAreaLight : public Core {
+struct LightType : CoreType {
+    LightArrays::Kind kind;
+    std::string radiance;  ///< the parameter that becomes `LightArrays::radiance`
+};
+
+/// All types, in the order of `LightArrays::Kind`.
+const std::vector<LightType> &light_types();
+
+/// A light at its node: an area light on the geometry of the same node, or one placed by its transform. What
+/// the parameters mean is said in stores.h.
+class LightCore : public ParameterCore {
   public:
-    /// `radiance`: W / (sr m^2) per channel; throws `Error` (bad input) when negative, or beyond float.
-    DiffuseAreaLight(std::string name, const Eigen::Vector3d &radiance);
+    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of them.
+    LightCore(std::string name, const std::string &type, const ParameterValues &values);
+
+    /// An environment light; `image` holds floats.
+    LightCore(std::string name, std::shared_ptr<const TextureImage> image, const ParameterValues &values);
 
     CoreRole role() const override { return CoreRole::light; }
-    const char *type_name() const override { return "diffuse_area"; }
-    std::vector<Property> properties() override;
 
-    const Eigen::Vector3d &radiance() const { return radiance_; }
-    void set_radiance(const Eigen::Vector3d &radiance);
+    LightArrays::Kind kind() const;
+    const Eigen::Vector3d &radiance() const;
+    const std::shared_ptr<const TextureImage> &image() const { return image_; }
 
   private:
-    Eigen::Vector3d radiance_;
+    std::shared_ptr<const TextureImage> image_;
 };
 
 }  // namespace rtrays

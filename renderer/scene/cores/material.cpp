@@ -1,33 +1,48 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/cores/material.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <utility>
-
-#include "renderer/base/error.h"
 
 namespace rtrays {
 
-LambertMaterial::LambertMaterial(std::string name, const Eigen::Vector3d &reflectance)
-    : MaterialCore(std::move(name)) {
-    set_reflectance(reflectance);
+const ParameterTable &common_material_parameters() {
+    static const ParameterTable table = {
+        {"two_sided", "false: what does not refract is black from behind", true},
+        {"emission", "radiance leaving the front, W / (sr m^2), linear Rec. 709", Eigen::Vector3d(0, 0, 0),
+         Parameter::Need::defaulted, ranges::not_negative},
+    };
+    return table;
 }
 
-void LambertMaterial::set_reflectance(const Eigen::Vector3d &reflectance) {
-    // Written so that NaN fails.
-    if (!((reflectance.array() >= 0).all() && (reflectance.array() <= 1).all())) {
-        throw input_error(fmt::format("reflectance: [{}, {}, {}] is not within [0, 1]", reflectance[0],
-                                      reflectance[1], reflectance[2]));
+MaterialCore::MaterialCore(std::string name, const std::string &type, const ParameterValues &values,
+                           const ParameterTextures &textures)
+    : MaterialCore(std::move(name), static_type(find_type(material_types(), type, "material")), values,
+                   textures) {}
+
+MaterialCore::MaterialCore(std::string name, std::shared_ptr<const MaterialType> type,
+                           const ParameterValues &values, const ParameterTextures &textures)
+    : ParameterCore(std::move(name), std::move(type), values, textures) {
+    attribute_.material = this;
+    for (const auto &named : parameters().textures()) {
+        named.second->users_.push_back(this);
     }
-    reflectance_ = reflectance;
-    changed();
 }
 
-std::vector<Property> LambertMaterial::properties() {
-    return {make_property<Eigen::Vector3d>(
-        "reflectance", "albedo, linear Rec. 709, within [0, 1]", [this] { return reflectance_; },
-        [this](const Eigen::Vector3d &value) { set_reflectance(value); })};
+MaterialCore::~MaterialCore() {
+    for (const auto &named : parameters().textures()) {
+        std::vector<MaterialCore *> &users = named.second->users_;
+        users.erase(std::find(users.begin(), users.end(), this));
+    }
+}
+
+std::vector<MaterialComponent> MaterialCore::components() const {
+    return static_cast<const MaterialType &>(type()).expand(parameters());
+}
+
+Dirty MaterialCore::outdated_by(const std::string &parameter) const {
+    // Emission is written to the lights of the geometry below.
+    return parameter == "emission" ? Dirty::subtree : Dirty::object;
 }
 
 }  // namespace rtrays

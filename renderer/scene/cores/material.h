@@ -2,8 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
 
-#include "renderer/scene/core.h"
+#include "renderer/scene/cores/parameter_core.h"
+#include "renderer/scene/cores/texture.h"
+#include "renderer/scene/stores.h"
 
 namespace rtrays {
 
@@ -16,32 +22,51 @@ struct MaterialAttribute : AttributeOf<MaterialAttribute> {
     void combine(const MaterialAttribute &own) { material = own.material; }
 };
 
-/// How a surface scatters light.
-class MaterialCore : public Core {
+/// One atomic BxDF of a material before textures have indices.
+struct MaterialComponent {
+    BxdfComponent bxdf;
+    std::string parameter;                       ///< the colour that became its weight
+    std::shared_ptr<Texture> texture = nullptr;  ///< of that colour
+};
+
+/// What a type of material consists of. The number of components depends on the type alone.
+struct MaterialType : CoreType {
+    std::function<std::vector<MaterialComponent>(const ParameterSet &)> expand;
+};
+
+/// The types by name, all but "composite" (see composite.h).
+const std::vector<MaterialType> &material_types();
+
+/// How a surface scatters light, and what it emits: a sum of atomic BxDFs (thesis 3.3.6). All types share the
+/// parameters two_sided and emission.
+class MaterialCore : public ParameterCore {
   public:
-    explicit MaterialCore(std::string name) : Core(std::move(name)) { attribute_.material = this; }
+    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of them.
+    MaterialCore(std::string name, const std::string &type, const ParameterValues &values,
+                 const ParameterTextures &textures = {});
+    MaterialCore(std::string name, std::shared_ptr<const MaterialType> type, const ParameterValues &values,
+                 const ParameterTextures &textures = {});
+    ~MaterialCore() override;
 
     CoreRole role() const override { return CoreRole::material; }
-    const Attribute *attribute() const override { return &attribute_; }
+    const NodeAttribute *attribute() const override { return &attribute_; }
+
+    std::vector<MaterialComponent> components() const;
+    bool two_sided() const { return parameters().get<bool>("two_sided"); }
+    const Eigen::Vector3d &emission() const { return parameters().vector3("emission"); }
+    bool emits() const { return emission().maxCoeff() > 0; }
+
+    /// Told by its textures.
+    void texture_changed() { changed(Dirty::object); }
+
+  protected:
+    Dirty outdated_by(const std::string &parameter) const override;
 
   private:
     MaterialAttribute attribute_;
 };
 
-/// Lambert reflection from both sides: f = reflectance / pi (thesis (3.31)).
-class LambertMaterial : public MaterialCore {
-  public:
-    /// `reflectance`: albedo per channel; throws `Error` (bad input) outside [0, 1].
-    LambertMaterial(std::string name, const Eigen::Vector3d &reflectance);
-
-    const char *type_name() const override { return "lambert"; }
-    std::vector<Property> properties() override;
-
-    const Eigen::Vector3d &reflectance() const { return reflectance_; }
-    void set_reflectance(const Eigen::Vector3d &reflectance);
-
-  private:
-    Eigen::Vector3d reflectance_;
-};
+/// The parameters that every material has.
+const ParameterTable &common_material_parameters();
 
 }  // namespace rtrays

@@ -2,47 +2,116 @@
 #include "renderer/scene/cores/mesh.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cmath>
 #include <utility>
 
 #include "renderer/base/error.h"
 
 namespace rtrays {
 
-MeshCore::MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles)
-    : Core(std::move(name)) {
-    set_geometry(std::move(vertices), std::move(triangles));
-}
+namespace {
 
-void MeshCore::set_geometry(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles) {
-    if (triangles.empty()) {
-        throw input_error(fmt::format("mesh '{}' has no triangle", name()));
-    }
-    for (size_t i = 0; i < vertices.size(); ++i) {
-        if (!vertices[i].allFinite()) {
-            throw input_error(fmt::format("mesh '{}': vertex {} is not finite: [{}, {}, {}]", name(), i,
-                                          vertices[i][0], vertices[i][1], vertices[i][2]));
+/// Texture coordinates beyond this would leave a float no fraction worth looking up.
+constexpr double largest_uv = 1e6;
+
+template <typename Vector, typename Legal>
+void check_each(const std::vector<Vector> &vectors, const Legal &legal, const std::string &mesh,
+                const char *what, const char *wrong) {
+    for (size_t i = 0; i < vectors.size(); ++i) {
+        if (!legal(vectors[i])) {
+            throw input_error(
+                fmt::format("mesh '{}': {} {} {}: [{}]", mesh, what, i, wrong,
+                            fmt::join(vectors[i].data(), vectors[i].data() + vectors[i].size(), ", ")));
         }
     }
-    for (size_t i = 0; i < triangles.size(); ++i) {
-        for (const uint32_t index : triangles[i]) {
-            if (index >= vertices.size()) {
+}
+
+void check_count(size_t count, size_t vertices, const std::string &mesh, const char *what) {
+    if (count != 0 && count != vertices) {
+        throw input_error(fmt::format("mesh '{}' has {} {} for {} vertices: one each, or none", mesh, count,
+                                      what, vertices));
+    }
+}
+
+}  // namespace
+
+MeshCore::MeshCore(std::string name, Geometry geometry) : Core(std::move(name)) {
+    set_geometry(std::move(geometry));
+}
+
+MeshCore::MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles)
+    : MeshCore(std::move(name), Geometry{std::move(vertices), std::move(triangles)}) {}
+
+void MeshCore::set_geometry(Geometry geometry) {
+    const size_t vertices = geometry.vertices.size();
+    if (geometry.triangles.empty()) {
+        throw input_error(fmt::format("mesh '{}' has no triangle", name()));
+    }
+    const auto finite = [](const auto &v) { return v.allFinite(); };
+    check_each(geometry.vertices, finite, name(), "vertex", "is not finite");
+    for (size_t i = 0; i < geometry.triangles.size(); ++i) {
+        for (const uint32_t index : geometry.triangles[i]) {
+            if (index >= vertices) {
                 throw input_error(
                     fmt::format("mesh '{}': triangle {} has vertex {}, but there are only {} vertices",
-                                name(), i, index, vertices.size()));
+                                name(), i, index, vertices));
             }
         }
     }
-    vertices_ = std::move(vertices);
-    triangles_ = std::move(triangles);
-    changed();
+    check_count(geometry.normals.size(), vertices, name(), "normals");
+    check_count(geometry.uvs.size(), vertices, name(), "texture coordinates");
+    check_each(
+        geometry.normals, [](const Eigen::Vector3d &n) { return n.allFinite() && n.stableNorm() > 0; },
+        name(), "normal", "has no direction");
+    check_each(
+        geometry.uvs,
+        [](const Eigen::Vector2d &uv) { return uv.cwiseAbs().maxCoeff() <= largest_uv && uv.allFinite(); },
+        name(), "texture coordinate", "is not within +-1e6");
+    for (Eigen::Vector3d &normal : geometry.normals) {
+        normal.stableNormalize();
+    }
+    geometry_ = std::move(geometry);
+    changed(Dirty::object);
 }
 
 std::vector<Property> MeshCore::properties() {
     return {make_property<double>("vertices", "number of vertices",
-                                  [this] { return static_cast<double>(vertices_.size()); }),
+                                  [this] { return static_cast<double>(vertices().size()); }),
             make_property<double>("triangles", "number of triangles",
-                                  [this] { return static_cast<double>(triangles_.size()); })};
+                                  [this] { return static_cast<double>(triangles().size()); })};
+}
+
+MeshCore::Geometry rectangle() {
+    return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+            {{0, 1, 2}, {0, 2, 3}},
+            {},
+            {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+}
+
+MeshCore::Geometry box() {
+    MeshCore::Geometry geometry;
+    const MeshCore::Geometry side = rectangle();
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double sign : {1.0, -1.0}) {
+            // The side z = 1 of the rectangle's frame, its axes renamed in a cycle; the opposite side is the
+            // same turned by half a turn about the axis next to it.
+            const auto first = static_cast<uint32_t>(geometry.vertices.size());
+            for (const Eigen::Vector3d &corner : side.vertices) {
+                Eigen::Vector3d vertex;
+                vertex[axis] = sign;
+                vertex[(axis + 1) % 3] = sign * corner.x();
+                vertex[(axis + 2) % 3] = corner.y();
+                geometry.vertices.push_back(vertex);
+            }
+            for (const Triangle &t : side.triangles) {
+                geometry.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+            }
+            geometry.uvs.insert(geometry.uvs.end(), side.uvs.begin(), side.uvs.end());
+        }
+    }
+    return geometry;
 }
 
 }  // namespace rtrays

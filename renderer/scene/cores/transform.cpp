@@ -45,7 +45,7 @@ void TransformCore::set_matrix(const Eigen::Matrix4d &parent_from_object) {
         throw input_error("transform: the matrix is not invertible");
     }
     attribute_.world_from_object = parent_from_object;
-    changed();
+    changed(Dirty::subtree);
 }
 
 void TransformCore::set_translation(const Eigen::Vector3d &offset) {

@@ -23,8 +23,7 @@ class TransformCore : public Core {
     CoreRole role() const override { return CoreRole::transform; }
     const char *type_name() const override { return "transform"; }
     std::vector<Property> properties() override;
-    const Attribute *attribute() const override { return &attribute_; }
-    Dirty outdates() const override { return Dirty::subtree; }
+    const NodeAttribute *attribute() const override { return &attribute_; }
 
     const Eigen::Matrix4d &matrix() const { return attribute_.world_from_object; }
     void set_matrix(const Eigen::Matrix4d &parent_from_object);

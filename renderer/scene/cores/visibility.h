@@ -21,8 +21,7 @@ class VisibilityCore : public Core {
 
     CoreRole role() const override { return CoreRole::visibility; }
     const char *type_name() const override { return "visibility"; }
-    const Attribute *attribute() const override { return &attribute_; }
-    Dirty outdates() const override { return Dirty::subtree; }
+    const NodeAttribute *attribute() const override { return &attribute_; }
 
     std::vector<Property> properties() override {
         return {make_property<bool>(
@@ -32,7 +31,7 @@ class VisibilityCore : public Core {
 
     void set_visible(bool visible) {
         attribute_.visible = visible;
-        changed();
+        changed(Dirty::subtree);
     }
 
   private:

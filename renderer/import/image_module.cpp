@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/image_module.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "renderer/base/error.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Texels of an image: beyond this a header is damaged or the image is no texture. 1.6 GB of floats.
+constexpr int64_t most_texels = int64_t(1) << 27;
+
+Error file_error(const std::filesystem::path &path, const std::string &what) {
+    return input_error(fmt::format("{}: {}", path.string(), what));
+}
+
+/// The channels that become red, green and blue.
+std::vector<int> colour_channels(const OIIO::ImageSpec &spec, const std::filesystem::path &path) {
+    const auto find = [&](const char *name) {
+        const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
+        return static_cast<int>(found - spec.channelnames.begin());
+    };
+    const std::vector<int> rgb = {find("R"), find("G"), find("B")};
+    if (*std::max_element(rgb.begin(), rgb.end()) < spec.nchannels) {
+        return rgb;
+    }
+    if (spec.nchannels == 1 || (spec.nchannels == 2 && spec.alpha_channel >= 0)) {
+        const int grey = spec.nchannels == 2 && spec.alpha_channel == 0 ? 1 : 0;
+        return {grey, grey, grey};
+    }
+    std::string names;
+    for (const std::string &name : spec.channelnames) {
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    throw file_error(path,
+                     fmt::format("has the channels {}; a texture needs R, G, B or one grey channel", names));
+}
+
+void check_header(const OIIO::ImageSpec &spec, const std::filesystem::path &path) {
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep || spec.nchannels < 1 ||
+        static_cast<int64_t>(spec.width) * spec.height > most_texels / spec.nchannels * 3) {
+        throw file_error(
+            path, fmt::format("an image of {} x {} x {}{} with {} channels is no texture", spec.width,
+                              spec.height, spec.depth, spec.deep ? " deep samples" : "", spec.nchannels));
+    }
+    if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+        spec.height != spec.full_height) {
+        throw file_error(path, "its data window is not its display window; crop or fill it");
+    }
+}
+
+/// The colour channels of all texels, as `T`.
+template <typename T>
+std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
+                           const std::vector<int> &colours, OIIO::TypeDesc format,
+                           const std::filesystem::path &path) {
+    const auto texels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+    const auto channels = static_cast<size_t>(spec.nchannels);
+    std::vector<T> all(texels * channels);
+    // A reader may get to the end of a damaged file and only then complain.
+    if (!input.read_image(0, 0, 0, spec.nchannels, format, all.data()) || input.has_error()) {
+        throw file_error(path, "is damaged: " + input.geterror());
+    }
+    std::vector<T> rgb(texels * 3);
+    for (size_t i = 0; i < texels; ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            rgb[3 * i + c] = all[channels * i + static_cast<size_t>(colours[c])];
+        }
+    }
+    return rgb;
+}
+
+void read_image(const std::filesystem::path &path, RawImage &image) {
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1;  // colours as stored, not multiplied by the alpha that is dropped
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
+    if (input == nullptr) {
+        throw file_error(path, "is no image that can be read: " + OIIO::geterror());
+    }
+    const OIIO::ImageSpec spec = input->spec();
+    check_header(spec, path);
+    const std::vector<int> colours = colour_channels(spec, path);
+    image.width = spec.width;
+    image.height = spec.height;
+    image.is_floating = spec.format.is_floating_point();
+    if (spec.format == OIIO::TypeDesc::UINT8) {
+        image.bytes = read_texels<uint8_t>(*input, spec, colours, OIIO::TypeDesc::UINT8, path);
+    } else {
+        image.floats = read_texels<float>(*input, spec, colours, OIIO::TypeDesc::FLOAT, path);
+    }
+}
+
+}  // namespace
+
+}  // namespace rtrays
+
+/// The one symbol of the module, `rtrays::ReadImageFile`.
+extern "C" void rtrays_read_image_file(const std::filesystem::path &path, rtrays::RawImage &image) {
+    rtrays::read_image(path, image);
+}

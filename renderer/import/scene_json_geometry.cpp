@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/scene_json_geometry.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "renderer/import/triangulate.h"
+#include "renderer/scene/cores/mesh.h"
+#include "renderer/scene/cores/shape.h"
+
+namespace rtrays {
+
+namespace {
+
+void add_polygon(const Json &polygon, size_t index, const std::string &name, MeshCore::Geometry &geometry) {
+    std::vector<uint32_t> corners;
+    for (const Json &item : polygon) {
+        const auto corner = item.get<uint64_t>();
+        if (corner >= geometry.vertices.size()) {
+            throw input_error(
+                fmt::format("mesh '{}': polygon {} has vertex {}, but there are only {} vertices", name,
+                            index, corner, geometry.vertices.size()));
+        }
+        corners.push_back(static_cast<uint32_t>(corner));
+    }
+    try {
+        const std::vector<Triangle> parts = triangulate(geometry.vertices, corners);
+        geometry.triangles.insert(geometry.triangles.end(), parts.begin(), parts.end());
+    } catch (const Error &error) {
+        throw input_error(fmt::format("mesh '{}': polygon {} {}", name, index, error.what()));
+    }
+}
+
+std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name, const SceneSource &source,
+                                const std::string &path) {
+    check_keys(value, "mesh", {"vertices", "polygons"}, {"normals", "uvs"});
+    MeshCore::Geometry geometry;
+    for (const Json &vertex : value.at("vertices")) {
+        geometry.vertices.push_back(vector3(vertex));
+    }
+    if (value.contains("normals")) {
+        for (const Json &normal : value.at("normals")) {
+            geometry.normals.push_back(vector3(normal));
+        }
+    }
+    if (value.contains("uvs")) {
+        for (const Json &uv : value.at("uvs")) {
+            geometry.uvs.emplace_back(uv[0].get<double>(), uv[1].get<double>());
+        }
+    }
+    const Json &polygons = value.at("polygons");
+    size_t i = 0;
+    try {
+        for (; i < polygons.size(); ++i) {
+            add_polygon(polygons[i], i, name, geometry);
+        }
+    } catch (const Error &error) {
+        source.located(fmt::format("{}/polygons/{}", path, i), [&]() -> void { throw Error(error); });
+    }
+    return std::make_shared<MeshCore>(name, std::move(geometry));
+}
+
+}  // namespace
+
+std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, const SceneSource &source,
+                                    const std::string &path) {
+    return source.located(path, [&]() -> std::shared_ptr<Core> {
+        const std::string type = value.at("type");
+        if (type == "mesh") {
+            return read_mesh(value, name, source, path);
+        }
+        if (type == "rectangle" || type == "box") {
+            check_keys(value, type, {}, {});
+            return std::make_shared<MeshCore>(name, type == "box" ? box() : rectangle());
+        }
+        const ShapeType &shape = find_type(shape_types(), type, "geometry");
+        return std::make_shared<ShapeCore>(name, type,
+                                           parameter_values(value, type, shape.parameters, {}, source, path));
+    });
+}
+
+}  // namespace rtrays

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "renderer/import/scene_json_values.h"
+#include "renderer/scene/core.h"
+
+namespace rtrays {
+
+/// Geometry of any type: a mesh or a shape. Throws `Error` (bad input) naming source, line and path.
+std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, const SceneSource &source,
+                                    const std::string &path);
+
+}  // namespace rtrays

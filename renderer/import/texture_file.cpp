@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/texture_file.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "renderer/base/error.h"
+#include "renderer/import/image_module.h"
+#include "renderer/scene/cores/texture.h"
+
+namespace rtrays {
+
+namespace {
+
+Error file_error(const std::filesystem::path &path, const std::string &what) {
+    return input_error(fmt::format("{}: {}", path.string(), what));
+}
+
+/// Opens the module that reads images, once.
+ReadImageFile *read_image_file(const std::filesystem::path &path) {
+    static void *const module = [] {
+        const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+        return dlopen((program.parent_path() / image_module_name).c_str(), RTLD_NOW | RTLD_LOCAL);
+    }();
+    if (module == nullptr) {
+        throw file_error(
+            path, fmt::format("this build reads no images: there is no {} beside the program; configure "
+                              "with -DRTRAYS_TEXTURES=ON (needs OpenImageIO)",
+                              image_module_name));
+    }
+    return reinterpret_cast<ReadImageFile *>(dlsym(module, read_image_file_name));
+}
+
+void check_texels(const TextureImage &image, const std::filesystem::path &path) {
+    constexpr const char *channels[] = {"red", "green", "blue"};
+    for (size_t i = 0; i < image.floats.size(); ++i) {
+        const float value = image.floats[i];
+        if (!(value >= 0) || std::isinf(value)) {
+            const auto width = static_cast<size_t>(image.width);
+            throw file_error(
+                path,
+                fmt::format("texel ({}, {}) has the {} value {}: texels must be finite and not negative",
+                            i / 3 % width, i / 3 / width, channels[i % 3], value));
+        }
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::path &path,
+                                                      TextureEncoding encoding) {
+    if (!std::filesystem::is_regular_file(path)) {
+        throw file_error(path, "no such file");
+    }
+    RawImage raw;
+    read_image_file(path)(path, raw);
+    const bool is_srgb = encoding == TextureEncoding::srgb;
+    if (is_srgb && raw.is_floating) {
+        throw file_error(path, "holds floats, which are linear: \"encoding\" must be \"linear\"");
+    }
+    auto image = std::make_shared<TextureImage>();
+    image->width = raw.width;
+    image->height = raw.height;
+    image->srgb = is_srgb && !raw.bytes.empty();
+    image->bytes = std::move(raw.bytes);
+    image->floats = std::move(raw.floats);
+    check_texels(*image, path);
+    if (is_srgb) {  // 16 bits have no curve of their own in `TextureImage`
+        for (float &value : image->floats) {
+            value = static_cast<float>(srgb_decoded(value));
+        }
+    }
+    return image;
+}
+
+std::shared_ptr<const TextureImage> TextureFiles::load(const std::filesystem::path &path,
+                                                       TextureEncoding encoding) {
+    std::shared_ptr<const TextureImage> &image = images_[{std::filesystem::weakly_canonical(path), encoding}];
+    if (image == nullptr) {
+        image = load_texture_file(path, encoding);
+    }
+    return image;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Rows that several types of material share.
+#pragma once
+
+#include "renderer/scene/parameters.h"
+
+namespace rtrays::rows {
+
+using Need = Parameter::Need;
+
+/// Neither so smooth that the half vector's rounding in float matters (1e-7 / 1e-4), nor beyond the models.
+inline constexpr Range roughness{1e-4, 1, true, true};
+inline constexpr Range index_of_refraction{0.01, 100, true, true};
+
+inline Parameter colour(const std::string &name, const std::string &help, Need need = Need::required) {
+    return {name, help + ", within [0, 1]", Eigen::Vector3d(1, 1, 1), need, ranges::unit, {}, true};
+}
+
+inline Parameter sigma(const std::string &name) {
+    return {name,
+            "standard deviation of the slope angles, radians",
+            0.0,
+            Need::required,
+            {0, 1.57079632679489662, true, true}};
+}
+
+inline Parameter exponent(const std::string &name, Need need = Need::required) {
+    return {name, "Blinn's exponent", 1.0, need, {0, 1e8, false, true}};
+}
+
+/// Of a surface that is rough for certain.
+inline Parameter alpha(const std::string &name, Need need = Need::required) {
+    return {name, "roughness along the tangent and across it", Eigen::Vector2d(1, 1), need, roughness};
+}
+
+inline Parameter distribution(const std::string &name) {
+    return {name,
+            "of the microfacets' normals",
+            std::string("ggx"),
+            Need::defaulted,
+            ranges::any,
+            {"ggx", "beckmann"}};
+}
+
+inline Parameter dielectric_eta(const std::string &name, Need need = Need::required) {
+    return {name, "index of refraction behind the surface over that in front of it", 1.5, need,
+            index_of_refraction};
+}
+
+inline Parameter conductor_eta(const std::string &name, Need need = Need::required) {
+    return {name, "index of refraction per channel", Eigen::Vector3d(1, 1, 1), need, index_of_refraction};
+}
+
+inline Parameter conductor_k(const std::string &name, Need need = Need::required) {
+    return {name, "extinction coefficient per channel", Eigen::Vector3d(0, 0, 0), need, {0, 100, true, true}};
+}
+
+}  // namespace rtrays::rows

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/cores/composite.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "renderer/scene/cores/bxdf_parameters.h"
+
+namespace rtrays {
+
+namespace {
+
+using Kind = BxdfComponent::Kind;
+using Fresnel = BxdfComponent::Fresnel;
+using rows::Need;
+
+size_t index_in(const std::vector<std::string> &names, const std::string &name, const char *what) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+        throw input_error(fmt::format("{} '{}' is not one of: {}", what, name, fmt::join(names, ", ")));
+    }
+    return static_cast<size_t>(found - names.begin());
+}
+
+struct Part {
+    Kind kind;
+    Fresnel fresnel;
+    std::string prefix;
+
+    std::string fresnel_prefix() const { return prefix + "fresnel_"; }
+    bool refracts() const { return kind == Kind::ideal_refraction || kind == Kind::microfacet_refraction; }
+    bool is_diffuse() const { return kind == Kind::lambert || kind == Kind::oren_nayar; }
+    bool is_conductor() const {
+        return fresnel == Fresnel::conductor || fresnel == Fresnel::conductor_approximate;
+    }
+    bool has_alpha() const { return kind == Kind::ward || kind == Kind::ward_original || has_distribution(); }
+    bool has_distribution() const {
+        return kind == Kind::microfacet_reflection || kind == Kind::microfacet_refraction;
+    }
+};
+
+void add_bxdf_rows(const Part &part, ParameterTable &table) {
+    table.push_back(rows::colour(part.prefix + "weight", "weight of the component"));
+    if (part.kind == Kind::oren_nayar) {
+        table.push_back(rows::sigma(part.prefix + "sigma"));
+    }
+    if (part.kind == Kind::blinn) {
+        table.push_back(rows::exponent(part.prefix + "exponent"));
+    }
+    if (part.has_alpha()) {
+        table.push_back(rows::alpha(part.prefix + "alpha"));
+    }
+    if (part.has_distribution()) {
+        table.push_back(rows::distribution(part.prefix + "distribution"));
+    }
+    if (part.refracts()) {
+        table.push_back(rows::dielectric_eta(part.prefix + "eta"));
+    }
+}
+
+void add_fresnel_rows(const Part &part, ParameterTable &table) {
+    const std::string prefix = part.fresnel_prefix();
+    if (part.fresnel == Fresnel::ideal) {
+        return;
+    }
+    if (part.fresnel == Fresnel::dielectric) {
+        // A refracting component has one index: its own.
+        table.push_back(
+            rows::dielectric_eta(prefix + "eta", part.refracts() ? Need::optional : Need::required));
+    } else if (part.is_conductor()) {
+        table.push_back(rows::conductor_eta(prefix + "eta"));
+        table.push_back(rows::conductor_k(prefix + "k"));
+    } else {
+        Parameter reflectance = rows::colour(prefix + "reflectance", "at normal incidence");
+        reflectance.textured = false;
+        table.push_back(reflectance);
+    }
+    table.push_back({prefix + "complement", "1 - F instead of F", false});
+    if (part.is_diffuse()) {
+        table.push_back(
+            {prefix + "of_wo", "F at wo alone, as thesis (3.55) prints it: not reciprocal", false});
+    }
+}
+
+void check_part(const Part &part, const ParameterSet &p) {
+    constexpr double nearest = 1e-3;  // as in material_types.cpp
+    if (!part.refracts()) {
+        return;
+    }
+    const double eta = p.number(part.prefix + "eta");
+    const std::string fresnel_eta = part.fresnel_prefix() + "eta";
+    if (part.fresnel == Fresnel::dielectric && p.has(fresnel_eta) && p.number(fresnel_eta) != eta) {
+        throw input_error(fmt::format("{}: {} is not the component's eta, {}; leave it out", fresnel_eta,
+                                      p.number(fresnel_eta), eta));
+    }
+    if (part.kind == Kind::microfacet_refraction && std::abs(eta - 1) < nearest) {
+        throw input_error(
+            fmt::format("{}eta: {} does not refract, so it cannot be rough; use ideal_refraction, or an "
+                        "eta that differs from 1 by {}",
+                        part.prefix, eta, nearest));
+    }
+}
+
+MaterialComponent expand_part(const Part &part, const ParameterSet &p) {
+    MaterialComponent made;
+    BxdfComponent &bxdf = made.bxdf;
+    made.parameter = part.prefix + "weight";
+    made.texture = p.texture(made.parameter);
+    bxdf.kind = part.kind;
+    bxdf.weight = p.vector3(made.parameter).cast<float>();
+    bxdf.fresnel = part.fresnel;
+    if (part.kind == Kind::oren_nayar) {
+        bxdf.sigma = p.number(part.prefix + "sigma");
+    }
+    if (part.kind == Kind::blinn) {
+        bxdf.exponent = p.number(part.prefix + "exponent");
+    }
+    if (part.has_alpha()) {
+        bxdf.alpha = p.get<Eigen::Vector2d>(part.prefix + "alpha");
+    }
+    if (part.has_distribution()) {
+        bxdf.distribution = p.choice<BxdfComponent::Distribution>(part.prefix + "distribution");
+    }
+    const std::string prefix = part.fresnel_prefix();
+    if (part.refracts()) {
+        bxdf.eta.setConstant(p.number(part.prefix + "eta"));
+    } else if (part.fresnel == Fresnel::dielectric) {
+        bxdf.eta.setConstant(p.number(prefix + "eta"));
+    } else if (part.is_conductor()) {
+        bxdf.eta = p.vector3(prefix + "eta");
+        bxdf.k = p.vector3(prefix + "k");
+    } else if (part.fresnel == Fresnel::schlick) {
+        bxdf.eta = p.vector3(prefix + "reflectance");
+    }
+    bxdf.complement = part.fresnel != Fresnel::ideal && p.get<bool>(prefix + "complement");
+    bxdf.fresnel_of_wo = part.fresnel != Fresnel::ideal && part.is_diffuse() && p.get<bool>(prefix + "of_wo");
+    return made;
+}
+
+Part make_part(const CompositePart &names, size_t index) {
+    const Part part{static_cast<Kind>(index_in(bxdf_names(), names.bxdf, "bxdf")),
+                    static_cast<Fresnel>(index_in(fresnel_names(), names.fresnel, "fresnel")),
+                    part_prefix(index)};
+    if (part.refracts() && part.fresnel != Fresnel::ideal && part.fresnel != Fresnel::dielectric) {
+        throw input_error(fmt::format(
+            "component {}: what refracts goes with the Fresnel terms ideal and dielectric, not with {}",
+            index, names.fresnel));
+    }
+    return part;
+}
+
+}  // namespace
+
+const std::vector<std::string> &bxdf_names() {
+    static const std::vector<std::string> names = {
+        "lambert", "oren_nayar",    "ideal_reflection",      "ideal_refraction",     "blinn",
+        "ward",    "ward_original", "microfacet_reflection", "microfacet_refraction"};
+    return names;
+}
+
+const std::vector<std::string> &fresnel_names() {
+    static const std::vector<std::string> names = {"ideal", "dielectric", "conductor",
+                                                   "conductor_approximate", "schlick"};
+    return names;
+}
+
+std::string part_prefix(size_t index) {
+    return fmt::format("component_{}_", index);
+}
+
+std::shared_ptr<const MaterialType> composite_type(const std::vector<CompositePart> &parts) {
+    if (parts.empty()) {
+        throw input_error("a composite needs at least one component");
+    }
+    auto type = std::make_shared<MaterialType>();
+    type->name = "composite";
+    std::vector<Part> made;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        made.push_back(make_part(parts[i], i));
+        add_bxdf_rows(made.back(), type->parameters);
+        add_fresnel_rows(made.back(), type->parameters);
+    }
+    const ParameterTable &common = common_material_parameters();
+    type->parameters.insert(type->parameters.end(), common.begin(), common.end());
+    type->check = [made](const ParameterSet &p) {
+        for (const Part &part : made) {
+            check_part(part, p);
+        }
+    };
+    type->expand = [made](const ParameterSet &p) {
+        std::vector<MaterialComponent> components;
+        for (const Part &part : made) {
+            components.push_back(expand_part(part, p));
+        }
+        return components;
+    };
+    return type;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/cores/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "renderer/scene/cores/material.h"
+
+namespace rtrays {
+
+const ParameterTable &Texture::parameter_table() {
+    // Texture coordinates are limited likewise: their products stay far within float.
+    constexpr Range modest{-1e6, 1e6, true, true};
+    using Need = Parameter::Need;
+    static const ParameterTable table = {
+        {"filter",
+         "how texels are joined",
+         std::string("bilinear"),
+         Need::defaulted,
+         ranges::any,
+         {"nearest", "bilinear"}},
+        {"wrap",
+         "what lies beyond the image",
+         std::string("repeat"),
+         Need::defaulted,
+         ranges::any,
+         {"repeat", "clamp"}},
+        {"uv_scale", "factors of the texture coordinates", Eigen::Vector2d(1, 1), Need::defaulted, modest},
+        {"uv_offset", "added to the scaled texture coordinates", Eigen::Vector2d(0, 0), Need::defaulted,
+         modest},
+    };
+    return table;
+}
+
+Texture::Texture(std::string name, std::shared_ptr<const TextureImage> image, const ParameterValues &values)
+    : PropertyHolder(std::move(name)),
+      image_(std::move(image)),
+      parameters_("texture", parameter_table(), values) {}
+
+void Texture::set(const std::string &name, const PropertyValue &value) {
+    parameters_.set(name, value);
+    ++version_;
+    for (MaterialCore *material : users_) {
+        material->texture_changed();
+    }
+}
+
+std::vector<Property> Texture::properties() {
+    std::vector<Property> all = parameters_.properties(
+        [this](const std::string &name, const PropertyValue &value) { set(name, value); });
+    all.push_back(make_property<double>("width", "texels", [this] { return image_->width; }));
+    all.push_back(make_property<double>("height", "texels", [this] { return image_->height; }));
+    return all;
+}
+
+Rgb largest_texel(const TextureImage &image) {
+    const auto largest = [](const auto &values) {
+        std::array<typename std::decay_t<decltype(values)>::value_type, 3> most{};
+        for (size_t i = 0; i < values.size(); ++i) {
+            most[i % 3] = std::max(most[i % 3], values[i]);
+        }
+        return most;
+    };
+    if (!image.floats.empty()) {
+        const std::array<float, 3> most = largest(image.floats);
+        return {most[0], most[1], most[2]};
+    }
+    const std::array<uint8_t, 3> most = largest(image.bytes);
+    Rgb decoded;
+    for (int i = 0; i < 3; ++i) {
+        const double value = most[static_cast<size_t>(i)] / 255.0;
+        decoded[i] = static_cast<float>(image.srgb ? srgb_decoded(value) : value);
+    }
+    return decoded;
+}
+
+double srgb_decoded(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace rtrays

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/stores/material_store.h"
+
+#include "renderer/scene/cores/material.h"
+
+namespace rtrays {
+
+uint32_t TextureStore::record(const std::shared_ptr<Texture> &texture) {
+    if (texture == nullptr) {
+        return no_index;
+    }
+    const auto [found, is_new] = slots_.try_emplace(texture.get(), static_cast<uint32_t>(owners_.size()));
+    const uint32_t slot = found->second;
+    if (is_new) {
+        owners_.push_back(texture);
+        version_.push_back(0);
+        arrays.name.push_back(texture->name());
+        arrays.image.push_back(texture->image());
+        arrays.filter.emplace_back();
+        arrays.wrap.emplace_back();
+        arrays.uv_scale.emplace_back();
+        arrays.uv_offset.emplace_back();
+    }
+    if (version_[slot] != texture->version()) {
+        const ParameterSet &p = texture->parameters();
+        arrays.filter[slot] = p.choice<TextureArrays::Filter>("filter");
+        arrays.wrap[slot] = p.choice<TextureArrays::Wrap>("wrap");
+        arrays.uv_scale[slot] = p.get<Eigen::Vector2d>("uv_scale");
+        arrays.uv_offset[slot] = p.get<Eigen::Vector2d>("uv_offset");
+        version_[slot] = texture->version();
+    }
+    return slot;
+}
+
+void TextureStore::keep_used(std::vector<BxdfComponent> &components) {
+    std::vector<uint32_t> new_index(owners_.size(), no_index);
+    for (const BxdfComponent &component : components) {
+        if (component.texture != no_index) {
+            new_index[component.texture] = 0;
+        }
+    }
+    std::vector<uint32_t> kept;
+    for (uint32_t old = 0; old < new_index.size(); ++old) {
+        if (new_index[old] != no_index) {
+            new_index[old] = static_cast<uint32_t>(kept.size());
+            slots_[owners_[old].get()] = new_index[old];
+            kept.push_back(old);
+        } else {
+            slots_.erase(owners_[old].get());
+        }
+    }
+    for (BxdfComponent &component : components) {
+        component.texture = component.texture == no_index ? no_index : new_index[component.texture];
+    }
+    keep_elements(owners_, kept);
+    keep_elements(version_, kept);
+    keep_elements(arrays.name, kept);
+    keep_elements(arrays.image, kept);
+    keep_elements(arrays.filter, kept);
+    keep_elements(arrays.wrap, kept);
+    keep_elements(arrays.uv_scale, kept);
+    keep_elements(arrays.uv_offset, kept);
+}
+
+uint32_t MaterialStore::slot_of_material(const MaterialCore *material) const {
+    return slot_of(static_cast<const Core *>(material));
+}
+
+bool MaterialStore::is_current(uint32_t slot, const Node &node) const {
+    return version_[slot] == node.core(CoreRole::material)->version();
+}
+
+void MaterialStore::append(const Node &node) {
+    const auto &material = static_cast<const MaterialCore &>(*node.core(CoreRole::material));
+    const auto count = static_cast<uint32_t>(material.components().size());
+    arrays.name.push_back(material.name());
+    arrays.first_component.push_back(static_cast<uint32_t>(arrays.component.size()));
+    arrays.component_count.push_back(count);
+    arrays.component.resize(arrays.component.size() + count);
+    arrays.two_sided.push_back(1);
+    version_.push_back(0);
+}
+
+void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &) {
+    const auto &material = static_cast<const MaterialCore &>(*node.core(CoreRole::material));
+    uint32_t at = arrays.first_component[slot];
+    for (const MaterialComponent &component : material.components()) {  // as many as when it was appended
+        arrays.component[at] = component.bxdf;
+        arrays.component[at].texture = textures_.record(component.texture);
+        ++at;
+    }
+    arrays.two_sided[slot] = material.two_sided() ? 1 : 0;
+    version_[slot] = material.version();
+}
+
+void MaterialStore::keep(const std::vector<uint32_t> &slots) {
+    std::vector<BxdfComponent> components;
+    for (const uint32_t slot : slots) {
+        const auto first = arrays.component.begin() + arrays.first_component[slot];
+        arrays.first_component[slot] = static_cast<uint32_t>(components.size());
+        components.insert(components.end(), first, first + arrays.component_count[slot]);
+    }
+    arrays.component = std::move(components);
+    textures_.keep_used(arrays.component);
+    keep_elements(arrays.name, slots);
+    keep_elements(arrays.first_component, slots);
+    keep_elements(arrays.component_count, slots);
+    keep_elements(arrays.two_sided, slots);
+    keep_elements(version_, slots);
+}
+
+}  // namespace rtrays

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "renderer/scene/store.h"
+
+namespace rtrays {
+
+class LightStore;
+class MaterialStore;
+
+class MeshStore : public Store {
+  public:
+    MeshStore(MeshArrays &written, const MaterialStore &materials, const LightStore &lights)
+        : arrays(written), materials_(materials), lights_(lights) {}
+    const char *type_name() const override { return "meshes"; }
+    bool holds(const Core &core) const override;
+    bool concerns(const Node &node) const override;
+    bool wants_record(const Node &node, const AttributeSet &attributes) const override;
+
+    /// Called after all objects of an update have been written.
+    void drop_unused();
+
+    MeshArrays &arrays;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world
+
+  protected:
+    bool fits(uint32_t slot, const Node &node) const override;
+    void append(const Node &node) override;
+    void write(uint32_t slot, const Node &node, const AttributeSet &attributes) override;
+    void keep(const std::vector<uint32_t> &slots) override;
+
+  private:
+    const MaterialStore &materials_;
+    const LightStore &lights_;
+    size_t with_normals_ = 0;  ///< meshes
+    size_t with_uv_ = 0;
+};
+
+}  // namespace rtrays
