@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Diffuse area lights on discs and spheres: points on them, and densities.
+//
+// Discs are sampled uniformly in area under any affine map (its area ratio is constant), spheres, which are under a
+// similarity, either uniformly in area or uniformly in the cone of directions that they fill (P. Shirley, C. Wang,
+// K. Zimmerman, "Monte Carlo techniques for direct lighting calculations", ACM TOG 15(1), 1996). The cone's formulas
+// are free of cancellation, however small the sphere looks: 1 - cos is sin^2 / (1 + cos) throughout.
+#pragma once
+
+#include "renderer/kernels/geometry/shape_point.h"
+#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/scene_records.h"
+
+#if FEATURE_shape_lights
+
+/// A point on a shape that emits. It emits on the side of its normal.
+typedef struct ShapeLightSample {
+    SurfacePoint point;
+    float pdf_a;  ///< per area, the light given
+} ShapeLightSample;
+
+/// sin^2 of half the angle of the cone that a sphere fills, seen from a point; 0 where area is sampled instead: on
+/// request, and from inside or within 1e-4 radii of the surface, where the cone is no narrower than a hemisphere.
+DEVICE float sphere_cone(GLOBAL const ShapeRecord *sphere, float3 from, bool cone) {
+    const float3 way = from - shape_centre(sphere);
+    const float distance2 = dot(way, way);
+    const float3 radius = vector_to_world(sphere, make_float3(1.0f, 0.0f, 0.0f));
+    const float radius2 = dot(radius, radius);
+    return cone && distance2 > 1.0002f * radius2 ? radius2 / distance2 : 0.0f;
+}
+
+/// The density per area with which `sample_shape_light` makes `point` (a point of the light's surface), seen from
+/// `from`, the light given. Zero where a cone does not reach: behind the sphere's horizon.
+DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from, SurfacePoint point,
+                               bool cone) {
+    if (light.kind == LIGHT_SPHERE) {
+        const float sin2 = sphere_cone(shapes + light.first_triangle, from, cone);
+        if (sin2 > 0.0f) {
+            const float3 way = from - point.position;
+            const float projected = dot(point.normal, way);
+            if (!(projected > 0.0f)) {
+                return 0.0f;
+            }
+            const float distance2 = dot(way, way);
+            const float pdf_w = 0.5f * INV_PI * (1.0f + sqrt(1.0f - sin2)) / sin2;  // 1 / (2 pi (1 - cos))
+            return pdf_w * projected / (distance2 * sqrt(distance2));
+        }
+    }
+    return 1.0f / light.area;
+}
+
+/// Samples a disc or a sphere. `cone`: spheres by the cone they fill where possible, else by area. u and v are uniform
+/// in [0, 1).
+///
+/// Cone: let theta be the angle of the direction from the cone's axis, beta that between the direction and the
+/// sphere's normal where it enters, alpha = beta - theta that between normal and axis. With k = 1 - cos theta = u (1 -
+/// cos theta_max), sin^2 theta = k (2 - k) and sin beta = sin theta / sin theta_max give sin^2 beta = u (2 - k) / (1 +
+/// cos theta_max). As sin theta_max -> 0 this is the uniform point of the sphere's silhouette.
+DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from, bool cone,
+                                           float u, float v) {
+    GLOBAL const ShapeRecord *shape = shapes + light.first_triangle;
+    float3 object_point;
+    if (light.kind == LIGHT_SPHERE) {
+        const float sin2 = sphere_cone(shape, from, cone);
+        float sin_alpha, cos_alpha;
+        Frame frame = frame_from_z(make_float3(0.0f, 0.0f, 1.0f));
+        if (sin2 > 0.0f) {
+            const float cos_max = sqrt(1.0f - sin2);
+            const float sin_max = sqrt(sin2);
+            const float k = u * (sin2 / (1.0f + cos_max));
+            const float sin2_beta = min(u * (2.0f - k) / (1.0f + cos_max), 1.0f);
+            const float cos_beta = sqrt(1.0f - sin2_beta);
+            sin_alpha = sqrt(sin2_beta) * (1.0f - k - cos_beta * sin_max);
+            cos_alpha = cos_beta * (1.0f - k) + sin2_beta * sin_max;
+            frame = frame_from_z(normalize(from - shape_centre(shape)));
+        } else {
+            cos_alpha = 1.0f - 2.0f * u;
+            sin_alpha = 2.0f * sqrt(u * (1.0f - u));
+        }
+        const float3 normal =
+            to_world(frame, make_float3(sin_alpha * cospi(2.0f * v), sin_alpha * sinpi(2.0f * v), cos_alpha));
+        const float3 scaled = vector_to_object(shape, normal);
+        // Its length is 1 / radius; squares stay in range for radii in [1e-12, 1e12].
+        object_point = scaled / length(scaled);
+    } else {
+        const float r = sqrt(u);
+        object_point = make_float3(r * cospi(2.0f * v), r * sinpi(2.0f * v), 0.0f);
+    }
+    ShapeLightSample sample;
+    sample.point = shape_point(shape, object_point);
+    sample.pdf_a = shape_light_pdf_a(light, shapes, from, sample.point, cone);
+    return sample;
+}
+
+#endif
