@@ -52,7 +52,8 @@ Quadric quadric_of(Kind kind, double flare) {
 
 void set_transform(const Eigen::Matrix4d &world_from_object, ShapeRecord &record) {
     const Eigen::Matrix<float, 3, 4> world = world_from_object.topRows<3>().cast<float>();
-    // The inverse of the rounded matrix, so that the two differ from inverses by the rounding of one of them only.
+    // The inverse of the rounded matrix, so that the two differ from inverses by the rounding of one of them
+    // only.
     const Eigen::Matrix3d linear = world.leftCols<3>().cast<double>();
     const Eigen::Matrix3f inverse = Eigen::Matrix3d(linear.inverse()).cast<float>();
     for (int row = 0; row < 3; ++row) {
@@ -85,7 +86,8 @@ void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iteration
     record.d = static_cast<float>(constant[3]);
     record.z_lower = static_cast<float>(slice);
     // r^2 - |c| >= r from here on: |z| >= r stays.
-    record.z_upper = static_cast<float>(std::max(4.0, (1.0 + 1e-6) * (1.0 + std::sqrt(1.0 + 4.0 * modulus)) / 2.0));
+    record.z_upper =
+        static_cast<float>(std::max(4.0, (1.0 + 1e-6) * (1.0 + std::sqrt(1.0 + 4.0 * modulus)) / 2.0));
     record.bound2 = static_cast<float>(bound2 * margin);
     record.uv_kind = SHAPE_UV_NONE;
 }
@@ -104,7 +106,8 @@ std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes) {
         try {
             Eigen::Matrix4d world_from_object = shapes.world_from_object[i];
             if (kind == Kind::julia) {
-                set_julia(shapes.julia_constant[i], shapes.julia_slice[i], shapes.julia_iterations[i], record);
+                set_julia(shapes.julia_constant[i], shapes.julia_slice[i], shapes.julia_iterations[i],
+                          record);
             } else {
                 const Quadric quadric = quadric_of(kind, shapes.flare[i]);
                 record.a = quadric.a;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes in extended precision, written from their definitions in ShapeArrays: the judge of the device's. Knows
-// nothing of ShapeRecord.
+// Shapes in extended precision, written from their definitions in ShapeArrays: the judge of the device's.
+// Knows nothing of ShapeRecord.
 #pragma once
 
 #include <Eigen/Dense>
@@ -24,7 +24,9 @@ inline double uniform(Random &random, double lower = 0, double upper = 1) {
 }
 
 /// 10^x with x uniform.
-inline double log_uniform(Random &random, double lower, double upper) { return std::pow(10.0, uniform(random, lower, upper)); }
+inline double log_uniform(Random &random, double lower, double upper) {
+    return std::pow(10.0, uniform(random, lower, upper));
+}
 
 inline Eigen::Vector3d uniform_direction(Random &random) {
     const double z = uniform(random, -1, 1), phi = uniform(random, 0, 2 * M_PI), r = std::sqrt(1 - z * z);
@@ -33,11 +35,13 @@ inline Eigen::Vector3d uniform_direction(Random &random) {
 
 inline Eigen::Matrix3d uniform_rotation(Random &random) {
     std::normal_distribution<double> normal;
-    return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+    return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+        .normalized()
+        .toRotationMatrix();
 }
 
-/// Not inlined: GCC 12 takes (double)(float)x for x once it has vectorized two components, and the judge must see the
-/// ray that the device sees.
+/// Not inlined: GCC 12 takes (double)(float)x for x once it has vectorized two components, and the judge must
+/// see the ray that the device sees.
 [[gnu::noinline]] inline float3 to_float3(const Eigen::Vector3d &v) {
     return make_float3(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
 }
@@ -55,8 +59,11 @@ struct Shape {
     Eigen::Matrix3d linear() const { return world_from_object.topLeftCorner<3, 3>(); }
     Eigen::Vector3d centre() const { return world_from_object.topRightCorner<3, 1>(); }
 
-    /// The length by which rounding of world coordinates is measured: size of the shape and of its coordinates.
-    double scale() const { return linear().cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(1 + flare) + centre().norm(); }
+    /// The length by which rounding of world coordinates is measured: size of the shape and of its
+    /// coordinates.
+    double scale() const {
+        return linear().cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(1 + flare) + centre().norm();
+    }
 
     /// Norm of |inverse| |linear part|: how much transforms back and forth magnify rounding.
     double condition() const {
@@ -121,7 +128,9 @@ struct Shape {
     /// Some point of the surface; every part of it is likely.
     Eigen::Vector3d surface_point(Random &random) const {
         const double phi = uniform(random, 0, 2 * M_PI), h = uniform(random);
-        const auto ring = [&](double r, double z) { return Eigen::Vector3d(r * std::cos(phi), r * std::sin(phi), z); };
+        const auto ring = [&](double r, double z) {
+            return Eigen::Vector3d(r * std::cos(phi), r * std::sin(phi), z);
+        };
         switch (kind) {
             case Kind::sphere:
                 return uniform_direction(random);
@@ -156,7 +165,8 @@ inline RayQuadratic along_ray(const Shape &shape, const Vector3r &o, const Vecto
 }
 
 /// Distances of all hits at t > 0, ascending.
-inline std::vector<double> hits(const Shape &shape, const Eigen::Vector3d &origin, const Eigen::Vector3d &direction) {
+inline std::vector<double> hits(const Shape &shape, const Eigen::Vector3d &origin,
+                                const Eigen::Vector3d &direction) {
     const Vector3r d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();
     // About the point of the ray nearest to the object's origin; extended precision does the rest.
     const Vector3r o = shape.to_object(origin);
@@ -183,25 +193,28 @@ inline std::vector<double> hits(const Shape &shape, const Eigen::Vector3d &origi
     return found;
 }
 
-/// Whether a ray that first hits at `t` (infinite for a miss) overlooked nothing: some ray within `tolerance` (a length)
-/// of it has no hit before `t` either. That a hit is one is for the caller to check: its point lies on the surface and
-/// on the ray.
-inline bool nothing_before(const Shape &shape, const Eigen::Vector3d &origin, const Eigen::Vector3d &direction, double t,
-                           double tolerance, Random &random) {
+/// Whether a ray that first hits at `t` (infinite for a miss) overlooked nothing: some ray within `tolerance`
+/// (a length) of it has no hit before `t` either. That a hit is one is for the caller to check: its point
+/// lies on the surface and on the ray.
+inline bool nothing_before(const Shape &shape, const Eigen::Vector3d &origin,
+                           const Eigen::Vector3d &direction, double t, double tolerance, Random &random) {
     const double slack = tolerance / direction.norm() + (std::isfinite(t) ? 1e-6 * t : 0);
     const auto holds = [&](const Eigen::Vector3d &o) {
         const std::vector<double> all = hits(shape, o, direction);
         // A hit at the very origin may go either way.
-        return std::none_of(all.begin(), all.end(), [&](double hit) { return hit > slack && hit < t - slack; });
+        return std::none_of(all.begin(), all.end(),
+                            [&](double hit) { return hit > slack && hit < t - slack; });
     };
     if (holds(origin)) {
         return true;
     }
     // Shifts across the clipping planes, across the surface where the ray is nearest to it, and at random.
     const Eigen::Matrix3d inverse_transpose = shape.linear().inverse().transpose();
-    const Vector3r o = shape.to_object(origin), d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();
+    const Vector3r o = shape.to_object(origin),
+                   d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();
     const Eigen::Vector3d g = shape.gradient(o - o.dot(d) / d.squaredNorm() * d).cast<double>();
-    std::vector<Eigen::Vector3d> shifts = {inverse_transpose.col(2).normalized(), (inverse_transpose * g).normalized()};
+    std::vector<Eigen::Vector3d> shifts = {inverse_transpose.col(2).normalized(),
+                                           (inverse_transpose * g).normalized()};
     for (int i = 0; i < 60; ++i) {
         shifts.push_back(uniform_direction(random) * uniform(random));
     }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Quaternion Julia sets: the shipped marching against dense brute force in double precision, and against the one that
-// has a closed form.
+// Quaternion Julia sets: the shipped marching against dense brute force in double precision, and against the
+// one that has a closed form.
 #define FEATURE_shapes 1
 #define FEATURE_julia 1
-#include "renderer/kernels/geometry/intersect_shapes.h"
-#include "renderer/kernels/geometry/shape_point.h"
-
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"
+#include "renderer/kernels/geometry/intersect_shapes.h"
+#include "renderer/kernels/geometry/shape_point.h"
 #include "renderer/pipeline/compile_shapes.h"
 #include "renderer/tests/shapes_double.h"
 
@@ -25,26 +24,26 @@ struct Julia {
 };
 
 // From round to dust-like; the last has |c| > 12, so that escape needs more than 4.
-const Julia julias[] = {{"basilica", {-1, 0.2, 0, 0}, 0, 8},
-                        {"twisted", {-0.450, -0.447, 0.181, 0.306}, 0, 10},
-                        {"leaves", {-0.2, 0.8, 0, 0}, 0, 11},
-                        {"slice", {0.185, 0.478, 0.125, -0.392}, 0.2, 9},
-                        {"dust", {-0.3, -0.9, 0.4, -0.1}, 0.05, 6},
-                        {"once", {0.3, 0.4, 0, 0.1}, 0, 1},
-                        {"large", {-14, 1, 0.5, 0}, 0, 2}};
+const Julia julias[] = {
+    {"basilica", {-1, 0.2, 0, 0}, 0, 8},        {"twisted", {-0.450, -0.447, 0.181, 0.306}, 0, 10},
+    {"leaves", {-0.2, 0.8, 0, 0}, 0, 11},       {"slice", {0.185, 0.478, 0.125, -0.392}, 0.2, 9},
+    {"dust", {-0.3, -0.9, 0.4, -0.1}, 0.05, 6}, {"once", {0.3, 0.4, 0, 0.1}, 0, 1},
+    {"large", {-14, 1, 0.5, 0}, 0, 2}};
 
 /// z_n in double precision, as a quaternion product written out.
 Eigen::Vector4d iterate(const Julia &julia, const Eigen::Vector3d &p) {
     Eigen::Vector4d z(p.x(), p.y(), p.z(), julia.slice);
     for (uint32_t i = 0; i < julia.iterations && z.squaredNorm() < 1e40; ++i) {
-        z = Eigen::Vector4d(z[0] * z[0] - z[1] * z[1] - z[2] * z[2] - z[3] * z[3], 2 * z[0] * z[1], 2 * z[0] * z[2],
-                            2 * z[0] * z[3]) +
+        z = Eigen::Vector4d(z[0] * z[0] - z[1] * z[1] - z[2] * z[2] - z[3] * z[3], 2 * z[0] * z[1],
+                            2 * z[0] * z[2], 2 * z[0] * z[3]) +
             julia.c;
     }
     return z;
 }
 
-bool outside(const Julia &julia, const Eigen::Vector3d &p) { return iterate(julia, p).norm() > 4; }
+bool outside(const Julia &julia, const Eigen::Vector3d &p) {
+    return iterate(julia, p).norm() > 4;
+}
 
 Eigen::Vector3d gradient(const Julia &julia, const Eigen::Vector3d &p) {
     const double h = 1e-9;
@@ -56,7 +55,8 @@ Eigen::Vector3d gradient(const Julia &julia, const Eigen::Vector3d &p) {
     return g;
 }
 
-ShapeRecord compile(const Julia &julia, const Eigen::Matrix4d &world_from_object = Eigen::Matrix4d::Identity()) {
+ShapeRecord compile(const Julia &julia,
+                    const Eigen::Matrix4d &world_from_object = Eigen::Matrix4d::Identity()) {
     ShapeArrays arrays;
     arrays.name = {julia.name};
     arrays.kind = {Kind::julia};
@@ -77,7 +77,9 @@ Julia rounded(Julia julia) {
     return julia;
 }
 
-double radius_of(const ShapeRecord &record) { return std::sqrt(static_cast<double>(record.bound2)); }
+double radius_of(const ShapeRecord &record) {
+    return std::sqrt(static_cast<double>(record.bound2));
+}
 
 class JuliaSets : public testing::TestWithParam<Julia> {};
 
@@ -115,7 +117,8 @@ TEST_P(JuliaSets, ClearStepsDoNotPassTheSurface) {
 }
 
 /// Where the ray first changes sides: dense samples, then bisection. Infinite if nowhere.
-double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen::Vector3d &d, double s, double end, int samples) {
+double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen::Vector3d &d, double s,
+                      double end, int samples) {
     const bool side = outside(julia, o + s * d);
     const double step = (end - s) / samples;
     for (int i = 1; i <= samples; ++i) {
@@ -131,10 +134,10 @@ double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen:
     return INFINITY;
 }
 
-/// Whether a ray may overlook what it crosses: it stays on the other side for less than the least step, or nearer to
-/// the surface than rounding can tell.
-bool may_overlook(const Julia &julia, const ShapeRecord &record, const Eigen::Vector3d &o, const Eigen::Vector3d &d,
-                  double crossing) {
+/// Whether a ray may overlook what it crosses: it stays on the other side for less than the least step, or
+/// nearer to the surface than rounding can tell.
+bool may_overlook(const Julia &julia, const ShapeRecord &record, const Eigen::Vector3d &o,
+                  const Eigen::Vector3d &d, double crossing) {
     const double r = radius_of(record), start = crossing + 1e-9 * r;
     const double length = first_crossing(julia, o, d, start, crossing + 0.1 * r, 100'000) - crossing;
     if (!(length < 0.1 * r)) {
@@ -144,7 +147,8 @@ bool may_overlook(const Julia &julia, const ShapeRecord &record, const Eigen::Ve
     for (int i = 1; i < 1'000; ++i) {
         const Eigen::Vector3d p = o + (crossing + i / 1e3 * length) * d;
         const double distance = std::abs(iterate(julia, p).norm() - 4) / gradient(julia, p).norm();
-        deepest = std::max(deepest, distance / to_double(shape_point(&record, to_float3(p)).error).maxCoeff());
+        deepest =
+            std::max(deepest, distance / to_double(shape_point(&record, to_float3(p)).error).maxCoeff());
     }
     return length < 0x1p-16 * r * 1.01 || deepest < 1;
 }
@@ -160,7 +164,8 @@ TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
     Eigen::Vector3d on_surface = Eigen::Vector3d::UnitX();
     int hit_count = 0, misses = 0, thin = 0;
     for (int i = 0; i < 1'500; ++i) {
-        Eigen::Vector3d target = r * uniform(random) * uniform_direction(random), direction = uniform_direction(random);
+        Eigen::Vector3d target = r * uniform(random) * uniform_direction(random),
+                        direction = uniform_direction(random);
         double distance = 2 * r;
         switch (ray_sets[i % 5]) {
             case RaySet::random:
@@ -193,18 +198,21 @@ TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
         if (hit.shape != NO_HIT) {
             ++hit_count;
             s = (to_double(hit.object_point) - o).dot(d);
-            // It is a point of the surface: sides differ about it within the rounding that shape_point states.
+            // It is a point of the surface: sides differ about it within the rounding that shape_point
+            // states.
             const SurfacePoint point = shape_point(&record, hit.object_point);
             const Eigen::Vector3d n = to_double(point.normal), p = to_double(hit.object_point);
             const double h = to_double(point.error).maxCoeff();
             ASSERT_TRUE(outside(julia, p + h * n) && !outside(julia, p - h * n)) << h;
             ASSERT_LT(((p - o) - s * d).norm(), 16 * half_ulp * r);
-            ASSERT_NEAR(static_cast<double>(hit.t) * to_double(way).norm(), shift + s, 8 * half_ulp * (std::abs(shift) + r));
+            ASSERT_NEAR(static_cast<double>(hit.t) * to_double(way).norm(), shift + s,
+                        8 * half_ulp * (std::abs(shift) + r));
             ASSERT_EQ(nearest_shape(&record, 1, origin, way, std::nextafter(hit.t, INFINITY)).t, hit.t);
             ASSERT_FALSE(any_shape(&record, 1, origin, way, hit.t));
         }
         if (expected < s - 1e-4 * r) {  // overlooked: see there
-            ASSERT_TRUE(may_overlook(julia, record, o, d, expected)) << "set " << i % 5 << " at " << expected << ", found " << s;
+            ASSERT_TRUE(may_overlook(julia, record, o, d, expected))
+                << "set " << i % 5 << " at " << expected << ", found " << s;
             ++thin;
         }
         misses += hit.shape == NO_HIT;
@@ -219,13 +227,14 @@ Eigen::Matrix4d random_map(Random &random) {
     Eigen::Matrix4d map = Eigen::Matrix4d::Identity();
     const double size = log_uniform(random, -3, 3);
     const Eigen::Vector3d axes(log_uniform(random, -0.5, 0), log_uniform(random, -0.5, 0), -1);
-    map.topLeftCorner<3, 3>() = size * uniform_rotation(random) * axes.asDiagonal() * uniform_rotation(random);
+    map.topLeftCorner<3, 3>() =
+        size * uniform_rotation(random) * axes.asDiagonal() * uniform_rotation(random);
     map.topRightCorner<3, 1>() = 3 * size * uniform_direction(random);
     return map;
 }
 
-// Rays that leave a hit under affine maps: they start on the side they are meant for, those from inside hit again, and
-// a hit near the start is one in double precision as well.
+// Rays that leave a hit under affine maps: they start on the side they are meant for, those from inside hit
+// again, and a hit near the start is one in double precision as well.
 TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
     const Julia julia = rounded(GetParam());
     Random random(3);
@@ -241,16 +250,20 @@ TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
         for (int k = 0; k < 10; ++k) {
             const Eigen::Vector3d target = r * uniform(random) * uniform_direction(random);
             const Eigen::Vector3d from = 2 * r * uniform_direction(random);
-            const auto world = [&](const Eigen::Vector3d &p) { return Eigen::Vector3d((world_from_object * p.homogeneous()).head<3>()); };
+            const auto world = [&](const Eigen::Vector3d &p) {
+                return Eigen::Vector3d((world_from_object * p.homogeneous()).head<3>());
+            };
             const float3 origin = to_float3(world(from));
-            const ShapeHit hit = nearest_shape(&record, 1, origin, to_float3(world(target) - to_double(origin)), INFINITY);
+            const ShapeHit hit =
+                nearest_shape(&record, 1, origin, to_float3(world(target) - to_double(origin)), INFINITY);
             if (hit.shape == NO_HIT) {
                 continue;
             }
             const SurfacePoint point = shape_point(&record, hit.object_point);
             const Eigen::Vector3d n = to_double(point.normal);
             for (int i = 0; i < 10; ++i, ++left) {
-                const double cosine = (i % 2 == 0 ? 1 : -1) * (i % 4 < 2 ? uniform(random) : log_uniform(random, -7, 0));
+                const double cosine =
+                    (i % 2 == 0 ? 1 : -1) * (i % 4 < 2 ? uniform(random) : log_uniform(random, -7, 0));
                 const Eigen::Vector3d tangent = uniform_direction(random).cross(n).normalized();
                 const float3 away = to_float3(tangent * std::sqrt(1 - cosine * cosine) + cosine * n);
                 const bool front = !(dot(point.normal, away) < 0.0f);
@@ -263,7 +276,8 @@ TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
                 const double s = next.shape != NO_HIT ? static_cast<double>(next.t) * w.norm() : INFINITY;
                 if (s < 0x1p-10 * r) {
                     ++near_hits;
-                    self_hits += !std::isfinite(first_crossing(julia, o, w.normalized(), 0, s + 0x1p-16 * r, 2'000));
+                    self_hits +=
+                        !std::isfinite(first_crossing(julia, o, w.normalized(), 0, s + 0x1p-16 * r, 2'000));
                 }
             }
         }
@@ -288,7 +302,8 @@ TEST_P(JuliaSets, NormalsAreTheGradient) {
             const SurfacePoint point = shape_point(&record, hit.object_point);
             const Eigen::Vector3d g = gradient(julia, to_double(hit.object_point));
             // Details of size 2^-n: that is how the normal magnifies the rounding of a position.
-            EXPECT_LT((to_double(point.normal) - g.normalized()).norm(), 1e-5 + 4e-7 * std::pow(2.0, julia.iterations));
+            EXPECT_LT((to_double(point.normal) - g.normalized()).norm(),
+                      1e-5 + 4e-7 * std::pow(2.0, julia.iterations));
             EXPECT_LT(dot(point.normal, way), 0.0f);  // outwards, met from outside
             ++checked;
         }
@@ -296,7 +311,9 @@ TEST_P(JuliaSets, NormalsAreTheGradient) {
     EXPECT_GT(checked, 30);
 }
 
-std::string julia_name(const testing::TestParamInfo<Julia> &julia) { return julia.param.name; }
+std::string julia_name(const testing::TestParamInfo<Julia> &julia) {
+    return julia.param.name;
+}
 
 INSTANTIATE_TEST_SUITE_P(Sets, JuliaSets, testing::ValuesIn(julias), julia_name);
 
@@ -316,11 +333,13 @@ TEST(Julia, IsASphereForTheConstantZero) {
             if (std::abs(discriminant) < 1e-5) {
                 continue;
             }
-            const double expected = discriminant > 0 ? -b + (i % 2 == 0 ? 1 : -1) * std::sqrt(discriminant) : -1;
+            const double expected =
+                discriminant > 0 ? -b + (i % 2 == 0 ? 1 : -1) * std::sqrt(discriminant) : -1;
             ASSERT_EQ(hit.shape != NO_HIT, expected > 0);
             if (hit.shape != NO_HIT) {
                 ++hit_count;
-                ASSERT_NEAR(static_cast<double>(hit.t) * to_double(way).norm(), expected, 1e-6 * (1 + 1 / std::sqrt(discriminant)));
+                ASSERT_NEAR(static_cast<double>(hit.t) * to_double(way).norm(), expected,
+                            1e-6 * (1 + 1 / std::sqrt(discriminant)));
                 const SurfacePoint point = shape_point(&record, hit.object_point);
                 ASSERT_LT((to_double(point.normal) - to_double(hit.object_point).normalized()).norm(), 1e-5);
             }
@@ -339,8 +358,10 @@ TEST(Julia, ExtremesGiveFiniteHitsOrMisses) {
         int hit_count = 0;
         for (int i = 0; i < 2'000; ++i) {
             const bool plain = i % 2 == 0;
-            const float3 origin = plain ? to_float3(4 * uniform_direction(random)) : make_float3(any_value(), any_value(), any_value());
-            const float3 way = plain ? to_float3(uniform_direction(random)) - origin : make_float3(any_value(), any_value(), any_value());
+            const float3 origin = plain ? to_float3(4 * uniform_direction(random))
+                                        : make_float3(any_value(), any_value(), any_value());
+            const float3 way = plain ? to_float3(uniform_direction(random)) - origin
+                                     : make_float3(any_value(), any_value(), any_value());
             const ShapeHit hit = nearest_shape(&record, 1, origin, way, INFINITY);
             if (hit.shape != NO_HIT) {
                 ++hit_count;

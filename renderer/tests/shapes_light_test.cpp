@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Discs and spheres as lights: samples against densities by chi-square, densities against 1.
 //
-// Seven chi-square tests of the samplers at a family-wise level of 0.01: each decides at 0.01 / 7 (Bonferroni). The
-// planted errors show that the sample counts see 2 %.
+// Seven chi-square tests of the samplers at a family-wise level of 0.01: each decides at 0.01 / 7
+// (Bonferroni). The planted errors show that the sample counts see 2 %.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #define FEATURE_shape_lights 1
-#include "renderer/kernels/light/shape_light.h"
-#include "renderer/kernels/sampling/random.h"
-
 #include <gtest/gtest.h>
 
+#include "renderer/kernels/geometry/intersect_shapes.h"
+#include "renderer/kernels/light/shape_light.h"
+#include "renderer/kernels/sampling/random.h"
 #include "renderer/pipeline/compile_shapes.h"
 #include "renderer/tests/chi_square.h"
 #include "renderer/tests/shapes_double.h"
@@ -51,7 +51,8 @@ struct Light {
         }
         light.kind = kind == Kind::disc ? LIGHT_DISC : LIGHT_SPHERE;
         const double radius2 = linear.col(0).squaredNorm();
-        light.area = static_cast<float>(kind == Kind::disc ? pi * linear.col(0).cross(linear.col(1)).norm() : 4 * pi * radius2);
+        light.area = static_cast<float>(kind == Kind::disc ? pi * linear.col(0).cross(linear.col(1)).norm()
+                                                           : 4 * pi * radius2);
     }
 
     ShapeLightSample sample(float3 from, bool cone, uint32_t i) const {
@@ -61,7 +62,8 @@ struct Light {
 
     /// The density at a point of the surface, given in object space.
     double pdf_a(float3 from, bool cone, const Eigen::Vector3d &object_point) const {
-        return static_cast<double>(shape_light_pdf_a(light, &shape, from, shape_point(&shape, to_float3(object_point)), cone));
+        return static_cast<double>(
+            shape_light_pdf_a(light, &shape, from, shape_point(&shape, to_float3(object_point)), cone));
     }
 };
 
@@ -70,9 +72,10 @@ struct Result {
     double integral;  ///< of the density over the light
 };
 
-/// Counts in bins of the cosine to `axis` (object space, unit) above `horizon` and of the angle about it, against the
-/// integrated density. `planted` raises the density of the upper half of the bins.
-Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vector3d &axis, double horizon, double planted) {
+/// Counts in bins of the cosine to `axis` (object space, unit) above `horizon` and of the angle about it,
+/// against the integrated density. `planted` raises the density of the upper half of the bins.
+Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vector3d &axis, double horizon,
+                    double planted) {
     const Frame frame = frame_from_z(to_float3(axis));
     const Eigen::Vector3d x = to_double(frame.x), y = to_double(frame.y), z = axis;
     const Eigen::Matrix3d inverse = light.linear.inverse();
@@ -80,7 +83,8 @@ Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vec
     uint64_t beyond = 0;
     for (uint32_t i = 0; i < sample_count; ++i) {
         // The normal keeps its precision where the position of a tiny sphere does not.
-        const Eigen::Vector3d n = (inverse * to_double(light.sample(from, cone, i).point.normal)).normalized();
+        const Eigen::Vector3d n =
+            (inverse * to_double(light.sample(from, cone, i).point.normal)).normalized();
         const double height = (n.dot(z) - horizon) / (1 - horizon);
         const double turn = std::atan2(n.dot(y), n.dot(x)) / (2 * pi) + 0.5;
         beyond += height < -1e-5;
@@ -95,12 +99,13 @@ Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vec
     for (int ring = 0; ring < rings; ++ring) {
         for (int sector = 0; sector < sectors; ++sector) {
             const auto density = [&](double height, double turn) {
-                const double c = horizon + height * (1 - horizon), s = std::sqrt(1 - c * c), phi = 2 * pi * (turn - 0.5);
+                const double c = horizon + height * (1 - horizon), s = std::sqrt(1 - c * c),
+                             phi = 2 * pi * (turn - 0.5);
                 return light.pdf_a(from, cone, s * std::cos(phi) * x + s * std::sin(phi) * y + c * z);
             };
-            const double probability =
-                2 * pi * (1 - horizon) * radius2 *
-                integrate(density, double(ring) / rings, (ring + 1.0) / rings, double(sector) / sectors, (sector + 1.0) / sectors);
+            const double probability = 2 * pi * (1 - horizon) * radius2 *
+                                       integrate(density, double(ring) / rings, (ring + 1.0) / rings,
+                                                 double(sector) / sectors, (sector + 1.0) / sectors);
             integral += probability;
             expected.push_back(sample_count * probability * (ring < rings / 2 ? 1.0 : 1.0 + planted));
         }
@@ -109,12 +114,14 @@ Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vec
 }
 
 Result check_cone(double radius, double distance, double planted = 0) {
-    const Eigen::Matrix3d linear = radius * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d linear =
+        radius * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     const Light light(Kind::sphere, linear, {0.3, -0.2, 0.5});
     const Eigen::Vector3d axis = Eigen::Vector3d(-0.4, 0.8, 0.2).normalized();
     const float3 from = to_float3(light.centre + distance * radius * axis);
     const Eigen::Vector3d way = to_double(from) - light.centre;
-    return check_sphere(light, from, true, (light.linear.inverse() * way).normalized(), radius / way.norm(), planted);
+    return check_sphere(light, from, true, (light.linear.inverse() * way).normalized(), radius / way.norm(),
+                        planted);
 }
 
 TEST(SphereLight, SamplesItsConeFromAFewRadii) {
@@ -126,7 +133,8 @@ TEST(SphereLight, SamplesItsConeFromAFewRadii) {
 TEST(SphereLight, SamplesItsConeFromNearby) {
     const Result result = check_cone(2, 1.01);
     EXPECT_GT(result.p, level);
-    EXPECT_NEAR(result.integral, 1, 1e-2);  // the density peaks within the first ring: this is the quadrature's error
+    EXPECT_NEAR(result.integral, 1,
+                1e-2);  // the density peaks within the first ring: this is the quadrature's error
 }
 
 TEST(SphereLight, SamplesItsConeWhenTinyAndFar) {
@@ -135,12 +143,15 @@ TEST(SphereLight, SamplesItsConeWhenTinyAndFar) {
     EXPECT_NEAR(result.integral, 1, 1e-4);
 }
 
-TEST(SphereLight, PlantedErrorOfTwoPercentInTheConeIsRejected) { EXPECT_LT(check_cone(0.5, 2.5, 0.02).p, level); }
+TEST(SphereLight, PlantedErrorOfTwoPercentInTheConeIsRejected) {
+    EXPECT_LT(check_cone(0.5, 2.5, 0.02).p, level);
+}
 
 Result check_area(bool inside, double planted = 0) {
     const Light light(Kind::sphere, 1.5 * Eigen::Matrix3d::Identity(), {1, 2, 3});
     const float3 from = to_float3(light.centre + (inside ? 0.5 : 4.0) * Eigen::Vector3d::UnitX());
-    return check_sphere(light, from, inside, Eigen::Vector3d::UnitZ(), -1, planted);  // cone is asked for inside only
+    return check_sphere(light, from, inside, Eigen::Vector3d::UnitZ(), -1,
+                        planted);  // cone is asked for inside only
 }
 
 TEST(SphereLight, SamplesItsAreaOnRequest) {
@@ -155,18 +166,23 @@ TEST(SphereLight, SamplesItsAreaFromInside) {
     EXPECT_NEAR(result.integral, 1, 1e-5);
 }
 
-TEST(SphereLight, PlantedErrorOfTwoPercentInTheAreaIsRejected) { EXPECT_LT(check_area(false, 0.02).p, level); }
+TEST(SphereLight, PlantedErrorOfTwoPercentInTheAreaIsRejected) {
+    EXPECT_LT(check_area(false, 0.02).p, level);
+}
 
-/// Counts in bins of radius and angle in the disc's plane, against the density times the bin's area in world space.
+/// Counts in bins of radius and angle in the disc's plane, against the density times the bin's area in world
+/// space.
 Result check_disc(const Eigen::Matrix3d &linear, double planted = 0) {
     const Light light(Kind::disc, linear, {-1, 0, 2});
     const float3 from = make_float3(5, 5, 5);
     std::vector<uint64_t> observed(rings * sectors);
     const Eigen::Matrix3d inverse = light.linear.inverse();
     for (uint32_t i = 0; i < sample_count; ++i) {
-        const Eigen::Vector3d p = inverse * (to_double(light.sample(from, true, i).point.position) - light.centre);
+        const Eigen::Vector3d p =
+            inverse * (to_double(light.sample(from, true, i).point.position) - light.centre);
         const int ring = std::min(static_cast<int>(p.head<2>().norm() * rings), rings - 1);
-        const int sector = std::min(static_cast<int>((std::atan2(p.y(), p.x()) / (2 * pi) + 0.5) * sectors), sectors - 1);
+        const int sector =
+            std::min(static_cast<int>((std::atan2(p.y(), p.x()) / (2 * pi) + 0.5) * sectors), sectors - 1);
         ++observed[static_cast<size_t>(ring * sectors + sector)];
     }
     const double stretch = light.linear.col(0).cross(light.linear.col(1)).norm();
@@ -201,16 +217,19 @@ TEST(DiscLight, SamplesItsAreaUnderAnAffineMap) {
     EXPECT_NEAR(result.integral, 1, 1e-6);
 }
 
-TEST(DiscLight, PlantedErrorOfTwoPercentIsRejected) { EXPECT_LT(check_disc(skewed(), 0.02).p, level); }
+TEST(DiscLight, PlantedErrorOfTwoPercentIsRejected) {
+    EXPECT_LT(check_disc(skewed(), 0.02).p, level);
+}
 
-// From anywhere, for spheres of any size: samples lie on the sphere, see `from` when they come from a cone, and the
-// estimate of solid angle, cos / (d^2 pdf_a), is that of the cone for every single one.
+// From anywhere, for spheres of any size: samples lie on the sphere, see `from` when they come from a cone,
+// and the estimate of solid angle, cos / (d^2 pdf_a), is that of the cone for every single one.
 TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
     Random random(9);
     int cones = 0;
     for (uint32_t i = 0; i < 200'000; ++i) {
         const double radius = log_uniform(random, -6, 6), distance = 1 + log_uniform(random, -5, 5);
-        const Light light(Kind::sphere, radius * uniform_rotation(random), radius * uniform(random, 0, 3) * uniform_direction(random));
+        const Light light(Kind::sphere, radius * uniform_rotation(random),
+                          radius * uniform(random, 0, 3) * uniform_direction(random));
         const float3 from = to_float3(light.centre + distance * radius * uniform_direction(random));
         const ShapeLightSample sample = light.sample(from, true, i);
         const Eigen::Vector3d n = to_double(sample.point.normal), p = to_double(sample.point.position);
@@ -228,7 +247,8 @@ TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
         ++cones;
         const double solid_angle = 2 * pi * sin2 / (1 + std::sqrt(1 - sin2));
         if (projected > 1e-3 * way.norm()) {
-            ASSERT_NEAR(projected / (way.squaredNorm() * way.norm()) / pdf_a / solid_angle, 1, 1e-3) << distance;
+            ASSERT_NEAR(projected / (way.squaredNorm() * way.norm()) / pdf_a / solid_angle, 1, 1e-3)
+                << distance;
         } else {
             ASSERT_GT(projected, -2e-3 * way.norm());  // the horizon, to within rounding
         }
@@ -236,9 +256,33 @@ TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
     EXPECT_GT(cones, 150'000);
 }
 
+// Shadow rays as the stages make them, from up to 1e6 radii: a light does not hide its own points.
+TEST(ShapeLights, DoNotShadowThemselves) {
+    Random random(19);
+    int rays = 0, hidden = 0;
+    for (uint32_t i = 0; i < 600'000; ++i) {
+        const double radius = log_uniform(random, -3, 3), distance = 1 + log_uniform(random, -2, 6);
+        const double offset = i % 3 == 0   ? 0
+                              : i % 3 == 1 ? radius
+                                           : radius * distance;  // of the light from the origin
+        const Light light(i % 2 == 0 ? Kind::sphere : Kind::disc, radius * uniform_rotation(random),
+                          offset * uniform_direction(random));
+        const float3 from = to_float3(light.centre + distance * radius * uniform_direction(random));
+        const ShapeLightSample sample = light.sample(from, i % 4 < 2, i);
+        const float3 way = sample.point.position - from;
+        if (dot(sample.point.normal, way) < 0.0f) {
+            ++rays;
+            hidden += any_shape(&light.shape, 1, from, offset_ray_origin(sample.point, -way) - from, 1.0f);
+        }
+    }
+    EXPECT_EQ(hidden, 0);
+    EXPECT_GT(rays, 200'000);
+}
+
 TEST(SphereLight, FromTheCentreAndTheSurfaceAreaIsSampled) {
     const Light light(Kind::sphere, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
-    for (const float3 from : {make_float3(0, 0, 0), make_float3(0, 0, 1), make_float3(0.6f, 0.8f, 0), make_float3(0, 1.00005f, 0)}) {
+    for (const float3 from : {make_float3(0, 0, 0), make_float3(0, 0, 1), make_float3(0.6f, 0.8f, 0),
+                              make_float3(0, 1.00005f, 0)}) {
         for (uint32_t i = 0; i < 1'000; ++i) {
             EXPECT_EQ(light.sample(from, true, i).pdf_a, 1.0f / light.light.area);
         }

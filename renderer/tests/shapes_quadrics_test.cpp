@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Quadrics, discs and planes: the shipped device code against extended precision, over rays that are random, grazing,
-// axis-parallel, from far away and from inside, under random affine maps.
+// Quadrics, discs and planes: the shipped device code against extended precision, over rays that are random,
+// grazing, axis-parallel, from far away and from inside, under random affine maps.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
-#include "renderer/kernels/geometry/intersect_shapes.h"
-#include "renderer/kernels/geometry/shape_point.h"
-
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"
+#include "renderer/kernels/geometry/intersect_shapes.h"
+#include "renderer/kernels/geometry/shape_point.h"
 #include "renderer/pipeline/compile_shapes.h"
 #include "renderer/tests/shapes_double.h"
 
@@ -33,8 +32,8 @@ ShapeRecord compile(const Shape &shape) {
     return compile_shapes(arrays).at(0);
 }
 
-/// A shape under a random affine map: ratio of axes up to `ratio`, mirrored half the time, overall size 1e-6 to 1e6,
-/// at up to ten times its size from the origin.
+/// A shape under a random affine map: ratio of axes up to `ratio`, mirrored half the time, overall size 1e-6
+/// to 1e6, at up to ten times its size from the origin.
 Shape random_shape(Kind kind, double ratio, Random &random) {
     Shape shape;
     shape.kind = kind;
@@ -46,8 +45,10 @@ Shape random_shape(Kind kind, double ratio, Random &random) {
     }
     axes.x() = uniform(random) < 0.5 ? -axes.x() : axes.x();
     shape.world_from_object.topLeftCorner<3, 3>() =
-        uniform_rotation(random) * axes.asDiagonal() * (ratio > 1 ? uniform_rotation(random) : Eigen::Matrix3d::Identity());
-    shape.world_from_object.topRightCorner<3, 1>() = uniform(random, 0, 10) * size * uniform_direction(random);
+        uniform_rotation(random) * axes.asDiagonal() *
+        (ratio > 1 ? uniform_rotation(random) : Eigen::Matrix3d::Identity());
+    shape.world_from_object.topRightCorner<3, 1>() =
+        uniform(random, 0, 10) * size * uniform_direction(random);
     return shape;
 }
 
@@ -104,8 +105,8 @@ Vector3r canonical(Kind kind, float3 object_point) {
 
 class Quadrics : public testing::TestWithParam<Kind> {};
 
-/// Hits and misses, distances and points of `count` rays per set. Tolerances are backward errors: what is found is
-/// right for a ray within 64 half ulps of the size of shape and coordinates.
+/// Hits and misses, distances and points of `count` rays per set. Tolerances are backward errors: what is
+/// found is right for a ray within 64 half ulps of the size of shape and coordinates.
 void check_against_double(Kind kind, double ratio, int count) {
     Random random(1000 + static_cast<uint64_t>(kind));
     int hit_count = 0;
@@ -120,29 +121,39 @@ void check_against_double(Kind kind, double ratio, int count) {
             const double t = found ? static_cast<double>(hit.t) : static_cast<double>(INFINITY);
             double tolerance = 64 * half_ulp * shape.scale();
             if (kind == Kind::plane) {  // has no size: its distance along the ray counts
-                tolerance += 16 * half_ulp * shape.condition() * ((o - shape.centre()).norm() + (found ? t * d.norm() : 0.0));
+                tolerance += 16 * half_ulp * shape.condition() *
+                             ((o - shape.centre()).norm() + (found ? t * d.norm() : 0.0));
             }
-            ASSERT_TRUE(nothing_before(shape, o, d, t, tolerance, random)) << "set " << static_cast<int>(set) << " t " << t;
+            ASSERT_TRUE(nothing_before(shape, o, d, t, tolerance, random))
+                << "set " << static_cast<int>(set) << " t " << t;
             ASSERT_EQ(any_shape(&record, 1, ray.origin, ray.direction, INFINITY), found);
             if (found) {
                 ++hit_count;
                 const Vector3r p = canonical(kind, hit.object_point);
                 const double off = static_cast<double>(std::abs(shape.value(p)) / shape.gradient(p).norm());
-                ASSERT_LE(off, 8 * half_ulp * std::max(1.0, static_cast<double>(p.norm()))) << static_cast<int>(set);
+                ASSERT_LE(off, 8 * half_ulp * std::max(1.0, static_cast<double>(p.norm())))
+                    << static_cast<int>(set);
                 ASSERT_FALSE(shape.clipped(p * (1 - 1e-6)) && shape.clipped(p * (1 + 1e-6)));
-                const double from_ray = (shape.linear() * p.cast<double>() + shape.centre() - (o + t * d)).norm();
+                const double from_ray =
+                    (shape.linear() * p.cast<double>() + shape.centre() - (o + t * d)).norm();
                 ASSERT_LE(from_ray, tolerance + 8 * half_ulp * t * d.norm()) << static_cast<int>(set);
                 // t_max is exclusive, and bounds nothing else.
                 ASSERT_FALSE(any_shape(&record, 1, ray.origin, ray.direction, hit.t));
-                ASSERT_EQ(nearest_shape(&record, 1, ray.origin, ray.direction, std::nextafter(hit.t, INFINITY)).t, hit.t);
+                ASSERT_EQ(
+                    nearest_shape(&record, 1, ray.origin, ray.direction, std::nextafter(hit.t, INFINITY)).t,
+                    hit.t);
             }
         }
     }
     EXPECT_GT(hit_count, count);
 }
 
-TEST_P(Quadrics, AgreeWithExtendedPrecisionUnderSimilarities) { check_against_double(GetParam(), 1, 20'000); }
-TEST_P(Quadrics, AgreeWithExtendedPrecisionUnderAffineMaps) { check_against_double(GetParam(), 100, 20'000); }
+TEST_P(Quadrics, AgreeWithExtendedPrecisionUnderSimilarities) {
+    check_against_double(GetParam(), 1, 20'000);
+}
+TEST_P(Quadrics, AgreeWithExtendedPrecisionUnderAffineMaps) {
+    check_against_double(GetParam(), 100, 20'000);
+}
 
 struct Departures {
     int rays = 0;
@@ -151,8 +162,9 @@ struct Departures {
     int leaks = 0;      ///< through a sphere or an ellipsoid, or hits of it from outside
 };
 
-/// Rays that leave a hit, to either side, at all angles down to 1e-8. A surface of second order that is left at t = 0
-/// is met again at -2 B / A or not at all; offsets only lengthen that way. `error_factor` scales the error of the point.
+/// Rays that leave a hit, to either side, at all angles down to 1e-8. A surface of second order that is left
+/// at t = 0 is met again at -2 B / A or not at all; offsets only lengthen that way. `error_factor` scales the
+/// error of the point.
 Departures leave(Kind kind, int count, float error_factor) {
     Random random(2000 + static_cast<uint64_t>(kind));
     Departures departures;
@@ -168,10 +180,11 @@ Departures leave(Kind kind, int count, float error_factor) {
         point.error *= error_factor;
         const Eigen::Vector3d n = to_double(point.normal);
         for (int i = 0; i < 10; ++i, ++departures.rays) {
-            const double cosine = (i % 2 == 0 ? 1 : -1) * (i % 4 < 2 ? uniform(random) : log_uniform(random, -8, 0));
+            const double cosine =
+                (i % 2 == 0 ? 1 : -1) * (i % 4 < 2 ? uniform(random) : log_uniform(random, -8, 0));
             const Eigen::Vector3d tangent = uniform_direction(random).cross(n).normalized();
-            const float3 away =
-                to_float3((tangent * std::sqrt(1 - cosine * cosine) + cosine * n) * log_uniform(random, -6, 6));
+            const float3 away = to_float3((tangent * std::sqrt(1 - cosine * cosine) + cosine * n) *
+                                          log_uniform(random, -6, 6));
             const bool front = !(dot(point.normal, away) < 0.0f);
             const ShapeHit next = nearest_shape(&record, 1, offset_ray_origin(point, away), away, INFINITY);
             const Vector3r d = shape.linear().cast<Real>().inverse() * to_double(away).cast<Real>();
@@ -180,8 +193,10 @@ Departures leave(Kind kind, int count, float error_factor) {
             const auto chord = static_cast<double>(returns ? std::abs(2 * q.b / q.a) : INFINITY);
             if (next.shape != NO_HIT) {
                 ++departures.hits;
-                const double way = static_cast<double>(next.t) * static_cast<double>(d.norm());  // in object space
-                const double local_size = kind == Kind::cone ? length(hit.object_point) : 1;  // that of its ring
+                const double way =
+                    static_cast<double>(next.t) * static_cast<double>(d.norm());  // in object space
+                const double local_size =
+                    kind == Kind::cone ? length(hit.object_point) : 1;  // that of its ring
                 departures.self_hits += way < 0.5 * std::min(chord, 0.2 * local_size);
             }
             departures.leaks += kind == Kind::sphere && (next.shape != NO_HIT) == front;
@@ -250,11 +265,14 @@ TEST_P(Quadrics, TextureCoordinatesAndTangentsAreThoseDefined) {
         const Shape shape = random_shape(kind, 10, random);
         const ShapeRecord record = compile(shape);
         const Eigen::Vector3d p = shape.surface_point(random);
-        const auto object_point = [&](Eigen::Vector3d q) { return to_float3(q - Eigen::Vector3d(0, 0, kind == Kind::cone ? 1 : 0)); };
+        const auto object_point = [&](Eigen::Vector3d q) {
+            return to_float3(q - Eigen::Vector3d(0, 0, kind == Kind::cone ? 1 : 0));
+        };
         const float2 uv = shape_uv(&record, object_point(p));
         const Eigen::Vector2d expected = canonical_uv(kind, p);
         const double around = std::abs(static_cast<double>(uv.x) - expected.x());
-        ASSERT_LT(std::min(around, kind == Kind::plane || kind == Kind::disc ? around : std::abs(1 - around)), 3e-6);
+        ASSERT_LT(std::min(around, kind == Kind::plane || kind == Kind::disc ? around : std::abs(1 - around)),
+                  3e-6);
         ASSERT_NEAR(static_cast<double>(uv.y), expected.y(), 3e-6);
         if (kind != Kind::plane) {
             ASSERT_GE(std::min(uv.x, uv.y), 0.0f);
@@ -266,13 +284,16 @@ TEST_P(Quadrics, TextureCoordinatesAndTangentsAreThoseDefined) {
             next = Eigen::AngleAxisd(2 * M_PI * h, Eigen::Vector3d::UnitZ()) * p;
         }
         const Eigen::Vector3d tangent = shape.linear() * (next - p) / h;
-        ASSERT_LT((to_double(shape_tangent(&record, object_point(p))) - tangent).norm(), 1e-4 * shape.linear().norm());
+        ASSERT_LT((to_double(shape_tangent(&record, object_point(p))) - tangent).norm(),
+                  1e-4 * shape.linear().norm());
     }
 }
 
 const char *const kind_names[] = {"sphere", "cylinder", "cone", "paraboloid", "hyperboloid", "disc", "plane"};
 
-std::string kind_name(const testing::TestParamInfo<Kind> &kind) { return kind_names[static_cast<int>(kind.param)]; }
+std::string kind_name(const testing::TestParamInfo<Kind> &kind) {
+    return kind_names[static_cast<int>(kind.param)];
+}
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Quadrics, testing::ValuesIn(quadrics), kind_name);
 
@@ -290,7 +311,8 @@ TEST(Shapes, AnyIsTrueExactlyWhereANearestExists) {
     }
     int both = 0;
     for (int i = 0; i < 100'000; ++i) {
-        const float3 origin = to_float3(3 * uniform_direction(random)), direction = to_float3(uniform_direction(random));
+        const float3 origin = to_float3(3 * uniform_direction(random)),
+                     direction = to_float3(uniform_direction(random));
         const auto t_max = static_cast<float>(i % 3 == 0 ? INFINITY : uniform(random, 0, 5));
         const ShapeHit hit = nearest_shape(records.data(), 14, origin, direction, t_max);
         ASSERT_EQ(hit.shape != NO_HIT, any_shape(records.data(), 14, origin, direction, t_max));
@@ -307,7 +329,8 @@ TEST(Shapes, AnyIsTrueExactlyWhereANearestExists) {
 // Rays and shapes at the ends of the range of float: no NaN, nothing but a clean miss or a finite hit.
 TEST(Shapes, ExtremeRaysGiveFiniteHitsOrMisses) {
     Random random(6);
-    const float values[] = {0.0f, -0.0f, 1e-45f, 1e-38f, -1e-20f, 1e-7f, 0.5f, -1.0f, 1.0f, 2.0f, 1e5f, -1e10f, 1e20f, 3e38f, INFINITY, NAN};
+    const float values[] = {0.0f, -0.0f, 1e-45f, 1e-38f, -1e-20f, 1e-7f, 0.5f,     -1.0f,
+                            1.0f, 2.0f,  1e5f,   -1e10f, 1e20f,   3e38f, INFINITY, NAN};
     const auto any_value = [&] { return values[std::uniform_int_distribution<size_t>(0, 15)(random)]; };
     for (int i = 0; i < 700'000; ++i) {
         Shape shape;
@@ -322,7 +345,8 @@ TEST(Shapes, ExtremeRaysGiveFiniteHitsOrMisses) {
             ASSERT_TRUE(hit.t > 0.0f && std::isfinite(hit.t));
             const SurfacePoint point = shape_point(&record, hit.object_point);
             for (const float3 v : {hit.object_point, point.position, point.error}) {
-                ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) << kind_names[i % 7];
+                ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z))
+                    << kind_names[i % 7];
             }
             ASSERT_NEAR(length(point.normal), 1.0f, 1e-6f);
         }

@@ -32,10 +32,10 @@ DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, floa
 #endif
 }
 
-/// The nearest hit at 0 < t < t_max (which may be INFINITY). Directions may have any length; rays that are not finite
-/// hit nothing.
-DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, uint shape_count, float3 origin, float3 direction,
-                              float t_max) {
+/// The nearest hit at 0 < t < t_max (which may be INFINITY). Directions may have any length; rays that are
+/// not finite hit nothing.
+DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, uint shape_count, float3 origin,
+                              float3 direction, float t_max) {
     ShapeHit hit;
     hit.t = t_max;
     hit.shape = NO_HIT;
@@ -52,8 +52,8 @@ DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, uint shape_count
     return hit;
 }
 
-/// Whether a shape is hit at 0 < t < t_max: true exactly when `nearest_shape` finds a hit, as both test the same
-/// shapes in the same order with the same bound up to the first that is hit.
+/// Whether a shape is hit at 0 < t < t_max: true exactly when `nearest_shape` finds a hit, as both test the
+/// same shapes in the same order with the same bound up to the first that is hit.
 DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, uint shape_count, float3 origin, float3 direction,
                       float t_max) {
     for (uint i = 0; i < shape_count; ++i) {

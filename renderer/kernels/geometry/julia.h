@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
 // Quaternion Julia sets: the surface |z_n| = 4 of z <- z^2 + c, z_0 = (x, y, z, slice), in object space.
 //
-// J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH 1989 march by an
-// estimate of the distance. Departure: the estimate (|z_n| log |z_n| / (2 |z_n'|)) is that to the limit set, not to
-// this surface, and holds in the limit only. Here a step is taken when a bound proves that it does not pass the
-// surface. Along a step w the iterates are z_k(s) = z_k + s w_k + e_k(s), 0 <= s <= 1, with
+// J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH 1989 march by
+// an estimate of the distance. Departure: the estimate (|z_n| log |z_n| / (2 |z_n'|)) is that to the limit
+// set, not to this surface, and holds in the limit only. Here a step is taken when a bound proves that it
+// does not pass the surface. Along a step w the iterates are z_k(s) = z_k + s w_k + e_k(s), 0 <= s <= 1, with
 //   w_k+1 = z_k w_k + w_k z_k,   |e_k+1| <= |w_k|^2 + 2 (|z_k| + |w_k|) |e_k| + |e_k|^2,   e_0 = 0,
-// as follows by squaring, |s| <= 1 and |pq| = |p| |q|. So the segment [z_n, z_n + w_n] widened by the bound m_n of |e_n|
-// holds all z_n(s), and the step is free of the surface when that stays outside 4, or inside. Since the model is of
-// first order in the direction of the ray, steps towards the surface converge like Newton's, and steps along it are
-// of the order of the square root of the distance.
+// as follows by squaring, |s| <= 1 and |pq| = |p| |q|. So the segment [z_n, z_n + w_n] widened by the bound
+// m_n of |e_n| holds all z_n(s), and the step is free of the surface when that stays outside 4, or inside.
+// Since the model is of first order in the direction of the ray, steps towards the surface converge like
+// Newton's, and steps along it are of the order of the square root of the distance.
 //
-// Once |z_k| exceeds a modulus R >= 4 with R^2 - |c| >= R, it grows: the point is outside, and later iterates are not
-// needed. A segment that stays beyond R at that k is outside as well.
+// Once |z_k| exceeds a modulus R >= 4 with R^2 - |c| >= R, it grows: the point is outside, and later iterates
+// are not needed. A segment that stays beyond R at that k is outside as well.
 //
-// Rounding: with u = 2^-24, an iterate is computed from its predecessor to within 6 u (|z_k|^2 + |c|) (five roundings
-// at most per component), w_k+1 to within 6 u |z_k| |w_k| of its size, and the points of a ray lie within 8 u r of it,
-// r the radius of the sphere around the set. All three are added to m_k, so that a free step is free of the true
-// surface.
+// Rounding: with u = 2^-24, an iterate is computed from its predecessor to within 6 u (|z_k|^2 + |c|) (five
+// roundings at most per component), w_k+1 to within 6 u |z_k| |w_k| of its size, and the points of a ray lie
+// within 8 u r of it, r the radius of the sphere around the set. All three are added to m_k, so that a free
+// step is free of the true surface.
 //
-// Error: below steps of 2^-16 r nothing can be proven this close to rounding; such a step is taken unproven, and the
-// sides of its ends are compared. A ray may thus miss the surface where it enters and leaves it again within 2^-16 r,
-// or stays nearer to it than rounding can tell, and nowhere else. (After 512 probes steps are 1 / 500 of the way, so
-// that the march ends. With n <= 12, rays take 50 probes on average and 350 at most.) A crossing is bisected until the
-// ends are neighbouring floats: its distance is within 4 u r, and the side of a point is in doubt where the surface is
-// nearer than the accumulated rounding of z_n, divided by the gradient.
+// Error: below steps of 2^-16 r nothing can be proven this close to rounding; such a step is taken unproven,
+// and the sides of its ends are compared. A ray may thus miss the surface where it enters and leaves it again
+// within 2^-16 r, or stays nearer to it than rounding can tell, and nowhere else. (After 512 probes steps are
+// 1 / 500 of the way, so that the march ends. With n <= 12, rays take 50 probes on average and 350 at most.)
+// A crossing is bisected until the ends are neighbouring floats: its distance is within 4 u r, and the side
+// of a point is in doubt where the surface is nearer than the accumulated rounding of z_n, divided by the
+// gradient.
 #pragma once
 
 #include "renderer/kernels/geometry/shape_space.h"
@@ -41,7 +42,9 @@ typedef struct Quaternion {
     float3 v;
 } Quaternion;
 
-DEVICE float quaternion_dot(Quaternion p, Quaternion q) { return p.real * q.real + dot(p.v, q.v); }
+DEVICE float quaternion_dot(Quaternion p, Quaternion q) {
+    return p.real * q.real + dot(p.v, q.v);
+}
 
 /// p q + q p; the derivative of q^2 along p.
 DEVICE Quaternion quaternion_anticommutator(Quaternion p, Quaternion q) {
@@ -85,7 +88,8 @@ DEVICE bool julia_outside(GLOBAL const ShapeRecord *julia, float3 p) {
 typedef struct JuliaProbe {
     bool outside;  ///< the point is
     bool clear;    ///< no point of the step is on the other side
-    float ratio;   ///< the step's multiple that would about be clear next: from its end if it is clear, else from p
+    float ratio;   ///< the step's multiple that would about be clear next: from its end if it is clear, else
+                   ///< from p
 } JuliaProbe;
 
 /// Probes the step from p to p + step; r is the radius of the sphere around the set.
@@ -213,10 +217,10 @@ DEVICE bool intersect_julia(GLOBAL const ShapeRecord *julia, ShapeRay ray, float
     return *t > 0.0f && *t < t_max;
 }
 
-/// A multiple of the gradient of |z_n| at a point of the surface: outwards. `residual` is, in the same units, how far
-/// |z_n| may be from 4 there: what is seen, and twice the accumulated rounding of z_n (here, and where a ray starts
-/// nearby). After each iteration everything is scaled by 1 / (2 |z_k|), at most 2, the largest growth of a
-/// derivative: nothing overflows.
+/// A multiple of the gradient of |z_n| at a point of the surface: outwards. `residual` is, in the same units,
+/// how far |z_n| may be from 4 there: what is seen, and twice the accumulated rounding of z_n (here, and
+/// where a ray starts nearby). After each iteration everything is scaled by 1 / (2 |z_k|), at most 2, the
+/// largest growth of a derivative: nothing overflows.
 DEVICE float3 julia_gradient(GLOBAL const ShapeRecord *julia, float3 p, PRIVATE float *residual) {
     const float escape = julia->z_upper;
     const float modulus = julia_modulus(julia);

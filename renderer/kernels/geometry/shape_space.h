@@ -10,7 +10,8 @@
 
 #define HALF_ULP 5.9604645e-8f  ///< u
 
-/// A ray in object space: the point at s is origin + s * direction, at t = t_origin + s * t_scale of the world ray.
+/// A ray in object space: the point at s is origin + s * direction, at t = t_origin + s * t_scale of the
+/// world ray.
 typedef struct ShapeRay {
     float3 origin;
     float3 direction;  ///< unit
@@ -19,51 +20,60 @@ typedef struct ShapeRay {
 } ShapeRay;
 
 DEVICE float3 shape_centre(GLOBAL const ShapeRecord *shape) {
-    return make_float3(shape->world_from_object[0][3], shape->world_from_object[1][3], shape->world_from_object[2][3]);
+    return make_float3(shape->world_from_object[0][3], shape->world_from_object[1][3],
+                       shape->world_from_object[2][3]);
 }
 
 /// A v. Each component is within gamma(4) of (|A| |v|), the rounding of A included.
 DEVICE float3 vector_to_object(GLOBAL const ShapeRecord *shape, float3 v) {
-    return make_float3(
-        shape->object_from_world[0][0] * v.x + shape->object_from_world[0][1] * v.y + shape->object_from_world[0][2] * v.z,
-        shape->object_from_world[1][0] * v.x + shape->object_from_world[1][1] * v.y + shape->object_from_world[1][2] * v.z,
-        shape->object_from_world[2][0] * v.x + shape->object_from_world[2][1] * v.y + shape->object_from_world[2][2] * v.z);
+    return make_float3(shape->object_from_world[0][0] * v.x + shape->object_from_world[0][1] * v.y +
+                           shape->object_from_world[0][2] * v.z,
+                       shape->object_from_world[1][0] * v.x + shape->object_from_world[1][1] * v.y +
+                           shape->object_from_world[1][2] * v.z,
+                       shape->object_from_world[2][0] * v.x + shape->object_from_world[2][1] * v.y +
+                           shape->object_from_world[2][2] * v.z);
 }
 
 /// M v, of differences of points. Each component is within gamma(3) of (|M| |v|).
 DEVICE float3 vector_to_world(GLOBAL const ShapeRecord *shape, float3 v) {
-    return make_float3(
-        shape->world_from_object[0][0] * v.x + shape->world_from_object[0][1] * v.y + shape->world_from_object[0][2] * v.z,
-        shape->world_from_object[1][0] * v.x + shape->world_from_object[1][1] * v.y + shape->world_from_object[1][2] * v.z,
-        shape->world_from_object[2][0] * v.x + shape->world_from_object[2][1] * v.y + shape->world_from_object[2][2] * v.z);
+    return make_float3(shape->world_from_object[0][0] * v.x + shape->world_from_object[0][1] * v.y +
+                           shape->world_from_object[0][2] * v.z,
+                       shape->world_from_object[1][0] * v.x + shape->world_from_object[1][1] * v.y +
+                           shape->world_from_object[1][2] * v.z,
+                       shape->world_from_object[2][0] * v.x + shape->world_from_object[2][1] * v.y +
+                           shape->world_from_object[2][2] * v.z);
 }
 
 /// |M| m of magnitudes m.
 DEVICE float3 magnitude_to_world(GLOBAL const ShapeRecord *shape, float3 m) {
-    return make_float3(fabs(shape->world_from_object[0][0]) * m.x + fabs(shape->world_from_object[0][1]) * m.y +
-                           fabs(shape->world_from_object[0][2]) * m.z,
-                       fabs(shape->world_from_object[1][0]) * m.x + fabs(shape->world_from_object[1][1]) * m.y +
-                           fabs(shape->world_from_object[1][2]) * m.z,
-                       fabs(shape->world_from_object[2][0]) * m.x + fabs(shape->world_from_object[2][1]) * m.y +
-                           fabs(shape->world_from_object[2][2]) * m.z);
+    return make_float3(
+        fabs(shape->world_from_object[0][0]) * m.x + fabs(shape->world_from_object[0][1]) * m.y +
+            fabs(shape->world_from_object[0][2]) * m.z,
+        fabs(shape->world_from_object[1][0]) * m.x + fabs(shape->world_from_object[1][1]) * m.y +
+            fabs(shape->world_from_object[1][2]) * m.z,
+        fabs(shape->world_from_object[2][0]) * m.x + fabs(shape->world_from_object[2][1]) * m.y +
+            fabs(shape->world_from_object[2][2]) * m.z);
 }
 
 /// |A| m of magnitudes m.
 DEVICE float3 magnitude_to_object(GLOBAL const ShapeRecord *shape, float3 m) {
-    return make_float3(fabs(shape->object_from_world[0][0]) * m.x + fabs(shape->object_from_world[0][1]) * m.y +
-                           fabs(shape->object_from_world[0][2]) * m.z,
-                       fabs(shape->object_from_world[1][0]) * m.x + fabs(shape->object_from_world[1][1]) * m.y +
-                           fabs(shape->object_from_world[1][2]) * m.z,
-                       fabs(shape->object_from_world[2][0]) * m.x + fabs(shape->object_from_world[2][1]) * m.y +
-                           fabs(shape->object_from_world[2][2]) * m.z);
+    return make_float3(
+        fabs(shape->object_from_world[0][0]) * m.x + fabs(shape->object_from_world[0][1]) * m.y +
+            fabs(shape->object_from_world[0][2]) * m.z,
+        fabs(shape->object_from_world[1][0]) * m.x + fabs(shape->object_from_world[1][1]) * m.y +
+            fabs(shape->object_from_world[1][2]) * m.z,
+        fabs(shape->object_from_world[2][0]) * m.x + fabs(shape->object_from_world[2][1]) * m.y +
+            fabs(shape->object_from_world[2][2]) * m.z);
 }
 
 /// A^T g: gradients transform by the inverse transpose, so a mirrored shape keeps its front.
 DEVICE float3 gradient_to_world(GLOBAL const ShapeRecord *shape, float3 g) {
-    return make_float3(
-        shape->object_from_world[0][0] * g.x + shape->object_from_world[1][0] * g.y + shape->object_from_world[2][0] * g.z,
-        shape->object_from_world[0][1] * g.x + shape->object_from_world[1][1] * g.y + shape->object_from_world[2][1] * g.z,
-        shape->object_from_world[0][2] * g.x + shape->object_from_world[1][2] * g.y + shape->object_from_world[2][2] * g.z);
+    return make_float3(shape->object_from_world[0][0] * g.x + shape->object_from_world[1][0] * g.y +
+                           shape->object_from_world[2][0] * g.z,
+                       shape->object_from_world[0][1] * g.x + shape->object_from_world[1][1] * g.y +
+                           shape->object_from_world[2][1] * g.z,
+                       shape->object_from_world[0][2] * g.x + shape->object_from_world[1][2] * g.y +
+                           shape->object_from_world[2][2] * g.z);
 }
 
 /// x - y - (x - y rounded): exact (Knuth's two-sum).
@@ -72,15 +82,18 @@ DEVICE float difference_error(float x, float y, float difference) {
     return (x - (difference - minus_y)) - (y + minus_y);
 }
 
-/// Moves a world ray into object space. False when it cannot hit the shape: it misses the sphere around it, leads
-/// away from it, or is not finite. Scales of the shape and lengths of the direction should lie in [1e-12, 1e12].
+/// Moves a world ray into object space. False when it cannot hit the shape: it misses the sphere around it,
+/// leads away from it, or is not finite. Scales of the shape and lengths of the direction should lie in
+/// [1e-12, 1e12].
 ///
-/// A ray from within twice that sphere keeps its origin, so that s = 0 is the origin exactly and the sign of s that
-/// of t. From farther away everything would be lost in the size of the origin (at 1e5 radii its ulp is 0.006 radii);
-/// there the ray is moved in world space to where it passes the object. Only t0 is rounded: origin - centre is kept
-/// in two floats and t0 * direction is added by fma, so the moved origin is a point of the ray to within u of
-/// itself, whatever the distance. The second step makes good for the rounding of the first t0 beyond 1e6 radii.
-DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction, PRIVATE ShapeRay *ray) {
+/// A ray from within twice that sphere keeps its origin, so that s = 0 is the origin exactly and the sign of
+/// s that of t. From farther away everything would be lost in the size of the origin (at 1e5 radii its ulp is
+/// 0.006 radii); there the ray is moved in world space to where it passes the object. Only t0 is rounded:
+/// origin - centre is kept in two floats and t0 * direction is added by fma, so the moved origin is a point
+/// of the ray to within u of itself, whatever the distance. The second step makes good for the rounding of
+/// the first t0 beyond 1e6 radii.
+DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction,
+                           PRIVATE ShapeRay *ray) {
     const float3 d = vector_to_object(shape, direction);
     const float size = fabs(d.x) + fabs(d.y) + fabs(d.z);
     const float3 centre = shape_centre(shape);
@@ -89,7 +102,7 @@ DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float
     if (!(size > 1e-30f && size < 1e30f && fabs(p.x) + fabs(p.y) + fabs(p.z) < 1e30f)) {
         return false;
     }
-    const float3 scaled = d / size;             // its length is in [0.57, 1]
+    const float3 scaled = d / size;  // its length is in [0.57, 1]
     const float scaled_length = length(scaled);
     ray->direction = scaled / scaled_length;
     ray->t_scale = 1.0f / (size * scaled_length);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Diffuse area lights on discs and spheres: points on them, and densities.
 //
-// Discs are sampled uniformly in area under any affine map (its area ratio is constant), spheres, which are under a
-// similarity, either uniformly in area or uniformly in the cone of directions that they fill (P. Shirley, C. Wang,
-// K. Zimmerman, "Monte Carlo techniques for direct lighting calculations", ACM TOG 15(1), 1996). The cone's formulas
-// are free of cancellation, however small the sphere looks: 1 - cos is sin^2 / (1 + cos) throughout.
+// Discs are sampled uniformly in area under any affine map (which scales all areas alike), spheres, which are
+// under a similarity, either uniformly in area or uniformly in the cone of directions that they fill (P.
+// Shirley, C. Wang, K. Zimmerman, "Monte Carlo techniques for direct lighting calculations", ACM TOG 15(1),
+// 1996). The cone's formulas are free of cancellation, however small the sphere looks: 1 - cos is sin^2 / (1
+// + cos) throughout.
 #pragma once
 
 #include "renderer/kernels/geometry/shape_point.h"
@@ -20,8 +21,9 @@ typedef struct ShapeLightSample {
     float pdf_a;  ///< per area, the light given
 } ShapeLightSample;
 
-/// sin^2 of half the angle of the cone that a sphere fills, seen from a point; 0 where area is sampled instead: on
-/// request, and from inside or within 1e-4 radii of the surface, where the cone is no narrower than a hemisphere.
+/// sin^2 of half the angle of the cone that a sphere fills, seen from a point; 0 where area is sampled
+/// instead: on request, and from inside or within 1e-4 radii of the surface, where the cone is no narrower
+/// than a hemisphere.
 DEVICE float sphere_cone(GLOBAL const ShapeRecord *sphere, float3 from, bool cone) {
     const float3 way = from - shape_centre(sphere);
     const float distance2 = dot(way, way);
@@ -30,10 +32,10 @@ DEVICE float sphere_cone(GLOBAL const ShapeRecord *sphere, float3 from, bool con
     return cone && distance2 > 1.0002f * radius2 ? radius2 / distance2 : 0.0f;
 }
 
-/// The density per area with which `sample_shape_light` makes `point` (a point of the light's surface), seen from
-/// `from`, the light given. Zero where a cone does not reach: behind the sphere's horizon.
-DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from, SurfacePoint point,
-                               bool cone) {
+/// The density per area with which `sample_shape_light` makes `point` (a point of the light's surface), seen
+/// from `from`, the light given. Zero where a cone does not reach: behind the sphere's horizon.
+DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from,
+                               SurfacePoint point, bool cone) {
     if (light.kind == LIGHT_SPHERE) {
         const float sin2 = sphere_cone(shapes + light.first_triangle, from, cone);
         if (sin2 > 0.0f) {
@@ -50,15 +52,16 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
     return 1.0f / light.area;
 }
 
-/// Samples a disc or a sphere. `cone`: spheres by the cone they fill where possible, else by area. u and v are uniform
-/// in [0, 1).
+/// Samples a disc or a sphere. `cone`: spheres by the cone they fill where possible, else by area. u and v
+/// are uniform in [0, 1).
 ///
-/// Cone: let theta be the angle of the direction from the cone's axis, beta that between the direction and the
-/// sphere's normal where it enters, alpha = beta - theta that between normal and axis. With k = 1 - cos theta = u (1 -
-/// cos theta_max), sin^2 theta = k (2 - k) and sin beta = sin theta / sin theta_max give sin^2 beta = u (2 - k) / (1 +
-/// cos theta_max). As sin theta_max -> 0 this is the uniform point of the sphere's silhouette.
-DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from, bool cone,
-                                           float u, float v) {
+/// Cone: let theta be the angle of the direction from the cone's axis, beta that between the direction and
+/// the sphere's normal where it enters, alpha = beta - theta that between normal and axis. With k = 1 - cos
+/// theta = u (1 - cos theta_max), sin^2 theta = k (2 - k) and sin beta = sin theta / sin theta_max give sin^2
+/// beta = u (2 - k) / (1 + cos theta_max). As sin theta_max -> 0 this is the uniform point of the sphere's
+/// silhouette.
+DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from,
+                                           bool cone, float u, float v) {
     GLOBAL const ShapeRecord *shape = shapes + light.first_triangle;
     float3 object_point;
     if (light.kind == LIGHT_SPHERE) {
@@ -90,6 +93,12 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
     ShapeLightSample sample;
     sample.point = shape_point(shape, object_point);
     sample.pdf_a = shape_light_pdf_a(light, shapes, from, sample.point, cone);
+    // A shadow ray is the difference of its ends, rounded: over the distance D its end is off by u D per
+    // axis, and the t at which it meets the light is off by a few u. Both must stay within the offset of that
+    // end, or lights would hide behind themselves from 100 radii on.
+    const float3 way = fabs(from - sample.point.position);
+    const float rounding = 16.0f * HALF_ULP * max(way.x, max(way.y, way.z));
+    sample.point.error += make_float3(rounding, rounding, rounding);
     return sample;
 }
 
