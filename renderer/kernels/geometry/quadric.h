@@ -50,19 +50,18 @@ DEVICE bool quadric_hit(GLOBAL const ShapeRecord *q, ShapeRay ray, float shift, 
 }
 
 /// The first hit at 0 < t < t_max. Let A s^2 + 2 B s + C be the quadric along the ray.
-/// * On which side of the ray's origin the roots lie is read from the signs of A, B and C there: the root of
-/// smaller
-///   modulus is C / w, the other w / A, with w = -(B + sign(B) sqrt(B^2 - A C)) (Press et al.). So where C >
-///   0, B >= 0 and A >= 0, as for a ray that leaves a convex surface from outside, there is no hit; where C <
-///   0 < A, as for a ray that starts inside, there is exactly one. A ray that was moved (t_origin > 0) has
-///   both roots ahead.
-/// * The roots themselves are taken about the point of the ray nearest to the object's origin, where fma puts
-/// it on
-///   the ray: their error is that of a shift of the ray by a few u of its distance there, or of the surface's
-///   size. About any other point the terms of the discriminant would cancel, worst near the apex of a cone,
-///   where both roots meet. A plane has no size, and its discriminant no second term: there the ray's own
-///   origin serves.
-/// * A = 0 leaves one root (a plane; an axis-parallel ray and a paraboloid).
+/// - On which side of the ray's origin the roots lie is read from the signs of A, B and C there: the root of
+///   smaller modulus is C / w, the other w / A, with w = -(B + sign(B) sqrt(B^2 - A C)) (Press et al.). So
+///   where C > 0, B >= 0 and A >= 0, as for a ray that leaves a convex surface from outside, there is no hit;
+///   where C < 0 < A, as for a ray that starts inside, there is exactly one. A ray that was moved (t_origin >
+///   0) has both roots ahead.
+/// - The roots themselves are taken about the point of the ray nearest to the object's origin, where fma puts
+/// it
+///   on the ray: their error is that of a shift of the ray by a few u of its distance there, or of the
+///   surface's size. About any other point the terms of the discriminant would cancel, worst near the apex of
+///   a cone, where both roots meet. A plane has no size, and its discriminant no second term: there the ray's
+///   own origin serves.
+/// - A = 0 leaves one root (a plane; an axis-parallel ray and a paraboloid).
 DEVICE bool intersect_quadric(GLOBAL const ShapeRecord *q, ShapeRay ray, float t_max, PRIVATE float *t,
                               PRIVATE float3 *p) {
     const float3 d = ray.direction;
