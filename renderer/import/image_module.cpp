@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,17 @@ constexpr int64_t most_texels = int64_t(1) << 27;
 
 Error file_error(const std::filesystem::path &path, const std::string &what) {
     return input_error(fmt::format("{}: {}", path.string(), what));
+}
+
+/// What OpenImageIO has to say, on one line.
+std::string in_one_line(std::string message) {
+    while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back()))) {
+        message.pop_back();
+    }
+    for (size_t at = message.find('\n'); at != std::string::npos; at = message.find('\n', at)) {
+        message.replace(at, 1, "; ");
+    }
+    return message.empty() ? "it ends too early" : message;
 }
 
 /// The channels that become red, green and blue.
@@ -66,7 +78,7 @@ std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
     std::vector<T> all(texels * channels);
     // A reader may get to the end of a damaged file and only then complain.
     if (!input.read_image(0, 0, 0, spec.nchannels, format, all.data()) || input.has_error()) {
-        throw file_error(path, "is damaged: " + input.geterror());
+        throw file_error(path, "is damaged: " + in_one_line(input.geterror()));
     }
     std::vector<T> rgb(texels * 3);
     for (size_t i = 0; i < texels; ++i) {
@@ -82,7 +94,7 @@ void read_image(const std::filesystem::path &path, RawImage &image) {
     config["oiio:UnassociatedAlpha"] = 1;  // colours as stored, not multiplied by the alpha that is dropped
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
     if (input == nullptr) {
-        throw file_error(path, "is no image that can be read: " + OIIO::geterror());
+        throw file_error(path, "is no image that can be read: " + in_one_line(OIIO::geterror()));
     }
     const OIIO::ImageSpec spec = input->spec();
     check_header(spec, path);

@@ -18,6 +18,16 @@
 
 namespace rtrays {
 
+/// Tests that read images; skipped by builds without textures.
+class WithImages : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!RTRAYS_TEXTURES) {
+            GTEST_SKIP() << "built without RTRAYS_TEXTURES";
+        }
+    }
+};
+
 inline Node &add_node(Node &parent, const std::string &name) {
     return parent.add_child(std::make_unique<Node>(name));
 }

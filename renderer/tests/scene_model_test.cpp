@@ -441,11 +441,13 @@ TEST(Cameras, ThinLensesGrowWithTheirNodes) {
     EXPECT_NE(scene.hash(), hash);
 }
 
+class Textures : public WithImages {};
+
 void write_text(const std::string &name, const std::string &content) {
     std::ofstream(testing::TempDir() + name, std::ios::binary) << content;
 }
 
-TEST(Textures, AreSharedByMaterialsAndFilesByTextures) {
+TEST_F(Textures, AreSharedByMaterialsAndFilesByTextures) {
     write_text("two.ppm", std::string("P6 2 1 255\n") + "\x10\x20\x30\x40\x50\x60");
     Scene scene = parse(
         R"({"name": "a", "geometry": {"type": "sphere"}, "material": "one"},
@@ -488,7 +490,7 @@ TEST(Textures, AreSharedByMaterialsAndFilesByTextures) {
     EXPECT_EQ(textures.name, (std::vector<std::string>{"wood"}));
 }
 
-TEST(Textures, EnvironmentsAreImagesOfFloats) {
+TEST_F(Textures, EnvironmentsAreImagesOfFloats) {
     Image image = Image::rgb(2, 1);
     image.channel("R") = {1, 2};
     image.channel("G") = {3, 4};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "renderer/scene/cores/bxdf_parameters.h"
+#include "renderer/scene/cores/material_energy.h"
 
 namespace rtrays {
 
@@ -186,17 +187,19 @@ std::shared_ptr<const MaterialType> composite_type(const std::vector<CompositePa
     }
     const ParameterTable &common = common_material_parameters();
     type->parameters.insert(type->parameters.end(), common.begin(), common.end());
-    type->check = [made](const ParameterSet &p) {
-        for (const Part &part : made) {
-            check_part(part, p);
-        }
-    };
-    type->expand = [made](const ParameterSet &p) {
+    const auto expand = [made](const ParameterSet &p) {
         std::vector<MaterialComponent> components;
         for (const Part &part : made) {
             components.push_back(expand_part(part, p));
         }
         return components;
+    };
+    type->expand = expand;
+    type->check = [made, expand](const ParameterSet &p) {
+        for (const Part &part : made) {
+            check_part(part, p);
+        }
+        check_energy(expand(p));
     };
     return type;
 }

@@ -7,6 +7,7 @@
 
 #include "renderer/scene/cores/bxdf_parameters.h"
 #include "renderer/scene/cores/material.h"
+#include "renderer/scene/cores/material_energy.h"
 #include "renderer/scene/cores/metals.h"
 
 namespace rtrays {
@@ -210,9 +211,12 @@ MaterialType material(const char *name, ParameterTable parameters, Components (*
     type.name = name;
     type.parameters = std::move(parameters);
     type.expand = expand;
-    if (check != nullptr) {
-        type.check = check;
-    }
+    type.check = [expand, check](const ParameterSet &p) {
+        if (check != nullptr) {
+            check(p);
+        }
+        check_energy(expand(p));
+    };
     return type;
 }
 

@@ -10,6 +10,32 @@
 
 namespace rtrays {
 
+namespace {
+
+/// The largest value of each channel, decoded.
+Rgb find_largest_texel(const TextureImage &image) {
+    const auto largest = [](const auto &values) {
+        std::array<typename std::decay_t<decltype(values)>::value_type, 3> most{};
+        for (size_t i = 0; i < values.size(); ++i) {
+            most[i % 3] = std::max(most[i % 3], values[i]);
+        }
+        return most;
+    };
+    if (!image.floats.empty()) {
+        const std::array<float, 3> most = largest(image.floats);
+        return {most[0], most[1], most[2]};
+    }
+    const std::array<uint8_t, 3> most = largest(image.bytes);
+    Rgb decoded;
+    for (int i = 0; i < 3; ++i) {
+        const double value = most[static_cast<size_t>(i)] / 255.0;
+        decoded[i] = static_cast<float>(image.srgb ? srgb_decoded(value) : value);
+    }
+    return decoded;
+}
+
+}  // namespace
+
 const ParameterTable &Texture::parameter_table() {
     // Texture coordinates are limited likewise: their products stay far within float.
     constexpr Range modest{-1e6, 1e6, true, true};
@@ -37,6 +63,7 @@ const ParameterTable &Texture::parameter_table() {
 Texture::Texture(std::string name, std::shared_ptr<const TextureImage> image, const ParameterValues &values)
     : PropertyHolder(std::move(name)),
       image_(std::move(image)),
+      largest_texel_(find_largest_texel(*image_)),
       parameters_("texture", parameter_table(), values) {}
 
 void Texture::set(const std::string &name, const PropertyValue &value) {
@@ -53,27 +80,6 @@ std::vector<Property> Texture::properties() {
     all.push_back(make_property<double>("width", "texels", [this] { return image_->width; }));
     all.push_back(make_property<double>("height", "texels", [this] { return image_->height; }));
     return all;
-}
-
-Rgb largest_texel(const TextureImage &image) {
-    const auto largest = [](const auto &values) {
-        std::array<typename std::decay_t<decltype(values)>::value_type, 3> most{};
-        for (size_t i = 0; i < values.size(); ++i) {
-            most[i % 3] = std::max(most[i % 3], values[i]);
-        }
-        return most;
-    };
-    if (!image.floats.empty()) {
-        const std::array<float, 3> most = largest(image.floats);
-        return {most[0], most[1], most[2]};
-    }
-    const std::array<uint8_t, 3> most = largest(image.bytes);
-    Rgb decoded;
-    for (int i = 0; i < 3; ++i) {
-        const double value = most[static_cast<size_t>(i)] / 255.0;
-        decoded[i] = static_cast<float>(image.srgb ? srgb_decoded(value) : value);
-    }
-    return decoded;
 }
 
 double srgb_decoded(double value) {

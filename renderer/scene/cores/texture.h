@@ -27,6 +27,7 @@ class Texture : public PropertyHolder {
     std::vector<Property> properties() override;
 
     const std::shared_ptr<const TextureImage> &image() const { return image_; }
+    const Rgb &largest_texel() const { return largest_texel_; }  ///< of each channel, decoded
     const ParameterSet &parameters() const { return parameters_; }
     void set(const std::string &name, const PropertyValue &value);
 
@@ -37,6 +38,7 @@ class Texture : public PropertyHolder {
     friend class MaterialCore;
 
     std::shared_ptr<const TextureImage> image_;
+    Rgb largest_texel_;
     ParameterSet parameters_;
     std::vector<MaterialCore *> users_;
     uint64_t version_ = 1;
@@ -44,8 +46,5 @@ class Texture : public PropertyHolder {
 
 /// The sRGB curve (IEC 61966-2-1) from an encoded value in [0, 1] to a linear one.
 double srgb_decoded(double value);
-
-/// The largest value of each channel, decoded.
-Rgb largest_texel(const TextureImage &image);
 
 }  // namespace rtrays
