@@ -13,6 +13,8 @@ namespace rtrays::reference {
 Composite::Composite(std::vector<Component> components, bool two_sided) : components_(std::move(components)) {
     const auto transmits = [](const Component &c) { return c.transmits(); };
     const auto is_delta = [](const Component &c) { return c.is_delta(); };
+    const auto refracting = std::find_if(components_.begin(), components_.end(), transmits);
+    eta_ = refracting != components_.end() ? refracting->eta() : 1.0;
     boundary_ = std::any_of(components_.begin(), components_.end(), transmits);
     visible_from_behind_ = boundary_ || two_sided;
     delta_ = std::all_of(components_.begin(), components_.end(), is_delta);
@@ -39,6 +41,13 @@ Spectrum Composite::sum(const Vec3 &wi, const Viewpoint &view) const {
         }
     }
     return total;
+}
+
+double Composite::expansion(const Vec3 &wi, const Viewpoint &view) const {
+    if (wi.z() > 0.0) {
+        return 1.0;
+    }
+    return view.inverted ? 1.0 / square(eta_) : square(eta_);
 }
 
 double Composite::density(const Vec3 &wi, const Viewpoint &view) const {
@@ -92,7 +101,7 @@ std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2
             return std::nullopt;
         }
         return BsdfSample{mirrored(event->wi, wo), event->coefficient * (total / importance[chosen]), 0.0,
-                          true};
+                          true, expansion(event->wi, view)};
     }
     const auto wi = component.sample(view, rng);
     if (!wi || wi->z() == 0.0) {
@@ -102,7 +111,8 @@ std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2
     if (!(pdf > 0.0)) {
         return std::nullopt;  // so improbable that its density underflows
     }
-    return BsdfSample{mirrored(*wi, wo), sum(*wi, view) * (std::abs(wi->z()) / pdf), pdf, false};
+    return BsdfSample{mirrored(*wi, wo), sum(*wi, view) * (std::abs(wi->z()) / pdf), pdf, false,
+                      expansion(*wi, view)};
 }
 
 std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArrays &textures) {

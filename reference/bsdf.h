@@ -31,6 +31,7 @@ struct BsdfSample {
     Spectrum weight;  ///< f |cos(theta_i)| / pdf_w; for a delta event its coefficient over its probability
     double pdf_w;     ///< per solid angle; not used for a delta event
     bool delta;
+    double expansion = 1.0;  ///< (eta_i / eta_o)^2 of a refraction: `weight` times it is energy
 };
 
 /// Ideal diffuse reflection of both sides (thesis (3.31)): the plain case, made for speed.
@@ -89,7 +90,10 @@ class Composite {
     double density(const Vec3 &wi, const Viewpoint &view) const;
     Spectrum sum(const Vec3 &wi, const Viewpoint &view) const;
 
+    double expansion(const Vec3 &wi, const Viewpoint &view) const;
+
     std::vector<Component> components_;
+    double eta_;  ///< of the first refracting component
     bool boundary_;
     bool visible_from_behind_;
     bool delta_;

@@ -50,6 +50,17 @@ Camera::Camera(const CameraArrays &cameras, size_t index, int width, int height)
     corner_ = rotation * Vec3(-0.5 * pixel * width, 0.5 * pixel * height, -1.0);
     step_x_ = rotation * Vec3(pixel, 0.0, 0.0);
     step_y_ = rotation * Vec3(0.0, -pixel, 0.0);
+
+    const double aperture = cameras.aperture_radius[index];
+    focus_distance_ = cameras.focus_distance[index];
+    if (!(aperture >= 0.0 && std::isfinite(aperture)) ||
+        (aperture > 0.0 && !(focus_distance_ > 0.0 && std::isfinite(focus_distance_)))) {
+        throw input_error(fmt::format(
+            "camera {}: the aperture radius must not be negative and the focus distance must be positive",
+            index));
+    }
+    lens_x_ = aperture * rotation.col(0);
+    lens_y_ = aperture * rotation.col(1);
 }
 
 }  // namespace rtrays::reference

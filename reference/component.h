@@ -31,7 +31,7 @@ class Component {
 
     bool is_delta() const { return delta_; }
     bool transmits() const { return transmits_; }
-    bool has_texture() const { return texture_.has_value(); }
+    double eta() const { return eta_; }  ///< index of refraction behind over that in front
 
     /// f with all its factors [1/sr]; wi on the side `transmits` says. 0 for delta components.
     Spectrum evaluate(const Vec3 &wi, const Viewpoint &view) const;

@@ -38,7 +38,8 @@ struct World {
     const Lights &lights;
 };
 
-/// Russian roulette goes by the throughput's largest channel, which keeps the path's weight near 1 for any
+/// Russian roulette goes by the throughput's largest channel, as energy (without the compression of radiance
+/// by refraction, which the way out of the glass undoes), which keeps the path's weight near 1 for any
 /// albedo below 1. The cap ends paths between walls that absorb nothing, after a million bounces; a lower
 /// one would let weights grow by albedo / cap per bounce, with infinite variance once albedo^2 >= cap.
 constexpr double roulette_cap = 1.0 - 0x1p-20;
@@ -53,12 +54,14 @@ class PathIntegrator {
           max_depth_(max_depth) {}
 
     /// Estimate of the radiance arriving along a camera ray [W / (sr m^2)]: emitters seen directly
-    /// included, unbiased for every choice of strategies (scenes with delta scattering need implicit or mis).
+    /// included. Unbiased for every choice of strategies, but that point, spot and directional lights are
+    /// unknown to implicit_only. Light hit after a delta event counts for all of them.
     Spectrum radiance(Ray ray, Rng &rng, RayCounts &counts) const {
         Spectrum result = Spectrum::Zero();
         Spectrum throughput = Spectrum::Ones();
-        SurfacePoint previous{};
-        double pdf_of_direction = 0.0;   // per solid angle at `previous`
+        double expansion = 1.0;          // what refraction has compressed radiance by: eta^2 of each
+        Vec3 previous = Vec3::Zero();    // the last vertex
+        double pdf_of_direction = 0.0;   // per solid angle there
         bool light_sampled_too = false;  // whether the last vertex could have found this light explicitly
         ++counts.camera;
 
@@ -66,7 +69,9 @@ class PathIntegrator {
             SurfacePoint hit;
             if (!world_.geometry.intersect(ray, depth == 0 ? Coherence::coherent : Coherence::incoherent,
                                            hit)) {
-                return result;
+                return result + throughput * world_.lights.from_infinity(ray.direction, [&](double pdf_w) {
+                    return implicit_weight(light_sampled_too, pdf_of_direction, pdf_w);
+                });
             }
             const uint32_t light = world_.geometry.light(hit);
             const Vec3 wo = -ray.direction;
@@ -74,8 +79,10 @@ class PathIntegrator {
             if (light != no_index) {
                 const Spectrum emitted = world_.lights.emitted(world_.geometry, light, hit, wo);
                 if ((emitted > 0.0).any()) {
-                    result += throughput * emitted *
-                              implicit_weight(light_sampled_too, pdf_of_direction, light, previous, hit);
+                    const double pdf_w =
+                        light_sampled_too ? world_.lights.pdf_w(world_.geometry, light, previous, hit) : 0.0;
+                    result +=
+                        throughput * emitted * implicit_weight(light_sampled_too, pdf_of_direction, pdf_w);
                 }
             }
             if (max_depth_ != 0 && depth == max_depth_) {
@@ -99,7 +106,8 @@ class PathIntegrator {
                 return result;
             }
             throughput *= sample->weight;
-            const double survival = std::min(throughput.maxCoeff(), roulette_cap);
+            expansion *= sample->expansion;
+            const double survival = std::min(throughput.maxCoeff() * expansion, roulette_cap);
             if (rng.uniform() >= survival) {
                 return result;
             }
@@ -107,24 +115,20 @@ class PathIntegrator {
 
             light_sampled_too = light_sampled_too && !sample->delta;
             pdf_of_direction = sample->pdf_w;
-            previous = hit;
+            previous = hit.position;
             ray.origin = world_.geometry.spawn_point(hit, ray.direction);
             ++counts.bounce;
         }
     }
 
   private:
-    /// MIS weight of light found by hitting it; roulette is left out of all densities.
-    double implicit_weight(bool light_sampled_too, double pdf_of_direction, uint32_t light,
-                           const SurfacePoint &previous, const SurfacePoint &hit) const {
+    /// MIS weight of light found by following a direction of density `pdf_of_direction` that light sampling
+    /// finds with density `pdf_of_light`; roulette is left out of all densities.
+    double implicit_weight(bool light_sampled_too, double pdf_of_direction, double pdf_of_light) const {
         if (!light_sampled_too) {
             return 1.0;
         }
-        if (!counts_hits_) {
-            return 0.0;
-        }
-        return power_heuristic(pdf_of_direction,
-                               world_.lights.pdf_w(world_.geometry, light, previous.position, hit));
+        return counts_hits_ ? power_heuristic(pdf_of_direction, pdf_of_light) : 0.0;
     }
 
     /// One explicit connection, weighted: f Le |cos| / pdf_w.
@@ -143,7 +147,9 @@ class PathIntegrator {
             return Spectrum::Zero();
         }
         ++counts.shadow;
-        if (world_.geometry.occluded(world_.geometry.spawn_point(point, light->wi), light->target)) {
+        const Vec3 from = world_.geometry.spawn_point(point, light->wi);
+        if (light->infinite ? world_.geometry.occluded({from, light->wi})
+                            : world_.geometry.occluded(from, light->target)) {
             return Spectrum::Zero();
         }
         const double weight = counts_hits_ && !light->delta

@@ -12,62 +12,59 @@ namespace rtrays::reference {
 
 namespace {
 
+using Kind = LightArrays::Kind;
+
 constexpr double uniform_share = 0.5;  ///< of the selection probability; the rest goes by power
 
-std::vector<double> triangle_areas(const Geometry &geometry, const std::vector<uint32_t> &triangles) {
-    std::vector<double> areas;
-    areas.reserve(triangles.size());
-    for (const uint32_t triangle : triangles) {
-        areas.push_back(geometry.triangles()[triangle].area());
-    }
-    return areas;
+/// Half the diagonal of what is bounded: all that parallel light can fall on, as far as choosing it goes.
+double scene_radius(const Geometry &geometry) {
+    return geometry.bounds().isEmpty() ? 1.0 : 0.5 * geometry.bounds().diagonal().norm();
 }
 
 }  // namespace
 
-DiffuseAreaLight::DiffuseAreaLight(const Geometry &geometry, std::vector<uint32_t> triangles,
-                                   const Spectrum &radiance)
-    : triangles_(std::move(triangles)), radiance_(radiance) {
-    const std::vector<double> areas = triangle_areas(geometry, triangles_);
-    choose_ = AliasTable(areas);
-    area_ = std::accumulate(areas.begin(), areas.end(), 0.0);
-}
-
-std::optional<LightSample> DiffuseAreaLight::sample(const Geometry &geometry, const Vec3 &from,
-                                                    Rng &rng) const {
-    const uint32_t triangle = triangles_[choose_.sample(rng)];
-    const TriangleRecord &record = geometry.triangles()[triangle];
-    SurfacePoint point;
-    point.primitive = triangle;
-    const Eigen::Vector2d barycentric = sample_triangle(rng);
-    point.local = {barycentric.x(), barycentric.y(), 0.0};
-    point.position = record.point(barycentric);
-
-    const Vec3 to_light = point.position - from;
-    const double distance_squared = to_light.squaredNorm();
-    const double projected = -record.normal.dot(to_light);  // cosine at the light times distance
-    if (!(projected > 0.0)) {
-        return std::nullopt;
+std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry, const LightArrays &lights,
+                                                    size_t i, std::vector<uint32_t> triangles) {
+    const Spectrum radiance = lights.radiance[i].cast<double>();
+    const Eigen::Matrix3d rotation = lights.world_from_light[i].topLeftCorner<3, 3>();
+    const Vec3 position = lights.world_from_light[i].topRightCorner<3, 1>();
+    const Vec3 axis = -rotation.col(2);
+    switch (lights.kind[i]) {
+        case Kind::diffuse_area: {
+            if (lights.shape[i] == no_index) {
+                // Without area it emits nothing.
+                return triangles.empty()
+                           ? std::nullopt
+                           : std::optional<Light>(MeshLight(geometry, std::move(triangles), radiance));
+            }
+            if (lights.shape[i] >= geometry.shapes().size()) {
+                throw input_error("its shape does not exist");
+            }
+            const ShapeArrays::Kind shape = geometry.shapes()[lights.shape[i]].kind();
+            if (shape == ShapeArrays::Kind::sphere) {
+                return SphereLight(geometry, lights.shape[i], radiance);
+            }
+            if (shape == ShapeArrays::Kind::disc) {
+                return DiscLight(geometry, lights.shape[i], radiance);
+            }
+            throw input_error("only meshes, discs and spheres can emit");
+        }
+        case Kind::point:
+            return PointLight(position, radiance);
+        case Kind::spot:
+            if (!(lights.inner_angle[i] >= 0.0 && lights.inner_angle[i] < lights.outer_angle[i] &&
+                  lights.outer_angle[i] <= 0.5 * pi + 1e-9)) {
+                throw input_error("the angles of a spot must obey 0 <= inner < outer <= pi / 2");
+            }
+            return SpotLight(position, axis, lights.inner_angle[i], lights.outer_angle[i], radiance);
+        case Kind::directional:
+            return DirectionalLight(axis, radiance, scene_radius(geometry));
+        case Kind::dome:
+            return DomeLight(radiance, scene_radius(geometry));
+        case Kind::environment:
+            return EnvironmentLight(lights.image[i], rotation, radiance, scene_radius(geometry), "its image");
     }
-    const double distance = std::sqrt(distance_squared);
-    // pdf_w = pdf_a d^2 / cos (Veach 1997, eq. 8.10), in a form that keeps d^3 from under- or overflowing
-    // before the rest does.
-    const double pdf_w = distance_squared * (distance / projected) / area_;
-    return LightSample{to_light / distance, geometry.spawn_point(point, -to_light), radiance_, pdf_w, false};
-}
-
-double DiffuseAreaLight::pdf_w(const Geometry &geometry, const Vec3 &from, const SurfacePoint &hit) const {
-    const Vec3 to_light = hit.position - from;
-    const double projected = -geometry.normal(hit).dot(to_light);
-    if (!(projected > 0.0)) {
-        return 0.0;
-    }
-    const double distance_squared = to_light.squaredNorm();
-    return distance_squared * (std::sqrt(distance_squared) / projected) / area_;
-}
-
-Spectrum DiffuseAreaLight::emitted(const Geometry &geometry, const SurfacePoint &hit, const Vec3 &wo) const {
-    return geometry.normal(hit).dot(wo) > 0.0 ? radiance_ : Spectrum::Zero();
+    throw run_error("unknown kind of light");
 }
 
 LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {
@@ -80,22 +77,27 @@ LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {
     }
     std::vector<double> powers;
     for (size_t i = 0; i < lights.kind.size(); ++i) {
-        const Spectrum radiance = lights.radiance[i].cast<double>();
-        if (!(radiance >= 0.0).all() || !radiance.allFinite()) {
-            throw input_error(
-                fmt::format("light {} '{}': radiance must be finite and not negative", i, lights.name[i]));
+        const auto fail = [&](const std::string &complaint) {
+            throw input_error(fmt::format("light {} '{}': {}", i, lights.name[i], complaint));
+        };
+        if (!(lights.radiance[i].array() >= 0.0f).all() || !lights.radiance[i].allFinite()) {
+            fail("radiance must be finite and not negative");
         }
-        if (lights.kind[i] != LightArrays::Kind::diffuse_area || lights.shape[i] != no_index) {
-            throw input_error(
-                fmt::format("light {} '{}': the reference does not know its kind", i, lights.name[i]));
+        std::optional<Light> light;
+        try {
+            light = make_light(geometry, lights, i, std::move(triangles[i]));
+        } catch (const Error &error) {
+            fail(error.what());
         }
-        if (triangles[i].empty()) {
-            slot_.push_back(no_index);  // no area: it emits nothing
+        slot_.push_back(light ? static_cast<uint32_t>(lights_.size()) : no_index);
+        if (!light) {
             continue;
         }
-        slot_.push_back(static_cast<uint32_t>(lights_.size()));
-        lights_.emplace_back(DiffuseAreaLight(geometry, std::move(triangles[i]), radiance));
-        powers.push_back(std::visit([](const auto &light) { return light.power(); }, lights_.back()));
+        if (lights.kind[i] == Kind::dome || lights.kind[i] == Kind::environment) {
+            infinite_.push_back(slot_.back());
+        }
+        lights_.push_back(std::move(*light));
+        powers.push_back(std::visit([](const auto &l) { return l.power(); }, lights_.back()));
     }
     if (lights_.empty()) {
         return;

@@ -109,7 +109,8 @@ void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> 
                 Rng rng(settings.seed, pixel, sample);
                 const double film_x = static_cast<double>(x) + rng.uniform();
                 const double film_y = static_cast<double>(y) + rng.uniform();
-                const Spectrum radiance = integrator.radiance(camera.ray(film_x, film_y), rng, tile_counts);
+                const Spectrum radiance =
+                    integrator.radiance(camera.ray(film_x, film_y, rng), rng, tile_counts);
                 if (!radiance.allFinite()) {
                     fault.note(pixel, sample);
                 }

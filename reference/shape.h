@@ -46,6 +46,8 @@ class Shape {
     bool is_bounded() const { return kind_ != ShapeArrays::Kind::plane; }
     const Eigen::AlignedBox3d &bounds() const { return bounds_; }  ///< world; of bounded shapes
 
+    double offset() const { return offset_; }  ///< of spawn points from a bounded surface
+
     /// Where a ray that leaves the point to the side of `direction` starts: off the surface by 1e-10 of
     /// its size and distance from the origin, 1e5 times the rounding of the double arithmetic that looks for
     /// its next hit.

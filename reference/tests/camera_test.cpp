@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/tests/statistics.h"
 #include "reference/tests/test_scenes.h"
 #include "renderer/base/error.h"
 
@@ -65,6 +66,68 @@ TEST(Camera, refuses_impossible_angles_and_indices) {
     const CameraArrays flat{{"camera"}, {Eigen::Matrix4d::Identity()}, {pi}, {FovAxis::x}, {0}, {1}};
     EXPECT_THROW(Camera(flat, 0, 4, 4), Error);
     EXPECT_THROW(Camera(flat, 1, 4, 4), Error);
+}
+
+TEST(Camera, a_lens_focuses_on_its_plane) {
+    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3}, {4.0}};
+    cameras.world_from_camera[0].topLeftCorner<3, 3>() =
+        Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    cameras.world_from_camera[0].topRightCorner<3, 1>() = Vec3(5, -6, 7);
+    const Camera camera(cameras, 0, 6, 4);
+    const Eigen::Affine3d to_camera = Eigen::Affine3d(cameras.world_from_camera[0]).inverse();
+    const Vec3 straight = to_camera.linear() * camera.ray(1.3, 0.4).direction;
+    const Vec3 focus = straight * (4.0 / -straight.z());
+    Rng rng(151, 0, 0);
+    Vec3 mean = Vec3::Zero();
+    double squares = 0.0;
+    constexpr int samples = 100000;
+    for (int i = 0; i < samples; ++i) {
+        const Ray ray = camera.ray(1.3, 0.4, rng);
+        const Vec3 origin = to_camera * ray.origin, direction = to_camera.linear() * ray.direction;
+        ASSERT_NEAR(direction.norm(), 1.0, 1e-14);
+        ASSERT_NEAR(origin.z(), 0.0, 1e-14);
+        ASSERT_LE(origin.norm(), 0.3 + 1e-14);
+        ASSERT_NEAR((origin + direction * (4.0 / -direction.z()) - focus).norm(), 0.0, 1e-13);
+        mean += origin / samples;
+        squares += origin.squaredNorm() / samples;
+    }
+    // Uniform over the disc: mean 0 with deviation r / 2 per axis, mean square r^2 / 2 with r^2 / sqrt(12).
+    EXPECT_LT(mean.norm(), 4.0 * 0.15 * std::sqrt(2.0 / samples));
+    EXPECT_NEAR(squares, 0.045, 4.0 * 0.09 / std::sqrt(12.0 * samples));
+}
+
+TEST(Camera, a_closed_lens_is_a_pinhole_and_broken_ones_are_refused) {
+    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.0}, {0.0}};
+    Rng rng(152, 0, 0), untouched(152, 0, 0);
+    const Camera camera(cameras, 0, 6, 4);
+    EXPECT_EQ(camera.ray(1.0, 2.0, rng).direction, camera.ray(1.0, 2.0).direction);
+    EXPECT_EQ(rng.next_bits(), untouched.next_bits());
+    cameras.aperture_radius[0] = 0.1;
+    EXPECT_THROW(Camera(cameras, 0, 6, 4), Error);  // in focus at distance 0
+    cameras.aperture_radius[0] = -0.1;
+    cameras.focus_distance[0] = 1.0;
+    EXPECT_THROW(Camera(cameras, 0, 6, 4), Error);
+}
+
+TEST(Camera, a_point_out_of_focus_spreads_over_its_circle_of_confusion) {
+    // A small disc light at twice the focus distance. There the rays of a pixel, which meet in the plane of
+    // focus, have spread again to a disc as large as the lens.
+    TestScene scene;
+    Eigen::Matrix4d facing = placed({0, 0, -8}, 0.05);  // +z looks at the camera
+    scene.add_shape(ShapeArrays::Kind::disc, facing, scene.add_material(Rgb::Zero()), Rgb::Ones());
+    scene.set_camera(Vec3::Zero(), {0, 0, -1}, Vec3::UnitY(), 2.0 * std::atan(0.25));
+    scene.cameras.aperture_radius[0] = 0.5;
+    scene.cameras.focus_distance[0] = 4.0;
+    auto renderer = scene.renderer(small_settings(16, 153));
+    renderer.render(0, 4096);
+    const BlockMean mean = image_mean(renderer.develop(), "R");
+    // At distance 8 the chief rays cover 4 x 4; each pixel's rays spread over a disc of radius 0.5 there,
+    // and what the spread takes from the disc light at one pixel it gives at another.
+    EXPECT_NEAR(mean.mean, pi * square(0.05) / 16.0, 4.0 * std::sqrt(mean.variance));
+    const Image image = renderer.develop();
+    const auto lit = [&](int x, int y) { return image.channel("R")[static_cast<size_t>(16 * y + x)] > 0.0f; };
+    EXPECT_TRUE(lit(8, 8) && lit(9, 8) && lit(6, 8));  // pixels are 0.25 wide there
+    EXPECT_FALSE(lit(8, 11) || lit(3, 8));
 }
 
 }  // namespace
