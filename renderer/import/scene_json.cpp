@@ -15,18 +15,16 @@
 #include "renderer/base/json.h"
 #include "renderer/import/scene_json_geometry.h"
 #include "renderer/import/scene_json_material.h"
+#include "renderer/import/scene_json_transform.h"
 #include "renderer/import/scene_json_values.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/light.h"
-#include "renderer/scene/cores/transform.h"
 #include "renderer/scene/cores/visibility.h"
 #include "renderer/scene/graph.h"
 
 namespace rtrays {
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// A scene whose centre is more than this many times its size away from the origin is moved there before it
 /// is rounded to float: by then four bits of every coordinate would be lost to the distance.
@@ -140,44 +138,6 @@ class SceneReader {
             name, type.name, parameter_values(value, type.name, type.parameters, {}, source_, path));
     }
 
-    static Eigen::Matrix4d operation(const Json &value) {
-        const std::string name = value.begin().key();
-        const Json &argument = value.begin().value();
-        if (name == "translate") {
-            return translation(vector3(argument));
-        }
-        if (name == "scale") {
-            return scaling(vector3(argument));
-        }
-        if (name == "rotate") {
-            return rotation(vector3(argument.at("axis")), argument.at("degrees").get<double>() * degree);
-        }
-        if (name == "look_at") {
-            return look_at(vector3(argument.at("origin")), vector3(argument.at("target")),
-                           vector3(argument.at("up")));
-        }
-        Eigen::Matrix4d matrix;  // the schema leaves no other operation
-        for (int row = 0; row < 4; ++row) {
-            for (int column = 0; column < 4; ++column) {
-                matrix(row, column) = argument[row][column];
-            }
-        }
-        return matrix;
-    }
-
-    std::shared_ptr<TransformCore> transform(const Json &operations, const std::string &name,
-                                             const std::string &path) const {
-        Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-        for (size_t i = 0; i < operations.size(); ++i) {
-            source_.located(fmt::format("{}/{}", path, i), [&] {
-                // Each by itself, so that the message names the one at fault.
-                const TransformCore checked(name, operation(operations[i]));
-                matrix = checked.matrix() * matrix;
-            });
-        }
-        return source_.located(path, [&] { return std::make_shared<TransformCore>(name, matrix); });
-    }
-
     void read_nodes(const Json &nodes, const std::string &path, Node &parent) {
         for (size_t i = 0; i < nodes.size(); ++i) {
             read_node(nodes[i], fmt::format("{}/{}", path, i), parent);
@@ -201,8 +161,7 @@ class SceneReader {
             }
         };
         // Every node gets these two, so that each can be moved and hidden by name.
-        const Json operations = value.value("transform", Json::array());
-        node.set_core(transform(operations, name, path + "/transform"));
+        node.set_core(read_transform(value, name, source_, path));
         node.set_core(std::make_shared<VisibilityCore>(name, value.value("visible", true)));
         with("material", [&](const Json &v, const std::string &at) {
             return v.is_string() ? reference(materials_, v, "material") : material(v, name, at);

@@ -110,6 +110,7 @@ void SceneGraph::core_added(const Node &node, CoreRole role) {
     }
     if (core->is_animated()) {
         animated_.push_back(core);
+        core->update(time_);
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Serialization: what the stores hold after updates, and what an update costs.
 #include <algorithm>
-#include <chrono>
 #include <random>
 
 #include "renderer/scene/scene.h"
@@ -289,57 +288,6 @@ TEST(Stores, WhatCannotBeRepresentedIsAnErrorUntilItIsMended) {
     node.set_core(right_triangle());
     EXPECT_NO_THROW(graph.update(0));
     expect_consistent(graph);
-}
-
-/// Moves along x with time.
-class Slider : public TransformCore {
-  public:
-    Slider() : TransformCore("", translation({0, 0, 0})) {}
-    bool is_animated() const override { return true; }
-    void update(double time) override { set_translation({time, 0, 0}); }
-};
-
-TEST(Stores, AnimatedCoresFollowTheTime) {
-    const auto graph = row_of_triangles(100);
-    graph->find("5")->set_core(std::make_shared<Slider>());
-    graph->update(0);
-    graph->update(2.5);
-    EXPECT_EQ(graph->arrays().meshes.position[15], Vector3f(2.5f, 0, 0));
-    EXPECT_EQ(graph->mesh_counts().written, 1u);
-    EXPECT_EQ(graph->visited_nodes(), 1u);
-    graph->update(2.5);
-    EXPECT_EQ(graph->visited_nodes(), 0u);
-    graph->find("5")->remove_core(CoreRole::transform);
-    graph->update(3);
-    EXPECT_EQ(graph->arrays().meshes.position[15], Vector3f(0, 0, 0));
-}
-
-/// Median seconds of an update after one node has moved.
-double update_seconds(int nodes) {
-    const auto graph = row_of_triangles(nodes);
-    graph->update(0);
-    auto &transform = core_at<TransformCore>(*graph, std::to_string(nodes / 2), CoreRole::transform);
-    std::vector<double> seconds;
-    for (int i = 0; i < 501; ++i) {
-        transform.set_translation({0, 0, 1.0 * i});
-        const auto start = std::chrono::steady_clock::now();
-        graph->update(0);
-        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        EXPECT_EQ(graph->mesh_counts().written, 1u);
-        EXPECT_EQ(graph->visited_nodes(), 1u);
-    }
-    std::nth_element(seconds.begin(), seconds.begin() + 250, seconds.end());
-    return seconds[250];
-}
-
-TEST(Stores, TheCostOfAnUpdateDoesNotDependOnTheRest) {
-    const double small = update_seconds(100);
-    const double large = update_seconds(100000);
-    RecordProperty("update_100_nodes_ns", static_cast<int>(small * 1e9));
-    RecordProperty("update_100000_nodes_ns", static_cast<int>(large * 1e9));
-    std::printf("one node moved: %.2f us among 1e2, %.2f us among 1e5\n", small * 1e6, large * 1e6);
-    // A walk over the graph would be about 1000 times as long; caches account for a small factor.
-    EXPECT_LT(large, 20 * small + 5e-6);
 }
 
 TEST(Stores, AFarOriginCostsNoPrecision) {

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// Keyframes, and what a step in time costs.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "renderer/import/scene_json.h"
+#include "renderer/scene/cores/animated_transform.h"
+#include "renderer/tests/scene_builder.h"
+
+namespace rtrays {
+namespace {
+
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double pi = 3.14159265358979323846;
+
+TEST(Animation, KeyframesAreMetToTheBitAndHoldOutside) {
+    const Matrix4d a = translation({0.1, 0.2, 0.3}) * rotation({1, 2, 3}, 0.7) * scaling({1, 2, 3});
+    const Matrix4d b = rotation({3, 2, 1}, 1.7) * scaling({0.1, 0.7, 0.3});
+    const Matrix4d c = scaling({2, 2, 2});
+    const AnimatedTransform animated("", {{1, a}, {1.5, b}, {7, c}});
+    EXPECT_EQ(animated.matrix(), a) << "at time 0";
+    EXPECT_EQ(animated.matrix_at(-1e300), a);
+    EXPECT_EQ(animated.matrix_at(1), a);
+    EXPECT_EQ(animated.matrix_at(1.5), b);
+    EXPECT_EQ(animated.matrix_at(7), c);
+    EXPECT_EQ(animated.matrix_at(1e300), c);
+    EXPECT_EQ(AnimatedTransform("", {{5, b}}).matrix_at(2), b);
+}
+
+TEST(Animation, RotationsTurnEvenlyAndLengthsChangeEvenly) {
+    // Half a turn in two steps, growing from 1 to 3 along x and moving along y.
+    const AnimatedTransform turning(
+        "", {{0, Matrix4d::Identity()},
+             {2, translation({0, 4, 0}) * rotation({0, 0, 1}, pi / 2) * scaling({3, 1, 1})},
+             {4, rotation({0, 0, 1}, pi)}});
+    for (const double time : {0.25, 0.5, 1.0, 1.75}) {
+        const double s = time / 2;
+        const Matrix4d wanted =
+            translation({0, 4 * s, 0}) * rotation({0, 0, 1}, s * pi / 2) * scaling({1 + 2 * s, 1, 1});
+        EXPECT_TRUE(turning.matrix_at(time).isApprox(wanted, 1e-14)) << time << '\n'
+                                                                     << turning.matrix_at(time);
+    }
+    EXPECT_TRUE(turning.matrix_at(3).topLeftCorner(3, 3).isApprox(
+        (rotation({0, 0, 1}, 0.75 * pi) * scaling({2, 1, 1})).topLeftCorner(3, 3), 1e-14));
+    // The shorter way round: 340 degrees is -20.
+    const AnimatedTransform wide("", {{0, Matrix4d::Identity()}, {1, rotation({0, 0, 1}, 340 * pi / 180)}});
+    EXPECT_TRUE(wide.matrix_at(0.5).isApprox(rotation({0, 0, 1}, -10 * pi / 180), 1e-14));
+}
+
+TEST(Animation, MirroredObjectsStayMirroredAndInvertible) {
+    const AnimatedTransform mirrored(
+        "", {{0, scaling({-1, 2, 1})}, {1, rotation({1, 1, 0}, 2) * scaling({1, 1, -5})}});
+    for (double time = 0; time <= 1; time += 1.0 / 64) {
+        EXPECT_LT(mirrored.matrix_at(time).determinant(), -1) << time;
+    }
+}
+
+TEST(Animation, ErrorsNameTheKeyframe) {
+    const auto scene = [](const std::string &node) {
+        return parse_scene_json(R"({"version": 1, "film": {"width": 1, "height": 1}, "nodes": [
+            {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+            {"name": "a", )" + node +
+                                    "}]}",
+                                "in.json", "in");
+    };
+    struct Case {
+        const char *node;
+        const char *message;
+    };
+    for (
+        const Case &c : {
+            Case{R"("animation": [])", "in.json:3: /nodes/1/animation (in 'a')"},
+            Case{R"("animation": [{"time": 0}])", "/nodes/1/animation/0 (in 'a'): missing key 'transform'"},
+            Case{R"("animation": [{"time": 0, "transform": []}, {"time": 0, "transform": []}])",
+                 "in.json:3: /nodes/1/animation: animation: keyframe 1 is at 0 s, not after the one before "
+                 "it, at 0 s"},
+            Case{
+                R"("animation": [{"time": 0, "transform": []}, {"time": 1, "transform": [{"scale": [1, 0, 1]}]}])",
+                "/nodes/1/animation/1/transform/0: transform: the matrix is not invertible"},
+            Case{
+                R"("animation": [{"time": 0, "transform": []}, {"time": 1, "transform": [{"scale": [1, 1, -1]}]}])",
+                "keyframe 1 mirrors and the one before it does not"},
+            Case{
+                R"("animation": [{"time": 0, "transform": []}, {"time": 1, "transform": [{"rotate": {"axis": [1, 2, 3], "degrees": 180}}]}])",
+                "keyframe 1 is half a turn from the one before it"},
+            Case{R"("animation": [{"time": 0, "transform": []}], "transform": [])",
+                 "'a' has a transform and an animation"},
+        }) {
+        SCOPED_TRACE(c.node);
+        expect_input_error(c.message, [&] { scene(c.node); });
+    }
+    Scene still = scene(R"("animation": [{"time": 0, "transform": []}])");
+    expect_input_error("'a.translation': can only be read",
+                       [&] { still.set_property("a.translation", "1,2,3"); });
+}
+
+TEST(Animation, MovesGeometryLightsAndCamerasWithTheirNodes) {
+    Scene scene = parse_scene_json(R"({"version": 1, "film": {"width": 1, "height": 1}, "nodes": [
+        {"name": "cart", "animation": [{"time": 0, "transform": []}, {"time": 2, "transform": [{"translate": [4, 0, 0]}]}],
+         "material": {"type": "lambert", "reflectance": [0, 0, 0]}, "children": [
+            {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+            {"name": "ball", "geometry": {"type": "sphere"}},
+            {"name": "sheet", "geometry": {"type": "rectangle"}, "transform": [{"translate": [0, 3, 0]}]},
+            {"name": "lamp", "light": {"type": "point", "intensity": [1, 1, 1]}}]}]})",
+                                   "in.json", "in");
+    const std::string hash = scene.hash();
+    scene.update(1);
+    EXPECT_EQ(scene.cameras().world_from_camera[0](0, 3), 2);
+    EXPECT_EQ(scene.arrays().shapes.world_from_object[0](0, 3), 2);
+    EXPECT_EQ(scene.meshes().position[0], Vector3f(1, 2, 0));
+    EXPECT_EQ(scene.lights().world_from_light[0](0, 3), 2);
+    EXPECT_NE(scene.hash(), hash);
+    scene.update(9);
+    EXPECT_EQ(scene.meshes().position[0], Vector3f(3, 2, 0));
+    EXPECT_EQ(scene.graph().visited_nodes(), 5u);
+    scene.update(10);
+    EXPECT_EQ(scene.graph().visited_nodes(), 0u) << "the last keyframe holds";
+    scene.update(0);
+    EXPECT_EQ(scene.hash(), hash);
+}
+
+std::shared_ptr<AnimatedTransform> sliding(double x_after_10_seconds) {
+    return std::make_shared<AnimatedTransform>(
+        "", std::vector<Keyframe>{{0, Matrix4d::Identity()}, {10, translation({x_after_10_seconds, 0, 0})}});
+}
+
+TEST(Animation, CoresComeToTheTimeOfTheirGraph) {
+    SceneGraph graph;
+    graph.root().set_core(grey("grey"));
+    Node &node = add_node(graph.root(), "node");
+    node.set_core(right_triangle());
+    graph.update(5);
+    node.set_core(sliding(10));
+    graph.update(5);
+    EXPECT_EQ(graph.arrays().meshes.position[0], Vector3f(5, 0, 0));
+    graph.update(6);
+    EXPECT_EQ(graph.arrays().meshes.position[0], Vector3f(6, 0, 0));
+    node.remove_core(CoreRole::transform);
+    graph.update(7);
+    EXPECT_EQ(graph.arrays().meshes.position[0], Vector3f(0, 0, 0));
+}
+
+/// Median seconds of a step in time of a scene in which one node of this many moves.
+double step_seconds(int nodes) {
+    SceneGraph graph;
+    graph.root().set_core(grey("grey"));
+    const auto triangle = right_triangle();
+    const auto ball = shape("sphere");
+    for (int i = 0; i < nodes; ++i) {
+        Node &node = add_node(graph.root(), std::to_string(i));
+        node.set_core(i % 2 == 0 ? std::static_pointer_cast<Core>(triangle) : ball);
+        node.set_core(moved(2.0 * i, 0, 0));
+        if (i % 3 == 0) {
+            node.set_core(area_light(Vector3d(1, 1, 1)));
+        }
+    }
+    Node &moving = *graph.find(std::to_string(nodes / 6 * 6));  // a triangle that emits
+    moving.set_core(sliding(1000));
+    graph.update(0);
+    expect_consistent(graph);
+    std::vector<double> seconds;
+    for (int i = 1; i <= 501; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        graph.update(0.01 * i);
+        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        EXPECT_EQ(graph.visited_nodes(), 1u);
+        EXPECT_EQ(graph.mesh_counts().written, 1u);
+        EXPECT_EQ(graph.light_counts().written, 1u);
+        EXPECT_EQ(
+            graph.shape_counts().written + graph.material_counts().written + graph.camera_counts().written,
+            0u);
+    }
+    std::nth_element(seconds.begin(), seconds.begin() + 250, seconds.end());
+    return seconds[250];
+}
+
+TEST(Animation, TheCostOfAStepDoesNotDependOnTheRest) {
+    const double small = step_seconds(1000);
+    const double large = step_seconds(100000);
+    RecordProperty("step_1000_nodes_ns", static_cast<int>(small * 1e9));
+    RecordProperty("step_100000_nodes_ns", static_cast<int>(large * 1e9));
+    std::printf("one node moved: %.2f us among 1e3, %.2f us among 1e5\n", small * 1e6, large * 1e6);
+    // A walk over the graph would take about 100 times as long; caches account for a small factor.
+    EXPECT_LT(large, 10 * small + 5e-6);
+}
+
+}  // namespace
+}  // namespace rtrays
