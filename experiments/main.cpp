@@ -12,6 +12,7 @@
 #include "experiments/gate.h"
 #include "experiments/report.h"
 #include "experiments/runner.h"
+#include "experiments/scene_agreement.h"
 #include "renderer/base/error.h"
 #include "renderer/base/progress.h"
 #include "rtrays_commit.h"
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     RunOptions run;
     GateOptions gate;
+    AgreeOptions agree;
     fs::path image, reference;
     bool json = false;
     std::vector<fs::path> folders;
@@ -63,6 +65,15 @@ void declare(CLI::App &app, Arguments &arguments) {
                    "measure and replace the baseline, print what changed; checks nothing");
     gate->add_option("--device", arguments.gate.device, "OpenCL device, as for rtrays-render");
     gate->add_flag("--quiet", arguments.gate.quiet, "no progress");
+
+    auto *agree = app.add_subcommand("agree", "render scenes by renderer and reference; exit 3 if they differ");
+    agree->add_option("FILE", arguments.agree.description, "scenes and sample counts (JSON)")->required();
+    agree->add_option("--profile", arguments.agree.profile, "quick or full")
+        ->check(CLI::IsMember({"quick", "full"}))
+        ->capture_default_str();
+    agree->add_option("--out", arguments.agree.out, "output folder; NAME.PROFILE by default");
+    agree->add_option("--device", arguments.agree.device, "OpenCL device, as for rtrays-render");
+    agree->add_flag("--quiet", arguments.agree.quiet, "no progress");
 }
 
 ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
@@ -76,6 +87,8 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
         fmt::print("{}", arguments.json ? comparison.dump(2) + "\n" : comparison_text(comparison));
     } else if (app.got_subcommand("report")) {
         return static_cast<ExitCode>(make_report(arguments.folders));
+    } else if (app.got_subcommand("agree")) {
+        return run_agreement(arguments.agree);
     } else {
         return run_gate(arguments.gate);
     }

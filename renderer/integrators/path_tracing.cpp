@@ -3,17 +3,23 @@
 
 namespace rtrays {
 
-std::vector<std::string> path_tracing_round(FeatureMask features) {
-    std::vector<std::string> round = {"generate_camera_rays", "begin_round", "intersect_nearest"};
-    if (features.has(Feature::lights)) {
-        round.emplace_back("evaluate_emission");  // implicit paths, and emitters seen directly
+std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count) {
+    std::vector<RoundStage> round = {{"generate_camera_rays"}, {"begin_round"}, {"intersect_nearest"}};
+    const bool emitters = features.has(Feature::area_lights) || features.has(Feature::shape_lights) ||
+                          features.has(Feature::infinite_lights);
+    if (emitters) {
+        round.push_back({"evaluate_emission"});  // implicit paths, and emitters seen directly
     }
     if (features.has(Feature::explicit_light)) {
-        round.emplace_back("sample_light");
-        round.emplace_back("intersect_any");
+        const bool independent = features.has(Feature::independent_lights);
+        for (uint32_t light = 0; light < (independent ? light_count : 1u); ++light) {
+            round.push_back({"sample_light", independent ? light : SELECT_LIGHT});
+            round.push_back({"intersect_any"});
+            round.push_back({"end_shadow_rays"});
+        }
     }
-    round.emplace_back("extend_path");
-    round.emplace_back("end_round");
+    round.push_back({"extend_path"});
+    round.push_back({"end_round"});
     return round;
 }
 

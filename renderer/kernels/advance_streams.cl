@@ -30,11 +30,17 @@ __kernel void begin_round(GLOBAL StreamCounters *counters) {
     }
 }
 
-/// Stage end_round (one work-item): the other active queue, filled meanwhile, is next.
-__kernel void end_round(GLOBAL StreamCounters *counters) {
+/// Stage end_shadow_rays (one work-item): they were traced.
+__kernel void end_shadow_rays(GLOBAL StreamCounters *counters) {
     if (get_global_id(0) == 0u) {
         counters->shadow_rays += counters->shadow;
         counters->shadow = 0u;
+    }
+}
+
+/// Stage end_round (one work-item): the other active queue, filled meanwhile, is next.
+__kernel void end_round(GLOBAL StreamCounters *counters) {
+    if (get_global_id(0) == 0u) {
         counters->active[counters->parity] = 0u;
         counters->parity = 1u - counters->parity;
     }

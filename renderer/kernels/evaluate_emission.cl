@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stage evaluate_emission: implicit paths, whose last vertex was found by hitting an emitter, and emitters seen
-// directly (k = 1, which every strategy counts).
-// Reads: hit, ray, pdf_w, throughput, active queue. Writes: radiance.
+// Stage evaluate_emission: adds what the hit of each active path, or the light at infinity, emits towards it: emitters
+// seen directly, and implicit paths.
+// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, depth, active queue. Writes: radiance.
 
-#include "renderer/kernels/geometry/surface.h"
-#include "renderer/kernels/light/area_light.h"
+#include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -12,36 +11,82 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// Adds what the hit of a path emits towards it.
-DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
-    const uint triangle = get_hit_triangle(paths, slot);
-    if (triangle == NO_HIT) {
-        return;
-    }
-    GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
-    const uint depth = get_depth(paths, slot);
-    if (surface->emitter == NO_EMITTER || (depth > 0u && (settings.strategies & STRATEGY_IMPLICIT) == 0u)) {
-        return;
-    }
-    const EmitterTriangle emitter = emitter_triangles[surface->emitter];
-    const LightRecord light = lights[emitter.light];
-    const SurfacePoint point = scene_point(surface, get_hit_u(paths, slot), get_hit_v(paths, slot));
+/// What a path meets: radiance towards it, and the density per solid angle with which light sampling at the vertex
+/// before would have found it.
+typedef struct Emission {
+    float3 radiance;
+    float explicit_pdf_w;
+} Emission;
+
+/// False when nothing is emitted this way. `density_needed`: explicit_pdf_w is to be set.
+DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS bool density_needed,
+                         PRIVATE Emission *met) {
+    const uint primitive = get_hit_primitive(paths, slot);
     const float3 direction = get_ray_direction(paths, slot);
-    const float cos_light = -dot(point.normal, direction);
-    if (!(cos_light > 0.0f)) {
-        return;
+    met->explicit_pdf_w = 0.0f;
+    if (primitive == NO_HIT) {
+#if FEATURE_infinite_lights
+        if (lighting.infinite_light == NO_EMITTER) {
+            return false;
+        }
+        met->radiance = infinite_radiance(LIGHT_ARGUMENTS direction);
+        if (density_needed) {
+            met->explicit_pdf_w = lights[lighting.infinite_light].selection * infinite_pdf_w(LIGHT_ARGUMENTS direction);
+        }
+        return true;
+#else
+        return false;
+#endif
     }
-    float3 radiance = make_float3(light.radiance[0], light.radiance[1], light.radiance[2]);
+#if FEATURE_area_lights || FEATURE_shape_lights
+    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+    if (hit.emitter == NO_EMITTER || !(dot(hit.point.normal, direction) < 0.0f)) {
+        return false;
+    }
+    const LightRecord light = lights[light_of_hit(LIGHT_ARGUMENTS primitive, hit.emitter)];
+    met->radiance = light_radiance(light);
+    if (density_needed) {
+        const float3 from = get_ray_origin(paths, slot);
+        met->explicit_pdf_w =
+            light_pdf_a(SURFACE_ARGUMENTS LIGHT_ARGUMENTS light, primitive, hit.emitter, from, hit.point) *
+            solid_angle_per_area(hit.point.position - from, hit.point.normal);
+    }
+    return true;
+#else
+    return false;
+#endif
+}
+
+DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
+    bool weighted = false;
 #if FEATURE_scattering
-    radiance *= get_throughput(paths, slot);
-#if FEATURE_implicit_light && FEATURE_explicit_light
-    if (depth > 0u && (settings.strategies & STRATEGY_EXPLICIT) != 0u) {
-        // p_E / p_I of thesis (2.73), per area at the light: p_I = pdf_w cos / d^2. pdf_w and cos are positive.
-        const float3 way = point.position - get_ray_origin(paths, slot);
-        const float ratio = light_pdf_a(light, emitter) * dot(way, way) / (get_pdf_w(paths, slot) * cos_light);
-        radiance *= power_heuristic(ratio, settings.beta);
+    if (get_depth(paths, slot) > 0u) {
+#if FEATURE_direction_density
+        // After a delta event light sampling had no chance: only implicit paths find this light, whatever the strategy.
+        if (get_pdf_w(paths, slot) < INFINITY) {
+            if ((settings.strategies & STRATEGY_IMPLICIT) == 0u) {
+                return;
+            }
+            weighted = (settings.strategies & STRATEGY_EXPLICIT) != 0u;
+        }
+#else
+        return;
+#endif
     }
 #endif
+    Emission met;
+    if (!emission_met(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS weighted, &met)) {
+        return;
+    }
+    float3 radiance = met.radiance;
+#if FEATURE_scattering
+    radiance *= get_throughput(paths, slot);
+#endif
+#if FEATURE_direction_density
+    if (weighted) {
+        // p_E / p_I of thesis (2.73), both per solid angle. The density of a sampled direction is positive.
+        radiance *= power_heuristic(met.explicit_pdf_w / get_pdf_w(paths, slot), settings.beta);
+    }
 #endif
     set_radiance(paths, slot, get_radiance(paths, slot) + radiance);
 }

@@ -3,9 +3,8 @@
 // Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, depth; film.
 // To: the active queue of the next round, or the free queue.
 
-#include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/film/film.h"
-#include "renderer/kernels/geometry/surface.h"
+#include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -15,27 +14,30 @@
 
 #if FEATURE_scattering
 
+#include "renderer/kernels/bsdf/bsdf.h"
+#include "renderer/kernels/bsdf/shading_frame.h"
+
 /// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
-DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings, ulong first_sample) {
-    const uint triangle = get_hit_triangle(paths, slot);
+DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
+                    ulong first_sample) {
+    const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
-    if (triangle == NO_HIT) {
+    if (primitive == NO_HIT) {
         return false;
     }
 #if FEATURE_depth_limit
-    // Without implicit paths the ray of the last scattering event could find nothing that counts.
-    const uint last_ray = (settings.strategies & STRATEGY_IMPLICIT) != 0u ? 0u : 1u;
+    // The ray of the last scattering event counts only where it may find light: implicit paths, or after a delta event.
+    const uint last_ray = FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u ? 0u : 1u;
     if (depth + last_ray >= settings.max_depth) {
         return false;
     }
 #endif
-    GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
-    const SurfacePoint point = scene_point(surface, get_hit_u(paths, slot), get_hit_v(paths, slot));
-    const float3 direction = get_ray_direction(paths, slot);
-    const float3 n = dot(point.normal, direction) > 0.0f ? -point.normal : point.normal;
+    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+    const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
     const uint4 words = random_words(settings.seed, STREAM_CAMERA, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
-    const BsdfSample sample = bsdf_sample(components[materials[surface->material].first_component], n, uniform_float(words.x), uniform_float(words.y));
+    const BsdfSample sample = bsdf_sample(MATERIAL_ARGUMENTS hit.material, frame, uniform_float(words.w),
+                                          uniform_float(words.x), uniform_float(words.y));
     float3 throughput = get_throughput(paths, slot) * sample.weight;
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
     if (!(largest > 0.0f && sample.pdf_w > 0.0f)) {
@@ -46,7 +48,15 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSe
         // Thesis 2.7.2: from the first bounce, continuation proportional to throughput. The bound below 1 ends
         // paths between surfaces that absorb nothing; it is close to 1 because the variance is infinite where the
         // squared albedo exceeds it. Left out of all MIS densities, kept in the contribution.
-        const float continuation = min(largest, settings.max_continuation);
+        // Inside glass radiance is larger by eta^2, which the path loses again on its way out: that part is left out
+        // (PBRT 4th ed., 13.2.2).
+#if FEATURE_refraction
+        const float scale = get_boundary_scale(paths, slot) * sample.scale;
+        set_boundary_scale(paths, slot, scale);
+#else
+        const float scale = 1.0f;
+#endif
+        const float continuation = min(largest / scale, settings.max_continuation);
         if (!(uniform_float(words.z) < continuation)) {
             return false;
         }
@@ -58,11 +68,11 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSe
         return false;
     }
 #endif
-    set_ray_origin(paths, slot, offset_ray_origin(point, sample.wi));
+    set_ray_origin(paths, slot, offset_ray_origin(hit.point, sample.wi));
     set_ray_direction(paths, slot, sample.wi);
     set_throughput(paths, slot, throughput);
     set_depth(paths, slot, depth + 1u);
-#if FEATURE_implicit_light
+#if FEATURE_direction_density
     set_pdf_w(paths, slot, sample.pdf_w);
 #endif
     return true;
@@ -70,8 +80,8 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSe
 
 #endif
 
-__kernel void extend_path(SURFACE_PARAMETERS GLOBAL long *film, IntegratorSettings settings, ulong first_sample,
-                          STREAM_PARAMETERS) {
+__kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film, IntegratorSettings settings,
+                          ulong first_sample, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer extended, ended;
     extended.count = 0u;
@@ -79,7 +89,7 @@ __kernel void extend_path(SURFACE_PARAMETERS GLOBAL long *film, IntegratorSettin
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = active_slot(queues, counters, capacity, i);
 #if FEATURE_scattering
-        if (scatter(paths, slot, SURFACE_ARGUMENTS settings, first_sample)) {
+        if (scatter(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS settings, first_sample)) {
             push_slot(&extended, slot);
             continue;
         }

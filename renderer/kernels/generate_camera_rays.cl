@@ -18,11 +18,15 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
     set_pixel(paths, slot, pixel);
     set_sample(paths, slot, sample);
     set_depth(paths, slot, 0u);
-    set_ray_origin(paths, slot, make_float3(camera.position[0], camera.position[1], camera.position[2]));
-    set_ray_direction(paths, slot, camera_direction(camera, x, y));
+    const CameraRay ray = camera_ray(camera, x, y, uniform_float(words.z), uniform_float(words.w));
+    set_ray_origin(paths, slot, ray.origin);
+    set_ray_direction(paths, slot, ray.direction);
     set_radiance(paths, slot, make_float3(0.0f, 0.0f, 0.0f));
 #if FEATURE_scattering
     set_throughput(paths, slot, make_float3(1.0f, 1.0f, 1.0f));
+#if FEATURE_refraction
+    set_boundary_scale(paths, slot, 1.0f);
+#endif
 #endif
 }
 

@@ -1,20 +1,44 @@
 // SPDX-License-Identifier: MIT
 // Stage intersect_nearest: finds what the rays of the active paths hit first.
-// Reads: ray_origin, ray_direction, active queue. Writes: hit_triangle, hit_u, hit_v.
+// Reads: ray_origin, ray_direction, active queue. Writes: hit_primitive, hit_u, hit_v, hit_w.
 
+#include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_bvh.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
+#include "renderer/shared/scene_records.h"
 
-__kernel void intersect_nearest(BVH_PARAMETERS STREAM_PARAMETERS) {
+/// Triangles through the hierarchy, then the few shapes one after the other.
+DEVICE void find_hit(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin, float3 direction) {
+    uint primitive = NO_HIT;
+    float3 at = make_float3(0.0f, 0.0f, 0.0f);
+    float t = INFINITY;
+#if FEATURE_triangles
+    const Hit hit = trace_nearest(bvh_nodes, bvh_triangles, origin, direction, t);
+    if (hit.triangle != NO_HIT) {
+        primitive = hit.triangle;
+        at = make_float3(hit.u, hit.v, 0.0f);
+        t = hit.t;
+    }
+#endif
+#if FEATURE_shapes
+    const ShapeHit shape = nearest_shape(shapes, shape_count, origin, direction, t);
+    if (shape.shape != NO_HIT) {
+        primitive = SHAPE_BIT | shape.shape;
+        at = shape.object_point;
+    }
+    set_hit_w(paths, slot, at.z);
+#endif
+    set_hit_primitive(paths, slot, primitive);
+    set_hit_u(paths, slot, at.x);
+    set_hit_v(paths, slot, at.y);
+}
+
+__kernel void intersect_nearest(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = active_slot(queues, counters, capacity, i);
-        const Hit hit = trace_nearest(bvh_nodes, bvh_triangles, get_ray_origin(paths, slot), get_ray_direction(paths, slot),
-                                      INFINITY);
-        set_hit_triangle(paths, slot, hit.triangle);
-        set_hit_u(paths, slot, hit.u);
-        set_hit_v(paths, slot, hit.v);
+        find_hit(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_ray_direction(paths, slot));
     }
 }

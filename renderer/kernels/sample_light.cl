@@ -4,8 +4,8 @@
 // shadow_vector, shadow_radiance. To: the shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
-#include "renderer/kernels/geometry/surface.h"
-#include "renderer/kernels/light/area_light.h"
+#include "renderer/kernels/bsdf/shading_frame.h"
+#include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/kernels/stream.h"
@@ -14,12 +14,13 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// Prepares the shadow ray of a path. False when there is nothing to gain.
-DEVICE bool join_to_light(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
-                          ulong first_sample) {
-    const uint triangle = get_hit_triangle(paths, slot);
+/// Prepares the shadow ray of a path to the light `chosen` or SELECT_LIGHT. False when there is nothing to gain.
+DEVICE bool join_to_light(PathStates paths, uint slot,
+                          SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+                          ulong first_sample, uint chosen) {
+    const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
-    if (triangle == NO_HIT || (settings.strategies & STRATEGY_EXPLICIT) == 0u) {
+    if (primitive == NO_HIT || (settings.strategies & STRATEGY_EXPLICIT) == 0u) {
         return false;
     }
 #if FEATURE_depth_limit
@@ -27,53 +28,48 @@ DEVICE bool join_to_light(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_
         return false;
     }
 #endif
-    GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
-    const SurfacePoint point = scene_point(surface, get_hit_u(paths, slot), get_hit_v(paths, slot));
-    const float3 direction = get_ray_direction(paths, slot);
-    const float3 n = dot(point.normal, direction) > 0.0f ? -point.normal : point.normal;  // on wo's side
-
-    const uint4 words = random_words(settings.seed, STREAM_CAMERA, get_pixel(paths, slot),
-                                     first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
-    const LightSample light = sample_light_point(lights, emitter_triangles, surface_triangles, light_count, words);
-    const float3 way = light.point.position - point.position;
-    const float distance2 = dot(way, way);
-    // The sides are decided without dividing by the distance, which may be 0 where surface and light touch.
-    if (!(dot(n, way) > 0.0f && dot(light.point.normal, way) < 0.0f)) {
+    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+#if FEATURE_delta
+    if ((materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
         return false;
-    }
-    const float3 wi = way / sqrt(distance2);
-    const float cos_surface = dot(n, wi);
-    const float cos_light = -dot(light.point.normal, wi);
-    const BxdfRecord component = components[materials[surface->material].first_component];
-    const float3 f = bsdf_evaluate(component, n, wi);
-    if (!(f.x > 0.0f || f.y > 0.0f || f.z > 0.0f)) {
-        return false;
-    }
-    // f cos L / p_E, p_E converted from area to solid angle: thesis (2.62).
-    float3 radiance = get_throughput(paths, slot) * f * light.radiance *
-                      (cos_surface * cos_light / (distance2 * light.pdf_a));
-#if FEATURE_implicit_light
-    if ((settings.strategies & STRATEGY_IMPLICIT) != 0u) {
-        // p_I / p_E, per area at the light: thesis (2.73).
-        const float ratio = bsdf_pdf(n, wi) * cos_light / (distance2 * light.pdf_a);
-        radiance *= power_heuristic(ratio, settings.beta);
     }
 #endif
-    const float3 origin = offset_ray_origin(point, way);
+    // Lights that are sampled one after the other have numbers of their own.
+    const uint stream = chosen == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(chosen);
+    const uint4 words = random_words(settings.seed, stream, get_pixel(paths, slot),
+                                     first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
+    const LightSample light = sample_lights(SURFACE_ARGUMENTS LIGHT_ARGUMENTS chosen, hit.point.position, words);
+    if (!(light.pdf_w > 0.0f)) {
+        return false;
+    }
+    const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
+    const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, frame, light.wi);
+    if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
+        return false;
+    }
+    // f cos L / p_E, thesis (2.62).
+    float3 radiance = get_throughput(paths, slot) * bsdf.f_cos * light.radiance / light.pdf_w;
+#if FEATURE_implicit_light
+    if (light.is_delta == 0u && (settings.strategies & STRATEGY_IMPLICIT) != 0u) {
+        // p_I / p_E of thesis (2.73), both per solid angle.
+        radiance *= power_heuristic(bsdf.pdf_w / light.pdf_w, settings.beta);
+    }
+#endif
+    const float3 origin = offset_ray_origin(hit.point, light.wi);
     set_ray_origin(paths, slot, origin);
-    set_shadow_vector(paths, slot, offset_ray_origin(light.point, -way) - origin);
+    set_shadow_vector(paths, slot, light.target - origin);
     set_shadow_radiance(paths, slot, radiance);
     return true;
 }
 
-__kernel void sample_light(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, ulong first_sample,
-                           STREAM_PARAMETERS) {
+__kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+                           ulong first_sample, uint chosen, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = active_slot(queues, counters, capacity, i);
-        if (join_to_light(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample)) {
+        if (join_to_light(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample, chosen)) {
             push_slot(&shadow, slot);
         }
     }

@@ -7,63 +7,26 @@
 #include <numeric>
 
 #include "renderer/kernels/geometry/surface_point.h"
+#include "renderer/pipeline/compile_shapes.h"
 
 namespace rtrays {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-void copy(const Eigen::Vector3d &from, float (&to)[3]) {
-    for (int i = 0; i < 3; ++i) {
-        to[i] = static_cast<float>(from[i]);
-    }
-}
-
-void copy(const Eigen::Vector3f &from, float (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
-
-double triangle_area(const MeshArrays &meshes, uint32_t triangle) {
-    const Triangle &t = meshes.triangle[triangle];
-    const Eigen::Vector3d p0 = meshes.position[t[0]].cast<double>();
-    const Eigen::Vector3d e1 = meshes.position[t[1]].cast<double>() - p0;
-    const Eigen::Vector3d e2 = meshes.position[t[2]].cast<double>() - p0;
-    return 0.5 * e1.cross(e2).norm();
-}
-
-/// Adds the light of one emitting mesh and its triangles; selection among lights is filled in later.
-void add_mesh_light(const MeshArrays &meshes, uint32_t mesh, const Rgb &radiance, CompiledScene &compiled) {
-    std::vector<double> areas(meshes.triangle_count[mesh]);
-    for (uint32_t i = 0; i < areas.size(); ++i) {
-        areas[i] = triangle_area(meshes, meshes.first_triangle[mesh] + i);
-    }
-    const SelectionTable table = selection_table(areas);
-
-    LightRecord light{};
-    copy(radiance, light.radiance);
-    light.first_triangle = static_cast<uint32_t>(compiled.emitter_triangles.size());
-    light.triangle_count = meshes.triangle_count[mesh];
-    for (uint32_t i = 0; i < areas.size(); ++i) {
-        const uint32_t triangle = meshes.first_triangle[mesh] + i;
-        compiled.surface_triangles[triangle].emitter = static_cast<uint32_t>(compiled.emitter_triangles.size());
-        const double density = areas[i] > 0.0 ? table.probability[i] / areas[i] : 0.0;
-        compiled.emitter_triangles.push_back({triangle, static_cast<uint32_t>(compiled.lights.size()), table.end[i],
-                                              static_cast<float>(density)});
-    }
-    compiled.lights.push_back(light);
-}
-
-/// Selection probabilities: uniform, by power Phi = pi A L, or the mean of both (which bounds the loss of either).
-void select_lights(const std::vector<double> &powers, LightSelection selection, std::vector<LightRecord> &lights) {
-    const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
-    const double by_power = selection == LightSelection::uniform ? 0.0 : selection == LightSelection::power ? 1.0 : 0.5;
-    std::vector<double> weights(lights.size());
-    for (size_t i = 0; i < lights.size(); ++i) {
-        weights[i] = by_power * powers[i] / total + (1.0 - by_power) / static_cast<double>(lights.size());
-    }
-    const SelectionTable table = selection_table(weights);
-    for (size_t i = 0; i < lights.size(); ++i) {
-        lights[i].selection_end = table.end[i];
-        lights[i].selection = static_cast<float>(table.probability[i]);
+/// Corner normals of all triangles. A vertex without one, in a triangle that has others, has the geometric normal.
+void compile_normals(const MeshArrays &meshes, CompiledScene &compiled) {
+    compiled.triangle_normals.resize(meshes.triangle.size());
+    for (size_t i = 0; i < meshes.triangle.size() && !meshes.normal.empty(); ++i) {
+        TriangleNormals &corners = compiled.triangle_normals[i];
+        for (size_t corner = 0; corner < 3; ++corner) {
+            const Eigen::Vector3f &normal = meshes.normal[meshes.triangle[i][corner]];
+            if (normal.isZero()) {
+                std::copy_n(compiled.surface_triangles[i].normal, 3, corners.normal[corner]);
+            } else {
+                copy3(normal, corners.normal[corner]);
+                corners.is_smooth = 1;
+            }
+        }
     }
 }
 
@@ -102,74 +65,70 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     camera.width = static_cast<uint32_t>(width);
     camera.height = static_cast<uint32_t>(height);
     camera.pixel_area = static_cast<float>(pixel * pixel);
-    copy(Eigen::Vector3d(world.block<3, 1>(0, 3)), camera.position);
-    copy(Eigen::Vector3d(forward - 0.5 * pixel * width * right + 0.5 * pixel * height * up), camera.corner);
-    copy(Eigen::Vector3d(pixel * right), camera.step_x);
-    copy(Eigen::Vector3d(-pixel * up), camera.step_y);
+    copy3(Eigen::Vector3d(world.block<3, 1>(0, 3)), camera.position);
+    copy3(Eigen::Vector3d(forward - 0.5 * pixel * width * right + 0.5 * pixel * height * up), camera.corner);
+    copy3(Eigen::Vector3d(pixel * right), camera.step_x);
+    copy3(Eigen::Vector3d(-pixel * up), camera.step_y);
+    copy3(right, camera.axis_x);
+    copy3(up, camera.axis_y);
+    camera.aperture_radius = static_cast<float>(cameras.aperture_radius[index]);
+    // All of a pinhole's image is in focus; with 1 the lens code gives the pinhole's bits.
+    camera.focus_distance = camera.aperture_radius > 0.0f ? static_cast<float>(cameras.focus_distance[index]) : 1.0f;
     return camera;
 }
 
-CompiledScene compile_scene(const Scene &scene, int width, int height, LightSelection selection) {
-    const MeshArrays &meshes = scene.meshes();
-    CompiledScene compiled;
-    compiled.camera = compile_camera(scene.cameras(), static_cast<size_t>(scene.active_camera()), width, height);
-
+void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene &compiled) {
+    const MeshArrays &meshes = scene.meshes;
     compiled.surface_triangles.reserve(meshes.triangle.size());
     for (size_t i = 0; i < meshes.triangle.size(); ++i) {
         const Triangle &t = meshes.triangle[i];
         SurfaceTriangle surface{};
-        copy(meshes.position[t[0]], surface.p0);
-        copy(meshes.position[t[1]], surface.p1);
-        copy(meshes.position[t[2]], surface.p2);
+        copy3(meshes.position[t[0]], surface.p0);
+        copy3(meshes.position[t[1]], surface.p1);
+        copy3(meshes.position[t[2]], surface.p2);
         const float3 p0 = make_float3(surface.p0[0], surface.p0[1], surface.p0[2]);
         const float3 p1 = make_float3(surface.p1[0], surface.p1[1], surface.p1[2]);
         const float3 p2 = make_float3(surface.p2[0], surface.p2[1], surface.p2[2]);
         const float3 normal = triangle_normal(p0, p1, p2);
-        copy(Eigen::Vector3f(normal.x, normal.y, normal.z), surface.normal);
+        copy3(Eigen::Vector3f(normal.x, normal.y, normal.z), surface.normal);
         surface.extent = triangle_extent(p0, p1, p2);
         surface.material = meshes.material[meshes.triangle_mesh[i]];
         surface.emitter = NO_EMITTER;
         compiled.surface_triangles.push_back(surface);
     }
-
-    const MaterialArrays &materials = scene.materials();
-    bool scattering = false;
-    for (size_t i = 0; i < materials.name.size(); ++i) {
-        compiled.materials.push_back({materials.first_component[i], materials.component_count[i], 0, 0});
+    const auto any = [](const std::vector<uint8_t> &flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); };
+    const bool uv_read = compiled.features.has(Feature::textures) || compiled.features.has(Feature::tangents);
+    compiled.features = compiled.features.with(Feature::triangles, !meshes.triangle.empty())
+                            .with(Feature::smooth_normals, any(meshes.has_normals))
+                            .with(Feature::texture_coordinates, uv_read && any(meshes.has_uv));
+    if (every_array || compiled.features.has(Feature::smooth_normals)) {
+        compile_normals(meshes, compiled);
     }
-    for (const BxdfComponent &component : materials.component) {
-        BxdfRecord record{};
-        record.kind = BXDF_LAMBERT;
-        record.texture = NO_TEXTURE;
-        copy(component.weight, record.weight);
-        compiled.components.push_back(record);
-        scattering = scattering || component.weight.maxCoeff() > 0.0f;
-    }
-
-    const LightArrays &lights = scene.lights();
-    std::vector<double> powers;
-    bool light_triangles = false;
-    for (size_t i = 0; i < lights.mesh.size(); ++i) {
-        const uint32_t mesh = lights.mesh[i];
-        if (mesh == no_index || !(lights.area[i] > 0.0) || !(lights.radiance[i].maxCoeff() > 0.0f)) {
-            continue;  // a light that emits nothing is no emitter
+    if (every_array || compiled.features.has(Feature::texture_coordinates)) {
+        for (const Triangle &t : meshes.triangle) {
+            TriangleUv &uvs = compiled.triangle_uvs.emplace_back();
+            for (size_t corner = 0; corner < 3; ++corner) {
+                if (!meshes.uv.empty()) {
+                    std::copy_n(meshes.uv[t[corner]].data(), 2, uvs.uv[corner]);
+                }
+            }
         }
-        add_mesh_light(meshes, mesh, lights.radiance[i], compiled);
-        powers.push_back(pi * lights.area[i] * static_cast<double>(lights.radiance[i].mean()));
-        light_triangles = light_triangles || meshes.triangle_count[mesh] > 1;
     }
-    if (!compiled.lights.empty()) {
-        select_lights(powers, selection, compiled.lights);
-    }
+}
 
-    compiled.features = FeatureMask()
-                            .with(Feature::triangles, !compiled.surface_triangles.empty())
-                            .with(Feature::area_lights, !compiled.emitter_triangles.empty())
-                            .with(Feature::lights, !compiled.lights.empty())
-                            .with(Feature::many_lights, compiled.lights.size() > 1)
-                            .with(Feature::light_triangles, light_triangles)
-                            .with(Feature::scattering, scattering)
-                            .with(Feature::lambert, scattering);
+CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings) {
+    CompiledScene compiled;
+    compiled.camera =
+        compile_camera(scene.cameras(), static_cast<size_t>(scene.active_camera()), settings.width, settings.height);
+    compiled.features = compiled.features.with(Feature::lens, compiled.camera.aperture_radius > 0.0f);
+    compile_materials(scene.arrays(), compiled);
+    compile_triangles(scene.arrays(), settings.every_array, compiled);
+    compiled.shapes = compile_shapes(scene.arrays().shapes);
+    for (ShapeRecord &shape : compiled.shapes) {
+        shape.light = NO_EMITTER;  // compile_lights says which of them emit
+    }
+    compiled.features = compiled.features | shape_features(scene.arrays().shapes);
+    compile_lights(scene.arrays(), settings, compiled);
     return compiled;
 }
 

@@ -16,15 +16,62 @@ constexpr std::array<std::pair<Feature, const char *>, static_cast<size_t>(Featu
 #undef ROW
 }};
 
-/// What a feature's code is built upon.
+/// What a feature's code is built upon: without the second the first is off.
 constexpr std::pair<Feature, Feature> requirements[] = {
-    {Feature::scattering, Feature::triangles},       {Feature::lights, Feature::triangles},
-    {Feature::lambert, Feature::scattering},         {Feature::roulette, Feature::scattering},
-    {Feature::adaptive, Feature::scattering},        {Feature::depth_limit, Feature::scattering},
-    {Feature::implicit_light, Feature::lights},      {Feature::implicit_light, Feature::scattering},
-    {Feature::explicit_light, Feature::lights},      {Feature::explicit_light, Feature::scattering},
-    {Feature::many_lights, Feature::explicit_light}, {Feature::light_triangles, Feature::explicit_light},
+    {Feature::smooth_normals, Feature::triangles},
+    {Feature::texture_coordinates, Feature::triangles},
+    {Feature::quadrics, Feature::shapes},
+    {Feature::julia, Feature::shapes},
+    {Feature::composite, Feature::scattering},
+    {Feature::one_sided, Feature::scattering},
+    {Feature::lambert, Feature::scattering},
+    {Feature::oren_nayar, Feature::scattering},
+    {Feature::ideal_reflection, Feature::scattering},
+    {Feature::ideal_refraction, Feature::scattering},
+    {Feature::blinn, Feature::scattering},
+    {Feature::ward, Feature::scattering},
+    {Feature::ward_original, Feature::scattering},
+    {Feature::microfacet_reflection, Feature::scattering},
+    {Feature::microfacet_refraction, Feature::scattering},
+    {Feature::fresnel, Feature::scattering},
+    {Feature::fresnel_dielectric, Feature::fresnel},
+    {Feature::fresnel_conductor, Feature::fresnel},
+    {Feature::fresnel_conductor_approximate, Feature::fresnel},
+    {Feature::fresnel_schlick, Feature::fresnel},
+    {Feature::textures, Feature::scattering},
+    {Feature::tangents, Feature::scattering},
+    {Feature::roulette, Feature::scattering},
+    {Feature::adaptive, Feature::scattering},
+    {Feature::depth_limit, Feature::scattering},
+    {Feature::implicit_light, Feature::scattering},
+    {Feature::implicit_light, Feature::lights},
+    {Feature::explicit_light, Feature::scattering},
+    {Feature::explicit_light, Feature::lights},
     {Feature::area_lights, Feature::lights},
+    {Feature::area_lights, Feature::triangles},
+    {Feature::light_triangles, Feature::area_lights},
+    {Feature::shape_lights, Feature::lights},
+    {Feature::shape_lights, Feature::quadrics},
+    {Feature::infinite_lights, Feature::lights},
+    {Feature::dome, Feature::infinite_lights},
+    {Feature::environment, Feature::infinite_lights},
+    {Feature::light_triangles, Feature::explicit_light},
+    {Feature::point_lights, Feature::explicit_light},
+    {Feature::spot_lights, Feature::explicit_light},
+    {Feature::directional_lights, Feature::explicit_light},
+    {Feature::many_lights, Feature::explicit_light},
+    {Feature::independent_lights, Feature::explicit_light},
+};
+
+/// What exists only to serve others: off unless one of them is on.
+constexpr std::pair<Feature, std::array<Feature, 2>> servants[] = {
+    {Feature::scattering, {Feature::triangles, Feature::shapes}},
+    {Feature::shapes, {Feature::quadrics, Feature::julia}},
+    {Feature::infinite_lights, {Feature::dome, Feature::environment}},
+    {Feature::delta, {Feature::ideal_reflection, Feature::ideal_refraction}},
+    {Feature::refraction, {Feature::ideal_refraction, Feature::microfacet_refraction}},
+    {Feature::ggx, {Feature::microfacet_reflection, Feature::microfacet_refraction}},
+    {Feature::beckmann, {Feature::microfacet_reflection, Feature::microfacet_refraction}},
 };
 
 }  // namespace
@@ -49,10 +96,21 @@ std::map<std::string, std::string> FeatureMask::defines() const {
 
 FeatureMask FeatureMask::closed() const {
     FeatureMask mask = *this;
-    for (const auto &[feature, needed] : requirements) {  // ordered: a requirement stands before its dependents
-        mask = mask.with(feature, mask.has(feature) && mask.has(needed));
+    const auto drop = [&] {
+        for (const auto &[feature, served] : servants) {
+            mask = mask.with(feature, mask.has(feature) && (mask.has(served[0]) || mask.has(served[1])));
+        }
+        for (const auto &[feature, needed] : requirements) {
+            mask = mask.with(feature, mask.has(feature) && mask.has(needed));
+        }
+    };
+    // Until nothing is dropped any more: each turn drops at least one of finitely many.
+    for (FeatureMask before = FeatureMask::all(); before.bits() != mask.bits();) {
+        before = mask;
+        drop();
     }
-    return mask;
+    return mask.with(Feature::direction_density,
+                     mask.has(Feature::implicit_light) || (mask.has(Feature::delta) && mask.has(Feature::lights)));
 }
 
 std::vector<PathStateField> path_state_fields(FeatureMask mask) {
@@ -62,9 +120,9 @@ std::vector<PathStateField> path_state_fields(FeatureMask mask) {
             fields.push_back({name, std::string(type) == "float3" ? 3u : 1u});
         }
     };
-    const bool FEATURE_scattering = mask.has(Feature::scattering);
-    const bool FEATURE_implicit_light = mask.has(Feature::implicit_light);
-    const bool FEATURE_explicit_light = mask.has(Feature::explicit_light);
+#define FEATURE_VARIABLE(name, text) [[maybe_unused]] const bool FEATURE_##name = mask.has(Feature::name);
+    RTRAYS_FEATURES(FEATURE_VARIABLE)
+#undef FEATURE_VARIABLE
 #define ROW(feature, type, name) add(feature, #type, #name);
     PATH_STATE_FIELDS(ROW)
 #undef ROW

@@ -13,6 +13,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/bvh/builder.h"
 #include "renderer/integrators/path_tracing.h"
+#include "renderer/pipeline/scene_buffers.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shared/film_layout.h"
@@ -51,7 +52,8 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
 }
 
 FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings, const DeviceInfo &info) {
-    FeatureMask features = FeatureMask::all().with(Feature::variance, settings.variance);
+    FeatureMask features = FeatureMask::all().with(Feature::variance, settings.variance)
+                               .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
     if (settings.features == "scene") {
         features = settings_features(settings) | compiled.features;
     }
@@ -77,14 +79,16 @@ struct RenderSession::State {
           settings(complete(requested, scene)),
           layout(stream_layout(settings, device_context.info())),
           numbers(integrator_settings(settings)),
-          compiled(compile_scene(scene, settings.width, settings.height, light_selection(settings))),
+          compiled(compile_scene(scene, compile_settings(settings))),
           features(select_features(compiled, settings, device_context.info())),
-          round(path_tracing_round(features)),
+          round(path_tracing_round(features, compiled.lighting.light_count)),
           stages(device_context, all_stages(), features, layout, settings.source_overlays) {
         scene_hash = scene.hash();
         config = content_hash(scene_hash + image_settings(settings).dump());
         compile_seconds = stages.build_seconds();
-        build_bvh(scene.meshes());
+        if (features.has(Feature::triangles)) {
+            build_bvh(scene.meshes());
+        }
         allocate();
         bind();
         warm_up();
@@ -92,7 +96,9 @@ struct RenderSession::State {
 
     std::vector<std::string> all_stages() const {
         std::vector<std::string> names = {"reset_streams", "carry_film"};
-        names.insert(names.end(), round.begin(), round.end());
+        for (const RoundStage &stage : round) {
+            names.push_back(stage.name);
+        }
         return names;
     }
 
@@ -110,15 +116,7 @@ struct RenderSession::State {
 
     void allocate() {
         const uint64_t capacity = layout.capacity;
-        surface_triangles = Buffer<SurfaceTriangle>(device, "surface_triangles", compiled.surface_triangles);
-        if (features.has(Feature::scattering)) {
-            materials = Buffer<MaterialRecord>(device, "materials", compiled.materials);
-            components = Buffer<BxdfRecord>(device, "components", compiled.components);
-        }
-        if (features.has(Feature::lights)) {
-            lights = Buffer<LightRecord>(device, "lights", compiled.lights);
-            emitter_triangles = Buffer<EmitterTriangle>(device, "emitter_triangles", compiled.emitter_triangles);
-        }
+        scene_buffers = SceneBuffers(device, compiled, features);
         path_words = Buffer<uint32_t>(device, "path_states", capacity * path_state_words(features));
         queues = Buffer<uint32_t>(device, "queues", capacity * STREAM_QUEUES);
         counters = Buffer<StreamCounters>(device, "counters", 1);
@@ -129,27 +127,16 @@ struct RenderSession::State {
 
     void bind() {
         using In = StageInput;
-        StageArguments arguments = {
-            {In::bvh, {bvh.nodes(), bvh.triangles()}},
-            {In::surfaces, {surface_triangles}},
-            {In::lights, {}},
-            {In::camera, {compiled.camera}},
-            {In::film, {film}},
-            {In::film_sums, {static_cast<uint32_t>(film_sums())}},
-            {In::first_sample, {uint64_t{0}}},
-            {In::work, {uint32_t{0}}},
-            {In::streams, {path_words, queues, counters, layout.capacity}},
-            {In::counters, {counters}},
-            {In::settings, {numbers}},
-        };
-        if (features.has(Feature::scattering)) {
-            arguments[In::surfaces].emplace_back(materials);
-            arguments[In::surfaces].emplace_back(components);
-        }
-        if (features.has(Feature::lights)) {
-            arguments[In::lights] = {lights, emitter_triangles};
-        }
-        arguments[In::lights].emplace_back(static_cast<uint32_t>(compiled.lights.size()));
+        StageArguments arguments = scene_buffers.arguments(bvh.nodes(), bvh.triangles());
+        arguments[In::camera] = {compiled.camera};
+        arguments[In::film] = {film};
+        arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
+        arguments[In::first_sample] = {uint64_t{0}};
+        arguments[In::chosen_light] = {uint32_t{SELECT_LIGHT}};
+        arguments[In::work] = {uint32_t{0}};
+        arguments[In::streams] = {path_words, queues, counters, layout.capacity};
+        arguments[In::counters] = {counters};
+        arguments[In::settings] = {numbers};
         stages.bind(arguments);
     }
 
@@ -187,8 +174,11 @@ struct RenderSession::State {
         std::array<ClEvent, 2> read;
         for (int check = 0;; ++check) {
             for (int i = 0; i < rounds_per_check; ++i) {
-                for (const std::string &stage : round) {
-                    enqueue(stage);
+                for (const RoundStage &stage : round) {
+                    if (stage.chosen_light != SELECT_LIGHT) {
+                        stages.bind({{StageInput::chosen_light, {stage.chosen_light}}});
+                    }
+                    enqueue(stage.name);
                 }
             }
             const int now = check % 2;
@@ -245,7 +235,7 @@ struct RenderSession::State {
     IntegratorSettings numbers;
     CompiledScene compiled;
     FeatureMask features;
-    std::vector<std::string> round;
+    std::vector<RoundStage> round;
     StageSet stages;
     std::string scene_hash;
     std::string config;
@@ -253,11 +243,7 @@ struct RenderSession::State {
     Bvh bvh;
     std::map<std::string, Profiler::Stage> bvh_stages;
     std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
-    Buffer<SurfaceTriangle> surface_triangles;
-    Buffer<MaterialRecord> materials;
-    Buffer<BxdfRecord> components;
-    Buffer<LightRecord> lights;
-    Buffer<EmitterTriangle> emitter_triangles;
+    SceneBuffers scene_buffers;
     Buffer<uint32_t> path_words;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
@@ -394,11 +380,7 @@ nlohmann::json RenderSession::report() const {
     };
     add_buffer(s.bvh.nodes());
     add_buffer(s.bvh.triangles());
-    add_buffer(s.surface_triangles);
-    add_buffer(s.materials);
-    add_buffer(s.components);
-    add_buffer(s.lights);
-    add_buffer(s.emitter_triangles);
+    s.scene_buffers.visit(add_buffer);
     add_buffer(s.path_words);
     add_buffer(s.queues);
     add_buffer(s.counters);

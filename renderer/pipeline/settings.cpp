@@ -50,8 +50,10 @@ const std::vector<Setting> &setting_table() {
          "largest continuation probability of roulette"},
         {"integrator.adaptive_threshold", NumberSetting{&S::adaptive_threshold, 0.0f, 1e3f},
          "throughput below which adaptive termination stops"},
-        {"integrator.light_selection", TextSetting{&S::light_selection, {"uniform", "power", "mixed"}},
-         "probability of a light"},
+        {"integrator.light_selection", TextSetting{&S::light_selection, {"uniform", "power", "mixed", "independent"}},
+         "probability of a light; independent: all of them at every vertex"},
+        {"integrator.sphere_sampling", TextSetting{&S::sphere_sampling, {"cone", "area"}},
+         "how sphere lights are sampled from a point; area is the thesis' choice"},
         {"device.group_size", CountSetting{&S::group_size, 4096}, "work-items per group, 0: by device"},
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
@@ -171,10 +173,13 @@ IntegratorSettings integrator_settings(const RenderSettings &settings) {
     return numbers;
 }
 
-LightSelection light_selection(const RenderSettings &settings) {
-    return settings.light_selection == "uniform" ? LightSelection::uniform
-           : settings.light_selection == "power" ? LightSelection::power
-                                                 : LightSelection::mixed;
+CompileSettings compile_settings(const RenderSettings &settings) {
+    const LightSelection selection = settings.light_selection == "uniform"       ? LightSelection::uniform
+                                     : settings.light_selection == "power"       ? LightSelection::power
+                                     : settings.light_selection == "independent" ? LightSelection::independent
+                                                                                 : LightSelection::mixed;
+    return {settings.width, settings.height, selection, settings.sphere_sampling == "area",
+            settings.features == "all"};
 }
 
 FeatureMask settings_features(const RenderSettings &settings) {

@@ -28,7 +28,8 @@ struct RenderSettings {
     uint32_t max_depth = 0;                 ///< scattering events, 0: no limit
     float max_continuation = 0x1.ffffep-1f;  ///< largest continuation probability of roulette, in (0, 1); 1 - 2^-20
     float adaptive_threshold = 0.01f;       ///< throughput below which adaptive termination stops
-    std::string light_selection = "mixed";  ///< uniform | power | mixed
+    std::string light_selection = "mixed";  ///< uniform | power | mixed | independent
+    std::string sphere_sampling = "cone";   ///< cone | area
 
     // device.*
     uint32_t group_size = 0;                ///< work-items per group, 0: the device's default
@@ -60,8 +61,7 @@ const std::vector<std::string> &algorithm_names();
 
 /// The numbers as the stages take them.
 IntegratorSettings integrator_settings(const RenderSettings &settings);
-
-LightSelection light_selection(const RenderSettings &settings);
+CompileSettings compile_settings(const RenderSettings &settings);
 
 /// The features that the settings add to those of the scene.
 FeatureMask settings_features(const RenderSettings &settings);

@@ -11,7 +11,9 @@
 namespace rtrays {
 
 /// What a stage takes, in the order of its parameters; each stands for one or more kernel parameters.
-enum class StageInput { bvh, surfaces, lights, camera, film, film_sums, settings, first_sample, work, streams, counters };
+enum class StageInput {
+    geometry, surfaces, materials, lights, camera, film, film_sums, settings, first_sample, chosen_light, work, streams, counters
+};
 
 /// One block of the pipeline: one kernel.
 struct StageDescription {

@@ -18,6 +18,8 @@
 #define DEVICE static inline
 #define GLOBAL __global
 #define PRIVATE __private
+#define CONSTANT __constant
+#define MAYBE_UNUSED
 
 #define make_float2(x, y) ((float2)((x), (y)))
 #define make_float3(x, y, z) ((float3)((x), (y), (z)))
@@ -37,6 +39,8 @@
 #define DEVICE [[maybe_unused]] static inline
 #define GLOBAL
 #define PRIVATE
+#define CONSTANT static const
+#define MAYBE_UNUSED [[maybe_unused]]  // for parameters that only some features read
 
 using uint = unsigned int;
 using ulong = unsigned long;

@@ -27,6 +27,7 @@
     X(composite, "a material has more than one component")                                          \
     X(one_sided, "a material is black from behind")                                                 \
     X(delta, "a BxDF is a delta distribution")                                                      \
+    X(refraction, "a BxDF refracts")                                                                \
     X(lambert, "diffuse reflection")                                                                \
     X(oren_nayar, "rough diffuse reflection")                                                       \
     X(ideal_reflection, "mirrors")                                                                  \
@@ -46,6 +47,7 @@
     X(textures, "a weight has a texture")                                                           \
     /* lights */                                                                                    \
     X(lights, "the scene has emitters")                                                             \
+    X(direction_density, "paths carry the density of their direction")                              \
     X(many_lights, "more than one light: a selection table is searched")                            \
     X(independent_lights, "every vertex is joined to every light, one after the other")             \
     X(area_lights, "emitting triangles")                                                            \

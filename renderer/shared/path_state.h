@@ -15,13 +15,18 @@
     X(ALWAYS, float3, ray_origin)            /* of the path's ray, then of its shadow ray */      \
     X(ALWAYS, float3, ray_direction)         /* unit; the path's ray */                           \
     X(ALWAYS, float3, radiance)              /* gathered so far, W / (sr m^2) */                  \
-    X(ALWAYS, uint, hit_triangle)            /* NO_HIT for a miss */                              \
-    X(ALWAYS, float, hit_u)                                                                       \
-    X(ALWAYS, float, hit_v)                                                                       \
+    X(ALWAYS, uint, hit_primitive)           /* NO_HIT, a triangle, or SHAPE_BIT and a shape */   \
+    X(ALWAYS, float, hit_u)                  /* barycentrics; of a shape: the point in its */     \
+    X(ALWAYS, float, hit_v)                  /* object space */                                   \
+    X(FEATURE_shapes, float, hit_w)                                                               \
     X(FEATURE_scattering, float3, throughput)                                                     \
-    X(FEATURE_implicit_light, float, pdf_w)  /* of ray_direction, per solid angle */              \
+    X(FEATURE_refraction, float, boundary_scale) /* part of the throughput: (3.40) along the path */ \
+    X(FEATURE_direction_density, float, pdf_w) /* of ray_direction, per solid angle; INFINITY: delta */ \
     X(FEATURE_explicit_light, float3, shadow_vector)  /* from ray_origin to the light sample */   \
     X(FEATURE_explicit_light, float3, shadow_radiance) /* gathered unless the way is blocked */
+
+/// Tells shapes from triangles in `hit_primitive`; NO_HIT has it too.
+#define SHAPE_BIT 0x80000000u
 
 #ifdef __OPENCL_VERSION__
 

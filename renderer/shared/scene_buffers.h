@@ -1,33 +1,51 @@
 // SPDX-License-Identifier: MIT
-// The scene's buffers as kernel parameters, declared once: the kernels' parameter lists and the host's bindings
-// both come from these tables.
+// The scene's buffers, declared once: the kernels' parameter lists, the host's buffers and their bindings all come
+// from these tables.
 #pragma once
 
+#include "compat.h"
 #include "declare.h"
 
 // X(feature, type, name)
-#define SURFACE_BUFFERS(X)                                       \
-    X(FEATURE_triangles, SurfaceTriangle, surface_triangles)     \
-    X(FEATURE_scattering, MaterialRecord, materials)             \
-    X(FEATURE_scattering, BxdfRecord, components)
+#define GEOMETRY_BUFFERS(X)                               \
+    X(FEATURE_triangles, BvhNode, bvh_nodes)              \
+    X(FEATURE_triangles, LeafTriangle, bvh_triangles)
 
-#define LIGHT_BUFFERS(X)                      \
-    X(FEATURE_lights, LightRecord, lights)    \
-    X(FEATURE_lights, EmitterTriangle, emitter_triangles)
+#define SURFACE_BUFFERS(X)                                    \
+    X(FEATURE_triangles, SurfaceTriangle, surface_triangles)  \
+    X(FEATURE_smooth_normals, TriangleNormals, triangle_normals) \
+    X(FEATURE_texture_coordinates, TriangleUv, triangle_uvs)  \
+    X(FEATURE_shapes, ShapeRecord, shapes)
 
-#ifdef __OPENCL_VERSION__
+#define MATERIAL_BUFFERS(X)                           \
+    X(FEATURE_scattering, MaterialRecord, materials)  \
+    X(FEATURE_scattering, BxdfRecord, components)     \
+    X(FEATURE_textures, TextureRecord, textures)      \
+    X(FEATURE_textures, uint, texels)
+
+#define LIGHT_BUFFERS(X)                                       \
+    X(FEATURE_lights, LightRecord, lights)                     \
+    X(FEATURE_area_lights, EmitterTriangle, emitter_triangles) \
+    X(FEATURE_environment, float, environment_texels)          \
+    X(FEATURE_environment, uint, environment_ends)
 
 // A stage's parameters: buffers of the scene (these lists end in a comma), its own, and the stream last.
-#define BVH_PARAMETERS GLOBAL const BvhNode *bvh_nodes, GLOBAL const LeafTriangle *bvh_triangles,
-#define BUFFER_PARAMETER(type, name) GLOBAL const type *name,
+#define BUFFER_PARAMETER(type, name) MAYBE_UNUSED GLOBAL const type *name,
 #define X_PARAMETER(feature, type, name) WHEN(feature, BUFFER_PARAMETER(type, name))
+#define SHAPE_COUNT_PARAMETER uint shape_count,
+#define GEOMETRY_PARAMETERS \
+    GEOMETRY_BUFFERS(X_PARAMETER) X_PARAMETER(FEATURE_shapes, ShapeRecord, shapes) WHEN(FEATURE_shapes, SHAPE_COUNT_PARAMETER)
 #define SURFACE_PARAMETERS SURFACE_BUFFERS(X_PARAMETER)
-#define LIGHT_PARAMETERS LIGHT_BUFFERS(X_PARAMETER) uint light_count,
+#define MATERIAL_PARAMETERS MATERIAL_BUFFERS(X_PARAMETER)
+#define LIGHT_PARAMETERS LIGHT_BUFFERS(X_PARAMETER) MAYBE_UNUSED LightingRecord lighting,
 // The same as arguments of a device function.
 #define BUFFER_ARGUMENT(type, name) name,
 #define X_ARGUMENT(feature, type, name) WHEN(feature, BUFFER_ARGUMENT(type, name))
+#define SHAPE_COUNT_ARGUMENT shape_count,
+#define GEOMETRY_ARGUMENTS \
+    GEOMETRY_BUFFERS(X_ARGUMENT) X_ARGUMENT(FEATURE_shapes, ShapeRecord, shapes) WHEN(FEATURE_shapes, SHAPE_COUNT_ARGUMENT)
 #define SURFACE_ARGUMENTS SURFACE_BUFFERS(X_ARGUMENT)
-#define LIGHT_ARGUMENTS LIGHT_BUFFERS(X_ARGUMENT) light_count,
-#define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity
+#define MATERIAL_ARGUMENTS MATERIAL_BUFFERS(X_ARGUMENT)
+#define LIGHT_ARGUMENTS LIGHT_BUFFERS(X_ARGUMENT) lighting,
 
-#endif
+#define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity

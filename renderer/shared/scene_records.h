@@ -46,6 +46,7 @@ typedef struct MaterialRecord {
 #define MATERIAL_BOUNDARY 1u   ///< refracts: the indices on its two sides differ, its sides are told apart
 #define MATERIAL_ONE_SIDED 2u  ///< black from behind
 #define MATERIAL_DELTA 4u      ///< all components are deltas: there is nothing to join to a light
+#define MATERIAL_TURNS 8u      ///< looks different when the tangent turns: anisotropic
 
 /// One atomic BxDF of a material (renderer/scene/stores.h says what each is).
 typedef struct BxdfRecord {
@@ -102,7 +103,8 @@ typedef struct TextureRecord {
 /// Shading normals and texture coordinates of a triangle's corners, each in a buffer that exists where needed.
 typedef struct TriangleNormals {
     float normal[3][3];
-    float padding[3];
+    uint is_smooth;      ///< 0: the geometric normal holds, the others say nothing
+    uint padding[2];
 } TriangleNormals;
 typedef struct TriangleUv {
     float uv[3][2];
@@ -160,12 +162,26 @@ typedef struct LightRecord {
 
 #define LIGHT_MESH 0u
 #define LIGHT_DISC 1u
-#define LIGHT_SPHERE 2u
-#define LIGHT_POINT 3u
-#define LIGHT_SPOT 4u
-#define LIGHT_DIRECTIONAL 5u
-#define LIGHT_DOME 6u
-#define LIGHT_ENVIRONMENT 7u
+#define LIGHT_SPHERE 2u          ///< sampled by the cone it subtends
+#define LIGHT_SPHERE_BY_AREA 3u  ///< sampled uniformly by area, as the thesis does
+#define LIGHT_POINT 4u
+#define LIGHT_SPOT 5u
+#define LIGHT_DIRECTIONAL 6u
+#define LIGHT_DOME 7u
+#define LIGHT_ENVIRONMENT 8u
+
+/// What the lights have in common.
+typedef struct LightingRecord {
+    uint light_count;
+    uint infinite_light;      ///< index of the one light at infinity, NO_EMITTER for none
+    float far_distance;       ///< a shadow ray of that length leaves the scene
+    uint environment_width;   ///< texels
+    uint environment_height;
+    uint padding[3];
+} LightingRecord;
+
+/// `chosen` of stage sample_light: the light is selected at random.
+#define SELECT_LIGHT 0xffffffffu
 
 /// A triangle of a mesh light.
 typedef struct EmitterTriangle {
@@ -185,5 +201,6 @@ static_assert(sizeof(TriangleNormals) == 48, "layout shared with the device");
 static_assert(sizeof(TriangleUv) == 24, "layout shared with the device");
 static_assert(sizeof(ShapeRecord) == 144, "layout shared with the device");
 static_assert(sizeof(LightRecord) == 96, "layout shared with the device");
+static_assert(sizeof(LightingRecord) == 32, "layout shared with the device");
 static_assert(sizeof(EmitterTriangle) == 16, "layout shared with the device");
 #endif

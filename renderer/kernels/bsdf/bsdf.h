@@ -1,67 +1,212 @@
 // SPDX-License-Identifier: MIT
-// Reflection at a surface. Directions wi and wo are unit vectors pointing away from the surface; wo leads to where
-// the path came from. Densities are per solid angle. Each model's sample, evaluate and pdf stand together.
+// The BSDF of a material: the sum of its components (thesis 3.51), and directions sampled from it.
+//
+// Directions wi and wo are unit vectors pointing away from the surface; wo leads to where the path came from.
+// Densities are per solid angle. What holds of the records (the scene's loader sees to it): eta > 0; a
+// refracting component has a dielectric or ideal Fresnel term, and an index other than 1 where it is rough;
+// roughness in [1e-4, 1].
 #pragma once
 
-#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/kernels/bsdf/component.h"
+#include "renderer/kernels/bsdf/surface_frame.h"
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-/// A sampled direction. `weight` is f |cos| / pdf_w; pdf_w is 0 when nothing was sampled.
+/// What bsdf_evaluate says of a direction.
+typedef struct BsdfValue {
+    float3 f_cos;  ///< f |cos(ns, wi)|, 1/sr, delta components left out
+    float pdf_w;  ///< density per solid angle with which bsdf_sample gives it, deltas left out: thesis 2.7.4,
+                  ///< but the sum over the components
+} BsdfValue;
+
+/// A sampled direction.
 typedef struct BsdfSample {
     float3 wi;
-    float3 weight;
-    float pdf_w;
+    float3 weight;  ///< f |cos(ns, wi)| / pdf_w over all components but deltas. Of a delta: coefficient /
+                    ///< probability
+    float pdf_w;  ///< per solid angle; 0: nothing was sampled, the path ends; INFINITY: wi is that of a delta
+    float scale;    ///< the factor of weight that (3.40) puts on radiance crossing a boundary; 1 for reflection
 } BsdfSample;
 
-#if FEATURE_lambert
-
-// Lambert reflector, thesis (3.31): f = reflectance / pi on wo's side of the surface. The normal `n` is on that
-// side.
-
-DEVICE float3 lambert_evaluate(BxdfRecord component, float3 n, float3 wi) {
-    const float3 reflectance = make_float3(component.weight[0], component.weight[1], component.weight[2]);
-    return dot(n, wi) > 0.0f ? reflectance * INV_PI : make_float3(0.0f, 0.0f, 0.0f);
+/// A unit vector in the frame. Normalised: where narrow lobes are seen at a grazing angle the sum wo + wi is
+/// short, and an error of 1e-7 in either length shifts its slope by more than that of the direction itself.
+DEVICE float3 to_local(SurfaceFrame frame, float3 w) {
+    return normalize(make_float3(dot(frame.x, w), dot(frame.y, w), dot(frame.ns, w)));
 }
 
-DEVICE float lambert_pdf(float3 n, float3 wi) { return max(dot(n, wi), 0.0f) * INV_PI; }
+/// Whether light may pass between wo (on the front of both normals) and a direction of the given local
+/// height: not where it is on different sides of the geometric and the shading normal, nor in the plane of
+/// the latter (lobe.h).
+DEVICE bool sides_agree(SurfaceFrame frame, float3 wi, float local_z) {
+    if (!(fabs(local_z) >= MIN_COSINE)) {
+        return false;
+    }
+#if FEATURE_smooth_normals
+    return dot(frame.ng, wi) * local_z > 0.0f;
+#else
+    (void)frame;
+    (void)wi;
+    return true;
+#endif
+}
 
-DEVICE BsdfSample lambert_sample(BxdfRecord component, float3 n, float u, float v) {
-    const float3 tangent_wi = sample_cosine_hemisphere(u, v);
+/// Whether anything is seen from wo at all. A boundary cannot be one-sided: light comes through.
+DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos_wo) {
+#if FEATURE_one_sided
+    if (frame.front == 0u &&
+        (material.flags & (MATERIAL_ONE_SIDED | MATERIAL_BOUNDARY)) == MATERIAL_ONE_SIDED) {
+        return false;
+    }
+#else
+    (void)frame;
+#endif
+#if FEATURE_composite
+    if (material.component_count == 0u) {
+        return false;
+    }
+#else
+    (void)material;
+#endif
+    return cos_wo >= MIN_COSINE;
+}
+
+/// bsdf_evaluate in local directions whose sides agree.
+DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame,
+                                     float3 wo, float3 wi) {
+    BsdfValue value;
+    GLOBAL const BxdfRecord *component = components + material.first_component;
+    const float eta = component_eta(component, material.flags, frame.front);
+    const float3 colour = component_colour(MATERIAL_ARGUMENTS component, frame.uv);
+    const Lobe lobe = component_evaluate(component, eta, wo, wi);
+    value.pdf_w = lobe.pdf_w;
+    value.f_cos = colour * component_fresnel(component, eta, lobe.cosine, wi) * lobe.f_cos;
+#if FEATURE_composite
+    // A material of one component, of which nothing is drawn, ends here with the bits it has in a scene
+    // without others.
+    if (material.component_count > 1u) {
+        float shares = component_share(component, eta, wo, colour);
+        value.pdf_w *= shares;
+        for (uint i = 1u; i < material.component_count; ++i) {
+            GLOBAL const BxdfRecord *other = component + i;
+            const float other_eta = component_eta(other, material.flags, frame.front);
+            const float3 other_colour = component_colour(MATERIAL_ARGUMENTS other, frame.uv);
+            const float share = component_share(other, other_eta, wo, other_colour);
+            const Lobe other_lobe = component_evaluate(other, other_eta, wo, wi);
+            shares += share;
+            value.pdf_w += share * other_lobe.pdf_w;
+            value.f_cos +=
+                other_colour * component_fresnel(other, other_eta, other_lobe.cosine, wi) * other_lobe.f_cos;
+        }
+        value.pdf_w = shares > 0.0f ? value.pdf_w / shares : 0.0f;
+    }
+#endif
+    return value;
+}
+
+/// f |cos(ns, wi)| and the density of bsdf_sample; both 0 where the sides of the geometric and the shading
+/// normal disagree.
+DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float3 wi) {
+    const MaterialRecord record = materials[material];
+    const float3 local_wo = to_local(frame, frame.wo);
+    const float3 local_wi = to_local(frame, wi);
+    bool dark = !side_scatters(record, frame, local_wo.z) || !sides_agree(frame, wi, local_wi.z);
+#if FEATURE_delta
+    dark = dark || (record.flags & MATERIAL_DELTA) != 0u;
+#endif
+    if (dark) {
+        BsdfValue nothing;
+        nothing.f_cos = make_float3(0.0f, 0.0f, 0.0f);
+        nothing.pdf_w = 0.0f;
+        return nothing;
+    }
+    return bsdf_evaluate_local(MATERIAL_ARGUMENTS record, frame, local_wo, local_wi);
+}
+
+/// A component drawn by its share. False when all shares are 0. `probability` is the share over the sum of
+/// all.
+DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame, float3 wo,
+                             float select, uint *selected, float *probability) {
+    *selected = material.first_component;
+    *probability = 1.0f;
+#if FEATURE_composite
+    if (material.component_count == 1u) {
+        return true;
+    }
+    // One pass, however many: each component takes over from the one before with its share of the sum so far,
+    // and what remains of the random number is uniform again.
+    float shares = 0.0f, share = 0.0f;
+    for (uint i = 0u; i < material.component_count; ++i) {
+        const uint index = material.first_component + i;
+        GLOBAL const BxdfRecord *component = components + index;
+        const float eta = component_eta(component, material.flags, frame.front);
+        const float candidate =
+            component_share(component, eta, wo, component_colour(MATERIAL_ARGUMENTS component, frame.uv));
+        if (candidate > 0.0f) {
+            shares += candidate;
+            const float take_over = candidate / shares;
+            if (select < take_over) {
+                *selected = index;
+                share = candidate;
+                select = select / take_over;
+            } else {
+                select = (select - take_over) / (1.0f - take_over);
+            }
+        }
+    }
+    *probability = share / shares;
+    return share > 0.0f;
+#else
+    (void)frame;
+    (void)wo;
+    (void)select;
+    return true;
+#endif
+}
+
+/// A direction, from `select`, u and v in [0, 1).
+DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float select, float u,
+                              float v) {
     BsdfSample sample;
-    sample.wi = normalize(to_world(frame_from_z(n), tangent_wi));
-    sample.weight = make_float3(component.weight[0], component.weight[1], component.weight[2]);
-    sample.pdf_w = tangent_wi.z * INV_PI;
+    sample.wi = frame.ns;
+    sample.weight = make_float3(0.0f, 0.0f, 0.0f);
+    sample.pdf_w = 0.0f;
+    sample.scale = 1.0f;
+    const MaterialRecord record = materials[material];
+    const float3 wo = to_local(frame, frame.wo);
+    uint selected = 0u;
+    float probability = 0.0f;
+    if (!side_scatters(record, frame, wo.z) ||
+        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &selected, &probability)) {
+        return sample;
+    }
+    GLOBAL const BxdfRecord *component = components + selected;
+    const float eta = component_eta(component, record.flags, frame.front);
+    const float3 wi = component_direction(component, eta, wo, u, v);
+    // Normalised: what rounding leaves would grow along the path.
+    const float3 world = frame.x * wi.x + frame.y * wi.y + frame.ns * wi.z;
+    const float length2 = dot(world, world);
+    sample.wi = length2 > 0.0f ? world / sqrt(length2) : frame.ns;
+    // A direction that leaves the component's own side is lost. It must not pass for one of another
+    // component, whose density does not count it.
+    if (!sides_agree(frame, sample.wi, wi.z) || (wi.z < 0.0f) != is_refracting(component->kind)) {
+        return sample;
+    }
+#if FEATURE_refraction
+    sample.scale = is_refracting(component->kind) ? refraction_scale(eta) : 1.0f;
+#endif
+#if FEATURE_delta
+    if (is_delta(component->kind)) {
+        sample.weight = component_colour(MATERIAL_ARGUMENTS component, frame.uv) *
+                        component_fresnel(component, eta, wo.z, wi) / probability;
+        sample.weight *= sample.scale;
+        sample.pdf_w = INFINITY;
+        return sample;
+    }
+#endif
+    const BsdfValue value = bsdf_evaluate_local(MATERIAL_ARGUMENTS record, frame, wo, wi);
+    if (value.pdf_w > 0.0f) {
+        sample.pdf_w = value.pdf_w;
+        sample.weight = value.f_cos / value.pdf_w;
+    }
     return sample;
-}
-
-#endif
-
-/// f(wi, wo), 1/sr; `n` is the geometric normal on wo's side.
-DEVICE float3 bsdf_evaluate(BxdfRecord component, float3 n, float3 wi) {
-#if FEATURE_lambert
-    return lambert_evaluate(component, n, wi);
-#else
-    return make_float3(0.0f, 0.0f, 0.0f);
-#endif
-}
-
-DEVICE float bsdf_pdf(float3 n, float3 wi) {
-#if FEATURE_lambert
-    return lambert_pdf(n, wi);
-#else
-    return 0.0f;
-#endif
-}
-
-DEVICE BsdfSample bsdf_sample(BxdfRecord component, float3 n, float u, float v) {
-#if FEATURE_lambert
-    return lambert_sample(component, n, u, v);
-#else
-    BsdfSample nothing;
-    nothing.wi = n;
-    nothing.weight = make_float3(0.0f, 0.0f, 0.0f);
-    nothing.pdf_w = 0.0f;
-    return nothing;
-#endif
 }

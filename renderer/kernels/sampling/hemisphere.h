@@ -29,8 +29,53 @@ DEVICE float3 sample_cosine_hemisphere(float u, float v) {
     return make_float3(radius * cospi(2.0f * v), radius * sinpi(2.0f * v), sqrt(1.0f - u));
 }
 
+/// Uniform direction. Density per solid angle: 1 / (4 pi).
+DEVICE float3 sample_uniform_sphere(float u, float v) {
+    const float z = 1.0f - 2.0f * u;
+    const float radius = 2.0f * sqrt(u * (1.0f - u));  // sqrt(1 - z^2) without cancellation
+    return make_float3(radius * cospi(2.0f * v), radius * sinpi(2.0f * v), z);
+}
+
+/// Uniform point of the unit disc; density per area 1 / pi.
+DEVICE float2 sample_disc(float u, float v) {
+    const float radius = sqrt(u);
+    return make_float2(radius * cospi(2.0f * v), radius * sinpi(2.0f * v));
+}
+
 /// Uniform barycentrics (b1, b2) of a triangle; density per area 1 / A. Osada et al. 2002.
 DEVICE float2 sample_triangle(float u, float v) {
     const float root = sqrt(u);
     return make_float2(1.0f - root, v * root);
+}
+
+/// x with 1 + erf(x) = w, w in (0, 2): relative error below 1e-6 of 1 + |x|. M. Giles, "Approximating the erfinv
+/// function", 2010, in terms of w, which keeps its digits where erf(x) rounds to -1.
+DEVICE float inverse_erf_plus_one(float w) {
+    const float y = w - 1.0f;
+    float t = -log(w * (2.0f - w));
+    float p;
+    if (t < 5.0f) {
+        t -= 2.5f;
+        p = 2.81022636e-08f;
+        p = 3.43273939e-07f + p * t;
+        p = -3.5233877e-06f + p * t;
+        p = -4.39150654e-06f + p * t;
+        p = 0.00021858087f + p * t;
+        p = -0.00125372503f + p * t;
+        p = -0.00417768164f + p * t;
+        p = 0.246640727f + p * t;
+        p = 1.50140941f + p * t;
+    } else {
+        t = sqrt(t) - 3.0f;
+        p = -0.000200214257f;
+        p = 0.000100950558f + p * t;
+        p = 0.00134934322f + p * t;
+        p = -0.00367342844f + p * t;
+        p = 0.00573950773f + p * t;
+        p = -0.0076224613f + p * t;
+        p = 0.00943887047f + p * t;
+        p = 1.00167406f + p * t;
+        p = 2.83297682f + p * t;
+    }
+    return p * y;
 }

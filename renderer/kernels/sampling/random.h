@@ -10,6 +10,7 @@
 
 // Streams keep the passes of an algorithm apart.
 #define STREAM_CAMERA 0u
+#define STREAM_LIGHT(light) (16u + (light))  // light `light` where all are sampled one after the other
 
 // Blocks of four random words. Each vertex of a path owns two.
 #define BLOCK_CAMERA 0u

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/scene_agreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "experiments/agreement.h"
+#include "experiments/array_file.h"
+#include "experiments/description.h"
+#include "experiments/document.h"
+#include "experiments/ladder.h"
+#include "reference/renderer.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+#include "renderer/device/context.h"
+#include "renderer/pipeline/render_session.h"
+#include "rtrays_commit.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Numbers of the two renderers' own generators; they need not differ, but it costs nothing.
+constexpr uint32_t renderer_seed = 21;
+constexpr uint64_t reference_seed = 22;
+
+struct Description {
+    std::string name;
+    std::vector<fs::path> scenes;
+    int size = 0;  ///< pixels a side
+    uint64_t spp = 0;
+    uint64_t reference_spp = 0;
+    AgreementPolicy policy;
+};
+
+Description load(const fs::path &path, const std::string &profile) {
+    const DescriptionFile file = load_description(path, "agreement.schema.json");
+    Description description;
+    file.json.at("name").get_to(description.name);
+    const Json &chosen = file.json.at("profiles").at(profile);
+    for (const Json &scene : chosen.at("scenes")) {
+        if (scene != "*") {
+            description.scenes.push_back(file.resolve(file.json.at("folder")) / (scene.get<std::string>() + ".json"));
+            continue;
+        }
+        for (const auto &entry : fs::directory_iterator(file.resolve(file.json.at("folder")))) {
+            if (entry.path().extension() == ".json") {
+                description.scenes.push_back(entry.path());
+            }
+        }
+        std::sort(description.scenes.begin(), description.scenes.end());
+    }
+    chosen.at("size").get_to(description.size);
+    chosen.at("spp").get_to(description.spp);
+    chosen.at("reference_spp").get_to(description.reference_spp);
+    description.policy.alpha /= static_cast<double>(description.scenes.size());  // Bonferroni over the scenes
+    return description;
+}
+
+Image render(const Scene &scene, const Description &description, DeviceContext &device) {
+    RenderSettings settings;
+    settings.width = settings.height = description.size;
+    settings.seed = renderer_seed;
+    RenderSession session(scene, settings, device);
+    render_whole(session, 0, description.spp);
+    return session.develop();
+}
+
+Image render_reference(const Scene &scene, const Description &description) {
+    ReferenceSettings settings;
+    settings.width = settings.height = description.size;
+    settings.camera = static_cast<size_t>(scene.active_camera());
+    settings.seed = reference_seed;
+    ReferenceRenderer reference(scene.arrays(), settings);
+    render_whole(reference, 0, description.reference_spp);
+    return reference.develop();
+}
+
+/// Renders and tests; the images are kept as arrays NAME.npy and NAME.reference.npy in `folder`.
+Json measure(const Scene &scene, const Description &description, DeviceContext &device, const fs::path &folder) {
+    const Image image = render(scene, description, device);
+    const Image reference = render_reference(scene, description);
+    write_array(image, folder / (scene.name() + ".npy"));
+    write_array(reference, folder / (scene.name() + ".reference.npy"));
+    const Agreement agreement = test_agreement(image, reference, description.policy);
+    return {{"scene", scene.name()},
+            {"agrees", agreement.agrees()},
+            {"rejected", agreement.rejected},
+            {"tests", agreement.tests},
+            {"largest_z", agreement.largest_z},
+            {"relative_difference", to_json(agreement.relative_difference)},
+            {"equivalence", to_string(agreement.equivalence)}};
+}
+
+/// What a finished scene's result holds for.
+std::string key_of(const Scene &scene, const Description &description) {
+    return fmt::format("{} {} {} {} {}", scene.hash(), description.size, description.spp, description.reference_spp,
+                       RTRAYS_VERSION);
+}
+
+std::string line_of(const Json &row) {
+    const Json &difference = row.at("relative_difference");
+    return fmt::format("{} {}: {} of {} tests reject, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, {:+.3f}]\n",
+                       row.at("agrees").get<bool>() ? "ok  " : "FAIL", row.at("scene").get<std::string>(),
+                       row.at("rejected").get<size_t>(), row.at("tests").get<size_t>(), row.at("largest_z").get<double>(),
+                       100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
+                       100 * difference.at("high").get<double>());
+}
+
+std::string table_of(const Json &document) {
+    std::string table = fmt::format(
+        "Renderer against the Embree reference, {0} x {0} pixels, {1} spp against {2}. Blocks of 16 x 16 pixels and the "
+        "mean, per channel, Holm's correction, {3:.2g} over all scenes. The last columns: difference of the mean with "
+        "its 99 % interval, %.\n\n| scene | tests | rejected | largest z | difference | from | to |\n"
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        document.at("size").get<int>(), document.at("spp").get<uint64_t>(), document.at("reference_spp").get<uint64_t>(),
+        AgreementPolicy().alpha);
+    for (const Json &row : document.at("scenes")) {
+        const Json &difference = row.at("relative_difference");
+        table += fmt::format("| {} | {} | {} | {:.2f} | {:+.3f} | {:+.3f} | {:+.3f} |\n", row.at("scene").get<std::string>(),
+                             row.at("tests").get<size_t>(), row.at("rejected").get<size_t>(), row.at("largest_z").get<double>(),
+                             100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
+                             100 * difference.at("high").get<double>());
+    }
+    return table;
+}
+
+}  // namespace
+
+ExitCode run_agreement(const AgreeOptions &options) {
+    const Description description = load(options.description, options.profile);
+    const fs::path out = options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
+    const fs::path partial = out / "partial";
+    fs::create_directories(partial);
+    fs::create_directories(out / "images");
+    DeviceContext device(options.device);
+    Json document = {{"schema_version", 1},
+                     {"commit", RTRAYS_VERSION},
+                     {"device", device.info().name},
+                     {"size", description.size},
+                     {"spp", description.spp},
+                     {"reference_spp", description.reference_spp}};
+    bool agrees = true;
+    Progress progress(description.name, description.scenes.size(), "scenes", options.quiet);
+    for (const fs::path &path : description.scenes) {
+        const Scene scene = load_scene(path.string());
+        const fs::path done = partial / path.filename();
+        const std::string key = key_of(scene, description);
+        Json result = fs::exists(done) ? load_json(done) : Json::object();
+        if (result.value("key", "") != key) {
+            result = {{"key", key}, {"row", measure(scene, description, device, out / "images")}};
+            write_file(done, result.dump(1) + "\n");
+        }
+        const Json &row = result.at("row");
+        fmt::print("{}", line_of(row));
+        std::fflush(stdout);
+        agrees = agrees && row.at("agrees").get<bool>();
+        document["scenes"].push_back(row);
+        progress.update(document["scenes"].size());
+    }
+    write_file(out / "agreement.json", document.dump(1) + "\n");
+    write_file(out / "agreement.md", table_of(document));
+    return agrees ? ExitCode::ok : ExitCode::regression;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// One component of a material: its kind's model, dispatched under the features of the scene, with weight,
+// texture and Fresnel term, thesis (3.52). renderer/scene/stores.h says what each component means. Local
+// directions as in lobe.h.
+#pragma once
+
+#include "renderer/kernels/bsdf/blinn.h"
+#include "renderer/kernels/bsdf/diffuse.h"
+#include "renderer/kernels/bsdf/distribution.h"
+#include "renderer/kernels/bsdf/fresnel.h"
+#include "renderer/kernels/bsdf/ideal.h"
+#include "renderer/kernels/bsdf/microfacet.h"
+#include "renderer/kernels/bsdf/ward.h"
+#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/kernels/texture/texture.h"
+#include "renderer/shared/compat.h"
+#include "renderer/shared/scene_buffers.h"
+#include "renderer/shared/scene_records.h"
+
+/// The index of refraction beyond the surface over that on wo's side: a boundary is told apart by its sides,
+/// all other materials look alike from both.
+DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_flags, uint front) {
+    const float eta = component->eta[0];
+    return (material_flags & MATERIAL_BOUNDARY) != 0u && front == 0u ? 1.0f / eta : eta;
+}
+
+/// Weight times texture at `uv`.
+DEVICE float3 component_colour(MATERIAL_PARAMETERS GLOBAL const BxdfRecord *component, float2 uv) {
+    float3 colour = make_float3(component->weight[0], component->weight[1], component->weight[2]);
+#if FEATURE_textures
+    if (component->texture != NO_TEXTURE) {
+        colour *= texture_lookup(textures + component->texture, texels, uv);
+    }
+#else
+    (void)uv;
+#endif
+    (void)materials;
+    (void)components;
+    return colour;
+}
+
+DEVICE bool is_delta(uint kind) {
+#if FEATURE_delta
+    return kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION;
+#else
+    (void)kind;
+    return false;
+#endif
+}
+
+/// Whether light passes through: wi below the surface, and nothing above. The other way round for all other
+/// kinds.
+DEVICE bool is_refracting(uint kind) {
+#if FEATURE_ideal_refraction || FEATURE_microfacet_refraction
+    return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
+#else
+    (void)kind;
+    return false;
+#endif
+}
+
+DEVICE Roughness component_roughness(GLOBAL const BxdfRecord *component) {
+    Roughness r;
+    r.alpha_x = component->alpha_x;
+    r.alpha_y = component->alpha_y;
+    r.beckmann = component->flags & BXDF_FLAG_BECKMANN;
+    return r;
+}
+
+/// The model of a component that is no delta; nothing of a delta.
+DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, float3 wo, float3 wi) {
+    switch (component->kind) {
+#if FEATURE_lambert
+        case BXDF_LAMBERT:
+            return lambert_evaluate(wo, wi);
+#endif
+#if FEATURE_oren_nayar
+        case BXDF_OREN_NAYAR:
+            return oren_nayar_evaluate(wo, wi, component->parameter);
+#endif
+#if FEATURE_blinn
+        case BXDF_BLINN:
+            return blinn_evaluate(wo, wi, component->parameter);
+#endif
+#if FEATURE_ward
+        case BXDF_WARD:
+            return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, true);
+#endif
+#if FEATURE_ward_original
+        case BXDF_WARD_ORIGINAL:
+            return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, false);
+#endif
+#if FEATURE_microfacet_reflection
+        case BXDF_MICROFACET_REFLECTION:
+            return microfacet_reflection_evaluate(wo, wi, component_roughness(component));
+#endif
+#if FEATURE_microfacet_refraction
+        case BXDF_MICROFACET_REFRACTION:
+            return microfacet_refraction_evaluate(wo, wi, component_roughness(component), eta);
+#endif
+        default:
+            return no_lobe();
+    }
+}
+
+/// A direction sampled by the component's model from u, v in [0, 1); on the wrong side of the surface, or
+/// with z = 0, when there is none.
+DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta, float3 wo, float u,
+                                  float v) {
+    switch (component->kind) {
+#if FEATURE_blinn
+        case BXDF_BLINN:
+            return blinn_direction(wo, component->parameter, u, v);
+#endif
+#if FEATURE_ward || FEATURE_ward_original
+        case BXDF_WARD:
+        case BXDF_WARD_ORIGINAL:
+            return ward_direction(wo, component->alpha_x, component->alpha_y, u, v);
+#endif
+#if FEATURE_microfacet_reflection
+        case BXDF_MICROFACET_REFLECTION:
+            return microfacet_reflection_direction(wo, component_roughness(component), u, v);
+#endif
+#if FEATURE_microfacet_refraction
+        case BXDF_MICROFACET_REFRACTION:
+            return microfacet_refraction_direction(wo, component_roughness(component), eta, u, v);
+#endif
+#if FEATURE_ideal_reflection
+        case BXDF_IDEAL_REFLECTION:
+            return ideal_reflection_direction(wo);
+#endif
+#if FEATURE_ideal_refraction
+        case BXDF_IDEAL_REFRACTION:
+            return ideal_refraction_direction(wo, eta);
+#endif
+        default:  // Lambert, Oren-Nayar
+            return sample_cosine_hemisphere(u, v);
+    }
+}
+
+/// The Fresnel term of the component's weight for wo and wi. `cosine`: Lobe's.
+///
+/// Diffuse kinds take the product of the terms of both directions, so that they stay reciprocal, unless the
+/// material asks for that of wo alone: thesis (3.55).
+DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine, float3 wi) {
+#if FEATURE_fresnel
+    float3 f = fresnel_term(component, eta, cosine);
+#if FEATURE_lambert || FEATURE_oren_nayar
+    if ((component->kind == BXDF_LAMBERT || component->kind == BXDF_OREN_NAYAR) &&
+        (component->flags & BXDF_FLAG_FRESNEL_OF_WO) == 0u) {
+        f *= fresnel_term(component, eta, wi.z);
+    }
+#else
+    (void)wi;
+#endif
+    return f;
+#else
+    (void)component;
+    (void)eta;
+    (void)cosine;
+    (void)wi;
+    return make_float3(1.0f, 1.0f, 1.0f);
+#endif
+}
+
+/// What component selection goes by: an estimate of the share of light from wo that the component scatters,
+/// times `colour`, mean of the channels. It depends on the geometry at the point, its texture and Fresnel
+/// term alone (digest, 2.7.4), is exact for deltas and positive wherever the component is.
+///
+/// The Fresnel term of a rough boundary is met at the microfacets' normals, here unknown: it is drawn towards
+/// 1/2 by the root of the roughness, as (1 - F) grows with the root of the angle next to total internal
+/// reflection. So no direction is chosen far too seldom, and the contributions keep bounded.
+DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, float3 wo, float3 colour) {
+#if FEATURE_fresnel
+    float3 f = fresnel_term(component, eta, wo.z);
+#if FEATURE_blinn || FEATURE_ward || FEATURE_ward_original || FEATURE_microfacet_reflection || \
+    FEATURE_microfacet_refraction
+    if ((component->flags & FRESNEL_MASK) != FRESNEL_IDEAL && component->kind >= BXDF_BLINN) {
+        // Blinn's cos^e is as wide as a Gaussian of roughness sqrt(2 / (e + 2)).
+        const float alpha = component->kind == BXDF_BLINN
+                                ? sqrt(2.0f / (component->parameter + 2.0f))
+                                : min(max(component->alpha_x, component->alpha_y), 1.0f);
+        const float s = sqrt(alpha);
+        f = f * (1.0f - s) + make_float3(0.5f * s, 0.5f * s, 0.5f * s);
+    }
+#endif
+    colour *= f;
+#endif
+#if FEATURE_ideal_refraction
+    if (component->kind == BXDF_IDEAL_REFRACTION && refracted_cosine(wo.z, eta) <= 0.0f) {
+        return 0.0f;
+    }
+#endif
+    (void)component;
+    (void)eta;
+    (void)wo;
+    return (colour.x + colour.y + colour.z) * 0.333333333f;
+}

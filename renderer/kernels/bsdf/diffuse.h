@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Lambert and Oren-Nayar reflection. Local directions: z along the shading normal, wo.z > 0.
+//
+// Both are sampled by the cosine, density wi.z / pi per solid angle: thesis (3.32).
+#pragma once
+
+#include "renderer/kernels/bsdf/lobe.h"
+#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/shared/compat.h"
+
+#if FEATURE_lambert
+
+/// Thesis (3.31).
+DEVICE Lobe lambert_evaluate(float3 wo, float3 wi) {
+    return wi.z > 0.0f ? make_lobe(wi.z * INV_PI, wi.z * INV_PI, wo.z) : no_lobe();
+}
+
+#endif
+
+#if FEATURE_oren_nayar
+
+/// Thesis (3.33-3.35), `sigma` in [0, pi/2].
+///
+/// cos(phi_i - phi_o) sin(alpha) tan(beta) is (wi.x wo.x + wi.y wo.y) / max(wi.z, wo.z): the sine of the
+/// larger angle and that of the smaller cancel those that normalise the azimuths, and the smaller angle has
+/// the larger cosine. The product with wi.z is taken after the division, which then is at most 1.
+DEVICE Lobe oren_nayar_evaluate(float3 wo, float3 wi, float sigma) {
+    if (!(wi.z > 0.0f)) {
+        return no_lobe();
+    }
+    const float sigma2 = sigma * sigma;
+    const float a = 1.0f - 0.5f * sigma2 / (sigma2 + 0.33f);
+    const float b = 0.45f * sigma2 / (sigma2 + 0.09f);
+    const float s = max(wi.x * wo.x + wi.y * wo.y, 0.0f) * (wi.z / max(wi.z, wo.z));
+    return make_lobe((a * wi.z + b * s) * INV_PI, wi.z * INV_PI, wo.z);
+}
+
+#endif

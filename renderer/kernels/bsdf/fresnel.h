@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Fresnel terms: the reflected share of unpolarized light. `cosine` is that of the angle of incidence, in [0,
+// 1].
+//
+// Sources: thesis (3.26-3.30); the exact conductor is Born and Wolf 1999, 14.2 (the derivation in S. Lagarde,
+// "Memo on Fresnel equations", 2013). Numerators of the form (x - y)^2 are written so, not expanded: they
+// cannot come out negative.
+#pragma once
+
+#include "renderer/shared/compat.h"
+#include "renderer/shared/scene_records.h"
+
+/// Cosine on the other side of a smooth boundary, -1 at total internal reflection; `eta` is the index of
+/// refraction there over that on the side of `cosine`.
+///
+/// cos_t^2 = 1 - (1 - c^2) / eta^2 = ((eta - 1) (eta + 1) + c^2) / eta^2: no cancellation where eta is close
+/// to 1 or c to 0, and next to the critical angle the rounding of c^2 alone decides, here for all who ask.
+DEVICE float refracted_cosine(float cosine, float eta) {
+    const float scaled = (eta - 1.0f) * (eta + 1.0f) + cosine * cosine;
+    return scaled > 0.0f ? min(sqrt(scaled) / eta, 1.0f) : -1.0f;
+}
+
+#if FEATURE_fresnel_dielectric
+
+/// Thesis (3.26, 3.27); 1 at total internal reflection. Denominators are positive: one of the cosines is.
+DEVICE float fresnel_dielectric(float cosine, float eta) {
+    const float cos_t = refracted_cosine(cosine, eta);
+    if (cos_t < 0.0f) {
+        return 1.0f;
+    }
+    const float parallel = (eta * cosine - cos_t) / (eta * cosine + cos_t);
+    const float perpendicular = (cosine - eta * cos_t) / (cosine + eta * cos_t);
+    return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+#endif
+
+#if FEATURE_fresnel_conductor
+
+/// Exact, for the complex index eta + i k relative to the medium in front, eta > 0; eta and k up to 1e8.
+///
+/// With a + i b = sqrt((eta + i k)^2 - sin^2): R_perpendicular = ((a - c)^2 + b^2) / ((a + c)^2 + b^2) and
+/// R_parallel = R_perpendicular ((a c - s^2)^2 + b^2 c^2) / ((a c + s^2)^2 + b^2 c^2).
+DEVICE float fresnel_conductor(float cosine, float eta, float k) {
+    const float cos2 = cosine * cosine;
+    const float sin2 = max(1.0f - cos2, 0.0f);
+    const float re =
+        (eta - 1.0f) * (eta + 1.0f) - k * k + cos2;  // of eta^2 - k^2 - sin^2, exact next to eta = 1
+    const float im = eta * k;                        // half the imaginary part
+    const float modulus = sqrt(re * re + 4.0f * im * im);
+    // The root is taken of the sum that does not cancel; the other part follows from a b = im.
+    const float root = sqrt(0.5f * (modulus + fabs(re)));
+    const float other = root > 0.0f ? im / root : 0.0f;
+    const float a = re >= 0.0f ? root : other;
+    const float b2 = re >= 0.0f ? other * other : root * root;
+    const float denominator = (a + cosine) * (a + cosine) + b2;
+    if (!(denominator > 0.0f)) {
+        return 1.0f;  // grazing an index of 1, as for dielectrics
+    }
+    const float perpendicular = ((a - cosine) * (a - cosine) + b2) / denominator;
+    const float ac = a * cosine;
+    const float ratio = ((ac - sin2) * (ac - sin2) + b2 * cos2) / ((ac + sin2) * (ac + sin2) + b2 * cos2);
+    return 0.5f * perpendicular * (1.0f + ratio);
+}
+
+#endif
+
+#if FEATURE_fresnel_conductor_approximate
+
+/// Thesis (3.28): up to 0.006 off the exact term for metals, more where eta^2 + k^2 is small.
+DEVICE float fresnel_conductor_approximate(float cosine, float eta, float k) {
+    const float kc = k * cosine;
+    const float parallel = ((eta * cosine - 1.0f) * (eta * cosine - 1.0f) + kc * kc) /
+                           ((eta * cosine + 1.0f) * (eta * cosine + 1.0f) + kc * kc);
+    const float perpendicular =
+        ((eta - cosine) * (eta - cosine) + k * k) / ((eta + cosine) * (eta + cosine) + k * k);
+    return 0.5f * (parallel + perpendicular);
+}
+
+#endif
+
+#if FEATURE_fresnel_schlick
+
+/// Thesis (3.29); r0 is the reflectance at normal incidence.
+DEVICE float fresnel_schlick(float cosine, float r0) {
+    const float m = max(1.0f - cosine, 0.0f);
+    const float m2 = m * m;
+    return r0 + (1.0f - r0) * (m2 * m2 * m);
+}
+
+#endif
+
+#if FEATURE_fresnel
+
+/// F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a dielectric: see
+/// component_eta. Dielectrics are reciprocal: a ray and its refraction give the same F to either side.
+DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float cosine) {
+    float3 f = make_float3(1.0f, 1.0f, 1.0f);
+    const float c = min(fabs(cosine), 1.0f);
+    const uint flags = component->flags;
+    switch (flags & FRESNEL_MASK) {
+#if FEATURE_fresnel_dielectric
+        case FRESNEL_DIELECTRIC: {
+            const float value = fresnel_dielectric(c, eta);
+            f = make_float3(value, value, value);
+            break;
+        }
+#endif
+#if FEATURE_fresnel_conductor
+        case FRESNEL_CONDUCTOR:
+            f = make_float3(fresnel_conductor(c, component->eta[0], component->k[0]),
+                            fresnel_conductor(c, component->eta[1], component->k[1]),
+                            fresnel_conductor(c, component->eta[2], component->k[2]));
+            break;
+#endif
+#if FEATURE_fresnel_conductor_approximate
+        case FRESNEL_CONDUCTOR_APPROXIMATE:
+            f = make_float3(fresnel_conductor_approximate(c, component->eta[0], component->k[0]),
+                            fresnel_conductor_approximate(c, component->eta[1], component->k[1]),
+                            fresnel_conductor_approximate(c, component->eta[2], component->k[2]));
+            break;
+#endif
+#if FEATURE_fresnel_schlick
+        case FRESNEL_SCHLICK:
+            f = make_float3(fresnel_schlick(c, component->eta[0]), fresnel_schlick(c, component->eta[1]),
+                            fresnel_schlick(c, component->eta[2]));
+            break;
+#endif
+        default:  // FRESNEL_IDEAL: 1, whether complemented or not
+            return f;
+    }
+    return (flags & BXDF_FLAG_COMPLEMENT) != 0u ? make_float3(1.0f, 1.0f, 1.0f) - f : f;
+}
+
+#endif

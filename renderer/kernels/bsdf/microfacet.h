@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Reflection and refraction by rough boundaries: Walter et al. 2007, eq. 20 and 21, with separable shadowing
+// G = G1(wi) G1(wo), their eq. 23. Local directions as in lobe.h. Fresnel terms are applied outside, at wo.m.
+#pragma once
+
+#include "renderer/kernels/bsdf/distribution.h"
+#include "renderer/kernels/bsdf/fresnel.h"
+#include "renderer/kernels/bsdf/ideal.h"
+#include "renderer/kernels/bsdf/lobe.h"
+#include "renderer/shared/compat.h"
+
+#if FEATURE_microfacet_reflection
+
+DEVICE Lobe microfacet_reflection_evaluate(float3 wo, float3 wi, Roughness r) {
+    if (!(wi.z > 0.0f)) {
+        return no_lobe();
+    }
+    const float3 h = wo + wi;  // |h| >= h.z >= 2 MIN_COSINE
+    const float h_length = sqrt(dot(h, h));
+    // The visible normals' density times dw_m / dw_i = 1 / (4 wo.m).
+    const float pdf_w = 0.25f * normal_density(h / h_length, r) * shadowing(wo, r);
+    return make_lobe(pdf_w * (shadowing(wi, r) * wi.z), pdf_w, 0.5f * h_length);
+}
+
+/// A direction below the horizon is none.
+DEVICE float3 microfacet_reflection_direction(float3 wo, Roughness r, float u, float v) {
+    return reflect_about(wo, visible_normal(wo, r, u, v));
+}
+
+#endif
+
+#if FEATURE_microfacet_refraction
+
+/// `eta` is the index on wi's side over that on wo's, not 1 (then there is no boundary). Radiance is scaled
+/// by refraction_scale, which in eq. 21 is the factor eta_o^2.
+DEVICE Lobe microfacet_refraction_evaluate(float3 wo, float3 wi, Roughness r, float eta) {
+    if (!(wi.z < 0.0f)) {
+        return no_lobe();
+    }
+    float3 m = wo + eta * wi;  // eq. 16: along the normal of the microfacet that refracts wo to wi
+    const float m2 = dot(m, m);
+    // 0 where wi = -wo and eta is 1 up to rounding: no normal does that.
+    if (!(m2 > 1e-14f)) {
+        return no_lobe();
+    }
+    m = m / sqrt(m2);
+    m = m.z < 0.0f ? -m : m;
+    const float wo_m = dot(wo, m), wi_m = dot(wi, m);
+    if (!(m.z > 0.0f && wo_m > 0.0f && wi_m < 0.0f)) {
+        return no_lobe();
+    }
+    // Eq. 17: dw_m / dw_i = eta^2 |wi.m| / (wo.m + eta wi.m)^2, and the denominator is |wo + eta wi|^2.
+    const float pdf_w = normal_density(m, r) * shadowing(wo, r) * wo_m * (eta * eta * -wi_m / m2);
+    return make_lobe(pdf_w * (shadowing(wi, r) * -wi.z) * refraction_scale(eta), pdf_w, wo_m);
+}
+
+/// z is 0 at total internal reflection; a direction above the horizon is none.
+DEVICE float3 microfacet_refraction_direction(float3 wo, Roughness r, float eta, float u, float v) {
+    const float3 m = visible_normal(wo, r, u, v);
+    const float wo_m = dot(wo, m);
+    const float cosine = refracted_cosine(wo_m, eta);
+    if (!(wo_m > 0.0f && cosine > 0.0f)) {
+        return make_float3(0.0f, 0.0f, 0.0f);
+    }
+    return (wo_m / eta - cosine) * m - wo / eta;
+}
+
+#endif

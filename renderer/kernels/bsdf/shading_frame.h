@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "renderer/kernels/bsdf/surface_frame.h"
+#include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/shared/scene_buffers.h"
+#include "renderer/shared/scene_records.h"
+
+/// The frame in which a hit scatters, seen from wo. Its axes follow the surface's tangent only where the material
+/// would look different otherwise.
+DEVICE SurfaceFrame shading_frame(MATERIAL_PARAMETERS SurfaceHit hit, float3 wo) {
+    float3 tangent = make_float3(0.0f, 0.0f, 0.0f);
+#if FEATURE_tangents
+    if ((materials[hit.material].flags & MATERIAL_TURNS) != 0u) {
+        tangent = hit.tangent;
+    }
+#endif
+    return make_surface_frame(hit.point.normal, hit.normal, tangent, hit.uv, wo);
+}

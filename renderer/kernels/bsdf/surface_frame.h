@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// The frame in which a surface scatters: shading normal and tangents, the geometric normal, and the side from
+// which the path came.
+#pragma once
+
+#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/shared/compat.h"
+
+/// World space. Both normals are on wo's side; x and y complete ns to an orthonormal frame, x along the
+/// surface's tangent.
+typedef struct SurfaceFrame {
+    float3 x, y, ns;
+    float3 ng;
+    float3 wo;
+    float2 uv;
+    uint front;  ///< 1: wo is on the surface's front
+} SurfaceFrame;
+
+/// Tangents about the unit vector `z`, x as close to `tangent` as it can be. Where the tangent has no length
+/// (or is not finite) or is closer than 0.01 radians to `z`, where its direction across `z` would drown in
+/// rounding, they are those of frame_from_z.
+DEVICE Frame frame_from_tangent(float3 z, float3 tangent) {
+    // Scaled first: the derivative of a position by u may be of any size, its square not a float.
+    const float3 magnitude = fabs(tangent);
+    const float largest = max(magnitude.x, max(magnitude.y, magnitude.z));
+    if (largest > 0.0f && largest < INFINITY) {
+        const float3 t = tangent / largest;
+        const float3 y = cross(z, t);
+        const float y2 = dot(y, y);
+        if (y2 > 1e-4f * dot(t, t)) {
+            Frame frame;
+            frame.y = y / sqrt(y2);
+            frame.x = cross(frame.y, z);
+            frame.z = z;
+            return frame;
+        }
+    }
+    return frame_from_z(z);
+}
+
+/// The frame at a point with unit normals `ng` and `ns` (both on the front; ns may lean beyond ng's horizon),
+/// a tangent of any length (zero: none) and unit `wo`. Where wo is below the shading normal's horizon, ns is
+/// replaced by ng: such a point would be black, although the path did hit it.
+DEVICE SurfaceFrame make_surface_frame(float3 ng, float3 ns, float3 tangent, float2 uv, float3 wo) {
+    SurfaceFrame frame;
+    frame.front = dot(ng, wo) >= 0.0f ? 1u : 0u;
+    frame.ng = frame.front != 0u ? ng : -ng;
+#if FEATURE_smooth_normals
+    frame.ns = dot(ns, frame.ng) >= 0.0f ? ns : -ns;
+    if (!(dot(frame.ns, wo) > 0.0f)) {
+        frame.ns = frame.ng;
+    }
+#else
+    (void)ns;
+    frame.ns = frame.ng;
+#endif
+#if FEATURE_tangents
+    const Frame axes = frame_from_tangent(frame.ns, tangent);
+#else
+    (void)tangent;
+    const Frame axes = frame_from_z(frame.ns);
+#endif
+    frame.x = axes.x;
+    frame.y = axes.y;
+    frame.wo = wo;
+    frame.uv = uv;
+    return frame;
+}

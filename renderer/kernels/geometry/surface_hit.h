@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// What shading needs to know of a hit, whatever was hit.
+#pragma once
+
+#include "renderer/kernels/geometry/shape_point.h"
+#include "renderer/kernels/geometry/surface.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
+
+/// Normals are those of the front.
+typedef struct SurfaceHit {
+    SurfacePoint point;  ///< with the geometric normal
+    float3 normal;       ///< for shading, unit
+    float3 tangent;      ///< dp/du, any length; zero where it is not defined or not needed
+    float2 uv;
+    uint material;
+    uint emitter;        ///< of a triangle: index into the emitter triangles; of a shape: its light; NO_EMITTER
+} SurfaceHit;
+
+#if FEATURE_triangles
+
+/// The point with barycentrics (1 - u - v, u, v) of a triangle.
+DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float v) {
+    GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
+    SurfaceHit hit;
+    hit.point = scene_point(surface, u, v);
+    hit.normal = hit.point.normal;
+    hit.tangent = make_float3(0.0f, 0.0f, 0.0f);
+    hit.uv = make_float2(0.0f, 0.0f);
+    hit.material = surface->material;
+    hit.emitter = surface->emitter;
+    MAYBE_UNUSED const float w = 1.0f - u - v;
+#if FEATURE_smooth_normals
+    GLOBAL const TriangleNormals *corners = triangle_normals + triangle;
+    if (corners->is_smooth != 0u) {
+        const float3 n =
+            make_float3(w * corners->normal[0][0] + u * corners->normal[1][0] + v * corners->normal[2][0],
+                        w * corners->normal[0][1] + u * corners->normal[1][1] + v * corners->normal[2][1],
+                        w * corners->normal[0][2] + u * corners->normal[1][2] + v * corners->normal[2][2]);
+        // Unit normals that point opposite ways may cancel; the geometric normal stands in for what is left of them.
+        const float squared = dot(n, n);
+        hit.normal = squared > 1e-12f ? n / sqrt(squared) : hit.point.normal;
+    }
+#endif
+#if FEATURE_texture_coordinates
+    GLOBAL const TriangleUv *at = triangle_uvs + triangle;
+    hit.uv = make_float2(w * at->uv[0][0] + u * at->uv[1][0] + v * at->uv[2][0],
+                         w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
+#endif
+#if FEATURE_tangents
+    // The first edge, unless the coordinates span the plane: then dp/du up to a positive factor, which is
+    // (dv2 e1 - dv1 e2) times the sign of the Jacobian.
+    const float3 p0 = make_float3(surface->p0[0], surface->p0[1], surface->p0[2]);
+    const float3 e1 = make_float3(surface->p1[0], surface->p1[1], surface->p1[2]) - p0;
+    const float3 e2 = make_float3(surface->p2[0], surface->p2[1], surface->p2[2]) - p0;
+    hit.tangent = e1;
+#if FEATURE_texture_coordinates
+    const float du1 = at->uv[1][0] - at->uv[0][0], dv1 = at->uv[1][1] - at->uv[0][1];
+    const float du2 = at->uv[2][0] - at->uv[0][0], dv2 = at->uv[2][1] - at->uv[0][1];
+    const float jacobian = du1 * dv2 - du2 * dv1;
+    if (jacobian != 0.0f) {
+        const float3 along = e1 * dv2 - e2 * dv1;
+        hit.tangent = jacobian > 0.0f ? along : -along;
+    }
+#endif
+#endif
+    return hit;
+}
+
+#endif
+
+#if FEATURE_shapes
+
+/// The point `object_point` (in object space, on the surface) of a shape.
+DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point) {
+    SurfaceHit hit;
+    hit.point = shape_point(shape, object_point);
+    hit.normal = hit.point.normal;
+    hit.tangent = make_float3(0.0f, 0.0f, 0.0f);
+    hit.uv = make_float2(0.0f, 0.0f);
+#if FEATURE_textures
+    hit.uv = shape_uv(shape, object_point);
+#endif
+#if FEATURE_tangents
+    hit.tangent = shape_tangent(shape, object_point);
+#endif
+    hit.material = shape->material;
+    hit.emitter = shape->light;
+    return hit;
+}
+
+#endif
+
+#if FEATURE_triangles || FEATURE_shapes
+
+/// The hit of a path (`primitive` and `at` as in the path state).
+DEVICE SurfaceHit surface_hit(SURFACE_PARAMETERS uint primitive, float3 at) {
+#if FEATURE_shapes
+#if FEATURE_triangles
+    if ((primitive & SHAPE_BIT) == 0u) {
+        return triangle_hit(SURFACE_ARGUMENTS primitive, at.x, at.y);
+    }
+#endif
+    return shape_hit(shapes + (primitive & ~SHAPE_BIT), at);
+#else
+    return triangle_hit(SURFACE_ARGUMENTS primitive, at.x, at.y);
+#endif
+}
+
+#endif
+
+#ifdef __OPENCL_VERSION__
+
+DEVICE float3 get_hit_at(PathStates paths, uint slot) {
+#if FEATURE_shapes
+    return make_float3(get_hit_u(paths, slot), get_hit_v(paths, slot), get_hit_w(paths, slot));
+#else
+    return make_float3(get_hit_u(paths, slot), get_hit_v(paths, slot), 0.0f);
+#endif
+}
+
+#endif

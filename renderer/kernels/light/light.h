@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// Lights as paths meet them: sampled from a point (explicit paths), or hit (implicit paths). One density serves both.
+#pragma once
+
+#include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/kernels/light/area_light.h"
+#include "renderer/kernels/light/environment.h"
+#include "renderer/kernels/sampling/select.h"
+#include "renderer/shared/scene_buffers.h"
+#include "renderer/shared/scene_records.h"
+
+#if FEATURE_shape_lights
+#include "renderer/kernels/light/shape_light.h"
+#endif
+
+#if FEATURE_lights
+
+/// A direction in which to look for light.
+typedef struct LightSample {
+    float3 wi;        ///< unit, from the receiving point
+    float3 target;    ///< end of the shadow ray, off the light's own surface
+    float3 radiance;  ///< W / (sr m^2) from there when nothing blocks it; of a delta light: W / m^2 facing it
+    float pdf_w;      ///< per solid angle at the receiving point, selection included; of a delta light: its probability.
+                      ///< 0: nothing there
+    uint is_delta;    ///< point, spot, directional: cannot be hit
+} LightSample;
+
+DEVICE float3 light_radiance(LightRecord light) {
+    return make_float3(light.radiance[0], light.radiance[1], light.radiance[2]);
+}
+DEVICE float3 light_axis_z(LightRecord light) { return make_float3(light.axis_z[0], light.axis_z[1], light.axis_z[2]); }
+
+/// d^2 / cos: area densities times this are densities per solid angle (Veach 1997, 8.10). `way` leads to a point with
+/// that normal; 0 from behind, and where both coincide.
+DEVICE float solid_angle_per_area(float3 way, float3 normal) {
+    const float squared = dot(way, way);
+    const float projected = -dot(normal, way);  // cos times distance
+    return projected > 0.0f ? squared * (sqrt(squared) / projected) : 0.0f;
+}
+
+#if FEATURE_environment
+
+DEVICE float3 to_light_space(LightRecord light, float3 d) {
+    return make_float3(light.axis_x[0] * d.x + light.axis_x[1] * d.y + light.axis_x[2] * d.z,
+                       light.axis_y[0] * d.x + light.axis_y[1] * d.y + light.axis_y[2] * d.z,
+                       light.axis_z[0] * d.x + light.axis_z[1] * d.y + light.axis_z[2] * d.z);
+}
+DEVICE float3 from_light_space(LightRecord light, float3 d) {
+    return make_float3(light.axis_x[0] * d.x + light.axis_y[0] * d.y + light.axis_z[0] * d.z,
+                       light.axis_x[1] * d.x + light.axis_y[1] * d.y + light.axis_z[1] * d.z,
+                       light.axis_x[2] * d.x + light.axis_y[2] * d.y + light.axis_z[2] * d.z);
+}
+
+#endif
+
+#if FEATURE_infinite_lights
+
+/// What a path that leaves the scene in direction d meets. Both carry no selection probability.
+DEVICE float3 infinite_radiance(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
+    const LightRecord light = lights[lighting.infinite_light];
+#if FEATURE_environment
+#if FEATURE_dome
+    if (light.kind == LIGHT_ENVIRONMENT)
+#endif
+    {
+        return light_radiance(light) * environment_radiance(environment_texels, lighting, to_light_space(light, d));
+    }
+#endif
+#if FEATURE_dome
+    return light_radiance(light);
+#endif
+}
+
+DEVICE float infinite_pdf_w(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
+    const LightRecord light = lights[lighting.infinite_light];
+#if FEATURE_environment
+#if FEATURE_dome
+    if (light.kind == LIGHT_ENVIRONMENT)
+#endif
+    {
+        return environment_pdf_w(environment_ends, lighting, to_light_space(light, d));
+    }
+#endif
+#if FEATURE_dome
+    return 0.25f * INV_PI;
+#endif
+}
+
+#endif
+
+/// Turns a point on an area light into a sample.
+DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a, PRIVATE LightSample *sample) {
+    const float3 way = point.position - from;
+    // From behind the density is 0: the sides are decided without dividing by the distance, which may be 0.
+    sample->pdf_w = pdf_a * solid_angle_per_area(way, point.normal);
+    sample->wi = way / sqrt(dot(way, way));
+    sample->target = offset_ray_origin(point, -way);
+    sample->radiance = light_radiance(light);
+    sample->is_delta = 0u;
+}
+
+DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, float3 from, MAYBE_UNUSED uint4 words) {
+    LightSample sample;
+    sample.pdf_w = 0.0f;
+    sample.is_delta = 0u;
+    switch (light.kind) {
+#if FEATURE_area_lights
+    case LIGHT_MESH: {
+        const LightPoint on = sample_mesh_light(emitter_triangles, surface_triangles, light, words);
+        look_at_point(from, light, on.point, on.pdf_a, &sample);
+        break;
+    }
+#endif
+#if FEATURE_shape_lights
+    case LIGHT_DISC:
+    case LIGHT_SPHERE:
+    case LIGHT_SPHERE_BY_AREA: {
+        const ShapeLightSample on = sample_shape_light(light, shapes, from, light.kind == LIGHT_SPHERE,
+                                                       uniform_float(words.z), uniform_float(words.w));
+        look_at_point(from, light, on.point, on.pdf_a, &sample);
+        break;
+    }
+#endif
+#if FEATURE_point_lights || FEATURE_spot_lights
+    case LIGHT_POINT:
+    case LIGHT_SPOT: {
+        sample.target = make_float3(light.position[0], light.position[1], light.position[2]);
+        const float3 way = sample.target - from;
+        const float squared = dot(way, way);
+        float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
+        sample.wi = way / sqrt(squared);
+#if FEATURE_spot_lights
+        if (light.kind == LIGHT_SPOT) {
+            // The intensity falls linearly with the angle between the two cones (Mitsuba 3's spot).
+            const float cosine = dot(light_axis_z(light), sample.wi);  // the light shines along -z
+            const float fall = (light.outer_angle - acos(min(cosine, 1.0f))) * light.angle_scale;
+            intensity *= cosine > light.cos_outer ? min(max(fall, 0.0f), 1.0f) : 0.0f;
+        }
+#endif
+        sample.radiance = light_radiance(light) * intensity;
+        sample.is_delta = 1u;
+        sample.pdf_w = intensity > 0.0f ? 1.0f : 0.0f;
+        break;
+    }
+#endif
+#if FEATURE_directional_lights
+    case LIGHT_DIRECTIONAL:
+        sample.wi = light_axis_z(light);
+        sample.target = from + sample.wi * lighting.far_distance;
+        sample.radiance = light_radiance(light);
+        sample.is_delta = 1u;
+        sample.pdf_w = 1.0f;
+        break;
+#endif
+#if FEATURE_dome
+    case LIGHT_DOME:
+        sample.wi = sample_uniform_sphere(uniform_float(words.z), uniform_float(words.w));
+        sample.target = from + sample.wi * lighting.far_distance;
+        sample.radiance = light_radiance(light);
+        sample.pdf_w = 0.25f * INV_PI;
+        break;
+#endif
+#if FEATURE_environment
+    case LIGHT_ENVIRONMENT: {
+        const EnvironmentSample towards = sample_environment(environment_ends, lighting, words);
+        sample.wi = from_light_space(light, towards.direction);
+        sample.target = from + sample.wi * lighting.far_distance;
+        sample.radiance = light_radiance(light) * environment_radiance(environment_texels, lighting, towards.direction);
+        sample.pdf_w = towards.pdf_w;
+        break;
+    }
+#endif
+    default:
+        break;
+    }
+    sample.pdf_w *= light.selection;
+    return sample;
+}
+
+/// Samples the light `chosen`, or one selected at random for SELECT_LIGHT, as seen from a point.
+DEVICE LightSample sample_lights(SURFACE_PARAMETERS LIGHT_PARAMETERS uint chosen, float3 from, uint4 words) {
+    uint index = chosen;
+    if (chosen == SELECT_LIGHT) {
+#if FEATURE_many_lights
+        SELECT_BY_WORD(lights, .selection_end, 0u, lighting.light_count, words.x, selected)
+        index = selected;
+#else
+        index = 0u;
+#endif
+    }
+    return sample_one_light(SURFACE_ARGUMENTS LIGHT_ARGUMENTS lights[index], from, words);
+}
+
+#if FEATURE_area_lights || FEATURE_shape_lights
+
+/// The light that a surface is, if any.
+DEVICE uint light_of_hit(LIGHT_PARAMETERS MAYBE_UNUSED uint primitive, uint emitter) {
+#if FEATURE_area_lights
+#if FEATURE_shape_lights
+    return (primitive & SHAPE_BIT) != 0u ? emitter : emitter_triangles[emitter].light;
+#else
+    return emitter_triangles[emitter].light;
+#endif
+#else
+    return emitter;
+#endif
+}
+
+/// Density per area, selection included, with which `sample_lights` makes this point seen from `from`.
+DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter,
+                         MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint point) {
+#if FEATURE_shape_lights
+    if ((primitive & SHAPE_BIT) != 0u) {
+        return light.selection * shape_light_pdf_a(light, shapes, from, point, light.kind == LIGHT_SPHERE);
+    }
+#endif
+#if FEATURE_area_lights
+    return light.selection * emitter_triangles[emitter].pdf_a;
+#else
+    return 0.0f;
+#endif
+}
+
+#endif
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/pipeline/scene_buffers.h"
+
+namespace rtrays {
+
+// The tables name features as the kernels do: FEATURE_x. Here they are variables.
+#define FEATURE_VARIABLE(name, text) [[maybe_unused]] const bool FEATURE_##name = features.has(Feature::name);
+
+SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features)
+    : features_(features), lighting_(compiled.lighting), shape_count_(static_cast<uint32_t>(compiled.shapes.size())) {
+    RTRAYS_FEATURES(FEATURE_VARIABLE)
+#define ROW(feature, type, name)                               \
+    if (feature) {                                             \
+        name##_ = Buffer<type>(device, #name, compiled.name);  \
+    }
+    SURFACE_BUFFERS(ROW)
+    MATERIAL_BUFFERS(ROW)
+    LIGHT_BUFFERS(ROW)
+#undef ROW
+}
+
+StageArguments SceneBuffers::arguments(const Buffer<BvhNode> &bvh_nodes_,
+                                       const Buffer<LeafTriangle> &bvh_triangles_) const {
+    const FeatureMask features = features_;
+    RTRAYS_FEATURES(FEATURE_VARIABLE)
+    StageArguments arguments;
+#define ROW(feature, type, name)        \
+    if (feature) {                      \
+        list->emplace_back(name##_);    \
+    }
+    std::vector<KernelArgument> *list = &arguments[StageInput::geometry];
+    GEOMETRY_BUFFERS(ROW)
+    ROW(FEATURE_shapes, ShapeRecord, shapes)
+    if (FEATURE_shapes) {
+        list->emplace_back(shape_count_);
+    }
+    list = &arguments[StageInput::surfaces];
+    SURFACE_BUFFERS(ROW)
+    list = &arguments[StageInput::materials];
+    MATERIAL_BUFFERS(ROW)
+    list = &arguments[StageInput::lights];
+    LIGHT_BUFFERS(ROW)
+    list->emplace_back(lighting_);
+#undef ROW
+    return arguments;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "renderer/device/buffer.h"
+#include "renderer/pipeline/compile_scene.h"
+#include "renderer/pipeline/stages.h"
+#include "renderer/shared/bvh_node.h"
+#include "renderer/shared/scene_buffers.h"
+#include "renderer/shared/triangle.h"
+
+namespace rtrays {
+
+/// A compiled scene in the device's memory: one buffer per row of shared/scene_buffers.h whose feature is on.
+class SceneBuffers {
+  public:
+    SceneBuffers() = default;
+    SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
+
+    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry, given the hierarchy's buffers
+    /// (where there are triangles).
+    StageArguments arguments(const Buffer<BvhNode> &bvh_nodes, const Buffer<LeafTriangle> &bvh_triangles) const;
+
+    /// Calls visit(buffer) for every buffer.
+    template <typename Visit>
+    void visit(const Visit &visit_buffer) const {
+#define ROW(feature, type, name) visit_buffer(name##_);
+        SURFACE_BUFFERS(ROW)
+        MATERIAL_BUFFERS(ROW)
+        LIGHT_BUFFERS(ROW)
+#undef ROW
+    }
+
+  private:
+    FeatureMask features_;
+    LightingRecord lighting_{};
+    uint32_t shape_count_ = 0;
+#define ROW(feature, type, name) Buffer<type> name##_;
+    SURFACE_BUFFERS(ROW)
+    MATERIAL_BUFFERS(ROW)
+    LIGHT_BUFFERS(ROW)
+#undef ROW
+};
+
+}  // namespace rtrays

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Leaves out of the device code that a test includes for the host what the test did not define before: the tables of
+// shared/scene_buffers.h name these features and need each to be 0 or 1.
+#pragma once
+
+#ifndef FEATURE_triangles
+#define FEATURE_triangles 0
+#endif
+#ifndef FEATURE_smooth_normals
+#define FEATURE_smooth_normals 0
+#endif
+#ifndef FEATURE_texture_coordinates
+#define FEATURE_texture_coordinates 0
+#endif
+#ifndef FEATURE_shapes
+#define FEATURE_shapes 0
+#endif
+#ifndef FEATURE_scattering
+#define FEATURE_scattering 0
+#endif
+#ifndef FEATURE_textures
+#define FEATURE_textures 0
+#endif
+#ifndef FEATURE_lights
+#define FEATURE_lights 0
+#endif
+#ifndef FEATURE_area_lights
+#define FEATURE_area_lights 0
+#endif
+#ifndef FEATURE_environment
+#define FEATURE_environment 0
+#endif
