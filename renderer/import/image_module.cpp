@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <exception>
 #include <memory>
 #include <string>
 
@@ -115,5 +116,11 @@ void read_image(const std::filesystem::path &path, RawImage &image) {
 
 /// The one symbol of the module, `rtrays::ReadImageFile`.
 extern "C" void rtrays_read_image_file(const std::filesystem::path &path, rtrays::RawImage &image) {
-    rtrays::read_image(path, image);
+    try {
+        rtrays::read_image(path, image);
+    } catch (const rtrays::Error &) {
+        throw;
+    } catch (const std::exception &error) {  // a damaged header may ask for more memory than there is
+        throw rtrays::file_error(path, std::string("cannot be read: ") + error.what());
+    }
 }
