@@ -8,7 +8,7 @@ JOBS ?= $(shell nproc)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan references format lint clean
+.PHONY: test-full specialisation all install programs build reproduce-chapter4 report test test-asan references format lint clean
 
 all: build
 
@@ -41,6 +41,19 @@ test-asan: install
 	cmake --preset asan
 	cmake --build --preset asan -j $(JOBS) --target host_tests
 	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L host
+
+# The heavy versions, hours, resumable: all feature scenes by renderer and reference, with a contact sheet. What they
+# print is evidence and is kept in results/.
+test-full: programs
+	build/bin/rtrays-experiment agree experiments/feature_scenes.json --profile full --out build/feature_scenes
+	mkdir -p results/feature_scenes
+	cp build/feature_scenes/agreement.json build/feature_scenes/agreement.md results/feature_scenes/
+	scripts/contact_sheet build/feature_scenes results/feature_scenes/contact_sheet.png
+
+# What leaving out saves on the Cornell box; on an idle machine.
+specialisation: programs
+	scripts/specialisation build/bin/rtrays-render scenes/cornell_box/scene.json > results/specialisation.md.new
+	mv results/specialisation.md.new results/specialisation.md
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
 references: programs
