@@ -140,7 +140,7 @@ ExitCode run(Options &options) {
     }
     options.settings.variance = std::find(options.layers.begin(), options.layers.end(), "variance") != options.layers.end();
 
-    Scene scene = load_scene(options.scene);
+    Scene scene = load_scene(options.scene, options.quiet);
     for (const std::string &assignment : options.assignments) {
         const std::string scene_prefix = "scene.";
         if (assignment.rfind(scene_prefix, 0) == 0) {
@@ -243,7 +243,7 @@ ExitCode parse_and_run(int argc, char **argv) {
     bool devices = false, algorithms = false;
     app.add_flag("--list-devices", devices, "list the OpenCL devices and stop");
     app.add_flag("--list-algorithms", algorithms, "list the algorithms and stop");
-    app.add_option("SCENE", options.scene, "scene file (.json)");
+    app.add_option("SCENE", options.scene, "scene (.json) or model file (.ply, .obj, .gltf, ...)");
     app.add_option("-o,--output", options.output, "image to write (.exr)");
     app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")->capture_default_str();
     app.add_option("--spp", options.spp, "samples per pixel (default 64)")->check(CLI::PositiveNumber);

@@ -5,17 +5,22 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/import/model_file.h"
 #include "renderer/import/scene_json.h"
 #include "renderer/scene/scene.h"
 
 namespace rtrays {
 
-Scene load_scene(const std::string &path) {
+Scene load_scene(const std::string &path, bool quiet) {
     const std::filesystem::path file(path);
+    if (is_model_file(file)) {
+        return load_model(file, quiet);
+    }
     const std::string text = read_file(file);  // first, so that a missing file is called just that
     if (file.extension() != ".json") {
-        throw input_error(fmt::format("{}: '{}' is not a known scene format; known: .json", path,
-                                      file.extension().string()));
+        throw input_error(fmt::format("{}: '{}' is not a known scene format; known: .json and model files "
+                                      "(.ply, .obj, .gltf, .glb, .fbx, .dae, .3ds, .stl, ...)",
+                                      path, file.extension().string()));
     }
     // scenes/cornell_box/scene.json is called cornell_box, scenes/analytic/furnace_050.json furnace_050.
     const bool named_by_folder = file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();

@@ -26,10 +26,6 @@ namespace rtrays {
 
 namespace {
 
-/// A scene whose centre is more than this many times its size away from the origin is moved there before it
-/// is rounded to float: by then four bits of every coordinate would be lost to the distance.
-constexpr double far_away = 16;
-
 /// Builds the graph from a document that the schema has accepted; what a schema cannot say is checked here.
 class SceneReader {
   public:
@@ -58,12 +54,7 @@ class SceneReader {
     void finish() {
         source_.located("", [&] {
             scene_.update(0);
-            const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
-            const bool has_geometry = !bounds.isEmpty();
-            if (has_geometry && bounds.center().norm() > far_away * 0.5 * bounds.diagonal().norm()) {
-                scene_.graph().set_origin(bounds.center());
-                scene_.update(0);
-            }
+            scene_.recentre();
             const std::vector<std::string> &cameras = scene_.cameras().name;
             if (cameras.empty()) {
                 throw input_error("the scene has no camera; add a node with a \"camera\"");

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/import/model_file.h"
 #include "renderer/import/triangulate.h"
 #include "renderer/scene/cores/mesh.h"
 #include "renderer/scene/cores/shape.h"
@@ -70,6 +71,15 @@ std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, 
         const std::string type = value.at("type");
         if (type == "mesh") {
             return read_mesh(value, name, source, path);
+        }
+        if (type == "file") {
+            check_keys(value, type, {"file"}, {"shading_normals"});
+            const std::string normals = value.value("shading_normals", "stored");
+            MeshFileOptions options;
+            options.normals = normals == "none"     ? MeshFileOptions::Normals::none
+                              : normals == "smooth" ? MeshFileOptions::Normals::smooth
+                                                    : MeshFileOptions::Normals::stored;
+            return load_mesh_file(source.file(value.at("file")), name, options);
         }
         if (type == "rectangle" || type == "box") {
             check_keys(value, type, {}, {});

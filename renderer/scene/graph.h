@@ -46,6 +46,9 @@ class SceneGraph {
     /// has succeeded.
     void update(double time);
 
+    /// The scene time of the last update, seconds.
+    double time() const { return time_; }
+
     /// What the last update did, by store.
     const StoreCounts &camera_counts() const { return cameras_.counts(); }
     const StoreCounts &material_counts() const { return materials_.counts(); }

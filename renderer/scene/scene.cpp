@@ -181,6 +181,16 @@ void Scene::set_active_camera(const std::string &node_name) {
     }
 }
 
+void Scene::recentre() {
+    // A centre that many times the scene's size away: by then four bits of every coordinate are lost to the distance.
+    constexpr double far_away = 16;
+    const Eigen::AlignedBox3d bounds = graph_->bounds();
+    if (!bounds.isEmpty() && bounds.center().norm() > far_away * 0.5 * bounds.diagonal().norm()) {
+        graph_->set_origin(bounds.center());
+        graph_->update(graph_->time());
+    }
+}
+
 Eigen::Vector3d Scene::origin() const {
     return graph_->origin();
 }

@@ -53,6 +53,11 @@ class Scene {
     /// Chooses it by node name; throws `Error` (bad input) listing the cameras when there is none such.
     void set_active_camera(const std::string &node_name);
 
+    /// Makes the middle of all geometry the origin of the baked world, where it is so far from the origin of the
+    /// scene file that rounding to float would cost anything that matters, and updates. To be called once, after
+    /// the first update.
+    void recentre();
+
     /// Where the origin of the baked world is in the coordinates of the scene file (see stores.h).
     Eigen::Vector3d origin() const;
 
@@ -68,8 +73,8 @@ class Scene {
     int film_height_ = 256;
 };
 
-/// Loads a scene (our JSON, later Mitsuba XML and model files) and updates it to time 0. Throws `Error` (bad
-/// input) naming file, line and remedy.
-Scene load_scene(const std::string &path);
+/// Loads a scene (our JSON, or a model file: see model_file.h) and updates it to time 0, with progress on stderr
+/// unless `quiet`. Throws `Error` (bad input) naming file, line and remedy.
+Scene load_scene(const std::string &path, bool quiet = true);
 
 }  // namespace rtrays

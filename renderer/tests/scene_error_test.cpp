@@ -178,7 +178,7 @@ TEST(SceneErrors, Geometry) {
         R"({"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]}, "geometry": )", "}",
         {
             {R"({"type": "torus"})",
-             "/nodes/1/geometry/type (in 'a'): \"torus\" is not one of: mesh, rectangle, box, sphere"},
+             "/nodes/1/geometry/type (in 'a'): \"torus\" is not one of: mesh, file, rectangle, box, sphere"},
             {R"({"type": "sphere", "radius": 0})", "/nodes/1/geometry/radius"},
             {R"({"type": "sphere", "radius": 1e39})",
              "radius: 1e+39 is not within (0, 3.402823e+38] (scene units)"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The documentation of the scene format holds: its examples are read, and they, the schema and the tables of
 // types name the same things.
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -104,6 +105,8 @@ class SceneReadme : public WithImages {};
 
 TEST_F(SceneReadme, EveryExampleIsReadAndSerialized) {
     std::ofstream(testing::TempDir() + "wood.png", std::ios::binary) << "P6 1 1 255\nabc";
+    std::filesystem::copy_file(RTRAYS_CORPUS "/square.ply", testing::TempDir() + "bunny.ply",
+                               std::filesystem::copy_options::overwrite_existing);
     for (const char *name : {"grid.exr", "sky.exr"}) {
         Image image = Image::rgb(1, 1);
         write_exr(image, testing::TempDir() + name);
@@ -126,7 +129,7 @@ TEST_F(SceneReadme, ExamplesSchemaAndTablesNameTheSameTypes) {
     const Names materials = names_of(material_types(), {"composite"});
     EXPECT_EQ(schema_enum("material", "type"), materials);
     EXPECT_EQ(used({"materials", "material"}, "type"), materials);
-    const Names geometries = names_of(shape_types(), {"mesh", "rectangle", "box"});
+    const Names geometries = names_of(shape_types(), {"mesh", "file", "rectangle", "box"});
     EXPECT_EQ(schema_enum("geometry", "type"), geometries);
     EXPECT_EQ(used({"geometries", "geometry"}, "type"), geometries);
     EXPECT_EQ(schema_enum("light", "type"), names_of(light_types()));
@@ -174,7 +177,7 @@ Names parameters_of(const Types &types) {
 
 TEST(SceneSchema, HasTheKeysOfTheTables) {
     EXPECT_EQ(schema_keys("material", {"type", "components"}), parameters_of(material_types()));
-    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs"}),
+    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs", "file", "shading_normals"}),
               parameters_of(shape_types()));
     EXPECT_EQ(schema_keys("light", {"type", "file"}), parameters_of(light_types()));
     EXPECT_EQ(schema_keys("camera", {"type"}), parameters_of(camera_types()));

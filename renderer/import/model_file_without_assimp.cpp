@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// What a build without Assimp says to model files other than PLY.
+#include <fmt/format.h>
+
+#include "renderer/base/error.h"
+#include "renderer/import/model_file_scene.h"
+
+namespace rtrays {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path &path) {
+    throw input_error(
+        fmt::format("{}: this build reads no such file; configure with -DRTRAYS_MODELS=ON (needs Assimp)",
+                    path.string()));
+}
+
+}  // namespace
+
+/// Which it would be is not known here; the refusal says how to find out.
+bool assimp_reads(const std::string &) {
+    return true;
+}
+
+MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &, bool) {
+    refuse(path);
+}
+
+void read_model_scene(const std::filesystem::path &path, Scene &, ModelNames &, ModelNotes &, bool) {
+    refuse(path);
+}
+
+std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path, Scene &,
+                                                                ModelNotes &) {
+    refuse(path);
+}
+
+}  // namespace rtrays
