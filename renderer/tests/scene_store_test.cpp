@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Serialization: what the stores hold after updates, and what an update costs.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <random>
 
@@ -160,16 +163,85 @@ TEST(Stores, AMeshThatGrowsGetsANewRecord) {
     expect_consistent(*graph);
 }
 
+/// A mesh, with or without normals and texture coordinates, or a shape that may emit.
+std::shared_ptr<Core> any_geometry(unsigned choice) {
+    if (choice >= 4) {
+        return shape(choice % 2 == 0 ? "sphere" : "disc");
+    }
+    MeshCore::Geometry geometry{right_triangle()->vertices(), right_triangle()->triangles()};
+    if (choice % 2 == 1) {
+        geometry.normals.assign(3, Vector3d(0, 0, 1));
+    }
+    if (choice >= 2) {
+        geometry.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    }
+    return choice == 0 ? unit_square() : std::make_shared<MeshCore>("", geometry);
+}
+
+/// A material of one or two components that glows or has a texture of its own or a shared one, or neither.
+std::shared_ptr<MaterialCore> any_material(unsigned choice, const std::shared_ptr<Texture> &shared) {
+    ParameterValues values{{"reflectance", Vector3d(0.5, 0.5, 0.5)}};
+    if (choice % 4 == 0) {
+        values["emission"] = Vector3d(1, 2, 3);
+    }
+    ParameterTextures textures;
+    if (choice % 4 == 1) {
+        textures["reflectance"] = choice >= 4 ? shared : std::make_shared<Texture>("own", shared->image());
+    }
+    if (choice % 2 == 0) {
+        values["eta"] = 1.5;
+    }
+    return std::make_shared<MaterialCore>("", choice % 2 == 0 ? "plastic" : "lambert", values, textures);
+}
+
+/// Everything of the arrays that an image depends on, in words that compare.
+std::vector<std::string> described(const SceneArrays &arrays) {
+    std::vector<std::string> all;
+    const auto add = [&](const auto &...values) {
+        all.push_back(fmt::format("{}", fmt::join(std::vector<std::string>{values...}, " ")));
+    };
+    const auto component = [&](uint32_t material) {
+        const BxdfComponent &c = arrays.materials.component[arrays.materials.first_component[material]];
+        return c.texture == no_index ? std::string("plain") : arrays.textures.name[c.texture];
+    };
+    const auto light = [&](uint32_t index) {
+        return index == no_index ? 0.0 : arrays.lights.radiance[index].sum() * arrays.lights.area[index];
+    };
+    for (uint32_t i = 0; i < arrays.meshes.name.size(); ++i) {
+        const uint32_t v = arrays.meshes.first_vertex[i] + 1;
+        add(arrays.meshes.name[i], component(arrays.meshes.material[i]),
+            fmt::format("{}", light(arrays.meshes.light[i])),
+            fmt::format("{}", arrays.meshes.position[v].x()), fmt::format("{}", arrays.meshes.has_normals[i]),
+            fmt::format("{}", arrays.meshes.has_uv[i] != 0 ? arrays.meshes.uv[v].x() : 0));
+    }
+    for (uint32_t i = 0; i < arrays.shapes.name.size(); ++i) {
+        add(arrays.shapes.name[i], component(arrays.shapes.material[i]),
+            fmt::format("{}", light(arrays.shapes.light[i])),
+            fmt::format("{}", arrays.shapes.world_from_object[i](0, 3)));
+    }
+    for (uint32_t i = 0; i < arrays.lights.name.size(); ++i) {
+        add(arrays.lights.name[i], fmt::format("{}", arrays.lights.world_from_light[i](0, 3)));
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
 TEST(Stores, StayConsistentUnderRandomEdits) {
     const auto graph = row_of_triangles(40);
+    const auto image = std::make_shared<TextureImage>(TextureImage{1, 1, false, {1, 2, 3}, {}});
+    const auto shared = std::make_shared<Texture>("shared", image);
     std::minstd_rand random(1);
-    for (int round = 0; round < 300; ++round) {
+    const auto give_light = [](Node &node, const std::shared_ptr<LightCore> &light) {
+        node.set_core(grey("dark"));  // geometry that glows by itself takes no second light
+        node.set_core(light);
+    };
+    for (int round = 0; round < 400; ++round) {
         for (int edit = 0; edit < 4; ++edit) {
             Node *node = graph->find(std::to_string(random() % 40));
             if (node == nullptr) {
                 continue;
             }
-            switch (random() % 7) {
+            switch (random() % 9) {
                 case 0:
                     node->set_core(std::make_shared<VisibilityCore>("", random() % 2 == 0));
                     break;
@@ -177,16 +249,24 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
                     node->set_core(moved(static_cast<double>(random() % 100), 0, 0));
                     break;
                 case 2:
-                    node->set_core(random() % 2 == 0 ? unit_square() : right_triangle());
+                    node->set_core(any_geometry(static_cast<unsigned>(random() % 6)));
                     break;
                 case 3:
-                    node->set_core(area_light(Vector3d(1, 1, 1)));
+                    give_light(*node, area_light(Vector3d(1, 1, 1)));
                     break;
                 case 4:
-                    node->remove_core(CoreRole::light);
+                    give_light(*node, std::make_shared<LightCore>(
+                                          "", "point", ParameterValues{{"intensity", Vector3d(1, 1, 1)}}));
                     break;
                 case 5:
-                    node->set_core(grey("own"));
+                    node->remove_core(CoreRole::light);
+                    break;
+                case 6:
+                    node->remove_core(CoreRole::light);
+                    node->set_core(any_material(static_cast<unsigned>(random() % 8), shared));
+                    break;
+                case 7:
+                    shared->set("uv_scale", Eigen::Vector2d(static_cast<double>(round), 1));
                     break;
                 default: {
                     // Out, and back in under another parent.
@@ -201,12 +281,22 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
         if (testing::Test::HasFatalFailure()) {
             return;
         }
+        const TextureArrays &textures = graph->arrays().textures;
+        for (size_t i = 0; i < textures.name.size(); ++i) {
+            if (textures.name[i] == "shared") {
+                EXPECT_EQ(textures.uv_scale[i], shared->parameters().get<Eigen::Vector2d>("uv_scale"));
+            }
+        }
     }
+    EXPECT_GT(graph->arrays().shapes.name.size(), 3u);
+    EXPECT_GT(graph->arrays().textures.name.size(), 1u);
     // What was reached by edits equals what one update of everything writes.
+    const std::vector<std::string> edited = described(graph->arrays());
     const std::vector<Vector3f> positions = graph->arrays().meshes.position;
     const std::vector<Triangle> triangles = graph->arrays().meshes.triangle;
     graph->root().mark(Dirty::subtree);
     graph->update(0);
+    EXPECT_EQ(described(graph->arrays()), edited);
     EXPECT_EQ(graph->arrays().meshes.position, positions);
     EXPECT_EQ(graph->arrays().meshes.triangle, triangles);
 }
