@@ -8,7 +8,7 @@ JOBS ?= $(shell nproc)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse
 
-.PHONY: test-full specialisation all install programs build reproduce-chapter4 report test test-asan references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full specialisation references format lint clean
 
 all: build
 

@@ -72,8 +72,8 @@ void expect_meets(const Image &image, const Expected &expected, const char *rend
             for (int x = 0; x < image.width(); ++x) {
                 const auto i = static_cast<size_t>(y * image.width() + x);
                 const double here = expected.radiance(x, y, channel);
-                if (variances[i] == 0.0f) {
-                    ASSERT_NEAR(static_cast<double>(values[i]), here, 2e-6 * here) << renderer << " " << x << "," << y;
+                if (variances[i] == 0.0f) {  // towards the corners of the field cos^3 falls by up to 1.3e-4
+                    ASSERT_NEAR(static_cast<double>(values[i]), here, 1.5e-4 * here) << renderer << " " << x << "," << y;
                 }
                 sum += static_cast<double>(values[i]);
                 wanted += here;
