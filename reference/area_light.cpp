@@ -26,7 +26,7 @@ double scale_of(const Shape &shape) {
     const Eigen::Matrix3d gram = shape.linear().transpose() * shape.linear();
     const double squared = gram.trace() / 3.0;
     if ((gram - squared * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-6 * squared) {
-        throw input_error("an emitting disc or sphere must not be scaled unequally or sheared");
+        throw input_error("an emitting sphere must not be scaled unequally or sheared");
     }
     return std::sqrt(squared);
 }
@@ -84,7 +84,8 @@ std::optional<LightSample> MeshLight::sample(const Geometry &geometry, const Vec
 }
 
 DiscLight::DiscLight(const Geometry &geometry, uint32_t shape, const Spectrum &radiance)
-    : DiffuseEmitter(pi * square(scale_of(geometry.shapes()[shape])), radiance),
+    : DiffuseEmitter(pi * geometry.shapes()[shape].linear().col(0).cross(geometry.shapes()[shape].linear().col(1)).norm(),
+                     radiance),
       shape_(shape),
       normal_(geometry.shapes()[shape].normal(Vec3::Zero())) {}
 

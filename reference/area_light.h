@@ -51,10 +51,10 @@ class MeshLight : public DiffuseEmitter {
     AliasTable choose_;  ///< in proportion to area
 };
 
-/// A disc under a similarity; points are uniform in area.
+/// A disc, or the ellipse that an affine map makes of it; points are uniform in area, which such a map preserves.
 class DiscLight : public DiffuseEmitter {
   public:
-    /// `shape`: index of the geometry's shape. Throws `Error` (bad input) when it is no circle.
+    /// `shape`: index of the geometry's shape.
     DiscLight(const Geometry &geometry, uint32_t shape, const Spectrum &radiance);
 
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;

@@ -168,7 +168,7 @@ struct ShapeArrays {
 /// Lights. Area lights emit from the front side of their geometry alone.
 struct LightArrays {
     enum class Kind {
-        diffuse_area,  ///< a mesh, or a shape that is a disc or a sphere under a similarity
+        diffuse_area,  ///< a mesh, a disc, or a sphere under a similarity
         point,
         spot,         ///< Mitsuba's: the intensity falls linearly with the angle from the inner to the outer cone
         directional,  ///< parallel light from infinity
