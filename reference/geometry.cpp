@@ -64,6 +64,7 @@ Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes) {
             }
         }
     }
+    first_shape_ = static_cast<uint32_t>(triangles_.size());
     stats_.triangles = triangles_.size();
     stats_.degenerate_triangles = count - triangles_.size();
     const auto any = [](const std::vector<uint8_t> &flags) {
@@ -125,7 +126,6 @@ bool Geometry::intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit)
     result.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     result.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.get(), &query, &result);
-    const auto first_shape = static_cast<uint32_t>(triangles_.size());
     for (const uint32_t i : unbounded_) {
         double t = 0.0;
         Vec3 object;
@@ -145,7 +145,7 @@ bool Geometry::intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit)
         return true;
     }
     if (result.hit.geomID == shapes_id) {
-        hit.primitive = first_shape + result.hit.primID;
+        hit.primitive = first_shape_ + result.hit.primID;
         hit.local = query.object;
         hit.position = shapes_[result.hit.primID].to_world(query.object);
         return true;

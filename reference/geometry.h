@@ -24,8 +24,6 @@ struct SurfacePoint {
     Vec3 position;
     Vec3 local;          ///< triangles: second and third barycentric coordinate; shapes: object space
     uint32_t primitive;  ///< triangles first, then shapes
-
-    Eigen::Vector2d barycentric() const { return local.head<2>(); }
 };
 
 /// What interpolation and texturing need to know of a point.
@@ -63,11 +61,9 @@ class Geometry {
     /// Of all bounded surfaces; empty when there is none.
     const Eigen::AlignedBox3d &bounds() const { return bounds_; }
 
-    bool is_triangle(const SurfacePoint &point) const { return point.primitive < triangles_.size(); }
+    bool is_triangle(const SurfacePoint &point) const { return point.primitive < first_shape_; }
     const TriangleRecord &triangle(const SurfacePoint &point) const { return triangles_[point.primitive]; }
-    const Shape &shape(const SurfacePoint &point) const {
-        return shapes_[point.primitive - triangles_.size()];
-    }
+    const Shape &shape(const SurfacePoint &point) const { return shapes_[point.primitive - first_shape_]; }
 
     Vec3 normal(const SurfacePoint &point) const {
         return is_triangle(point) ? triangle(point).normal : shape(point).normal(point.local);
@@ -99,7 +95,7 @@ class Geometry {
     /// Where a ray that leaves `point` to the side of `direction` starts, so that it never meets its own
     /// surface again (see `TriangleRecord` and `Shape`).
     Vec3 spawn_point(const SurfacePoint &point, const Vec3 &direction) const {
-        return is_triangle(point) ? triangle(point).spawn_point(point.barycentric(), direction)
+        return is_triangle(point) ? triangle(point).spawn_point(point.position, point.local, direction)
                                   : shape(point).spawn_point(point.local, direction);
     }
 
@@ -116,6 +112,7 @@ class Geometry {
     std::unique_ptr<RTCSceneTy, Release> scene_;
     std::vector<TriangleRecord> triangles_;
     std::vector<Shape> shapes_;
+    uint32_t first_shape_ = 0;         ///< number of triangles
     std::vector<uint32_t> unbounded_;  ///< indices of shapes
     Eigen::AlignedBox3d bounds_;
     // Of vertices, for meshes that have them; `vertices_` is empty when none has.

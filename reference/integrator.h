@@ -69,9 +69,11 @@ class PathIntegrator {
             SurfacePoint hit;
             if (!world_.geometry.intersect(ray, depth == 0 ? Coherence::coherent : Coherence::incoherent,
                                            hit)) {
-                return result + throughput * world_.lights.from_infinity(ray.direction, [&](double pdf_w) {
-                    return implicit_weight(light_sampled_too, pdf_of_direction, pdf_w);
-                });
+                if (world_.lights.reach_to_infinity()) {
+                    result +=
+                        throughput * escaped_radiance(ray.direction, light_sampled_too, pdf_of_direction);
+                }
+                return result;
             }
             const uint32_t light = world_.geometry.light(hit);
             const Vec3 wo = -ray.direction;
@@ -131,9 +133,18 @@ class PathIntegrator {
         return counts_hits_ ? power_heuristic(pdf_of_direction, pdf_of_light) : 0.0;
     }
 
+    /// Weighted radiance from infinity. Out of line: the path that meets surfaces is the fast one.
+    [[gnu::noinline]] Spectrum escaped_radiance(const Vec3 &direction, bool light_sampled_too,
+                                                double pdf_of_direction) const {
+        return world_.lights.from_infinity(direction, [&](double pdf_w) {
+            return implicit_weight(light_sampled_too, pdf_of_direction, pdf_w);
+        });
+    }
+
     /// One explicit connection, weighted: f Le |cos| / pdf_w.
-    Spectrum direct_light(const BsdfModel &bsdf, const Shading &shading, const Vec3 &wo_local,
-                          const SurfacePoint &point, Rng &rng, RayCounts &counts) const {
+    [[gnu::always_inline]] inline Spectrum direct_light(const BsdfModel &bsdf, const Shading &shading,
+                                                        const Vec3 &wo_local, const SurfacePoint &point,
+                                                        Rng &rng, RayCounts &counts) const {
         const auto light = world_.lights.sample(world_.geometry, point.position, rng);
         if (!light) {
             return Spectrum::Zero();

@@ -26,6 +26,7 @@ class LightSet {
     LightSet(const Geometry &geometry, const LightArrays &lights);
 
     bool empty() const { return lights_.empty(); }
+    bool reach_to_infinity() const { return !infinite_.empty(); }
 
     /// A point on one chosen light; nothing when it faces away.
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;

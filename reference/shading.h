@@ -25,16 +25,19 @@ struct Shading {
     }
 };
 
-Shading make_detailed_shading(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo);
+/// The surface's parametrization with its shading normal turned and replaced as above.
+Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo);
 
-/// `parametrized`: whether uv and the direction of dp/du are asked for.
+/// `parametrized`: whether uv and the direction of dp/du are asked for. All of the plain case is inline, so
+/// that the frame stays in registers.
 inline Shading make_shading(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo,
                             bool parametrized) {
-    if (parametrized || geometry.has_shading_normal(point)) {
-        return make_detailed_shading(geometry, point, wo);
+    const Vec3 ng = geometry.normal(point);
+    if (!parametrized && !geometry.has_shading_normal(point)) {
+        return {Frame(ng), ng, Eigen::Vector2d::Zero(), false};
     }
-    const Vec3 normal = geometry.normal(point);
-    return {Frame(normal), normal, Eigen::Vector2d::Zero(), false};
+    const Parametrization surface = parametrize_for(geometry, point, wo);
+    return {Frame(surface.shading_normal, surface.tangent), ng, surface.uv, surface.shading_normal != ng};
 }
 
 }  // namespace rtrays::reference

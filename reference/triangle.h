@@ -34,11 +34,12 @@ struct TriangleRecord {
     /// `fallback` is used when the line is parallel to the plane.
     Eigen::Vector2d intersect_plane(const Ray &ray, const Eigen::Vector2d &fallback) const;
 
-    /// Where a ray that leaves `barycentric` to the side of `direction` starts: off the plane by a multiple
+    /// Where a ray that leaves `position`, whose barycentrics are the first two of `local`, to the side of
+    /// `direction` starts: off the plane by a multiple
     /// of what float rounding and Embree's float arithmetic can do, so that it never meets its own triangle,
     /// and away from the edges by four times as much, so that it is not pushed through a neighbour that
     /// meets this triangle at an edge with more than 14 degrees.
-    Vec3 spawn_point(const Eigen::Vector2d &barycentric, const Vec3 &direction) const;
+    Vec3 spawn_point(const Vec3 &position, const Vec3 &local, const Vec3 &direction) const;
 };
 
 /// Fills the record of triangle `index` of the store; returns false when its area is zero (or below what
@@ -61,14 +62,16 @@ inline Eigen::Vector2d TriangleRecord::intersect_plane(const Ray &ray,
     return {u, std::min(std::max(v, 0.0), 1.0 - u)};
 }
 
-inline Vec3 TriangleRecord::spawn_point(const Eigen::Vector2d &barycentric, const Vec3 &direction) const {
+inline Vec3 TriangleRecord::spawn_point(const Vec3 &position, const Vec3 &local,
+                                        const Vec3 &direction) const {
     const double side = std::copysign(offset, normal.dot(direction));
-    const double smallest = std::min({barycentric.x(), barycentric.y(), 1.0 - barycentric.sum()});
+    const double smallest = std::min({local.x(), local.y(), 1.0 - (local.x() + local.y())});
     if (smallest >= margin) {
-        return point(barycentric) + side * normal;
+        return position + side * normal;
     }
     // Towards the centroid until the nearest edge is `margin` away.
     const double share = (margin - smallest) / (1.0 / 3.0 - smallest);
+    const Eigen::Vector2d barycentric = local.head<2>();
     const Eigen::Vector2d inner = barycentric + share * (Eigen::Vector2d::Constant(1.0 / 3.0) - barycentric);
     return point(inner) + side * normal;
 }
