@@ -84,8 +84,10 @@ std::optional<LightSample> MeshLight::sample(const Geometry &geometry, const Vec
 }
 
 DiscLight::DiscLight(const Geometry &geometry, uint32_t shape, const Spectrum &radiance)
-    : DiffuseEmitter(pi * geometry.shapes()[shape].linear().col(0).cross(geometry.shapes()[shape].linear().col(1)).norm(),
-                     radiance),
+    : DiffuseEmitter(
+          pi *
+              geometry.shapes()[shape].linear().col(0).cross(geometry.shapes()[shape].linear().col(1)).norm(),
+          radiance),
       shape_(shape),
       normal_(geometry.shapes()[shape].normal(Vec3::Zero())) {}
 

@@ -51,7 +51,8 @@ class MeshLight : public DiffuseEmitter {
     AliasTable choose_;  ///< in proportion to area
 };
 
-/// A disc, or the ellipse that an affine map makes of it; points are uniform in area, which such a map preserves.
+/// A disc, or the ellipse that an affine map makes of it; points are uniform in area, which such a map
+/// preserves.
 class DiscLight : public DiffuseEmitter {
   public:
     /// `shape`: index of the geometry's shape.
