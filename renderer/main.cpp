@@ -14,6 +14,7 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
+#include "renderer/export/mitsuba_xml.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
 #include "rtrays_commit.h"
@@ -27,6 +28,7 @@ const char *const version_text = "rtrays-render 0.1.0 (" RTRAYS_COMMIT ")";
 struct Options {
     std::string scene;
     std::string output;
+    std::string exported;
     std::string size;
     std::string samples;
     std::optional<uint64_t> spp;
@@ -133,7 +135,10 @@ ExitCode run(Options &options) {
     if (options.spp && !options.samples.empty()) {
         throw input_error("--spp excludes --samples");
     }
-    for (const std::string &path : {options.output, options.state, options.stats}) {
+    if (!options.exported.empty() && std::filesystem::path(options.exported).extension() != ".xml") {
+        throw input_error(fmt::format("--export {}: the extension must be .xml (Mitsuba 3)", options.exported));
+    }
+    for (const std::string &path : {options.output, options.state, options.stats, options.exported}) {
         if (!path.empty()) {
             require_writable(path);
         }
@@ -158,9 +163,6 @@ ExitCode run(Options &options) {
         fmt::print("{}", scene.describe());
         return ExitCode::ok;
     }
-    if (options.output.empty() && !options.dry_run) {
-        throw input_error("-o OUT.exr is missing");
-    }
     if (!options.size.empty()) {
         const auto [width, height] = parse_pair(options.size, 'x', "--size");
         if (width < 1 || height < 1 || width > 65536 || height > 65536) {
@@ -171,6 +173,14 @@ ExitCode run(Options &options) {
     } else {
         options.settings.width = scene.film_width();
         options.settings.height = scene.film_height();
+    }
+    if (!options.exported.empty()) {
+        scene.set_film_size(options.settings.width, options.settings.height);
+        export_mitsuba_xml(scene, options.exported, {options.spp.value_or(64), options.settings.max_depth});
+        return ExitCode::ok;
+    }
+    if (options.output.empty() && !options.dry_run) {
+        throw input_error("-o OUT.exr is missing");
     }
     SampleRange range{0, options.spp.value_or(64)};
     if (!options.samples.empty()) {
@@ -243,8 +253,9 @@ ExitCode parse_and_run(int argc, char **argv) {
     bool devices = false, algorithms = false;
     app.add_flag("--list-devices", devices, "list the OpenCL devices and stop");
     app.add_flag("--list-algorithms", algorithms, "list the algorithms and stop");
-    app.add_option("SCENE", options.scene, "scene (.json) or model file (.ply, .obj, .gltf, ...)");
+    app.add_option("SCENE", options.scene, "scene (.json, Mitsuba 3 .xml) or model file (.ply, .obj, .gltf, ...)");
     app.add_option("-o,--output", options.output, "image to write (.exr)");
+    app.add_option("--export", options.exported, "write the scene as Mitsuba 3 XML (.xml) and stop");
     app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")->capture_default_str();
     app.add_option("--spp", options.spp, "samples per pixel (default 64)")->check(CLI::PositiveNumber);
     app.add_option("--time", options.seconds, "render for that many seconds instead")->check(CLI::PositiveNumber);

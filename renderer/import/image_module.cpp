@@ -110,11 +110,20 @@ void read_image(const std::filesystem::path &path, RawImage &image) {
     }
 }
 
+void write_image(const std::filesystem::path &path, int width, int height, const uint8_t *rgb) {
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+    if (output == nullptr || !output->open(path.string(), OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::UINT8)) ||
+        !output->write_image(OIIO::TypeDesc::UINT8, rgb) || !output->close()) {
+        throw run_error(fmt::format("{}: cannot be written: {}", path.string(),
+                                    output == nullptr ? OIIO::geterror() : output->geterror()));
+    }
+}
+
 }  // namespace
 
 }  // namespace rtrays
 
-/// The one symbol of the module, `rtrays::ReadImageFile`.
+// The symbols of the module, `rtrays::ReadImageFile` and `rtrays::WriteImageFile`.
 extern "C" void rtrays_read_image_file(const std::filesystem::path &path, rtrays::RawImage &image) {
     try {
         rtrays::read_image(path, image);
@@ -123,4 +132,8 @@ extern "C" void rtrays_read_image_file(const std::filesystem::path &path, rtrays
     } catch (const std::exception &error) {  // a damaged header may ask for more memory than there is
         throw rtrays::file_error(path, std::string("cannot be read: ") + error.what());
     }
+}
+
+extern "C" void rtrays_write_image_file(const std::filesystem::path &path, int width, int height, const uint8_t *rgb) {
+    rtrays::write_image(path, width, height, rgb);
 }

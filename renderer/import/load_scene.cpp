@@ -5,6 +5,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/import/mitsuba_xml.h"
 #include "renderer/import/model_file.h"
 #include "renderer/import/scene_json.h"
 #include "renderer/scene/scene.h"
@@ -13,12 +14,13 @@ namespace rtrays {
 
 Scene load_scene(const std::string &path, bool quiet) {
     const std::filesystem::path file(path);
-    if (is_model_file(file)) {
+    const bool is_mitsuba = file.extension() == ".xml";
+    if (!is_mitsuba && is_model_file(file)) {
         return load_model(file, quiet);
     }
     const std::string text = read_file(file);  // first, so that a missing file is called just that
-    if (file.extension() != ".json") {
-        throw input_error(fmt::format("{}: '{}' is not a known scene format; known: .json and model files "
+    if (!is_mitsuba && file.extension() != ".json") {
+        throw input_error(fmt::format("{}: '{}' is not a known scene format; known: .json, .xml (Mitsuba 3) and model files "
                                       "(.ply, .obj, .gltf, .glb, .fbx, .dae, .3ds, .stl, ...)",
                                       path, file.extension().string()));
     }
@@ -26,7 +28,8 @@ Scene load_scene(const std::string &path, bool quiet) {
     const bool named_by_folder = file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();
     const std::filesystem::path named =
         named_by_folder ? std::filesystem::absolute(file).parent_path().filename() : file.stem();
-    return parse_scene_json(text, path, named.string(), file.parent_path());
+    const auto parse = is_mitsuba ? parse_mitsuba_xml : parse_scene_json;
+    return parse(text, path, named.string(), file.parent_path());
 }
 
 }  // namespace rtrays

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/image.h"
 #include "renderer/import/image_module.h"
 #include "renderer/scene/cores/texture.h"
 
@@ -19,19 +21,20 @@ Error file_error(const std::filesystem::path &path, const std::string &what) {
     return input_error(fmt::format("{}: {}", path.string(), what));
 }
 
-/// Opens the module that reads images, once.
-ReadImageFile *read_image_file(const std::filesystem::path &path) {
+/// A function of the module that reads and writes images, which is opened once.
+template <typename Function>
+Function *image_function(const char *name, const std::filesystem::path &path) {
     static void *const module = [] {
         const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
         return dlopen((program.parent_path() / image_module_name).c_str(), RTLD_NOW | RTLD_LOCAL);
     }();
     if (module == nullptr) {
         throw file_error(
-            path, fmt::format("this build reads no images: there is no {} beside the program; configure "
+            path, fmt::format("this build knows no images: there is no {} beside the program; configure "
                               "with -DRTRAYS_TEXTURES=ON (needs OpenImageIO)",
                               image_module_name));
     }
-    return reinterpret_cast<ReadImageFile *>(dlsym(module, read_image_file_name));
+    return reinterpret_cast<Function *>(dlsym(module, name));
 }
 
 void check_texels(const TextureImage &image, const std::filesystem::path &path) {
@@ -56,7 +59,7 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
         throw file_error(path, "no such file");
     }
     RawImage raw;
-    read_image_file(path)(path, raw);
+    image_function<ReadImageFile>(read_image_file_name, path)(path, raw);
     const bool is_srgb = encoding == TextureEncoding::srgb;
     if (is_srgb && raw.is_floating) {
         throw file_error(path, "holds floats, which are linear: \"encoding\" must be \"linear\"");
@@ -74,6 +77,24 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
         }
     }
     return image;
+}
+
+void write_texture_file(const TextureImage &image, const std::filesystem::path &path) {
+    if (image.floats.empty()) {
+        const auto write = image_function<WriteImageFile>(write_image_file_name, path);
+        write_atomically(path, [&](const std::filesystem::path &temporary) {
+            write(temporary, image.width, image.height, image.bytes.data());
+        });
+        return;
+    }
+    Image floats = Image::rgb(image.width, image.height);
+    for (size_t c = 0; c < 3; ++c) {
+        std::vector<float> &channel = floats.channel(rgb_names()[c]);
+        for (size_t i = 0; i < channel.size(); ++i) {
+            channel[i] = image.floats[3 * i + c];
+        }
+    }
+    write_exr(floats, path);
 }
 
 std::shared_ptr<const TextureImage> TextureFiles::load(const std::filesystem::path &path,

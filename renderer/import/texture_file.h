@@ -20,6 +20,10 @@ enum class TextureEncoding { srgb, linear };
 std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::path &path,
                                                       TextureEncoding encoding);
 
+/// Writes an image that reads back the same: one of 8 bits as PNG, one of floats as
+/// EXR. Throws `Error` (run failed) naming the file.
+void write_texture_file(const TextureImage &image, const std::filesystem::path &path);
+
 /// Loads each file once, however many textures use it.
 class TextureFiles {
   public:

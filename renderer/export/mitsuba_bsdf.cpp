@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/export/mitsuba_bsdf.h"
+
+#include <algorithm>
+
+#include "renderer/base/error.h"
+#include "renderer/import/mitsuba_plastic.h"
+#include "renderer/import/texture_file.h"
+#include "renderer/scene/cores/composite.h"
+#include "renderer/scene/cores/texture.h"
+
+namespace rtrays::mitsuba {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Kind = BxdfComponent::Kind;
+
+/// "ideal_reflection * dielectric + lambert * (1 - dielectric)".
+std::string formula(const BxdfComponent *parts, uint32_t count) {
+    std::string text;
+    for (uint32_t i = 0; i < count; ++i) {
+        const BxdfComponent &part = parts[i];
+        text += (i > 0 ? " + " : "") + bxdf_names()[static_cast<size_t>(part.kind)];
+        if (part.fresnel != BxdfComponent::Fresnel::ideal) {
+            const std::string term =
+                fresnel_names()[static_cast<size_t>(part.fresnel)] + (part.fresnel_of_wo ? " of wo" : "");
+            text += part.complement ? " * (1 - " + term + ")" : " * " + term;
+        }
+    }
+    return text;
+}
+
+bool is_rough(const BxdfComponent &part) {
+    return part.kind == Kind::microfacet_reflection || part.kind == Kind::microfacet_refraction;
+}
+
+void write_roughness(pugi::xml_node bsdf, const BxdfComponent &part) {
+    if (!is_rough(part)) {
+        return;
+    }
+    add_property(bsdf, "string", "distribution",
+                 part.distribution == BxdfComponent::Distribution::ggx ? "ggx" : "beckmann");
+    if (part.alpha[0] == part.alpha[1]) {
+        add_number(bsdf, "alpha", part.alpha[0]);
+    } else {
+        add_number(bsdf, "alpha_u", part.alpha[0]);
+        add_number(bsdf, "alpha_v", part.alpha[1]);
+    }
+}
+
+}  // namespace
+
+const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
+    static const std::vector<Recipe> all = {
+        {"lambert", "diffuse", false, &BsdfWriter::write_diffuse},
+        {"ideal_reflection", "conductor", false, &BsdfWriter::write_conductor},
+        {"ideal_reflection * conductor", "conductor", false, &BsdfWriter::write_conductor},
+        {"microfacet_reflection", "conductor", false, &BsdfWriter::write_conductor},
+        {"microfacet_reflection * conductor", "conductor", false, &BsdfWriter::write_conductor},
+        {"ideal_reflection * dielectric + ideal_refraction * (1 - dielectric)", "dielectric", true,
+         &BsdfWriter::write_dielectric},
+        {"microfacet_reflection * dielectric + microfacet_refraction * (1 - dielectric)", "dielectric", true,
+         &BsdfWriter::write_dielectric},
+        // A rough coat is no roughplastic: Mitsuba's lets less light through to its base.
+        {"ideal_reflection * dielectric + lambert * (1 - dielectric)", "plastic", false,
+         &BsdfWriter::write_plastic},
+    };
+    return all;
+}
+
+const BsdfWriter::Recipe &BsdfWriter::recipe(uint32_t material) const {
+    const MaterialArrays &materials = arrays_.materials;
+    const std::string wanted = formula(&materials.component[materials.first_component[material]],
+                                       materials.component_count[material]);
+    std::string known;
+    for (const Recipe &row : recipes()) {
+        if (wanted == row.components) {
+            return row;
+        }
+        known += (known.empty() ? "" : "; ") + std::string(row.components);
+    }
+    throw input_error(fmt::format("material '{}': Mitsuba has no BSDF for {}; it has some for: {}",
+                                  materials.name[material], wanted, known));
+}
+
+std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
+    const MaterialArrays &materials = arrays_.materials;
+    const BxdfComponent *parts = &materials.component[materials.first_component[material]];
+    const bool depends_on_uv =
+        std::any_of(parts, parts + materials.component_count[material], [](const BxdfComponent &part) {
+            return part.texture != no_index || (is_rough(part) && part.alpha[0] != part.alpha[1]);
+        });
+    if (depends_on_uv && uv == UvConvention::none) {
+        throw input_error(
+            fmt::format("material '{}': a texture or an anisotropic roughness needs a surface whose texture "
+                        "coordinates are those of Mitsuba: a mesh that has some, a sphere or a cylinder",
+                        materials.name[material]));
+    }
+    std::string &id = written_[{material, depends_on_uv ? uv : UvConvention::none}];
+    if (id.empty()) {
+        const Recipe &row = recipe(material);
+        id = ids_.unique(materials.name[material]);
+        const std::string plugin = (is_rough(parts[0]) ? "rough" : "") + std::string(row.plugin);
+        const bool twosided = !row.transmits && materials.two_sided[material] != 0;
+        const pugi::xml_node outer = add_object(scene_, "bsdf", twosided ? "twosided" : plugin, id);
+        try {
+            (this->*row.write)(twosided ? add_object(outer, "bsdf", plugin) : outer, parts, uv);
+        } catch (const Error &error) {
+            throw Error(error.exit_code(),
+                        fmt::format("material '{}': {}", materials.name[material], error.what()));
+        }
+    }
+    return id;
+}
+
+void BsdfWriter::write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+    write_weight(bsdf, "reflectance", parts[0].weight.cast<double>(), parts[0].texture, uv);
+}
+
+void BsdfWriter::write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+    if (parts[0].fresnel == BxdfComponent::Fresnel::ideal) {
+        add_property(bsdf, "string", "material", "none");
+    } else {
+        add_colour(bsdf, "eta", parts[0].eta);
+        add_colour(bsdf, "k", parts[0].k);
+    }
+    write_roughness(bsdf, parts[0]);
+    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture, uv);
+}
+
+void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+    if (parts[0].eta != parts[1].eta || parts[0].alpha != parts[1].alpha ||
+        parts[0].distribution != parts[1].distribution) {
+        throw input_error(
+            "what is reflected and what is refracted must have one eta, roughness and distribution");
+    }
+    add_number(bsdf, "int_ior", parts[0].eta[0]);
+    add_number(bsdf, "ext_ior", 1);
+    write_roughness(bsdf, parts[0]);
+    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture, uv);
+    write_weight(bsdf, "specular_transmittance", parts[1].weight.cast<double>(), parts[1].texture, uv);
+}
+
+void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+    const double eta = parts[0].eta[0];
+    if (parts[1].eta[0] != eta || !(eta > 1) || eta > 3) {
+        throw input_error(
+            fmt::format("the coat and what it lets through must have one eta, in (1, 3], not {} and {}", eta,
+                        parts[1].eta[0]));
+    }
+    add_number(bsdf, "int_ior", eta);
+    add_number(bsdf, "ext_ior", 1);
+    add_boolean(bsdf, "nonlinear", false);
+    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture, uv);
+    // Mitsuba multiplies by that, for the light that goes to and fro below the coat.
+    const Vector3d factor = plastic_base_weight(Vector3d::Ones(), eta, false);
+    write_weight(bsdf, "diffuse_reflectance", parts[1].weight.cast<double>().cwiseQuotient(factor),
+                 parts[1].texture, uv);
+}
+
+void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vector3d &weight, uint32_t texture,
+                              UvConvention uv) {
+    if (texture == no_index) {
+        add_colour(bsdf, name, weight);
+        return;
+    }
+    const TextureArrays &textures = arrays_.textures;
+    pugi::xml_node node = add_object(bsdf, "texture", "bitmap");
+    node.append_attribute("name") = name;
+    add_property(node, "string", "filename", image_file(texture, weight));
+    add_property(node, "string", "filter_type",
+                 textures.filter[texture] == TextureArrays::Filter::nearest ? "nearest" : "bilinear");
+    add_property(node, "string", "wrap_mode",
+                 textures.wrap[texture] == TextureArrays::Wrap::clamp ? "clamp" : "repeat");
+    const TextureImage &image = *textures.image[texture];
+    const bool decodes = image.floats.empty() && image.srgb && weight == Vector3d::Ones();
+    add_boolean(node, "raw", !decodes);
+
+    // The inverse of what the importer does: Mitsuba's rows run from the top.
+    const Vector2d &scale = textures.uv_scale[texture];
+    const Vector2d &offset = textures.uv_offset[texture];
+    const bool flipped = uv == UvConvention::flipped;
+    const Vector2d to_scale(scale[0], flipped ? scale[1] : -scale[1]);
+    const Vector2d to_offset(offset[0], flipped ? 1 - scale[1] - offset[1] : 1 - offset[1]);
+    if (to_scale == Vector2d::Ones() && to_offset == Vector2d::Zero()) {
+        return;
+    }
+    if (to_scale[0] == 0 || to_scale[1] == 0) {
+        throw input_error(fmt::format("texture '{}': Mitsuba takes no scale of 0", textures.name[texture]));
+    }
+    pugi::xml_node transform = node.append_child("transform");
+    transform.append_attribute("name") = "to_uv";
+    transform.append_child("scale").append_attribute("value") =
+        fmt::format("{}, {}, 1", to_scale[0], to_scale[1]).c_str();
+    transform.append_child("translate").append_attribute("value") =
+        fmt::format("{}, {}, 0", to_offset[0], to_offset[1]).c_str();
+}
+
+std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight) {
+    const std::shared_ptr<const TextureImage> &image = arrays_.textures.image[texture];
+    std::string &file = images_[{image.get(), weight[0], weight[1], weight[2]}];
+    if (!file.empty()) {
+        return file;
+    }
+    const std::string &name = arrays_.textures.name[texture];
+    TextureImage written = *image;
+    if (weight != Vector3d::Ones()) {
+        // A bitmap takes no factor: its texels do.
+        written.floats.resize(3 * static_cast<size_t>(image->width) * static_cast<size_t>(image->height));
+        for (size_t i = 0; i < written.floats.size(); ++i) {
+            double value = image->floats.empty() ? image->bytes[i] / 255.0 : image->floats[i];
+            value = image->floats.empty() && image->srgb ? srgb_decoded(value) : value;
+            written.floats[i] = static_cast<float>(value * weight[static_cast<Eigen::Index>(i % 3)]);
+        }
+    }
+    const std::filesystem::path path = folder_.new_file(name, written.floats.empty() ? ".png" : ".exr");
+    write_texture_file(written, path);
+    return file = folder_.relative(path);
+}
+
+}  // namespace rtrays::mitsuba

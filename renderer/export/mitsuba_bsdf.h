@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "renderer/export/mitsuba_writer.h"
+#include "renderer/import/mitsuba_xml_bsdf.h"
+#include "renderer/scene/stores.h"
+
+namespace rtrays::mitsuba {
+
+/// Writes materials as BSDFs, each once (per convention of texture coordinates where that matters).
+class BsdfWriter {
+  public:
+    BsdfWriter(const SceneArrays &arrays, pugi::xml_node scene, Names &ids, DataFolder &folder)
+        : arrays_(arrays), scene_(scene), ids_(ids), folder_(folder) {}
+
+    /// The id of the BSDF for that material. Throws `Error` (bad input) naming the material and what Mitsuba
+    /// has none for.
+    std::string id(uint32_t material, UvConvention uv);
+
+  private:
+    struct Slot;
+    using Write = void (BsdfWriter::*)(pugi::xml_node, const BxdfComponent *, UvConvention);
+    struct Recipe {
+        const char *components;
+        const char *plugin;  ///< "rough" before it where its first component is
+        bool transmits;
+        Write write;
+    };
+    static const std::vector<Recipe> &recipes();
+    const Recipe &recipe(uint32_t material) const;
+
+    void write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+    void write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+    void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+    void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+
+    void write_weight(pugi::xml_node bsdf, const char *name, const Eigen::Vector3d &weight, uint32_t texture,
+                      UvConvention uv);
+    std::string image_file(uint32_t texture, const Eigen::Vector3d &weight);
+
+    const SceneArrays &arrays_;
+    pugi::xml_node scene_;
+    Names &ids_;
+    DataFolder &folder_;
+    std::map<std::pair<uint32_t, UvConvention>, std::string> written_;
+    std::map<std::tuple<const TextureImage *, double, double, double>, std::string> images_;
+};
+
+}  // namespace rtrays::mitsuba

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// What the parts of the Mitsuba exporter share: XML elements and the files beside the scene.
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <pugixml.hpp>
+#include <set>
+#include <string>
+
+namespace rtrays::mitsuba {
+
+/// Appends <TAG name="NAME" value="VALUE"/>. Numbers are written with as many digits as it takes to read them
+/// back.
+inline void add_property(pugi::xml_node parent, const char *tag, const char *name, const std::string &value) {
+    pugi::xml_node node = parent.append_child(tag);
+    node.append_attribute("name") = name;
+    node.append_attribute("value") = value.c_str();
+}
+
+inline void add_number(pugi::xml_node parent, const char *name, double value) {
+    add_property(parent, "float", name, fmt::format("{}", value));
+}
+
+inline void add_boolean(pugi::xml_node parent, const char *name, bool value) {
+    add_property(parent, "boolean", name, value ? "true" : "false");
+}
+
+/// Colours are float or double; what is a float is written as one.
+template <typename Vector>
+void add_colour(pugi::xml_node parent, const char *name, const Vector &rgb) {
+    const auto text = [](double value) {
+        const auto rounded = static_cast<float>(value);
+        return static_cast<double>(rounded) == value ? fmt::format("{}", rounded) : fmt::format("{}", value);
+    };
+    add_property(parent, "rgb", name, fmt::format("{}, {}, {}", text(rgb[0]), text(rgb[1]), text(rgb[2])));
+}
+
+inline pugi::xml_node add_object(pugi::xml_node parent, const char *tag, const std::string &type,
+                                 const std::string &id = {}) {
+    pugi::xml_node node = parent.append_child(tag);
+    node.append_attribute("type") = type.c_str();
+    if (!id.empty()) {
+        node.append_attribute("id") = id.c_str();
+    }
+    return node;
+}
+
+inline void add_transform(pugi::xml_node parent, const Eigen::Matrix4d &to_world) {
+    pugi::xml_node node = parent.append_child("transform");
+    node.append_attribute("name") = "to_world";
+    const Eigen::Matrix4d by_rows = to_world.transpose();
+    node.append_child("matrix").append_attribute("value") =
+        fmt::format("{}", fmt::join(by_rows.data(), by_rows.data() + 16, " ")).c_str();
+}
+
+/// Names that no other object of the file has.
+class Names {
+  public:
+    std::string unique(const std::string &wanted) {
+        std::string name = wanted.empty() ? "unnamed" : wanted;
+        for (int i = 2; !taken_.insert(name).second; ++i) {
+            name = fmt::format("{}_{}", wanted, i);
+        }
+        return name;
+    }
+
+    void reserve(const std::string &name) { taken_.insert(name); }
+
+  private:
+    std::set<std::string> taken_;
+};
+
+/// The folder beside the scene for meshes and images.
+class DataFolder {
+  public:
+    explicit DataFolder(const std::filesystem::path &scene_file);
+
+    /// A file of it that is not taken, named after an object.
+    std::filesystem::path new_file(const std::string &name, const std::string &extension);
+
+    /// As the scene refers to it.
+    std::string relative(const std::filesystem::path &file) const;
+
+  private:
+    std::filesystem::path folder_;
+    Names names_;
+};
+
+}  // namespace rtrays::mitsuba

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/export/mitsuba_xml.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/export/mitsuba_bsdf.h"
+#include "renderer/export/mitsuba_writer.h"
+#include "renderer/export/ply_file.h"
+#include "renderer/import/texture_file.h"
+#include "renderer/scene/cores/shape.h"
+#include "renderer/scene/cores/transform.h"
+#include "renderer/scene/graph.h"
+#include "renderer/scene/stores/pose.h"
+
+namespace rtrays {
+
+namespace mitsuba {
+
+DataFolder::DataFolder(const std::filesystem::path &scene_file)
+    : folder_(scene_file.parent_path() / (scene_file.stem().string() + "_data")) {}
+
+std::filesystem::path DataFolder::new_file(const std::string &name, const std::string &extension) {
+    std::string stem = name;
+    for (char &c : stem) {
+        const bool is_plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        c = is_plain ? c : '_';
+    }
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error) {
+        throw run_error(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+    }
+    return folder_ / (names_.unique(stem) + extension);
+}
+
+std::string DataFolder::relative(const std::filesystem::path &file) const {
+    return (folder_.filename() / file.filename()).generic_string();
+}
+
+}  // namespace mitsuba
+
+namespace {
+
+using namespace mitsuba;
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+class SceneWriter {
+  public:
+    SceneWriter(const Scene &scene, const std::filesystem::path &path, pugi::xml_node root)
+        : scene_(scene),
+          arrays_(scene.arrays()),
+          root_(root),
+          folder_(path),
+          bsdfs_(arrays_, root, ids_, folder_) {}
+
+    void write(const MitsubaSettings &settings) {
+        root_.append_attribute("version") = "3.0.0";
+        add_default("spp", fmt::format("{}", settings.samples_per_pixel));
+        // One more for the camera's own vertex; none for no limit.
+        add_default("max_depth",
+                    settings.max_depth == 0 ? "-1" : fmt::format("{}", uint64_t{settings.max_depth} + 1));
+        add_property(add_object(root_, "integrator", "path"), "integer", "max_depth", "$max_depth");
+        reserve_names();
+        write_camera();
+        for (uint32_t mesh = 0; mesh < arrays_.meshes.name.size(); ++mesh) {
+            write_mesh(mesh);
+        }
+        for (uint32_t shape = 0; shape < arrays_.shapes.name.size(); ++shape) {
+            write_shape(shape);
+        }
+        for (uint32_t light = 0; light < arrays_.lights.name.size(); ++light) {
+            write_light(light);
+        }
+    }
+
+  private:
+    /// Nodes keep their names, materials (often of the same names) make way.
+    void reserve_names() {
+        for (const auto *names :
+             {&arrays_.cameras.name, &arrays_.meshes.name, &arrays_.shapes.name, &arrays_.lights.name}) {
+            for (const std::string &name : *names) {
+                ids_.reserve(name);
+            }
+        }
+    }
+
+    void add_default(const char *name, const std::string &value) {
+        pugi::xml_node node = root_.append_child("default");
+        node.append_attribute("name") = name;
+        node.append_attribute("value") = value.c_str();
+    }
+
+    /// From the baked world to that of the scene file.
+    Matrix4d placed(const Matrix4d &world) const { return translation(scene_.origin()) * world; }
+
+    void write_camera() {
+        const CameraArrays &cameras = arrays_.cameras;
+        const auto camera = static_cast<size_t>(scene_.active_camera());
+        const bool lens = cameras.aperture_radius[camera] > 0;
+        const pugi::xml_node sensor =
+            add_object(root_, "sensor", lens ? "thinlens" : "perspective", cameras.name[camera]);
+        constexpr const char *axes[] = {"x", "y", "smaller", "larger"};
+        add_property(sensor, "string", "fov_axis", axes[static_cast<size_t>(cameras.fov_axis[camera])]);
+        add_number(sensor, "fov", cameras.fov[camera] / degree);
+        if (lens) {
+            add_number(sensor, "aperture_radius", cameras.aperture_radius[camera]);
+            add_number(sensor, "focus_distance", cameras.focus_distance[camera]);
+        }
+        const Matrix4d world = placed(cameras.world_from_camera[camera]);
+        // Nothing is clipped here: the planes there go to the near and far side of everything.
+        const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
+        const Vector3d eye = world.topRightCorner<3, 1>();
+        const double extent =
+            bounds.isEmpty() ? 1 : std::sqrt(bounds.squaredExteriorDistance(eye)) + bounds.diagonal().norm();
+        if (extent > 0) {
+            add_number(sensor, "near_clip", 1e-5 * extent);
+            add_number(sensor, "far_clip", 1e3 * extent);
+        }
+        add_transform(sensor, world * scaling({-1, 1, -1}));  // cameras look along +z there
+        add_property(add_object(sensor, "sampler", "independent"), "integer", "sample_count", "$spp");
+        const pugi::xml_node film = add_object(sensor, "film", "hdrfilm");
+        add_property(film, "integer", "width", fmt::format("{}", scene_.film_width()));
+        add_property(film, "integer", "height", fmt::format("{}", scene_.film_height()));
+        add_property(film, "string", "pixel_format", "rgb");
+        add_property(film, "string", "component_format", "float32");
+        add_object(film, "rfilter", "box");
+    }
+
+    /// Appends a shape with its BSDF (before it) and its emitter.
+    pugi::xml_node add_shape(const char *type, const std::string &name, uint32_t material, uint32_t light,
+                             UvConvention uv) {
+        std::string bsdf;
+        try {
+            bsdf = bsdfs_.id(material, uv);
+        } catch (const Error &error) {
+            throw Error(error.exit_code(), fmt::format("'{}': {}", name, error.what()));
+        }
+        const pugi::xml_node shape = add_object(root_, "shape", type, name);
+        pugi::xml_node reference = pugi::xml_node(shape).append_child("ref");
+        reference.append_attribute("id") = bsdf.c_str();
+        if (light != no_index) {
+            add_colour(add_object(shape, "emitter", "area"), "radiance", arrays_.lights.radiance[light]);
+        }
+        return shape;
+    }
+
+    void write_mesh(uint32_t mesh) {
+        const MeshArrays &meshes = arrays_.meshes;
+        const bool has_uv = meshes.has_uv[mesh] != 0;
+        const pugi::xml_node shape =
+            add_shape("ply", meshes.name[mesh], meshes.material[mesh], meshes.light[mesh],
+                      has_uv ? UvConvention::flipped : UvConvention::none);
+        const std::filesystem::path file = folder_.new_file(meshes.name[mesh], ".ply");
+        write_ply(meshes, mesh, file);
+        add_property(shape, "string", "filename", folder_.relative(file));
+        add_boolean(shape, "face_normals", meshes.has_normals[mesh] == 0);
+        if (has_uv) {
+            add_boolean(shape, "flip_tex_coords", true);
+        }
+        if (!scene_.origin().isZero(0)) {
+            add_transform(shape, translation(scene_.origin()));
+        }
+    }
+
+    void write_shape(uint32_t index) {
+        const ShapeArrays &shapes = arrays_.shapes;
+        const std::string &name = shapes.name[index];
+        const Matrix4d world = placed(shapes.world_from_object[index]);
+        const auto add = [&](const char *type, UvConvention uv) {
+            return add_shape(type, name, shapes.material[index], shapes.light[index], uv);
+        };
+        switch (shapes.kind[index]) {
+            case ShapeArrays::Kind::sphere:
+                if (similarity_scale(world) == 0) {
+                    throw input_error(fmt::format("'{}': Mitsuba has spheres, but no ellipsoids", name));
+                }
+                add_transform(add("sphere", UvConvention::flipped), world);
+                return;
+            case ShapeArrays::Kind::cylinder:
+                write_cylinder(name, world, [&] { return add("cylinder", UvConvention::same); });
+                return;
+            case ShapeArrays::Kind::disc:
+                if (!is_orthogonal(world.col(0).head<3>(), world.col(1).head<3>())) {
+                    throw input_error(fmt::format("'{}': Mitsuba's disks cannot be sheared", name));
+                }
+                add_transform(add("disk", UvConvention::none), world);
+                return;
+            default:
+                throw input_error(
+                    fmt::format("'{}': Mitsuba has no {}; it has meshes, spheres, cylinders and disks", name,
+                                kind_name(shapes.kind[index])));
+        }
+    }
+
+    static std::string kind_name(ShapeArrays::Kind kind) {
+        const auto found = std::find_if(shape_types().begin(), shape_types().end(),
+                                        [&](const ShapeType &type) { return type.kind == kind; });
+        return found->name;  // every kind has a type
+    }
+
+    static bool is_orthogonal(const Vector3d &a, const Vector3d &b) {
+        return std::abs(a.normalized().dot(b.normalized())) < 1e-6;
+    }
+
+    template <typename Add>
+    void write_cylinder(const std::string &name, const Matrix4d &world, const Add &add) {
+        const Vector3d x = world.col(0).head<3>();
+        const Vector3d y = world.col(1).head<3>();
+        const Vector3d z = world.col(2).head<3>();
+        if (std::abs(x.norm() - y.norm()) > 1e-6 * x.norm() || !is_orthogonal(x, y) || !is_orthogonal(x, z) ||
+            !is_orthogonal(y, z)) {
+            throw input_error(fmt::format("'{}': Mitsuba's cylinders are circular and upright", name));
+        }
+        const pugi::xml_node shape = add();
+        add_number(shape, "radius", x.norm());
+        add_point(shape, "p0", Vector3d::Zero());
+        add_point(shape, "p1", Vector3d(0, 0, z.norm()));
+        Matrix4d rigid = world;
+        rigid.topLeftCorner<3, 3>().colwise().normalize();
+        add_transform(shape, rigid);
+    }
+
+    static void add_point(pugi::xml_node parent, const char *name, const Vector3d &point) {
+        pugi::xml_node node = parent.append_child("point");
+        node.append_attribute("name") = name;
+        constexpr const char *axes[] = {"x", "y", "z"};
+        for (int i = 0; i < 3; ++i) {
+            node.append_attribute(axes[i]) = fmt::format("{}", point[i]).c_str();
+        }
+    }
+
+    void write_light(uint32_t index) {
+        using Kind = LightArrays::Kind;
+        const LightArrays &lights = arrays_.lights;
+        const Rgb &radiance = lights.radiance[index];
+        const Matrix4d world = placed(lights.world_from_light[index]);
+        const auto add = [&](const char *type) {
+            return add_object(root_, "emitter", type, lights.name[index]);
+        };
+        switch (lights.kind[index]) {
+            case Kind::diffuse_area:
+                return;  // with its shape
+            case Kind::point: {
+                const pugi::xml_node emitter = add("point");
+                add_colour(emitter, "intensity", radiance);
+                add_point(emitter, "position", world.topRightCorner<3, 1>());
+                return;
+            }
+            case Kind::spot: {
+                const pugi::xml_node emitter = add("spot");
+                add_colour(emitter, "intensity", radiance);
+                add_number(emitter, "beam_width", lights.inner_angle[index] / degree);
+                add_number(emitter, "cutoff_angle", lights.outer_angle[index] / degree);
+                add_transform(emitter, world * scaling({-1, 1, -1}));
+                return;
+            }
+            case Kind::directional: {
+                const pugi::xml_node emitter = add("directional");
+                add_colour(emitter, "irradiance", radiance);
+                add_transform(emitter, lights.world_from_light[index] * scaling({-1, 1, -1}));
+                return;
+            }
+            case Kind::dome:
+                require_only_surroundings(lights.name[index]);
+                add_colour(add("constant"), "radiance", radiance);
+                return;
+            case Kind::environment:
+                require_only_surroundings(lights.name[index]);
+                write_environment(index, add("envmap"));
+                return;
+        }
+    }
+
+    void require_only_surroundings(const std::string &name) {
+        if (!surroundings_.empty()) {
+            throw input_error(
+                fmt::format("'{}': Mitsuba has one light all around at most, and there is '{}' already", name,
+                            surroundings_));
+        }
+        surroundings_ = name;
+    }
+
+    void write_environment(uint32_t index, const pugi::xml_node &emitter) {
+        const LightArrays &lights = arrays_.lights;
+        Rgb factor = lights.radiance[index];
+        TextureImage image = *lights.image[index];
+        if (factor[0] != factor[1] || factor[1] != factor[2]) {  // the factor there is one number
+            for (size_t i = 0; i < image.floats.size(); ++i) {
+                image.floats[i] *= factor[static_cast<Eigen::Index>(i % 3)];
+            }
+            factor.setOnes();
+        }
+        const std::filesystem::path file = folder_.new_file(lights.name[index], ".exr");
+        write_texture_file(image, file);
+        add_property(emitter, "string", "filename", folder_.relative(file));
+        add_property(emitter, "float", "scale", fmt::format("{}", factor[0]));
+        add_transform(emitter, lights.world_from_light[index]);
+    }
+
+    const Scene &scene_;
+    const SceneArrays &arrays_;
+    pugi::xml_node root_;
+    Names ids_;
+    DataFolder folder_;
+    BsdfWriter bsdfs_;
+    std::string surroundings_;  ///< name of the light all around
+};
+
+}  // namespace
+
+void export_mitsuba_xml(const Scene &scene, const std::filesystem::path &path,
+                        const MitsubaSettings &settings) {
+    require_writable(path);
+    pugi::xml_document document;
+    SceneWriter(scene, path, document.append_child("scene")).write(settings);
+    std::ostringstream text;
+    document.save(text, "    ", pugi::format_indent | pugi::format_no_declaration);
+    write_file(path, text.str());
+}
+
+}  // namespace rtrays
