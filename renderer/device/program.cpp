@@ -81,11 +81,15 @@ std::string program_cache_directory() {
 Program::Program(DeviceContext &device, const std::string &path, const Defines &defines, const SourceOverlays &overlays)
     : device_(&device), path_(path) {
     const auto start = std::chrono::steady_clock::now();
+    const std::string text = expand_source(path, overlays);
     std::string source;
     for (const auto &[name, value] : defines) {
-        source += fmt::format("#define {} {}\n", name, value);
+        // What the text does not name must not make another program of it.
+        if (text.find(name) != std::string::npos) {
+            source += fmt::format("#define {} {}\n", name, value);
+        }
     }
-    source += expand_source(path, overlays);
+    source += text;
     const DeviceInfo &info = device.info();
     const std::string key =
         content_hash(fmt::format("{}\n{}\n{}\n{}\n{}", info.platform_name, info.name, info.driver, program_options, source));
