@@ -47,6 +47,9 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::implicit_light, Feature::lights},
     {Feature::explicit_light, Feature::scattering},
     {Feature::explicit_light, Feature::lights},
+    {Feature::light_strategy, Feature::scattering},
+    {Feature::light_strategy, Feature::lights},
+    {Feature::from_light, Feature::lights},
     {Feature::area_lights, Feature::lights},
     {Feature::area_lights, Feature::triangles},
     {Feature::light_triangles, Feature::area_lights},
@@ -55,12 +58,6 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::infinite_lights, Feature::lights},
     {Feature::dome, Feature::infinite_lights},
     {Feature::environment, Feature::infinite_lights},
-    {Feature::light_triangles, Feature::explicit_light},
-    {Feature::point_lights, Feature::explicit_light},
-    {Feature::spot_lights, Feature::explicit_light},
-    {Feature::directional_lights, Feature::explicit_light},
-    {Feature::many_lights, Feature::explicit_light},
-    {Feature::independent_lights, Feature::explicit_light},
 };
 
 /// What exists only to serve others: off unless one of them is on.
@@ -72,6 +69,13 @@ constexpr std::pair<Feature, std::array<Feature, 2>> servants[] = {
     {Feature::refraction, {Feature::ideal_refraction, Feature::microfacet_refraction}},
     {Feature::ggx, {Feature::microfacet_reflection, Feature::microfacet_refraction}},
     {Feature::beckmann, {Feature::microfacet_reflection, Feature::microfacet_refraction}},
+    // Nothing hits these lights, and hits need no tables: they matter where lights are sampled.
+    {Feature::light_triangles, {Feature::explicit_light, Feature::from_light}},
+    {Feature::point_lights, {Feature::explicit_light, Feature::from_light}},
+    {Feature::spot_lights, {Feature::explicit_light, Feature::from_light}},
+    {Feature::directional_lights, {Feature::explicit_light, Feature::from_light}},
+    {Feature::many_lights, {Feature::explicit_light, Feature::from_light}},
+    {Feature::independent_lights, {Feature::explicit_light, Feature::from_light}},
 };
 
 }  // namespace

@@ -11,6 +11,8 @@
     /* strategies and termination */                                                                \
     X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")                 \
     X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")               \
+    X(light_strategy, "light paths that are joined to the camera count too")                        \
+    X(from_light, "this pass traces paths from the lights")                                         \
     X(roulette, "Russian roulette ends paths")                                                      \
     X(adaptive, "paths end below a throughput threshold (biased)")                                  \
     X(depth_limit, "max_depth is finite")                                                           \

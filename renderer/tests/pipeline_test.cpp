@@ -190,6 +190,18 @@ TEST(Features, AreNamedAndClosed) {
     EXPECT_FALSE(dark.has(Feature::many_lights));
     EXPECT_EQ(dark.defines().at("FEATURE_lights"), "0");
     EXPECT_TRUE(contains(dark.names(), "scattering"));
+    for (const Feature feature : {Feature::light_strategy, Feature::from_light, Feature::point_lights}) {
+        EXPECT_FALSE(dark.has(feature));
+    }
+    // Light paths start at lights that camera paths cannot hit, also where those are not joined to them.
+    const FeatureMask forward = FeatureMask::all().with(Feature::explicit_light, false).closed();
+    EXPECT_TRUE(forward.has(Feature::point_lights));
+    EXPECT_TRUE(forward.has(Feature::many_lights));
+    EXPECT_FALSE(forward.with(Feature::from_light, false).closed().has(Feature::point_lights));
+    // Where nothing scatters there is nothing to weigh, but light tracing still sees the emitters.
+    const FeatureMask bare = FeatureMask::all().with(Feature::scattering, false).closed();
+    EXPECT_FALSE(bare.has(Feature::light_strategy));
+    EXPECT_TRUE(bare.has(Feature::from_light));
 }
 
 TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
