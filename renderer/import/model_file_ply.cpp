@@ -58,13 +58,22 @@ struct PlyHeader {
     size_t size = 0;  ///< bytes up to the data
 };
 
+/// Text of a file that may be damaged, for messages.
+std::string shown(std::string text) {
+    constexpr size_t longest = 40;
+    for (char &letter : text) {
+        letter = letter >= ' ' && letter <= '~' ? letter : '?';
+    }
+    return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+
 Scalar scalar_of(const std::string &name) {
     for (const ScalarName &row : scalars) {
         if (name == row.name || name == row.other_name) {
             return row.scalar;
         }
     }
-    throw input_error(fmt::format("header: '{}' is no type of a PLY file", name));
+    throw input_error(fmt::format("header: '{}' is no type of a PLY file", shown(name)));
 }
 
 /// The property of a line "property TYPE NAME" or "property list TYPE TYPE NAME" after its first word.
@@ -115,7 +124,7 @@ PlyHeader parse_header(const std::string &content) {
             const std::string formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
             const auto *const found = std::find(std::begin(formats), std::end(formats), format);
             if (found == std::end(formats)) {
-                throw input_error(fmt::format("header: '{}' is no format of a PLY file", format));
+                throw input_error(fmt::format("header: '{}' is no format of a PLY file", shown(format)));
             }
             header.encoding = static_cast<Encoding>(found - std::begin(formats));
             has_format = true;
@@ -125,11 +134,12 @@ PlyHeader parse_header(const std::string &content) {
             words >> element.name >> count;
             const auto parsed = std::from_chars(count.data(), count.data() + count.size(), element.count);
             if (count.empty() || parsed.ec != std::errc() || parsed.ptr != count.data() + count.size()) {
-                throw input_error(fmt::format("header: '{}' is no number of elements", count));
+                throw input_error(fmt::format("header: '{}' is no number of elements", shown(count)));
             }
             for (const PlyElement &before : header.elements) {
                 if (before.name == element.name) {
-                    throw input_error(fmt::format("header: there are two elements '{}'", element.name));
+                    throw input_error(
+                        fmt::format("header: there are two elements '{}'", shown(element.name)));
                 }
             }
             header.elements.push_back(element);
@@ -142,13 +152,13 @@ PlyHeader parse_header(const std::string &content) {
             for (size_t i = 0; i + 1 < properties.size(); ++i) {
                 if (properties[i].name == properties.back().name) {
                     throw input_error(
-                        fmt::format("header: there are two properties '{}'", properties[i].name));
+                        fmt::format("header: there are two properties '{}'", shown(properties[i].name)));
                 }
             }
         } else if (keyword == "end_header") {
             break;
         } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-            throw input_error(fmt::format("header: '{}' is no keyword of a PLY file", keyword));
+            throw input_error(fmt::format("header: '{}' is no keyword of a PLY file", shown(keyword)));
         }
     }
     if (!has_format) {
@@ -294,7 +304,7 @@ class BodyReader {
             } else if (element.name == "face") {
                 read_faces(element);
             } else {
-                notes_.add("elements that mean nothing here are left out", element.name);
+                notes_.add("elements that mean nothing here are left out", shown(element.name));
                 rows_of(element, [&] {
                     for (const PlyProperty &property : element.properties) {
                         skip(property);
@@ -332,7 +342,8 @@ class BodyReader {
     }
 
     void note_unused(const PlyElement &element, const PlyProperty &property) {
-        notes_.add("properties that mean nothing here are left out", element.name + " " + property.name);
+        notes_.add("properties that mean nothing here are left out",
+                   shown(element.name + " " + property.name));
     }
 
     void read_vertices(const PlyElement &element) {

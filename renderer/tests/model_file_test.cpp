@@ -8,7 +8,9 @@
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "renderer/base/json.h"
 #include "renderer/base/notice.h"
 #include "renderer/scene/cores/material.h"
 #include "renderer/scene/graph.h"
@@ -179,6 +181,55 @@ TEST(ModelFile, ReadsNodesInstancesLightsAndCamerasOfGltf) {
     EXPECT_TRUE(model.told.empty()) << model.told;
 }
 
+TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
+    // checker.png, inside the file: half of its texels are (255, 128, 0), half (0, 64, 255).
+    const std::string image =
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAGElEQVR42mNgcPj/v4EBSiJYDv8ZcMoAADqyFfGE/"
+        "XEFAAAAAElFTkSuQmCC";
+    Json model = parse_json(bytes_of(corpus / "triangles.gltf"), "triangles.gltf");
+    model["images"] = {{{"uri", image}}};
+    model["textures"] = {{{"source", 0}}};
+    Json &material = model["materials"][0];
+    material["emissiveFactor"] = {1, 1, 0.5};
+    material["emissiveTexture"] = {{"index", 0}};
+    material["normalTexture"] = {{"index", 0}};
+    material["alphaMode"] = "BLEND";
+    material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.8, 0.6, 0.4, 0.5}},
+                                        {"baseColorTexture", {{"index", 0}}},
+                                        {"metallicRoughnessTexture", {{"index", 0}}}};
+    const TemporaryFolder folder;
+    const Loaded loaded(folder.write("m.gltf", model.dump()));
+    const auto brass = loaded.material("brass");
+    ASSERT_EQ(brass.size(), 4u);
+    const double roughness = 0.5 * (128 + 64) / 255;
+    // Half is there; of that half is metal.
+    EXPECT_EQ(brass[0].fresnel, Fresnel::schlick);
+    EXPECT_LT((brass[0].weight - Vector3f::Constant(0.25f)).norm(), 1e-6f);
+    EXPECT_NEAR(brass[0].alpha[0], roughness * roughness, 1e-6);
+    EXPECT_LT((brass[0].eta - Vector3d(0.8, 0.6, 0.4)).norm(), 1e-6);
+    EXPECT_NE(brass[0].texture, no_index);
+    EXPECT_EQ(brass[1].fresnel, Fresnel::dielectric);
+    EXPECT_EQ(brass[1].eta[0], 1.5);
+    EXPECT_EQ(brass[1].texture, no_index);
+    EXPECT_EQ(brass[2].kind, Kind::lambert);
+    EXPECT_TRUE(brass[2].complement);
+    EXPECT_LT((brass[2].weight - Vector3f(0.2f, 0.15f, 0.1f)).norm(), 1e-6f);
+    EXPECT_EQ(brass[2].texture, brass[0].texture);
+    EXPECT_EQ(brass[3].kind, Kind::ideal_refraction);
+    EXPECT_EQ(brass[3].weight, Vector3f::Constant(0.5f));
+    // Means of decoded texels: red of (1, 0), green of (128, 64) / 255, blue of (0, 1).
+    const double green =
+        0.5 * (std::pow((128 / 255.0 + 0.055) / 1.055, 2.4) + std::pow((64 / 255.0 + 0.055) / 1.055, 2.4));
+    const LightArrays &lights = loaded.scene.lights();
+    const size_t glow = loaded.light("left");
+    ASSERT_LT(glow, lights.name.size());
+    EXPECT_LT((lights.radiance[glow].cast<double>() - Vector3d(0.5, green, 0.25)).norm(), 1e-6);
+    EXPECT_TRUE(loaded.says("maps of emission are replaced by their mean (1: brass)")) << loaded.told;
+    EXPECT_TRUE(loaded.says("maps of metalness and roughness are replaced by their mean")) << loaded.told;
+    EXPECT_TRUE(loaded.says("bump and normal maps are left out")) << loaded.told;
+}
+
 TEST(ModelFile, ReadsCollada) {
     const Loaded model(corpus / "plane.dae");
     // Z is up in the file: (2, 2, 0) comes to lie at (2, 0, -2).
@@ -271,6 +322,8 @@ TEST(ModelFile, SaysWhatIsWrong) {
                        [&] { Loaded model(folder.write("a.foo", "")); });
     expect_input_error("'.assbin' is not a known scene format",
                        [&] { Loaded model(folder.write("a.assbin", "")); });
+    // It makes Assimp 5.2.5 abort, in the child process.
+    expect_input_error("damaged.3mf: cannot be read: ", [&] { Loaded model(corpus / "damaged.3mf"); });
     // Binary STL of four billion triangles, and of as many as there are.
     std::string stl(80, ' ');
     expect_input_error("a.stl", [&] {
