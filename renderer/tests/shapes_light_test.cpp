@@ -57,13 +57,20 @@ struct Light {
 
     ShapeLightSample sample(float3 from, bool cone, uint32_t i) const {
         const uint4 w = random_words(21, 0, 5, i, 0);
-        return sample_shape_light(light, &shape, from, cone, uniform_float(w.x), uniform_float(w.y));
+        return sample_shape_light(sampled(cone), &shape, from, uniform_float(w.x), uniform_float(w.y));
+    }
+
+    /// The record as the scene compiler writes it when spheres are to be sampled by their cones, or by area.
+    LightRecord sampled(bool cone) const {
+        LightRecord record = light;
+        record.kind = light.kind == LIGHT_SPHERE && !cone ? LIGHT_SPHERE_BY_AREA : light.kind;
+        return record;
     }
 
     /// The density at a point of the surface, given in object space.
     double pdf_a(float3 from, bool cone, const Eigen::Vector3d &object_point) const {
         return static_cast<double>(
-            shape_light_pdf_a(light, &shape, from, shape_point(&shape, to_float3(object_point)), cone));
+            shape_light_pdf_a(sampled(cone), &shape, from, shape_point(&shape, to_float3(object_point))));
     }
 };
 

@@ -115,8 +115,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     case LIGHT_DISC:
     case LIGHT_SPHERE:
     case LIGHT_SPHERE_BY_AREA: {
-        const ShapeLightSample on = sample_shape_light(light, shapes, from, light.kind == LIGHT_SPHERE,
-                                                       uniform_float(words.z), uniform_float(words.w));
+        const ShapeLightSample on = sample_shape_light(light, shapes, from, uniform_float(words.z), uniform_float(words.w));
         look_at_point(from, light, on.point, on.pdf_a, &sample);
         break;
     }
@@ -211,7 +210,7 @@ DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, 
                          MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint point) {
 #if FEATURE_shape_lights
     if ((primitive & SHAPE_BIT) != 0u) {
-        return light.selection * shape_light_pdf_a(light, shapes, from, point, light.kind == LIGHT_SPHERE);
+        return light.selection * shape_light_pdf_a(light, shapes, from, point);
     }
 #endif
 #if FEATURE_area_lights

@@ -22,22 +22,22 @@ typedef struct ShapeLightSample {
 } ShapeLightSample;
 
 /// sin^2 of half the angle of the cone that a sphere fills, seen from a point; 0 where area is sampled
-/// instead: on request, and from inside or within 1e-4 radii of the surface, where the cone is no narrower
-/// than a hemisphere.
-DEVICE float sphere_cone(GLOBAL const ShapeRecord *sphere, float3 from, bool cone) {
+/// instead: by lights that ask for it, and from inside or within 1e-4 radii of the surface, where the cone is no
+/// narrower than a hemisphere.
+DEVICE float sphere_cone(LightRecord light, GLOBAL const ShapeRecord *sphere, float3 from) {
     const float3 way = from - shape_centre(sphere);
     const float distance2 = dot(way, way);
     const float3 radius = vector_to_world(sphere, make_float3(1.0f, 0.0f, 0.0f));
     const float radius2 = dot(radius, radius);
-    return cone && distance2 > 1.0002f * radius2 ? radius2 / distance2 : 0.0f;
+    return light.kind == LIGHT_SPHERE && distance2 > 1.0002f * radius2 ? radius2 / distance2 : 0.0f;
 }
 
 /// The density per area with which `sample_shape_light` makes `point` (a point of the light's surface), seen
 /// from `from`, the light given. Zero where a cone does not reach: behind the sphere's horizon.
 DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from,
-                               SurfacePoint point, bool cone) {
+                               SurfacePoint point) {
     if (light.kind == LIGHT_SPHERE) {
-        const float sin2 = sphere_cone(shapes + light.first_triangle, from, cone);
+        const float sin2 = sphere_cone(light, shapes + light.first_triangle, from);
         if (sin2 > 0.0f) {
             const float3 way = from - point.position;
             const float projected = dot(point.normal, way);
@@ -52,8 +52,7 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
     return 1.0f / light.area;
 }
 
-/// Samples a disc or a sphere. `cone`: spheres by the cone they fill where possible, else by area. u and v
-/// are uniform in [0, 1).
+/// Samples a disc or a sphere; a LIGHT_SPHERE by the cone it fills where possible. u and v are uniform in [0, 1).
 ///
 /// Cone: let theta be the angle of the direction from the cone's axis, beta that between the direction and
 /// the sphere's normal where it enters, alpha = beta - theta that between normal and axis. With k = 1 - cos
@@ -61,11 +60,11 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
 /// beta = u (2 - k) / (1 + cos theta_max). As sin theta_max -> 0 this is the uniform point of the sphere's
 /// silhouette.
 DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from,
-                                           bool cone, float u, float v) {
+                                           float u, float v) {
     GLOBAL const ShapeRecord *shape = shapes + light.first_triangle;
     float3 object_point;
-    if (light.kind == LIGHT_SPHERE) {
-        const float sin2 = sphere_cone(shape, from, cone);
+    if (light.kind != LIGHT_DISC) {
+        const float sin2 = sphere_cone(light, shape, from);
         float sin_alpha, cos_alpha;
         Frame frame = frame_from_z(make_float3(0.0f, 0.0f, 1.0f));
         if (sin2 > 0.0f) {
@@ -92,7 +91,7 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
     }
     ShapeLightSample sample;
     sample.point = shape_point(shape, object_point);
-    sample.pdf_a = shape_light_pdf_a(light, shapes, from, sample.point, cone);
+    sample.pdf_a = shape_light_pdf_a(light, shapes, from, sample.point);
     // A shadow ray is the difference of its ends, rounded: over the distance D its end is off by u D per
     // axis, and the t at which it meets the light is off by a few u. Both must stay within the offset of that
     // end, or lights would hide behind themselves from 100 radii on.
