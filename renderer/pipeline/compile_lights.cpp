@@ -2,7 +2,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <array>
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -23,33 +24,50 @@ double triangle_area(const MeshArrays &meshes, uint32_t triangle) {
     return 0.5 * e1.cross(e2).norm();
 }
 
-/// A sphere around all finite surfaces and the camera.
+/// A sphere around all bounded surfaces.
 struct Extent {
     Eigen::Vector3d centre;
     double radius;
 };
 
-Extent extent_of(const SceneArrays &scene, const CameraRecord &camera) {
-    Eigen::AlignedBox3d box;
-    box.extend(Eigen::Vector3f(camera.position).cast<double>());
-    for (const Eigen::Vector3f &position : scene.meshes.position) {
-        box.extend(position.cast<double>());
-    }
-    for (size_t i = 0; i < scene.shapes.name.size(); ++i) {
+Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
+    // Centre and reach of every bounded shape.
+    std::vector<Extent> shapes;
+    for (size_t i = 0; i < scene.shapes.kind.size(); ++i) {
+        const ShapeRecord &record = compiled.shapes[i];
         if (scene.shapes.kind[i] == ShapeArrays::Kind::plane) {
             continue;
         }
-        // Every canonical surface lies within this distance of its origin, per axis.
-        const double reach = scene.shapes.kind[i] == ShapeArrays::Kind::julia         ? 4.0
-                             : scene.shapes.kind[i] == ShapeArrays::Kind::hyperboloid ? std::sqrt(1.0 + scene.shapes.flare[i])
-                                                                                      : 1.0;
-        const Eigen::Matrix4d &m = scene.shapes.world_from_object[i];
-        const Eigen::Vector3d centre = m.block<3, 1>(0, 3);
-        const Eigen::Vector3d half = reach * m.topLeftCorner<3, 3>().cwiseAbs() * Eigen::Vector3d::Ones();
-        box.extend(centre + half);
-        box.extend(centre - half);
+        Eigen::Matrix<double, 3, 4> world;
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                world(row, column) = static_cast<double>(record.world_from_object[row][column]);
+            }
+        }
+        const bool flat = scene.shapes.kind[i] == ShapeArrays::Kind::disc;
+        const double stretch = Eigen::JacobiSVD<Eigen::MatrixXd>(world.leftCols(flat ? 2 : 3)).singularValues()[0];
+        shapes.push_back({world.col(3), stretch * std::sqrt(static_cast<double>(record.bound2))});
     }
-    return {box.center(), 0.5 * box.diagonal().norm()};
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f &position : scene.meshes.position) {
+        box.extend(position.cast<double>());
+    }
+    for (const Extent &shape : shapes) {
+        box.extend(shape.centre + Eigen::Vector3d::Constant(shape.radius));
+        box.extend(shape.centre - Eigen::Vector3d::Constant(shape.radius));
+    }
+    if (box.isEmpty()) {
+        // Planes alone: what light from infinity is traced to lies about the camera.
+        return {Eigen::Vector3f(compiled.camera.position).cast<double>(), 1.0};
+    }
+    Extent extent = {box.center(), 0};
+    for (const Eigen::Vector3f &position : scene.meshes.position) {
+        extent.radius = std::max(extent.radius, (position.cast<double>() - extent.centre).norm());
+    }
+    for (const Extent &shape : shapes) {
+        extent.radius = std::max(extent.radius, (shape.centre - extent.centre).norm() + shape.radius);
+    }
+    return extent;
 }
 
 void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &light, CompiledScene &compiled) {
@@ -120,7 +138,9 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
         record.kind = LIGHT_SPOT;
         const double inner = lights.inner_angle[i], outer = lights.outer_angle[i];
         record.outer_angle = static_cast<float>(outer);
-        record.cos_outer = static_cast<float>(std::cos(outer));
+        // Differences of cosines as products of sines, without cancellation.
+        record.versine_outer = static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2));
+        record.versine_range = static_cast<float>(2.0 * std::sin(0.5 * (outer + inner)) * std::sin(0.5 * (outer - inner)));
         record.angle_scale = static_cast<float>(1.0 / (outer - inner));
         // The integral of the linear fall: 2 pi (1 - sinc-like mean of the cosines between the cones).
         light.power = 2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner)) * mean;
@@ -150,10 +170,11 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
     return light;
 }
 
-/// Selection probabilities: uniform, by power, the mean of both (which bounds the loss of either), or 1 for each.
+/// Selection probabilities: uniform, by power, the mean of both (which bounds the loss of either), or 1 for each. Light
+/// paths start at one light each: where all are sampled in turn, at one by the mean of both.
 void select_lights(const std::vector<double> &powers, LightSelection selection, std::vector<LightRecord> &lights) {
     const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
-    const double by_power = selection == LightSelection::power ? 1.0 : selection == LightSelection::mixed ? 0.5 : 0.0;
+    const double by_power = selection == LightSelection::power ? 1.0 : selection == LightSelection::uniform ? 0.0 : 0.5;
     std::vector<double> weights(lights.size());
     for (size_t i = 0; i < lights.size(); ++i) {
         weights[i] = by_power * powers[i] / total + (1.0 - by_power) / static_cast<double>(lights.size());
@@ -161,19 +182,28 @@ void select_lights(const std::vector<double> &powers, LightSelection selection, 
     const SelectionTable table = selection_table(weights);
     for (size_t i = 0; i < lights.size(); ++i) {
         lights[i].selection_end = table.end[i];
-        lights[i].selection =
-            selection == LightSelection::independent ? 1.0f : static_cast<float>(table.probability[i]);
+        lights[i].emission_selection = static_cast<float>(table.probability[i]);
+        lights[i].selection = selection == LightSelection::independent ? 1.0f : lights[i].emission_selection;
     }
 }
 
 }  // namespace
 
 void compile_lights(const SceneArrays &scene, const CompileSettings &settings, CompiledScene &compiled) {
-    const Extent extent = extent_of(scene, compiled.camera);
-    compiled.lighting.infinite_light = NO_EMITTER;
+    Extent extent = extent_of(scene, compiled);
+    // A margin for the rounding of points on these surfaces, and never nothing.
+    extent.radius = std::max(extent.radius * (1.0 + 0x1p-10) + extent.centre.norm() * 0x1p-20, 1e-15);
+    LightingRecord &lighting = compiled.lighting;
+    lighting.infinite_light = NO_EMITTER;
+    copy3(extent.centre, lighting.scene_centre);
+    lighting.scene_radius = static_cast<float>(extent.radius);
+    const auto &kinds = scene.shapes.kind;
+    const auto last_plane = std::find(kinds.rbegin(), kinds.rend(), ShapeArrays::Kind::plane);
+    lighting.plane_end = static_cast<uint32_t>(kinds.rend() - last_plane);
     // Beyond any point of the scene, planes apart, whose horizon is cut a million radii away; in lengths of such a
     // shadow ray hits keep their relative precision.
-    compiled.lighting.far_distance = static_cast<float>(0x1p20 * extent.radius);
+    const double camera = (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
+    lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
     std::vector<double> powers;
     for (size_t i = 0; i < scene.lights.name.size(); ++i) {
         const Compiled light = compile_light(scene, i, settings, extent, compiled);
@@ -185,7 +215,7 @@ void compile_lights(const SceneArrays &scene, const CompileSettings &settings, C
     if (!compiled.lights.empty()) {
         select_lights(powers, settings.light_selection, compiled.lights);
     }
-    compiled.lighting.light_count = static_cast<uint32_t>(compiled.lights.size());
+    lighting.light_count = static_cast<uint32_t>(compiled.lights.size());
     const bool several = compiled.lights.size() > 1;
     const bool independent = settings.light_selection == LightSelection::independent;
     compiled.features = compiled.features.with(Feature::lights, !compiled.lights.empty())

@@ -145,7 +145,7 @@ typedef struct ShapeRecord {
 /// A light as the sampler sees it.
 typedef struct LightRecord {
     float radiance[3];        ///< W / (sr m^2), W / sr or W / m^2 (LightArrays); environment: factor of the image
-    float selection;          ///< probability that light selection takes this light
+    float selection;          ///< probability that light selection takes this light, seen from a point
     uint selection_end;       ///< this light is taken by random words below this end (and not below its predecessor's)
     uint kind;                ///< LIGHT_*
     uint first_triangle;      ///< mesh: its range of emitter triangles. Shape: index of the shape
@@ -153,11 +153,14 @@ typedef struct LightRecord {
     float axis_x[3];          ///< x, y and z axes of light space, unit
     float area;               ///< of a shape
     float axis_y[3];
-    float cos_outer;          ///< of a spot
+    float versine_outer;      ///< of a spot: 1 - cos(outer angle)
     float axis_z[3];
-    float angle_scale;        ///< of a spot: 1 / (outer angle - inner angle)
+    float versine_range;      ///< of a spot: cos(inner angle) - cos(outer angle)
     float position[3];
     float outer_angle;        ///< of a spot, radians
+    float angle_scale;        ///< of a spot: 1 / (outer angle - inner angle)
+    float emission_selection; ///< probability that a light path starts here
+    float padding[2];
 } LightRecord;
 
 #define LIGHT_MESH 0u
@@ -166,7 +169,7 @@ typedef struct LightRecord {
 #define LIGHT_SPHERE_BY_AREA 3u  ///< sampled uniformly by area, as the thesis does
 #define LIGHT_POINT 4u
 #define LIGHT_SPOT 5u
-#define LIGHT_DIRECTIONAL 6u
+#define LIGHT_DIRECTIONAL 6u     ///< from here on: at infinity
 #define LIGHT_DOME 7u
 #define LIGHT_ENVIRONMENT 8u
 
@@ -177,7 +180,10 @@ typedef struct LightingRecord {
     float far_distance;       ///< a shadow ray of that length leaves the scene
     uint environment_width;   ///< texels
     uint environment_height;
-    uint padding[3];
+    float scene_radius;       ///< of a sphere around all bounded surfaces, with a margin; positive
+    float scene_centre[3];    ///< of that sphere
+    uint plane_end;           ///< from this index on no shape is a plane
+    uint padding[2];
 } LightingRecord;
 
 /// `chosen` of stage sample_light: the light is selected at random.
@@ -200,7 +206,7 @@ static_assert(sizeof(TextureRecord) == 32, "layout shared with the device");
 static_assert(sizeof(TriangleNormals) == 48, "layout shared with the device");
 static_assert(sizeof(TriangleUv) == 24, "layout shared with the device");
 static_assert(sizeof(ShapeRecord) == 144, "layout shared with the device");
-static_assert(sizeof(LightRecord) == 96, "layout shared with the device");
-static_assert(sizeof(LightingRecord) == 32, "layout shared with the device");
+static_assert(sizeof(LightRecord) == 112, "layout shared with the device");
+static_assert(sizeof(LightingRecord) == 48, "layout shared with the device");
 static_assert(sizeof(EmitterTriangle) == 16, "layout shared with the device");
 #endif

@@ -315,7 +315,8 @@ TEST(SpotLight, FallsLinearlyWithTheAngleBetweenItsCones) {
     LightRecord light = delta_light(LIGHT_SPOT);
     const double inner = 0.3, outer = 0.5;
     light.outer_angle = static_cast<float>(outer);
-    light.cos_outer = static_cast<float>(std::cos(outer));
+    light.versine_outer = static_cast<float>(1 - std::cos(outer));
+    light.versine_range = static_cast<float>(std::cos(inner) - std::cos(outer));
     light.angle_scale = static_cast<float>(1 / (outer - inner));
     for (const auto &[angle, share] : {std::pair(0.0, 1.0), std::pair(0.29, 1.0), std::pair(0.35, 0.75), std::pair(0.45, 0.25),
                                        std::pair(0.4999, 0.0005)}) {

@@ -30,3 +30,9 @@
 #ifndef FEATURE_environment
 #define FEATURE_environment 0
 #endif
+#ifndef FEATURE_from_light
+#define FEATURE_from_light 0
+#endif
+#ifndef FEATURE_light_strategy
+#define FEATURE_light_strategy 0
+#endif

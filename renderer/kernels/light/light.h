@@ -5,6 +5,7 @@
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/light/area_light.h"
 #include "renderer/kernels/light/environment.h"
+#include "renderer/kernels/light/spot.h"
 #include "renderer/kernels/sampling/select.h"
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
@@ -23,6 +24,12 @@ typedef struct LightSample {
     float pdf_w;      ///< per solid angle at the receiving point, selection included; of a delta light: its probability.
                       ///< 0: nothing there
     uint is_delta;    ///< point, spot, directional: cannot be hit
+#if FEATURE_light_strategy
+    // What light paths would have needed to come this way (EmissionSample).
+    float emission_over_sampling;  ///< density of their origin, over that of this sample's (`emission_over_sampling`)
+    float emission_pdf;            ///< of their direction: per solid angle at the light; at infinity per area of the
+                                   ///< disc, 0 where that does not reach
+#endif
 } LightSample;
 
 DEVICE float3 light_radiance(LightRecord light) {
@@ -37,6 +44,25 @@ DEVICE float solid_angle_per_area(float3 way, float3 normal) {
     const float projected = -dot(normal, way);  // cos times distance
     return projected > 0.0f ? squared * (sqrt(squared) / projected) : 0.0f;
 }
+
+#if (FEATURE_infinite_lights || FEATURE_directional_lights) && (FEATURE_from_light || FEATURE_light_strategy)
+
+/// Density per area of the origins of light paths from infinity, on the disc that they cross: all of the sphere around
+/// the scene's bounded surfaces.
+DEVICE float disc_pdf_a_inside(LightingRecord lighting) {
+    return INV_PI / (lighting.scene_radius * lighting.scene_radius);
+}
+
+/// The same for the light path that comes to `point` from direction d (unit): 0 on the parts of planes that lie beyond.
+DEVICE float disc_pdf_a(LightingRecord lighting, float3 point, float3 d) {
+    const float3 way =
+        point - make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]);
+    const float3 across = way - d * dot(way, d);
+    // The radius has a margin for bounded surfaces that exceeds the rounding of both.
+    return dot(across, across) < lighting.scene_radius * lighting.scene_radius ? disc_pdf_a_inside(lighting) : 0.0f;
+}
+
+#endif
 
 #if FEATURE_environment
 
@@ -88,8 +114,10 @@ DEVICE float infinite_pdf_w(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
 
 #endif
 
-/// Turns a point on an area light into a sample.
-DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a, PRIVATE LightSample *sample) {
+/// Turns a point on an area light into a sample. Both densities per area, the light given, `uniform_pdf_a` that of
+/// emission.
+DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a, MAYBE_UNUSED float uniform_pdf_a,
+                          PRIVATE LightSample *sample) {
     const float3 way = point.position - from;
     // From behind the density is 0: the sides are decided without dividing by the distance, which may be 0.
     sample->pdf_w = pdf_a * solid_angle_per_area(way, point.normal);
@@ -97,17 +125,26 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
     sample->target = offset_ray_origin(point, -way);
     sample->radiance = light_radiance(light);
     sample->is_delta = 0u;
+#if FEATURE_light_strategy
+    // Where pdf_a is 0 there is no sample; the ratio is left infinite.
+    sample->emission_over_sampling *= uniform_pdf_a / pdf_a;
+    sample->emission_pdf = max(-dot(point.normal, sample->wi), 0.0f) * INV_PI;
+#endif
 }
 
 DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, float3 from, MAYBE_UNUSED uint4 words) {
     LightSample sample;
     sample.pdf_w = 0.0f;
     sample.is_delta = 0u;
+#if FEATURE_light_strategy
+    sample.emission_over_sampling = light.emission_selection / light.selection;
+    sample.emission_pdf = 0.0f;
+#endif
     switch (light.kind) {
 #if FEATURE_area_lights
     case LIGHT_MESH: {
         const LightPoint on = sample_mesh_light(emitter_triangles, surface_triangles, light, words);
-        look_at_point(from, light, on.point, on.pdf_a, &sample);
+        look_at_point(from, light, on.point, on.pdf_a, on.pdf_a, &sample);
         break;
     }
 #endif
@@ -116,7 +153,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     case LIGHT_SPHERE:
     case LIGHT_SPHERE_BY_AREA: {
         const ShapeLightSample on = sample_shape_light(light, shapes, from, uniform_float(words.z), uniform_float(words.w));
-        look_at_point(from, light, on.point, on.pdf_a, &sample);
+        look_at_point(from, light, on.point, on.pdf_a, 1.0f / light.area, &sample);
         break;
     }
 #endif
@@ -128,12 +165,16 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
         const float squared = dot(way, way);
         float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
         sample.wi = way / sqrt(squared);
+#if FEATURE_light_strategy
+        sample.emission_pdf = 0.25f * INV_PI;
+#endif
 #if FEATURE_spot_lights
         if (light.kind == LIGHT_SPOT) {
-            // The intensity falls linearly with the angle between the two cones (Mitsuba 3's spot).
-            const float cosine = dot(light_axis_z(light), sample.wi);  // the light shines along -z
-            const float fall = (light.outer_angle - acos(min(cosine, 1.0f))) * light.angle_scale;
-            intensity *= cosine > light.cos_outer ? min(max(fall, 0.0f), 1.0f) : 0.0f;
+            const SpotDirection spot = spot_direction(light, -sample.wi);
+            intensity *= intensity > 0.0f ? spot_share(light, spot) : 0.0f;  // in the light itself wi is NaN
+#if FEATURE_light_strategy
+            sample.emission_pdf = spot_pdf_w(light, spot);
+#endif
         }
 #endif
         sample.radiance = light_radiance(light) * intensity;
@@ -172,6 +213,11 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     default:
         break;
     }
+#if FEATURE_light_strategy && (FEATURE_infinite_lights || FEATURE_directional_lights)
+    if (light.kind >= LIGHT_DIRECTIONAL) {
+        sample.emission_pdf = disc_pdf_a(lighting, from, sample.wi);
+    }
+#endif
     sample.pdf_w *= light.selection;
     return sample;
 }
@@ -218,6 +264,62 @@ DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, 
 #else
     return 0.0f;
 #endif
+}
+
+#endif
+
+#if FEATURE_light_strategy
+
+// Densities of emission (EmissionSample) for paths that camera paths and light samples make.
+
+#if FEATURE_area_lights || FEATURE_shape_lights
+
+/// Density per area, selection included, with which a light path starts at a point of this emitter (as in SurfaceHit).
+/// Times 1 / pi, the cosine-weighted density per projected solid angle, it is that of the line from there.
+DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter) {
+#if FEATURE_shape_lights
+    if ((primitive & SHAPE_BIT) != 0u) {
+        return light.emission_selection / light.area;
+    }
+#endif
+#if FEATURE_area_lights
+    return light.emission_selection * emitter_triangles[emitter].pdf_a;
+#else
+    return 0.0f;
+#endif
+}
+
+/// Density per area and projected solid angle, selection included, of a light path along a ray that hits this emitter:
+/// pdf_origin pdf_direction / cos.
+DEVICE float emission_line_pdf(LIGHT_PARAMETERS LightRecord light, uint primitive, uint emitter) {
+    return INV_PI * emission_pdf_a(LIGHT_ARGUMENTS light, primitive, emitter);
+}
+
+#endif
+
+#if FEATURE_infinite_lights
+
+/// The same of a light path that comes to `point` from infinity, from direction d: pdf_origin pdf_direction, per solid
+/// angle and area of the disc.
+DEVICE float infinite_line_pdf(LIGHT_PARAMETERS float3 point, float3 d) {
+    return lights[lighting.infinite_light].emission_selection * infinite_pdf_w(LIGHT_ARGUMENTS d) *
+           disc_pdf_a(lighting, point, d);
+}
+
+#endif
+
+/// Density with which `sample_lights`, from `from`, makes this point or direction of a light, over that with which light
+/// paths start there; finite. The two differ by selection, where every light is sampled in turn, and on spheres that are
+/// sampled by their cones. `on` is read there alone: position and normal.
+DEVICE float sampling_over_emission(SURFACE_PARAMETERS LightRecord light, MAYBE_UNUSED float3 from,
+                                    MAYBE_UNUSED SurfacePoint on) {
+    float ratio = light.selection / light.emission_selection;
+#if FEATURE_shape_lights
+    if (light.kind == LIGHT_SPHERE) {
+        ratio *= light.area * shape_light_pdf_a(light, shapes, from, on);
+    }
+#endif
+    return ratio;
 }
 
 #endif
