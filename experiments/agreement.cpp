@@ -35,6 +35,7 @@ struct BlockTest {
     double difference = 0;      ///< mean of image less mean of reference
     double standard_error = 0;  ///< of `difference`
     double z = 0;
+    std::string where;
 };
 
 BlockTest test_block(const BlockSums &block) {
@@ -95,10 +96,13 @@ Agreement test_agreement(const Image &image, const Image &reference, const Agree
             add_pixel(blocks[static_cast<size_t>(y / size * columns + x / size)], a[i], b[i], variance);
             add_pixel(whole, a[i], b[i], variance);
         }
-        for (const BlockSums &block : blocks) {
-            tests.push_back(test_block(block));
+        for (size_t i = 0; i < blocks.size(); ++i) {
+            tests.push_back(test_block(blocks[i]));
+            const int block = static_cast<int>(i);
+            tests.back().where = fmt::format("{} ({}, {})", colours[c], block % columns * size, block / columns * size);
         }
         tests.push_back(test_block(whole));
+        tests.back().where = colours[c] + " whole image";
         mean_difference += tests.back().difference / 3;
         mean_error += tests.back().standard_error / 3;
         mean_reference += whole.reference / whole.pixels / 3;
@@ -109,7 +113,10 @@ Agreement test_agreement(const Image &image, const Image &reference, const Agree
     std::vector<double> p_values;
     for (const auto &test : tests) {
         p_values.push_back(normal_p_value(test.z));
-        result.largest_z = std::max(result.largest_z, std::abs(test.z));
+        if (std::abs(test.z) >= result.largest_z) {
+            result.largest_z = std::abs(test.z);
+            result.largest_z_at = test.where;
+        }
     }
     for (const double adjusted : holm_adjusted(p_values)) {
         result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, adjusted);

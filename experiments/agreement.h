@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "experiments/statistics.h"
 #include "renderer/base/image.h"
@@ -18,6 +19,7 @@ struct Agreement {
     size_t tests = 0;                ///< channels x (blocks + whole image)
     size_t rejected = 0;             ///< tests with adjusted p <= alpha
     double largest_z = 0;            ///< largest |z| of all tests
+    std::string largest_z_at;        ///< its channel and the corner of its block, or "whole image"; "R (16, 0)"
     double smallest_adjusted_p = 1;  ///< Holm over all tests
     Interval relative_difference;    ///< of the mean over pixels and channels, over the reference's mean
     Equivalence equivalence = Equivalence::undecided;

@@ -91,6 +91,7 @@ json to_json(const Agreement &agreement, const AgreementPolicy &policy) {
             {"rejected", agreement.rejected},
             {"agrees", agreement.agrees()},
             {"largest_z", agreement.largest_z},
+            {"largest_z_at", agreement.largest_z_at},
             {"smallest_adjusted_p", agreement.smallest_adjusted_p},
             {"relative_difference", difference},
             {"equivalence", to_string(agreement.equivalence)}};

@@ -10,10 +10,12 @@
 
 #include "experiments/compare.h"
 #include "experiments/gate.h"
+#include "experiments/metrics.h"
 #include "experiments/report.h"
 #include "experiments/runner.h"
 #include "experiments/scene_agreement.h"
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "rtrays_commit.h"
 
@@ -30,6 +32,8 @@ struct Arguments {
     AgreeOptions agree;
     fs::path image, reference;
     bool json = false;
+    std::vector<fs::path> runs;
+    fs::path average;
     std::vector<fs::path> folders;
 };
 
@@ -51,6 +55,10 @@ void declare(CLI::App &app, Arguments &arguments) {
     compare->add_option("A", arguments.image, "image (OpenEXR)")->required();
     compare->add_option("B", arguments.reference, "reference (OpenEXR)")->required();
     compare->add_flag("--json", arguments.json, "print JSON with the keys of run.json");
+
+    auto *average = app.add_subcommand("average", "mean of renders that differ in their seed, with the variance of that mean");
+    average->add_option("IMAGE", arguments.runs, "at least two images (OpenEXR) of equal sample count")->required();
+    average->add_option("-o,--output", arguments.average, "image to write (OpenEXR)")->required();
 
     auto *report = app.add_subcommand("report", "tables, plots and report of finished runs");
     report->add_option("DIR", arguments.folders, "folders of finished runs")->required();
@@ -85,6 +93,13 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
     } else if (app.got_subcommand("compare")) {
         const auto comparison = compare_images(arguments.image, arguments.reference);
         fmt::print("{}", arguments.json ? comparison.dump(2) + "\n" : comparison_text(comparison));
+    } else if (app.got_subcommand("average")) {
+        require_writable(arguments.average);
+        std::vector<Image> images;
+        for (const fs::path &path : arguments.runs) {
+            images.push_back(read_exr(path));
+        }
+        write_exr(average_runs(images), arguments.average);
     } else if (app.got_subcommand("report")) {
         return static_cast<ExitCode>(make_report(arguments.folders));
     } else if (app.got_subcommand("agree")) {

@@ -110,6 +110,36 @@ Image average_images(const std::vector<Image> &images) {
     return result;
 }
 
+Image average_runs(const std::vector<Image> &images) {
+    if (images.size() < 2) {
+        throw input_error("a spread needs at least two images");
+    }
+    const Image &first = images.front();
+    const auto count = static_cast<double>(images.size());
+    Image result = Image::rgb(first.width(), first.height());
+    result.attributes() = first.attributes();
+    for (const std::string &name : rgb_names()) {
+        auto &variance = result.add_channel("variance." + name);
+        auto &mean = result.channel(name);
+        for (const Image &image : images) {
+            require_same_size(first, image);
+        }
+        for (size_t i = 0; i < first.pixel_count(); ++i) {
+            double sum = 0, squares = 0;
+            for (const Image &image : images) {
+                sum += static_cast<double>(image.channel(name)[i]);
+            }
+            for (const Image &image : images) {  // about the mean: no cancellation
+                const double d = static_cast<double>(image.channel(name)[i]) - sum / count;
+                squares += d * d;
+            }
+            mean[i] = static_cast<float>(sum / count);
+            variance[i] = static_cast<float>(squares / (count - 1) / count);
+        }
+    }
+    return result;
+}
+
 Image downsample(const Image &image, int factor) {
     if (factor < 1 || image.width() % factor != 0 || image.height() % factor != 0) {
         throw input_error(

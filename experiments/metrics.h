@@ -63,6 +63,11 @@ inline bool noise_dominates(double mse, double noise_mse) {
 /// "samples" the total, any other layer is left out. Attributes are those of the first.
 Image average_images(const std::vector<Image> &images);
 
+/// The mean of independent renders with equal settings but for the seed; "variance.*" is the variance of that mean as
+/// estimated from their spread (image count - 1 degrees of freedom per pixel). For renderers that state no variance.
+/// Throws `Error` (bad input) for less than two images and when sizes differ.
+Image average_runs(const std::vector<Image> &images);
+
 /// Averages squares of `factor` x `factor` pixels. With a box filter of one pixel this is exactly the image
 /// the same camera gives at the smaller film; variances follow as those of independent pixels.
 /// Throws `Error` (bad input) when the size is not divisible.

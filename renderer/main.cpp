@@ -14,7 +14,7 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
-#include "renderer/export/mitsuba_xml.h"
+#include "renderer/export/export_scene.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
 #include "rtrays_commit.h"
@@ -135,8 +135,8 @@ ExitCode run(Options &options) {
     if (options.spp && !options.samples.empty()) {
         throw input_error("--spp excludes --samples");
     }
-    if (!options.exported.empty() && std::filesystem::path(options.exported).extension() != ".xml") {
-        throw input_error(fmt::format("--export {}: the extension must be .xml (Mitsuba 3)", options.exported));
+    if (!options.exported.empty()) {
+        require_export_name(options.exported);
     }
     for (const std::string &path : {options.output, options.state, options.stats, options.exported}) {
         if (!path.empty()) {
@@ -176,7 +176,7 @@ ExitCode run(Options &options) {
     }
     if (!options.exported.empty()) {
         scene.set_film_size(options.settings.width, options.settings.height);
-        export_mitsuba_xml(scene, options.exported, {options.spp.value_or(64), options.settings.max_depth});
+        export_scene(scene, options.exported, {options.spp.value_or(64), options.settings.max_depth});
         return ExitCode::ok;
     }
     if (options.output.empty() && !options.dry_run) {
@@ -255,7 +255,7 @@ ExitCode parse_and_run(int argc, char **argv) {
     app.add_flag("--list-algorithms", algorithms, "list the algorithms and stop");
     app.add_option("SCENE", options.scene, "scene (.json, Mitsuba 3 .xml) or model file (.ply, .obj, .gltf, ...)");
     app.add_option("-o,--output", options.output, "image to write (.exr)");
-    app.add_option("--export", options.exported, "write the scene as Mitsuba 3 XML (.xml) and stop");
+    app.add_option("--export", options.exported, "write the scene for Mitsuba 3 (.xml) or Blender's Cycles (.blender.json) and stop");
     app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")->capture_default_str();
     app.add_option("--spp", options.spp, "samples per pixel (default 64)")->check(CLI::PositiveNumber);
     app.add_option("--time", options.seconds, "render for that many seconds instead")->check(CLI::PositiveNumber);

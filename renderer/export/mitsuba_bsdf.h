@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "renderer/export/data_folder.h"
 #include "renderer/export/mitsuba_writer.h"
 #include "renderer/import/mitsuba_xml_bsdf.h"
 #include "renderer/scene/stores.h"

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the parts of the Mitsuba exporter share: XML elements and the files beside the scene.
+// What the parts of the Mitsuba exporter share: XML elements.
 #pragma once
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <pugixml.hpp>
-#include <set>
 #include <string>
 
 namespace rtrays::mitsuba {
@@ -56,38 +54,5 @@ inline void add_transform(pugi::xml_node parent, const Eigen::Matrix4d &to_world
     node.append_child("matrix").append_attribute("value") =
         fmt::format("{}", fmt::join(by_rows.data(), by_rows.data() + 16, " ")).c_str();
 }
-
-/// Names that no other object of the file has.
-class Names {
-  public:
-    std::string unique(const std::string &wanted) {
-        std::string name = wanted.empty() ? "unnamed" : wanted;
-        for (int i = 2; !taken_.insert(name).second; ++i) {
-            name = fmt::format("{}_{}", wanted, i);
-        }
-        return name;
-    }
-
-    void reserve(const std::string &name) { taken_.insert(name); }
-
-  private:
-    std::set<std::string> taken_;
-};
-
-/// The folder beside the scene for meshes and images.
-class DataFolder {
-  public:
-    explicit DataFolder(const std::filesystem::path &scene_file);
-
-    /// A file of it that is not taken, named after an object.
-    std::filesystem::path new_file(const std::string &name, const std::string &extension);
-
-    /// As the scene refers to it.
-    std::string relative(const std::filesystem::path &file) const;
-
-  private:
-    std::filesystem::path folder_;
-    Names names_;
-};
 
 }  // namespace rtrays::mitsuba

@@ -17,32 +17,6 @@
 
 namespace rtrays {
 
-namespace mitsuba {
-
-DataFolder::DataFolder(const std::filesystem::path &scene_file)
-    : folder_(scene_file.parent_path() / (scene_file.stem().string() + "_data")) {}
-
-std::filesystem::path DataFolder::new_file(const std::string &name, const std::string &extension) {
-    std::string stem = name;
-    for (char &c : stem) {
-        const bool is_plain =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-        c = is_plain ? c : '_';
-    }
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) {
-        throw run_error(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
-    }
-    return folder_ / (names_.unique(stem) + extension);
-}
-
-std::string DataFolder::relative(const std::filesystem::path &file) const {
-    return (folder_.filename() / file.filename()).generic_string();
-}
-
-}  // namespace mitsuba
-
 namespace {
 
 using namespace mitsuba;
@@ -60,7 +34,7 @@ class SceneWriter {
           folder_(path),
           bsdfs_(arrays_, root, ids_, folder_) {}
 
-    void write(const MitsubaSettings &settings) {
+    void write(const ExportSettings &settings) {
         root_.append_attribute("version") = "3.0.0";
         add_default("spp", fmt::format("{}", settings.samples_per_pixel));
         // One more for the camera's own vertex; none for no limit.
@@ -316,7 +290,7 @@ class SceneWriter {
 }  // namespace
 
 void export_mitsuba_xml(const Scene &scene, const std::filesystem::path &path,
-                        const MitsubaSettings &settings) {
+                        const ExportSettings &settings) {
     require_writable(path);
     pugi::xml_document document;
     SceneWriter(scene, path, document.append_child("scene")).write(settings);

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 
+#include "renderer/export/export_settings.h"
 #include "renderer/scene/scene.h"
 
 namespace rtrays {
-
-/// What a scene file of Mitsuba says besides the scene.
-struct MitsubaSettings {
-    uint64_t samples_per_pixel = 64;
-    uint32_t max_depth = 0;  ///< as ours: scattering events, 0 for no limit
-};
 
 /// Writes the scene as last updated, seen by its active camera, as a Mitsuba 3 scene file. Its meshes (binary
 /// PLY) and images (PNG, or EXR) go to the folder NAME_data beside NAME.xml and replace files of the same
@@ -21,6 +15,6 @@ struct MitsubaSettings {
 /// Throws `Error` (bad input) naming the object that Mitsuba cannot express, and `Error` (run failed) naming
 /// a file that cannot be written.
 void export_mitsuba_xml(const Scene &scene, const std::filesystem::path &path,
-                        const MitsubaSettings &settings = {});
+                        const ExportSettings &settings = {});
 
 }  // namespace rtrays

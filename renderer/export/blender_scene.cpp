@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/export/blender_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/export/data_folder.h"
+#include "renderer/export/ply_file.h"
+#include "renderer/import/texture_file.h"
+#include "renderer/scene/cores/composite.h"
+#include "renderer/scene/cores/shape.h"
+#include "renderer/scene/cores/texture.h"
+#include "renderer/scene/graph.h"
+
+namespace rtrays {
+
+namespace {
+
+using Json = nlohmann::json;
+using Kind = BxdfComponent::Kind;
+using Fresnel = BxdfComponent::Fresnel;
+
+/// What Cycles of Blender 3.4 lacks for that component; empty when it has it. Its sources are
+/// intern/cycles/kernel/closure/bsdf_*.h and kernel/svm/closure.h.
+std::string missing_in_cycles(const BxdfComponent &part) {
+    switch (part.kind) {
+        case Kind::lambert:
+            return part.fresnel == Fresnel::ideal || part.fresnel_of_wo
+                       ? ""
+                       : "a Fresnel term of a diffuse component there knows the direction of the eye alone, not that "
+                         "of the light";
+        case Kind::oren_nayar:
+            return "its Oren-Nayar is another one (Fujii's, normalised)";
+        case Kind::ideal_reflection:
+        case Kind::ideal_refraction:
+            return "";
+        case Kind::microfacet_reflection:
+            if (part.fresnel != Fresnel::ideal) {
+                return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF takes it at the normal instead "
+                       "of the half vector";
+            }
+            if (part.alpha[0] != part.alpha[1]) {
+                return "its tangents are others on meshes";
+            }
+            // bsdf_microfacet_ggx_sample and its like: alpha_x * alpha_y <= 1e-7 is a mirror.
+            return part.alpha[0] * part.alpha[1] <= 1.01e-7 ? "it takes a surface so smooth for a mirror" : "";
+        case Kind::microfacet_refraction:
+            return "its rough Glass BSDF takes the Fresnel term at the normal instead of the half vector";
+        case Kind::blinn:
+        case Kind::ward:
+        case Kind::ward_original:
+            return "it has no such model";
+    }
+    throw run_error("unknown kind of component");
+}
+
+template <typename Vector>
+Json numbers(const Vector &vector) {
+    Json array = Json::array();
+    for (Eigen::Index i = 0; i < vector.size(); ++i) {
+        array.push_back(vector[i]);
+    }
+    return array;
+}
+
+/// By rows.
+Json matrix(const Eigen::Matrix4d &values) {
+    Json rows = Json::array();
+    for (int row = 0; row < 4; ++row) {
+        rows.push_back(numbers(Eigen::Vector4d(values.row(row))));
+    }
+    return rows;
+}
+
+class SceneWriter {
+  public:
+    SceneWriter(const Scene &scene, const std::filesystem::path &path)
+        : scene_(scene), arrays_(scene.arrays()), folder_(path) {}
+
+    Json write(const ExportSettings &settings) {
+        // Before any file: what cannot be expressed leaves none behind.
+        Json materials = write_materials();
+        Json shapes = write_shapes();
+        Json meshes = Json::array(), textures = Json::array(), lights = Json::array();
+        for (uint32_t mesh = 0; mesh < arrays_.meshes.name.size(); ++mesh) {
+            meshes.push_back(write_mesh(mesh));
+        }
+        for (uint32_t texture = 0; texture < arrays_.textures.name.size(); ++texture) {
+            textures.push_back(write_texture(texture));
+        }
+        for (uint32_t light = 0; light < arrays_.lights.name.size(); ++light) {
+            if (arrays_.lights.kind[light] != LightArrays::Kind::diffuse_area) {  // those are with their surface
+                lights.push_back(write_light(light));
+            }
+        }
+        return {{"format", "rtrays scene for Blender"},
+                {"version", 1},
+                {"name", scene_.name()},
+                {"samples_per_pixel", settings.samples_per_pixel},
+                {"max_depth", settings.max_depth},
+                {"film", {{"width", scene_.film_width()}, {"height", scene_.film_height()}}},
+                {"camera", write_camera()},
+                {"materials", std::move(materials)},
+                {"textures", std::move(textures)},
+                {"meshes", std::move(meshes)},
+                {"shapes", std::move(shapes)},
+                {"lights", std::move(lights)}};
+    }
+
+  private:
+    Json write_camera() const {
+        const CameraArrays &cameras = arrays_.cameras;
+        const auto i = static_cast<size_t>(scene_.active_camera());
+        using Axis = CameraArrays::FovAxis;
+        const bool wide = scene_.film_width() >= scene_.film_height();
+        const Axis axis = cameras.fov_axis[i];
+        const bool along_x = axis == Axis::x || (axis == Axis::larger && wide) || (axis == Axis::smaller && !wide);
+        const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
+        const Eigen::Vector3d eye =
+            scene_.origin() + Eigen::Vector3d(cameras.world_from_camera[i].topRightCorner<3, 1>());
+        const double extent =
+            bounds.isEmpty() ? 1 : std::sqrt(bounds.squaredExteriorDistance(eye)) + bounds.diagonal().norm();
+        return {{"name", cameras.name[i]},
+                {"world_from_camera", matrix(cameras.world_from_camera[i])},
+                {"fov", cameras.fov[i]},
+                {"fov_axis", along_x ? "x" : "y"},
+                {"aperture_radius", cameras.aperture_radius[i]},
+                {"focus_distance", cameras.focus_distance[i]},
+                {"extent", extent}};
+    }
+
+    Json write_materials() const {
+        const MaterialArrays &materials = arrays_.materials;
+        Json list = Json::array();
+        for (uint32_t i = 0; i < materials.name.size(); ++i) {
+            Json components = Json::array();
+            for (uint32_t c = 0; c < materials.component_count[i]; ++c) {
+                const BxdfComponent &part = materials.component[materials.first_component[i] + c];
+                const std::string missing = missing_in_cycles(part);
+                if (!missing.empty() && !part.weight.isZero(0)) {
+                    const std::string name = bxdf_names()[static_cast<size_t>(part.kind)];
+                    const std::string term = fresnel_names()[static_cast<size_t>(part.fresnel)];
+                    throw input_error(fmt::format("{}material '{}', component {} ({}{}{}): Cycles cannot do that: {}",
+                                                  user_of(i), materials.name[i], c, name,
+                                                  part.fresnel == Fresnel::ideal ? "" : " with Fresnel term ",
+                                                  part.fresnel == Fresnel::ideal ? "" : term, missing));
+                }
+                components.push_back(write_component(part));
+            }
+            list.push_back({{"name", materials.name[i]},
+                            {"two_sided", materials.two_sided[i] != 0},
+                            {"components", std::move(components)}});
+        }
+        return list;
+    }
+
+    /// "'NODE': " of the first object of that material.
+    std::string user_of(uint32_t material) const {
+        const auto of = [&](const std::vector<uint32_t> &users, const std::vector<std::string> &names) {
+            const auto found = std::find(users.begin(), users.end(), material);
+            return found == users.end() ? std::string() : names[static_cast<size_t>(found - users.begin())];
+        };
+        const std::string mesh = of(arrays_.meshes.material, arrays_.meshes.name);
+        const std::string shape = of(arrays_.shapes.material, arrays_.shapes.name);
+        const std::string &name = mesh.empty() ? shape : mesh;
+        return name.empty() ? "" : "'" + name + "': ";
+    }
+
+    static Json write_component(const BxdfComponent &part) {
+        Json component = {{"kind", bxdf_names()[static_cast<size_t>(part.kind)]},
+                          {"weight", numbers(part.weight)},
+                          {"fresnel", fresnel_names()[static_cast<size_t>(part.fresnel)]},
+                          {"complement", part.complement},
+                          {"eta", numbers(part.eta)},
+                          {"k", numbers(part.k)}};
+        if (part.kind == Kind::microfacet_reflection) {
+            component["distribution"] = part.distribution == BxdfComponent::Distribution::ggx ? "ggx" : "beckmann";
+            component["alpha"] = part.alpha[0];
+        }
+        if (part.texture != no_index) {
+            component["texture"] = part.texture;
+        }
+        return component;
+    }
+
+    Json write_texture(uint32_t i) {
+        const TextureArrays &textures = arrays_.textures;
+        return {{"name", textures.name[i]},
+                {"file", image_file(textures.image[i], textures.name[i])},
+                {"filter", textures.filter[i] == TextureArrays::Filter::nearest ? "nearest" : "bilinear"},
+                {"wrap", textures.wrap[i] == TextureArrays::Wrap::clamp ? "clamp" : "repeat"},
+                {"uv_scale", numbers(textures.uv_scale[i])},
+                {"uv_offset", numbers(textures.uv_offset[i])}};
+    }
+
+    /// The image as linear floats, written once.
+    std::string image_file(const std::shared_ptr<const TextureImage> &image, const std::string &name) {
+        std::string &file = images_[image.get()];
+        if (file.empty()) {
+            TextureImage linear = *image;
+            if (linear.floats.empty()) {
+                linear.floats.resize(linear.bytes.size());
+                std::transform(linear.bytes.begin(), linear.bytes.end(), linear.floats.begin(), [&](uint8_t byte) {
+                    return static_cast<float>(linear.srgb ? srgb_decoded(byte / 255.0) : byte / 255.0);
+                });
+                linear.bytes.clear();
+            }
+            const std::filesystem::path path = folder_.new_file(name, ".exr");
+            write_texture_file(linear, path);
+            file = folder_.relative(path);
+        }
+        return file;
+    }
+
+    /// Radiance of the front of a surface; nothing where it does not shine.
+    void add_emission(Json &surface, uint32_t light) const {
+        if (light != no_index) {
+            surface["radiance"] = numbers(arrays_.lights.radiance[light]);
+        }
+    }
+
+    Json write_mesh(uint32_t i) {
+        const MeshArrays &meshes = arrays_.meshes;
+        const std::filesystem::path file = folder_.new_file(meshes.name[i], ".ply");
+        write_ply(meshes, i, file);
+        Json mesh = {{"name", meshes.name[i]},
+                     {"file", folder_.relative(file)},
+                     {"vertices", meshes.vertex_count[i]},
+                     {"triangles", meshes.triangle_count[i]},
+                     {"has_normals", meshes.has_normals[i] != 0},
+                     {"has_uv", meshes.has_uv[i] != 0},
+                     {"material", meshes.material[i]}};
+        add_emission(mesh, meshes.light[i]);
+        return mesh;
+    }
+
+    Json write_shapes() const {
+        const ShapeArrays &shapes = arrays_.shapes;
+        Json list = Json::array();
+        for (uint32_t i = 0; i < shapes.name.size(); ++i) {
+            const ShapeArrays::Kind kind = shapes.kind[i];
+            const auto type = std::find_if(shape_types().begin(), shape_types().end(),
+                                           [&](const ShapeType &candidate) { return candidate.kind == kind; });
+            const std::string kind_name = type->name;  // every kind has a type
+            if (kind == ShapeArrays::Kind::plane || kind == ShapeArrays::Kind::julia) {
+                throw input_error(fmt::format("'{}': Cycles has triangles, and they make no {}", shapes.name[i],
+                                              kind == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
+            }
+            Json shape = {{"name", shapes.name[i]},
+                          {"kind", kind_name},
+                          {"world_from_object", matrix(shapes.world_from_object[i])},
+                          {"flare", shapes.flare[i]},
+                          {"material", shapes.material[i]}};
+            add_emission(shape, shapes.light[i]);
+            list.push_back(std::move(shape));
+        }
+        return list;
+    }
+
+    Json write_light(uint32_t i) {
+        const LightArrays &lights = arrays_.lights;
+        constexpr const char *names[] = {"diffuse_area", "point", "spot", "directional", "dome", "environment"};
+        Json light = {{"name", lights.name[i]},
+                      {"kind", names[static_cast<size_t>(lights.kind[i])]},
+                      {"radiance", numbers(lights.radiance[i])},
+                      {"world_from_light", matrix(lights.world_from_light[i])},
+                      {"inner_angle", lights.inner_angle[i]},
+                      {"outer_angle", lights.outer_angle[i]}};
+        if (lights.kind[i] == LightArrays::Kind::environment) {
+            light["file"] = image_file(lights.image[i], lights.name[i]);
+        }
+        return light;
+    }
+
+    const Scene &scene_;
+    const SceneArrays &arrays_;
+    DataFolder folder_;
+    std::map<const TextureImage *, std::string> images_;
+};
+
+}  // namespace
+
+void export_blender_scene(const Scene &scene, const std::filesystem::path &path, const ExportSettings &settings) {
+    require_writable(path);
+    write_file(path, SceneWriter(scene, path).write(settings).dump(1) + "\n");
+}
+
+}  // namespace rtrays

@@ -1,0 +1,286 @@
+# SPDX-License-Identifier: MIT
+"""Renders a scene that `rtrays-render SCENE --export NAME.blender.json` wrote, by Cycles of Blender 3.4.
+
+    blender --background --factory-startup --python-exit-code 1 --python scripts/cycles_driver.py -- \\
+        NAME.blender.json OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
+
+With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
+JSON for each image: file, seed, spp, seconds (of Blender's render call, synchronisation included).
+
+The world is scaled to an extent of 1, since Cycles compares the edges of a bright triangle with a distance over an area
+(triangle_light_sample): in large units it takes lamps by solid angles that it knows to 1e-4 sr, and renders them up to
+2 % too dark from afar. Bright triangles are split for the same reason.
+
+Units. Emission nodes give radiance, W / (sr m^2); a sun's strength is the irradiance of a plane facing it, W / m^2; a
+point light of E watts whose shader emits 1 has E / (4 pi) W / sr. scripts/peers --calibrate holds all of them against closed forms.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import sys
+import time
+
+import bpy
+import mathutils
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+import cycles_geometry  # noqa: E402
+import cycles_shading  # noqa: E402
+from cycles_shading import Graph, Value  # noqa: E402
+
+WATTS_OF_UNIT_INTENSITY = 4 * math.pi
+MOST_BOUNCES = 1024  # of Cycles
+LONGEST_BRIGHT_EDGE = 0.05  # of the extent
+
+
+class Images:
+    """Linear floats, each file loaded once."""
+
+    def __init__(self, folder):
+        self.folder, self.loaded = folder, {}
+
+    def __call__(self, file):
+        if file not in self.loaded:
+            self.loaded[file] = self.as_numbers(bpy.data.images.load(str(self.folder / file)))
+        return self.loaded[file]
+
+    @staticmethod
+    def as_numbers(image):
+        image.colorspace_settings.name = "Non-Color"
+        image.alpha_mode = "NONE"
+        image.use_half_precision = False  # Cycles would round the texels to 16 bits
+        return image
+
+
+def link(name, data, matrix=None):
+    made = bpy.data.objects.new(name, data)
+    if matrix is not None:
+        made.matrix_world = mathutils.Matrix(matrix)
+    bpy.context.scene.collection.objects.link(made)
+    return made
+
+
+def scaled(matrix, scale):
+    return [[*row[:3], row[3] * scale] for row in matrix[:3]] + [matrix[3]]
+
+
+def add_mesh(name, surface, material, scale):
+    mesh = bpy.data.meshes.new(name)
+    count = len(surface.triangles)
+    mesh.vertices.add(len(surface.positions))
+    mesh.vertices.foreach_set("co", numpy.ascontiguousarray(surface.positions * scale, numpy.float32).reshape(-1))
+    mesh.loops.add(3 * count)
+    corners = numpy.ascontiguousarray(surface.triangles, numpy.int32).reshape(-1)
+    mesh.loops.foreach_set("vertex_index", corners)
+    mesh.polygons.add(count)
+    mesh.polygons.foreach_set("loop_start", numpy.arange(0, 3 * count, 3, dtype=numpy.int32))
+    mesh.polygons.foreach_set("loop_total", numpy.full(count, 3, numpy.int32))
+    mesh.polygons.foreach_set("use_smooth", numpy.full(count, surface.normals is not None))
+    if surface.uv is not None:
+        uv = mesh.uv_layers.new(name="uv")
+        uv.data.foreach_set("uv", numpy.ascontiguousarray(surface.uv[corners], numpy.float32).reshape(-1))
+    mesh.update(calc_edges=True)
+    if surface.normals is not None:
+        mesh.use_auto_smooth = True
+        mesh.normals_split_custom_set_from_vertices(numpy.asarray(surface.normals, numpy.float32).tolist())
+    mesh.materials.append(material)
+    made = link(name, mesh)
+    # These bend shadows where smooth normals leave the triangles; nobody else does that.
+    made.cycles.shadow_terminator_offset = 0.0
+    made.cycles.shadow_terminator_geometry_offset = 0.0
+
+
+def add_geometry(scene, folder, images, scale):
+    materials = {}
+
+    def material_of(surface):
+        key = (surface["material"], tuple(surface.get("radiance", ())))
+        if key not in materials:
+            entry = scene["materials"][surface["material"]]
+            materials[key] = cycles_shading.make_material(entry, surface.get("radiance"), scene, images)
+        return materials[key]
+
+    for mesh in scene["meshes"]:
+        surface = cycles_geometry.read_ply(folder / mesh["file"], mesh)
+        if "radiance" in mesh:
+            surface = cycles_geometry.split(surface, LONGEST_BRIGHT_EDGE / scale)
+        add_mesh(mesh["name"], surface, material_of(mesh), scale)
+    for shape in scene["shapes"]:
+        surface = cycles_geometry.tessellate(shape["kind"], shape["flare"], "radiance" in shape)
+        add_mesh(shape["name"], cycles_geometry.place(surface, shape["world_from_object"]), material_of(shape), scale)
+
+
+def add_camera(scene, film, scale):
+    wanted = scene["camera"]
+    camera = bpy.data.cameras.new(wanted["name"])
+    along_x = wanted["fov_axis"] == "x"
+    camera.sensor_fit = "HORIZONTAL" if along_x else "VERTICAL"
+    tangent = math.tan(wanted["fov"] / 2)
+    # Lens and sensor in millimetres, of which only the ratio counts; an open aperture fixes the lens (f-number 1).
+    aperture = wanted["aperture_radius"] * scale
+    lens = 2000 * aperture if aperture > 0 else 50.0
+    stop = 1.0
+    while min(lens, 2 * lens * tangent) < 2:
+        lens, stop = 2 * lens, 2 * stop
+    camera.lens = lens
+    setattr(camera, "sensor_width" if along_x else "sensor_height", 2 * lens * tangent)
+    if aperture > 0:
+        camera.dof.use_dof = True
+        camera.dof.aperture_fstop = stop
+        camera.dof.aperture_blades = 0
+        camera.dof.aperture_ratio = 1.0
+        camera.dof.focus_distance = wanted["focus_distance"] * scale
+    camera.clip_start, camera.clip_end = 1e-5, 1e3  # nothing is clipped here
+    film.camera = link(wanted["name"], camera, scaled(wanted["world_from_camera"], scale))
+
+
+def add_light(light, scale):
+    kind = light["kind"]
+    lamp = bpy.data.lights.new(light["name"], "SUN" if kind == "directional" else "POINT")
+    lamp.color = (1, 1, 1)
+    lamp.use_nodes = True
+    graph = Graph(lamp.node_tree, "ShaderNodeOutputLight")
+    strength = Value(graph, 1.0)
+    if kind == "directional":
+        lamp.angle = 0.0
+        lamp.energy = 1.0
+    else:
+        lamp.shadow_soft_size = 0.0
+        lamp.energy = WATTS_OF_UNIT_INTENSITY * scale * scale  # distances shrink
+    if kind == "spot":
+        # The falloff of Blender's own spot is another one; ours is linear in the angle from the axis, -z.
+        axis = [-row[2] for row in light["world_from_light"][:3]]
+        # "Incoming" points from what is shaded, here the light, to where the ray came from.
+        cosine = graph.dot(graph.geometry("Incoming"), axis).at_most(1.0).at_least(-1.0)
+        angle = cosine.call("ARCCOSINE")
+        inner, outer = light["inner_angle"], light["outer_angle"]
+        strength = ((outer - angle) / (outer - inner)).at_least(0.0).at_most(1.0)
+    emission = graph.node("ShaderNodeEmission", {"Color": graph.vector(light["radiance"]), "Strength": strength})
+    graph.tree.links.new(emission.outputs[0], graph.output.inputs["Surface"])
+    link(light["name"], lamp, scaled(light["world_from_light"], scale))
+
+
+def wrapped(image):
+    """The image with its last column before its first and the first behind the last: Cycles interpolates without
+    wrapping u, or wraps v too, across the poles."""
+    width, height = image.size
+    texels = numpy.empty(width * height * 4, numpy.float32)
+    image.pixels.foreach_get(texels)
+    texels = texels.reshape(height, width, 4)
+    wide = bpy.data.images.new(image.name + " wrapped", width + 2, height, float_buffer=True, is_data=True)
+    Images.as_numbers(wide)
+    wide.pixels.foreach_set(numpy.concatenate([texels[:, -1:], texels, texels[:, :1]], 1).reshape(-1))
+    wide.pack()
+    return wide
+
+
+def environment(graph, light, images):
+    """Radiance by direction; the convention is that of renderer/scene/stores.h."""
+    image = images(light["file"])
+    direction = graph.node("ShaderNodeTexCoord").outputs["Generated"]
+    x, y, z = (graph.dot(direction, [row[i] for row in light["world_from_light"][:3]]) for i in range(3))
+    u = (x.call("ARCTAN2", 0.0 - z) / (2 * math.pi)).call("FRACT")
+    v = 1.0 - y.at_most(1.0).at_least(-1.0).call("ARCCOSINE") / math.pi
+    width = image.size[0]
+    coordinates = graph.vector([(u * float(width) + 1.0) / float(width + 2), v, 0.0])
+    node = graph.node(
+        "ShaderNodeTexImage", {"Vector": coordinates}, image=wrapped(image), interpolation="Linear", extension="EXTEND"
+    )
+    return [texel * factor for texel, factor in zip(graph.separated(node.outputs["Color"]), light["radiance"])]
+
+
+def add_surroundings(lights, images, film):
+    world = bpy.data.worlds.new("surroundings")
+    film.world = world
+    world.use_nodes = True
+    graph = Graph(world.node_tree, "ShaderNodeOutputWorld")
+    shaders = []
+    for light in lights:
+        colour = environment(graph, light, images) if light["kind"] == "environment" else light["radiance"]
+        inputs = {"Color": graph.vector(colour), "Strength": 1.0}
+        shaders.append(graph.node("ShaderNodeBackground", inputs).outputs[0])
+        if light["kind"] == "environment":
+            world.cycles.sampling_method = "MANUAL"
+            world.cycles.sample_map_resolution = min(4096, max(512, 2 * images(light["file"]).size[0]))
+    if shaders:
+        graph.tree.links.new(graph.sum(shaders), graph.output.inputs["Surface"])
+
+
+def set_up(scene, film, spp, max_depth):
+    film.render.engine = "CYCLES"
+    film.render.resolution_x, film.render.resolution_y = scene["film"]["width"], scene["film"]["height"]
+    film.render.resolution_percentage = 100
+    film.render.use_compositing = film.render.use_sequencer = False
+    film.render.film_transparent = False
+    film.render.dither_intensity = 0.0
+    film.view_settings.view_transform = "Raw"
+    output = film.render.image_settings
+    output.file_format, output.color_mode, output.color_depth, output.exr_codec = "OPEN_EXR", "RGB", "32", "ZIP"
+    cycles = film.cycles
+    cycles.device = "CPU"
+    cycles.samples = spp
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.time_limit = 0
+    cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
+    cycles.film_exposure = 1.0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    cycles.light_sampling_threshold = 0.0
+    cycles.blur_glossy = 0.0
+    cycles.caustics_reflective = cycles.caustics_refractive = True
+    cycles.use_fast_gi = False
+    cycles.min_light_bounces = cycles.min_transparent_bounces = 0
+    bounces = MOST_BOUNCES if max_depth == 0 else min(max_depth - 1, MOST_BOUNCES)
+    for kind in ("max", "diffuse", "glossy", "transmission"):
+        setattr(cycles, kind + "_bounces", bounces)
+    cycles.volume_bounces = 0
+    cycles.transparent_max_bounces = MOST_BOUNCES
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="cycles_driver", description=__doc__.split("\n\n")[0])
+    parser.add_argument("description", type=pathlib.Path)
+    parser.add_argument("output", type=pathlib.Path)
+    parser.add_argument("--spp", type=int)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--max-depth", type=int)
+    parser.add_argument("--runs", type=int)
+    options = parser.parse_args(arguments)
+    scene = json.loads(options.description.read_text())
+    if scene.get("format") != "rtrays scene for Blender" or scene.get("version") != 1:
+        raise ValueError(f"{options.description}: no description that `rtrays-render --export` wrote for this driver")
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    film = bpy.context.scene
+    spp = options.spp or scene["samples_per_pixel"]
+    set_up(scene, film, spp, scene["max_depth"] if options.max_depth is None else options.max_depth)
+    images = Images(options.description.resolve().parent)
+    scale = 1 / scene["camera"]["extent"]
+    add_geometry(scene, options.description.resolve().parent, images, scale)
+    add_camera(scene, film, scale)
+    around = [light for light in scene["lights"] if light["kind"] in ("dome", "environment")]
+    add_surroundings(around, images, film)
+    for light in scene["lights"]:
+        if light not in around:
+            add_light(light, scale)
+
+    film.render.use_persistent_data = True  # further runs need not build the scene again
+    for run in range(options.runs or 1):
+        seed = options.seed + run
+        film.cycles.seed = seed
+        output = options.output.resolve()
+        if options.runs is not None:
+            output = output.with_suffix(f".{seed}.exr")
+        film.render.filepath = str(output)
+        film.render.use_file_extension = False
+        start = time.perf_counter()
+        bpy.ops.render.render(write_still=True)
+        record = {"file": str(output), "seed": seed, "spp": spp, "seconds": time.perf_counter() - start}
+        print(json.dumps({**record, "engine": "Cycles of Blender " + bpy.app.version_string}), flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[sys.argv.index("--") + 1 :])

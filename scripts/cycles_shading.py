@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: MIT
+"""Shader nodes of Blender for our materials, lights and textures. Runs inside Blender."""
+
+import math
+
+import bpy
+
+
+class Value:
+    """A number of a shader: a constant or the output of a node. Arithmetic makes nodes, or folds constants."""
+
+    def __init__(self, graph, source):
+        self.graph, self.source = graph, source
+
+    def _math(self, operation, fold, *others):
+        operands = [self.source] + [other.source if isinstance(other, Value) else other for other in others]
+        if all(isinstance(operand, (int, float)) for operand in operands):
+            return Value(self.graph, fold(*operands))
+        return Value(self.graph, self.graph.node("ShaderNodeMath", operands, operation=operation).outputs[0])
+
+    def __add__(self, other):
+        return self._math("ADD", lambda a, b: a + b, other)
+
+    def __sub__(self, other):
+        return self._math("SUBTRACT", lambda a, b: a - b, other)
+
+    def __rsub__(self, other):
+        return Value(self.graph, other) - self
+
+    def __mul__(self, other):
+        return self._math("MULTIPLY", lambda a, b: a * b, other)
+
+    def __truediv__(self, other):
+        return self._math("DIVIDE", lambda a, b: a / b, other)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def call(self, operation, *others):
+        """A function of ShaderNodeMath that is never wanted of constants alone."""
+        return self._math(operation, None, *others)
+
+    def sqrt(self):
+        return self._math("SQRT", math.sqrt)
+
+    def at_least(self, bound):
+        return self._math("MAXIMUM", max, bound)
+
+    def at_most(self, bound):
+        return self._math("MINIMUM", min, bound)
+
+
+class Graph:
+    """A node tree with nothing but its output."""
+
+    def __init__(self, tree, output):
+        self.tree = tree
+        tree.nodes.clear()
+        self.output = tree.nodes.new(output)
+        self._geometry = None
+
+    def node(self, kind, inputs=(), **properties):
+        """Inputs by position or by name: constants or sockets; None leaves one unconnected."""
+        node = self.tree.nodes.new(kind)
+        for name, value in properties.items():
+            setattr(node, name, value)
+        for key, value in inputs.items() if isinstance(inputs, dict) else enumerate(inputs):
+            if isinstance(value, Value):
+                value = value.source
+            if isinstance(value, bpy.types.NodeSocket):
+                self.tree.links.new(value, node.inputs[key])
+            elif value is not None:
+                node.inputs[key].default_value = value
+        return node
+
+    def geometry(self, output):
+        if self._geometry is None:
+            self._geometry = self.node("ShaderNodeNewGeometry")
+        return self._geometry.outputs[output]
+
+    def backfacing(self):
+        return Value(self, self.geometry("Backfacing"))
+
+    def vector(self, values):
+        """Three values as the socket of a vector or colour; unlike a colour's own field this takes any number."""
+        return self.node("ShaderNodeCombineXYZ", list(values)).outputs[0]
+
+    def separated(self, socket):
+        return [Value(self, output) for output in self.node("ShaderNodeSeparateXYZ", [socket]).outputs]
+
+    def dot(self, socket, direction):
+        node = self.node("ShaderNodeVectorMath", operation="DOT_PRODUCT")
+        self.tree.links.new(socket, node.inputs[0])
+        if isinstance(direction, bpy.types.NodeSocket):
+            self.tree.links.new(direction, node.inputs[1])
+        else:
+            node.inputs[1].default_value = direction
+        return Value(self, node.outputs["Value"])
+
+    def cosine(self):
+        """Of the angle between the direction of the eye and the shading normal."""
+        return self.dot(self.geometry("Incoming"), self.geometry("Normal")).call("ABSOLUTE").at_most(1.0)
+
+    def sum(self, closures):
+        total = closures[0]
+        for closure in closures[1:]:
+            total = self.node("ShaderNodeAddShader", [total, closure]).outputs[0]
+        return total
+
+
+def _conductor(c, eta, k):
+    """Exact, in real numbers: Born and Wolf, 13.4; s is the square of the sine."""
+    s = 1.0 - c * c
+    difference = (eta * eta - k * k) - s
+    ab = (difference * difference + 4 * eta * eta * k * k).sqrt()  # a^2 + b^2
+    a = ((ab + difference) * 0.5).at_least(0.0).sqrt()
+    sum_s, twice_ac = ab + c * c, a * c * 2.0
+    perpendicular = (sum_s - twice_ac) / (sum_s + twice_ac)
+    sum_p, twice_acs = c * c * ab + s * s, twice_ac * s
+    return 0.5 * perpendicular * (1.0 + (sum_p - twice_acs) / (sum_p + twice_acs))
+
+
+def _conductor_approximate(c, eta, k):
+    """Thesis (3.28)."""
+    both, cross, square = eta * eta + k * k, 2 * eta * c, c * c
+    parallel = (both * square - cross + 1.0) / (both * square + cross + 1.0)
+    perpendicular = (both - cross + square) / (both + cross + square)
+    return 0.5 * (parallel + perpendicular)
+
+
+def _schlick(c, at_normal, _):
+    m = 1.0 - c
+    return at_normal + (1 - at_normal) * (m * m * m * m * m)
+
+
+def _fresnel(graph, component, is_boundary):
+    """Three values; `is_boundary`: from behind, light meets 1 / eta."""
+    kind = component["fresnel"]
+    if kind == "ideal":
+        return [1.0] * 3
+    if kind == "dielectric":
+        eta = component["eta"][0]
+        if not is_boundary:  # the node inverts it from behind: so do we, once more
+            eta = graph.backfacing() * (1 / eta - eta) + eta
+        values = [Value(graph, graph.node("ShaderNodeFresnel", {"IOR": eta}).outputs[0])] * 3
+    else:
+        function = {"conductor": _conductor, "conductor_approximate": _conductor_approximate, "schlick": _schlick}[kind]
+        cosine = graph.cosine()
+        values = [function(cosine, eta, k) for eta, k in zip(component["eta"], component["k"])]
+    return [1.0 - value for value in values] if component["complement"] else values
+
+
+def _texture(graph, texture, images):
+    coordinates = graph.separated(graph.node("ShaderNodeTexCoord").outputs["UV"])
+    moved = [x * scale + offset for x, scale, offset in zip(coordinates, texture["uv_scale"], texture["uv_offset"])]
+    node = graph.node(
+        "ShaderNodeTexImage",
+        {"Vector": graph.vector(moved + [0.0])},
+        image=images(texture["file"]),
+        interpolation={"nearest": "Closest", "bilinear": "Linear"}[texture["filter"]],
+        extension={"repeat": "REPEAT", "clamp": "EXTEND"}[texture["wrap"]],
+    )
+    return graph.separated(node.outputs["Color"])
+
+
+def _closure(graph, component, is_boundary, scene, images):
+    colour = [weight * value for weight, value in zip(component["weight"], _fresnel(graph, component, is_boundary))]
+    if "texture" in component:
+        texels = _texture(graph, scene["textures"][component["texture"]], images)
+        colour = [texel * value for texel, value in zip(texels, colour)]
+    kind, eta = component["kind"], component["eta"][0]
+    if kind == "ideal_refraction":
+        # Cycles carries no factor of the radiance's change with the index: (1 / eta)^2 on the way in, eta^2 back.
+        scale = graph.backfacing() * (eta * eta - 1 / (eta * eta)) + 1 / (eta * eta)
+        colour = [scale * value for value in colour]
+    inputs, properties = {"Color": graph.vector(colour), "Roughness": 0.0}, {}
+    if kind == "lambert":
+        shader = "ShaderNodeBsdfDiffuse"
+    elif kind == "ideal_reflection":
+        shader, properties = "ShaderNodeBsdfGlossy", {"distribution": "SHARP"}
+    elif kind == "microfacet_reflection":
+        shader, properties = "ShaderNodeBsdfGlossy", {"distribution": component["distribution"].upper()}
+        inputs["Roughness"] = math.sqrt(component["alpha"])  # Cycles squares it
+    elif kind == "ideal_refraction":
+        shader, properties = "ShaderNodeBsdfRefraction", {"distribution": "SHARP"}
+        inputs["IOR"] = eta
+    else:
+        raise ValueError(f"component '{kind}' is not for Cycles")
+    return graph.node(shader, inputs, **properties).outputs[0]
+
+
+def make_material(material, radiance, scene, images):
+    """A material of the description; `radiance` of its front (W / (sr m^2)) or None."""
+    made = bpy.data.materials.new(material["name"])
+    made.use_nodes = True
+    graph = Graph(made.node_tree, "ShaderNodeOutputMaterial")
+    components = [component for component in material["components"] if any(component["weight"])]
+    is_boundary = any(component["kind"] == "ideal_refraction" for component in material["components"])
+    shader = None
+    if components:
+        shader = graph.sum([_closure(graph, component, is_boundary, scene, images) for component in components])
+        if not material["two_sided"] and not is_boundary:
+            shader = graph.node("ShaderNodeMixShader", [graph.backfacing(), shader, None]).outputs[0]
+    if radiance is not None:
+        front = 1.0 - graph.backfacing()
+        colour = graph.vector([front * value for value in radiance])
+        emission = graph.node("ShaderNodeEmission", {"Color": colour, "Strength": 1.0}).outputs[0]
+        shader = emission if shader is None else graph.sum([shader, emission])
+    if shader is not None:
+        graph.tree.links.new(shader, graph.output.inputs["Surface"])
+    return made

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""Renders a Mitsuba 3 scene, for one `rtrays-render SCENE --export NAME.xml` wrote. Run by the Python that has Mitsuba
+(`scripts/install --peers` makes build/peers):
+
+    build/peers/bin/python scripts/mitsuba_driver.py NAME.xml OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
+
+With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
+JSON for each image: file, seed, spp, seconds. The depth is ours: Mitsuba counts one more. The reconstruction filter is a
+box of one pixel, also where the file names another.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import sys
+import time
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("scene", type=pathlib.Path)
+    parser.add_argument("output", type=pathlib.Path)
+    parser.add_argument("--spp", type=int, required=True)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--max-depth", type=int, help="scattering events, 0: no limit; the scene's by default")
+    parser.add_argument("--runs", type=int)
+    parser.add_argument("--variant", default="llvm_ad_rgb", help="scalar_rgb is slower and needs no LLVM")
+    parser.add_argument("--define", action="append", default=[], metavar="NAME=VALUE", help="a <default> of the file")
+    options = parser.parse_args()
+    # Dr.Jit takes any LLVM, and those below 19 fail on processors with AVX512-FP16 ("cannot select").
+    libraries = sorted(pathlib.Path("/usr/lib/x86_64-linux-gnu").glob("libLLVM*19*.so*"))
+    if libraries:
+        os.environ.setdefault("DRJIT_LIBLLVM_PATH", str(libraries[0]))
+    try:
+        import mitsuba
+    except ImportError as error:
+        print(f"mitsuba_driver: {error}; scripts/install --peers installs Mitsuba", file=sys.stderr)
+        return 77
+    mitsuba.set_variant(options.variant)
+    mitsuba.set_log_level(mitsuba.LogLevel.Warn)
+    defines = dict(define.split("=", 1) for define in options.define)
+    if options.max_depth is not None:
+        defines["max_depth"] = str(options.max_depth + 1 if options.max_depth > 0 else -1)
+    mitsuba.file_resolver().prepend(str(options.scene.resolve().parent))
+    text = re.sub(r'<rfilter\s+type="\w+"', '<rfilter type="box"', options.scene.read_text())
+    scene = mitsuba.load_string(text, **defines)
+
+    for run in range(options.runs or 1):
+        seed = options.seed + run
+        output = options.output if options.runs is None else options.output.with_suffix(f".{seed}.exr")
+        start = time.perf_counter()
+        image = mitsuba.Bitmap(mitsuba.render(scene, spp=options.spp, seed=seed))
+        seconds = time.perf_counter() - start
+        formats = (mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False)
+        image.convert(*formats).write(str(output))
+        record = {"file": str(output), "seed": seed, "spp": options.spp, "seconds": seconds}
+        print(json.dumps({**record, "engine": f"Mitsuba {mitsuba.__version__} {options.variant}"}), flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
