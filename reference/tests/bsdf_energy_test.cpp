@@ -73,6 +73,33 @@ TEST(BsdfEnergy, the_originals_that_cannot_are_as_far_off_as_known) {
     EXPECT_LE(value({ward(0.3, 0.3, true)}, 89.9999), 1.0);
 }
 
+/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta. With cos(phi) above
+/// zero integrating to 2 over the azimuth, what B multiplies is 2 / pi times the integral over theta_i of
+/// sin(max) tan(min) cos(theta_i) sin(theta_i), in two parts with theta_i below and above theta.
+double oren_nayar_albedo(double sigma, double theta) {
+    const double variance = square(sigma);
+    const double a = 1.0 - 0.5 * variance / (variance + 0.33), b = 0.45 * variance / (variance + 0.09);
+    const double s = std::sin(theta), below = s * 0.5 * (theta - s * std::cos(theta)),
+                 above = std::tan(theta) * (1.0 - s * s * s) / 3.0;
+    return a + b * 2.0 / pi * (below + above);
+}
+
+TEST(BsdfEnergy, oren_nayar_has_the_albedo_of_its_closed_form) {
+    for (const double sigma : {0.0, 0.1, 0.5, 0.25 * pi, 0.5 * pi}) {
+        for (const double degrees : {0.0, 25.0, 60.0, 80.0, 130.0}) {
+            const TestMaterial material{"", {oren_nayar(sigma)}};
+            const double found = albedo(material, make_bsdf(material.components), at(degrees));
+            const double theta = std::min(degrees, 180.0 - degrees) * pi / 180.0;
+            EXPECT_NEAR(found, oren_nayar_albedo(sigma, theta), 2.0 * quadrature_error)
+                << sigma << " " << degrees;
+        }
+    }
+    // An error of 2 % in either coefficient, or in sigma, is ten times as large as what is allowed.
+    const double theta = 60.0 * pi / 180.0, a = oren_nayar_albedo(0.5, 0.0);
+    EXPECT_GT(0.02 * std::min(a, oren_nayar_albedo(0.5, theta) - a), 10.0 * quadrature_error);
+    EXPECT_GT(oren_nayar_albedo(0.5, 0.0) - oren_nayar_albedo(0.51, 0.0), 20.0 * quadrature_error);
+}
+
 TEST(BsdfEnergy, sampled_weights_have_the_albedo_as_their_mean) {
     constexpr int samples = 200000;
     std::vector<Comparison> suite;

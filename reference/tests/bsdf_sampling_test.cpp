@@ -103,6 +103,12 @@ TEST(BsdfSampling, the_chi_square_test_sees_two_percent) {
             check_sampler(sampler_of(sampled, wo), density_of(stated, wo), 20 * samples, rng);
         EXPECT_LT(check.p_value, 0.01 * family_alpha) << name;
     }
+    // Oren and Nayar's directions do not depend on sigma: here the density is wrong.
+    const Bsdf rough = make_bsdf({oren_nayar(0.5)});
+    const DirectionDensity claimed = density_of(rough, view(35.0));
+    const auto tilted = [&](const Vec3 &wi) { return claimed(wi) * (wi.x() > 0.0 ? 1.02 : 0.98); };
+    const SamplerCheck check = check_sampler(sampler_of(rough, view(35.0)), tilted, 20 * samples, rng);
+    EXPECT_LT(check.p_value, 0.01 * family_alpha);
 }
 
 TEST(BsdfSampling, weights_are_value_times_cosine_over_density) {

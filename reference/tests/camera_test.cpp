@@ -6,6 +6,7 @@
 #include "reference/tests/statistics.h"
 #include "reference/tests/test_scenes.h"
 #include "renderer/base/error.h"
+#include "renderer/tests/chi_square.h"
 
 namespace rtrays::reference {
 namespace {
@@ -94,6 +95,27 @@ TEST(Camera, a_lens_focuses_on_its_plane) {
     // Uniform over the disc: mean 0 with deviation r / 2 per axis, mean square r^2 / 2 with r^2 / sqrt(12).
     EXPECT_LT(mean.norm(), 4.0 * 0.15 * std::sqrt(2.0 / samples));
     EXPECT_NEAR(squares, 0.045, 4.0 * 0.09 / std::sqrt(12.0 * samples));
+}
+
+TEST(Camera, points_of_the_lens_are_uniform_and_two_percent_are_seen) {
+    const CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3}, {4.0}};
+    const Camera camera(cameras, 0, 6, 4);
+    Rng rng(154, 0, 0);
+    constexpr int samples = 1000000, rings = 10, sectors = 16;
+    std::vector<uint64_t> observed(rings * sectors, 0);
+    for (int i = 0; i < samples; ++i) {
+        const Vec3 on_lens = camera.ray(1.3, 0.4, rng).origin;
+        const int ring = static_cast<int>(on_lens.squaredNorm() / square(0.3) * rings);
+        const int sector =
+            static_cast<int>((std::atan2(on_lens.y(), on_lens.x()) / (2.0 * pi) + 0.5) * sectors);
+        ++observed[static_cast<size_t>(std::min(ring, rings - 1) * sectors + std::min(sector, sectors - 1))];
+    }
+    std::vector<double> uniform(observed.size(), samples / static_cast<double>(rings * sectors));
+    EXPECT_GT(chi_square_p(observed, uniform), family_alpha);
+    for (size_t i = 0; i < uniform.size(); ++i) {
+        uniform[i] *= i < uniform.size() / 2 ? 1.01 : 0.99;  // 2 % between the halves of the lens
+    }
+    EXPECT_LT(chi_square_p(observed, uniform), 0.01 * family_alpha);
 }
 
 TEST(Camera, a_closed_lens_is_a_pinhole_and_broken_ones_are_refused) {

@@ -103,27 +103,41 @@ TEST(RoundLights, extreme_spheres_keep_their_closed_form) {
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
 }
 
+/// A light above the origin that fills a part of the directions: a mirrored sphere, or an ellipse.
+TestScene round_light(Kind kind) {
+    TestScene scene;
+    Eigen::Matrix4d transform = ceiling({0.4, 1.2, 0.3}, 0.9);
+    transform.col(0) *= kind == Kind::disc ? -0.6 : -1.0;
+    scene.add_shape(kind, transform, scene.add_material(Rgb::Zero()), Rgb::Ones());
+    return scene;
+}
+
+/// Samples of that light against its density, made wrong by the factor 1 + planted on one side of its middle
+/// and 1 - planted on the other.
+SamplerCheck check_round_light(const Geometry &geometry, const LightSet &lights, int samples, double planted,
+                               Rng &rng) {
+    const DirectionSampler sample = [&](Rng &r) -> std::optional<Vec3> {
+        const auto light = lights.sample(geometry, Vec3::Zero(), r);
+        return light ? std::optional<Vec3>(light->wi) : std::nullopt;
+    };
+    const DirectionDensity density = [&](const Vec3 &wi) {
+        SurfacePoint hit;
+        return geometry.intersect({Vec3::Zero(), wi}, Coherence::incoherent, hit)
+                   ? lights.pdf_w(geometry, 0, Vec3::Zero(), hit) *
+                         (1.2 * wi.x() > 0.4 * wi.y() ? 1.0 + planted : 1.0 - planted)
+                   : 0.0;
+    };
+    return check_sampler(sample, density, samples, rng);
+}
+
 TEST(RoundLights, sampled_directions_have_their_density) {
     std::vector<Comparison> suite;
     for (const Kind kind : {Kind::sphere, Kind::disc}) {
-        TestScene scene;
-        Eigen::Matrix4d transform = ceiling({0.4, 1.2, 0.3}, 0.9);
-        transform.col(0) *= kind == Kind::disc ? -0.6 : -1.0;  // mirrored; an ellipse
-        scene.add_shape(kind, transform, scene.add_material(Rgb::Zero()), Rgb::Ones());
+        const TestScene scene = round_light(kind);
         const Geometry geometry(scene.meshes, scene.shapes);
         const LightSet lights(geometry, scene.lights);
         Rng rng(133, 0, 0);
-        const DirectionSampler sample = [&](Rng &r) -> std::optional<Vec3> {
-            const auto light = lights.sample(geometry, Vec3::Zero(), r);
-            return light ? std::optional<Vec3>(light->wi) : std::nullopt;
-        };
-        const DirectionDensity density = [&](const Vec3 &wi) {
-            SurfacePoint hit;
-            return geometry.intersect({Vec3::Zero(), wi}, Coherence::incoherent, hit)
-                       ? lights.pdf_w(geometry, 0, Vec3::Zero(), hit)
-                       : 0.0;
-        };
-        const SamplerCheck check = check_sampler(sample, density, 200000, rng);
+        const SamplerCheck check = check_round_light(geometry, lights, 200000, 0.0, rng);
         EXPECT_NEAR(check.total, 1.0, 2e-4);  // the rim runs through the cells
         suite.push_back({std::to_string(static_cast<int>(kind)), check.p_value});
         for (int i = 0; i < 10000; ++i) {
@@ -137,6 +151,17 @@ TEST(RoundLights, sampled_directions_have_their_density) {
         }
     }
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
+}
+
+TEST(RoundLights, the_chi_square_test_sees_two_percent) {
+    for (const Kind kind : {Kind::sphere, Kind::disc}) {
+        const TestScene scene = round_light(kind);
+        const Geometry geometry(scene.meshes, scene.shapes);
+        Rng rng(135, 0, 0);
+        const SamplerCheck check =
+            check_round_light(geometry, LightSet(geometry, scene.lights), 1000000, 0.02, rng);
+        EXPECT_LT(check.p_value, 0.01 * family_alpha) << static_cast<int>(kind);
+    }
 }
 
 TEST(RoundLights, the_inside_of_a_sphere_and_the_back_of_a_disc_are_dark) {

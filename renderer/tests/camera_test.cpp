@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Cameras: rays, their density, and joining points of the scene to the lens; the shipped device code compiled for the
-// host.
+// Cameras: rays, their density, and joining points of the scene to the lens; the shipped device code compiled
+// for the host.
 //
-// Two chi-square decisions at a family-wise level of 0.01, each at 0.01 / 2 (Bonferroni). The planted error shows that
-// the sample count sees 2 %.
+// Two chi-square decisions at a family-wise level of 0.01, each at 0.01 / 2 (Bonferroni). The planted error
+// shows that the sample count sees 2 %.
 #define FEATURE_lens 1
-#include "renderer/kernels/camera/perspective.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -14,6 +12,7 @@
 #include <limits>
 #include <random>
 
+#include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/pipeline/compile_scene.h"
 #include "renderer/tests/chi_square.h"
@@ -33,7 +32,9 @@ constexpr double half_ulp = 0x1p-24;
 constexpr uint32_t sample_count = 400000;
 constexpr double level = 0.01 / 2;
 
-uint4 words(uint32_t i, uint32_t block) { return random_words(7, STREAM_CAMERA, i, 0, block); }
+uint4 words(uint32_t i, uint32_t block) {
+    return random_words(7, STREAM_CAMERA, i, 0, block);
+}
 
 CameraArrays one_camera(CameraArrays::FovAxis axis, double aperture_radius, double focus_distance) {
     CameraArrays cameras;
@@ -49,8 +50,9 @@ CameraArrays one_camera(CameraArrays::FovAxis axis, double aperture_radius, doub
 TEST(Camera, RaysHitTheCornersOfTheFieldOfView) {
     using Axis = CameraArrays::FovAxis;
     // A film of 40 x 20 pixels; tan of half the field is 1 along the named axis.
-    for (const auto &[axis, x, y] : {std::tuple(Axis::x, 1.0f, 0.5f), std::tuple(Axis::y, 2.0f, 1.0f),
-                                     std::tuple(Axis::smaller, 2.0f, 1.0f), std::tuple(Axis::larger, 1.0f, 0.5f)}) {
+    for (const auto &[axis, x, y] :
+         {std::tuple(Axis::x, 1.0f, 0.5f), std::tuple(Axis::y, 2.0f, 1.0f),
+          std::tuple(Axis::smaller, 2.0f, 1.0f), std::tuple(Axis::larger, 1.0f, 0.5f)}) {
         const CameraRecord camera = compile_camera(one_camera(axis, 0, 1), 0, 40, 20);
         const CameraRay corner = camera_ray(camera, 0, 0, 0.5f, 0.5f);  // top left
         EXPECT_NEAR(corner.direction.x / -corner.direction.z, -x, 1e-6f);
@@ -85,7 +87,8 @@ double lens_p(double planted) {
         const double r2 = static_cast<double>(on.x * on.x + on.y * on.y) / (0.25 * 0.25);
         const double phi = std::atan2(static_cast<double>(on.y), static_cast<double>(on.x)) / (2 * pi) + 0.5;
         const int ring = std::min(static_cast<int>(r2 * rings), rings - 1);
-        ++observed[static_cast<size_t>(ring * sectors + std::min(static_cast<int>(phi * sectors), sectors - 1))];
+        ++observed[static_cast<size_t>(ring * sectors +
+                                       std::min(static_cast<int>(phi * sectors), sectors - 1))];
     }
     std::vector<double> expected(observed.size(), double(sample_count) / (rings * sectors));
     for (size_t i = 0; i < expected.size() / 2; ++i) {
@@ -126,8 +129,9 @@ struct RandomCamera {
     }
 };
 
-// The tolerance is what rounding of float directions and points costs: slopes have errors of some u (slope + 1), and
-// near the edge of a wide field, where the forward part of the ray is what is left over of large numbers, u slope^2.
+// The tolerance is what rounding of float directions and points costs: slopes have errors of some u (slope +
+// 1), and near the edge of a wide field, where the forward part of the ray is what is left over of large
+// numbers, u slope^2.
 TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
     Random random(31);
     double worst = 0;
@@ -137,7 +141,8 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
         const RandomCamera camera(random);
         const CameraRecord &record = camera.record;
         const double x = uniform(random, 0, record.width), y = uniform(random, 0, record.height);
-        const float u = static_cast<float>(uniform(random, 0, 0.999)), v = static_cast<float>(uniform(random, 0, 0.999));
+        const float u = static_cast<float>(uniform(random, 0, 0.999)),
+                    v = static_cast<float>(uniform(random, 0, 0.999));
         const CameraRay ray = camera_ray(record, static_cast<float>(x), static_cast<float>(y), u, v);
         const double distance = log_uniform(random, -2, 4);
         const float3 point = to_float3(to_double(ray.origin) + distance * to_double(ray.direction));
@@ -182,20 +187,24 @@ TEST(Camera, DensityIsThatOfTheRaysItMakes) {
         const CameraRecord &record = camera.record;
         const auto x = static_cast<float>(uniform(random, 0.25, record.width - 0.25));
         const auto y = static_cast<float>(uniform(random, 0.25, record.height - 0.25));
-        if (camera.pixel > 0.2 * (1 + camera.lens_slope) || camera.pixel < 1e-4 || camera.largest_slope > 10) {
+        if (camera.pixel > 0.2 * (1 + camera.lens_slope) || camera.pixel < 1e-4 ||
+            camera.largest_slope > 10) {
             continue;  // differences are too coarse, or drown in rounding
         }
-        const float u = static_cast<float>(uniform(random, 0, 0.999)), v = static_cast<float>(uniform(random, 0, 0.999));
+        const float u = static_cast<float>(uniform(random, 0, 0.999)),
+                    v = static_cast<float>(uniform(random, 0, 0.999));
         const auto direction = [&](float dx, float dy) {
             return to_double(camera_ray(record, x + dx, y + dy, u, v).direction).normalized();
         };
         constexpr float h = 0.25f;
-        const Eigen::Vector3d along_x = direction(h, 0) - direction(-h, 0), along_y = direction(0, h) - direction(0, -h);
+        const Eigen::Vector3d along_x = direction(h, 0) - direction(-h, 0),
+                              along_y = direction(0, h) - direction(0, -h);
         const double solid_angle = along_x.cross(along_y).norm() / (4.0 * 0.25 * 0.25);
         const CameraRay ray = camera_ray(record, x, y, u, v);
         const auto pdf_w = static_cast<double>(camera_pdf_w(record, ray.direction));
-        const double tolerance = 8 * half_ulp / camera.pixel * (1 + camera.lens_slope) * (1 + camera.lens_slope) *
-                                     (1 + camera.largest_slope) * (1 + camera.largest_slope) +
+        const double tolerance = 8 * half_ulp / camera.pixel * (1 + camera.lens_slope) *
+                                     (1 + camera.lens_slope) * (1 + camera.largest_slope) *
+                                     (1 + camera.largest_slope) +
                                  camera.pixel * camera.pixel;
         if (tolerance < 0.01) {
             ASSERT_NEAR(pdf_w * solid_angle, 1.0, tolerance) << i;
@@ -203,8 +212,8 @@ TEST(Camera, DensityIsThatOfTheRaysItMakes) {
     }
 }
 
-/// Integral of the density over all directions from a point of the lens, by midpoints of cosine and azimuth about the
-/// axis; of the directions that `join_camera` finds on the film.
+/// Integral of the density over all directions from a point of the lens, by midpoints of cosine and azimuth
+/// about the axis; of the directions that `join_camera` finds on the film.
 double total_density(const CameraRecord &camera, float u, float v, double largest_slope) {
     constexpr int rings = 1500, sectors = 1500;
     const double least_cosine = 1 / std::sqrt(1 + largest_slope * largest_slope);
@@ -213,11 +222,12 @@ double total_density(const CameraRecord &camera, float u, float v, double larges
     const Eigen::Vector3d lens_point = to_double(camera_ray(camera, 0, 0, u, v).origin);
     double sum = 0;
     for (int i = 0; i < rings; ++i) {
-        const double cosine = 1 - (1 - least_cosine) * (i + 0.5) / rings, sine = std::sqrt(1 - cosine * cosine);
+        const double cosine = 1 - (1 - least_cosine) * (i + 0.5) / rings,
+                     sine = std::sqrt(1 - cosine * cosine);
         for (int j = 0; j < sectors; ++j) {
             const double phi = 2 * pi * (j + 0.5) / sectors;
-            const Eigen::Vector3d d =
-                sine * std::cos(phi) * to_double(frame.x) + sine * std::sin(phi) * to_double(frame.y) + cosine * z;
+            const Eigen::Vector3d d = sine * std::cos(phi) * to_double(frame.x) +
+                                      sine * std::sin(phi) * to_double(frame.y) + cosine * z;
             sum += static_cast<double>(join_camera(camera, to_float3(lens_point + 7 * d), u, v).pdf_w);
         }
     }
@@ -237,16 +247,19 @@ TEST(Camera, DensityIntegratesToTheNumberOfPixels) {
 
 TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
     const double aperture = 0.25, focus = 3;
-    const CameraRecord camera = compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, focus), 0, 40, 20);
+    const CameraRecord camera =
+        compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, focus), 0, 40, 20);
     const double pixel = 2.0 / 40;
     for (const double depth : {3.0, 1.5, 12.0}) {
         const Eigen::Vector3d point(0.2 * depth, -0.1 * depth, -depth);
-        // A point out of focus is seen in a disc: its radius is that of the lens as the plane in focus shows it.
+        // A point out of focus is seen in a disc: its radius is that of the lens as the plane in focus shows
+        // it.
         const double blur = aperture * std::abs(1 / focus - 1 / depth) / pixel;
         double largest = 0;
         for (uint32_t i = 0; i < 1000; ++i) {
             const uint4 w = words(i, 8);
-            const CameraJoin join = join_camera(camera, to_float3(point), uniform_float(w.x), uniform_float(w.y));
+            const CameraJoin join =
+                join_camera(camera, to_float3(point), uniform_float(w.x), uniform_float(w.y));
             ASSERT_GT(join.pdf_w, 0.0f);
             const double off = std::hypot(static_cast<double>(join.raster.x) - (20 + 0.2 / pixel),
                                           static_cast<double>(join.raster.y) - (10 + 0.1 / pixel));
@@ -260,12 +273,15 @@ TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
 TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     for (const double aperture : {0.0, 0.25}) {
-        const CameraRecord camera = compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, 3), 0, 40, 20);
+        const CameraRecord camera =
+            compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, 3), 0, 40, 20);
         for (const float3 point :
-             {make_float3(0, 0, 1), make_float3(0, 0, 0), make_float3(1, 0, 0), make_float3(5, 0, -1), make_float3(0, 5, -1),
-              make_float3(1, 1, -1e-42f), make_float3(1e30f, 0, -1e-30f), make_float3(inf, 0, -1), make_float3(inf, 0, -inf),
-              make_float3(nan, 0, -1), make_float3(0, 0, nan), make_float3(0, 0, inf), make_float3(0, 0, -inf)}) {
-            EXPECT_EQ(join_camera(camera, point, 0.5f, 0.25f).pdf_w, 0.0f) << point.x << ' ' << point.y << ' ' << point.z;
+             {make_float3(0, 0, 1), make_float3(0, 0, 0), make_float3(1, 0, 0), make_float3(5, 0, -1),
+              make_float3(0, 5, -1), make_float3(1, 1, -1e-42f), make_float3(1e30f, 0, -1e-30f),
+              make_float3(inf, 0, -1), make_float3(inf, 0, -inf), make_float3(nan, 0, -1),
+              make_float3(0, 0, nan), make_float3(0, 0, inf), make_float3(0, 0, -inf)}) {
+            EXPECT_EQ(join_camera(camera, point, 0.5f, 0.25f).pdf_w, 0.0f)
+                << point.x << ' ' << point.y << ' ' << point.z;
         }
         const CameraJoin far = join_camera(camera, make_float3(0, 0, -1e37f), 0.5f, 0.25f);
         EXPECT_NEAR(far.pdf_w, 1 / camera.pixel_area, 0.02 / static_cast<double>(camera.pixel_area));
@@ -279,8 +295,8 @@ TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
     EXPECT_EQ(join_camera(camera, make_float3(0, -0.5f, -1), 0, 0).pdf_w, 0.0f);
 }
 
-/// Points of a tilted plane of radiance 1 that fills the view, joined to the camera: the sums of a film of 8 x 6 pixels
-/// over their expectation, 1, and the largest deviation in standard errors.
+/// Points of a tilted plane of radiance 1 that fills the view, joined to the camera: the sums of a film of 8
+/// x 6 pixels over their expectation, 1, and the largest deviation in standard errors.
 struct Film {
     double mean, worst;
 };
@@ -294,13 +310,14 @@ Film splat_plane(double aperture, double planted) {
     std::array<double, pixels> sum{}, squares{};
     for (uint32_t i = 0; i < count; ++i) {
         const uint4 w = words(i, 10);
-        const Eigen::Vector3d p = Eigen::Vector3d(0, 0, -5) +
-                                  side * ((static_cast<double>(uniform_float(w.x)) - 0.5) * x +
-                                          (static_cast<double>(uniform_float(w.y)) - 0.5) * y);
+        const Eigen::Vector3d p =
+            Eigen::Vector3d(0, 0, -5) + side * ((static_cast<double>(uniform_float(w.x)) - 0.5) * x +
+                                                (static_cast<double>(uniform_float(w.y)) - 0.5) * y);
         const CameraJoin join = join_camera(camera, to_float3(p), uniform_float(w.z), uniform_float(w.w));
         if (join.pdf_w > 0.0f) {
             const Eigen::Vector3d way = to_double(join.lens_point) - p;
-            const double value = side * side * static_cast<double>(join.pdf_w) * normal.dot(way) / std::pow(way.norm(), 3);
+            const double value =
+                side * side * static_cast<double>(join.pdf_w) * normal.dot(way) / std::pow(way.norm(), 3);
             const auto pixel = static_cast<size_t>(join.raster.y) * 8 + static_cast<size_t>(join.raster.x);
             sum.at(pixel) += value * (pixel % 8 < 4 ? 1.0 : 1.0 + planted);
             squares.at(pixel) += value * value;
@@ -308,15 +325,16 @@ Film splat_plane(double aperture, double planted) {
     }
     Film film{0, 0};
     for (size_t i = 0; i < pixels; ++i) {
-        const double mean = sum.at(i) / count, error = std::sqrt((squares.at(i) / count - mean * mean) / count);
+        const double mean = sum.at(i) / count,
+                     error = std::sqrt((squares.at(i) / count - mean * mean) / count);
         film.mean += mean / pixels;
         film.worst = std::max(film.worst, std::abs(mean - 1) / error);
     }
     return film;
 }
 
-// Importance, not only geometry: what light paths leave on the film is the mean radiance of each pixel. 96 decisions at
-// a family-wise level of 0.01: 3.9 standard errors.
+// Importance, not only geometry: what light paths leave on the film is the mean radiance of each pixel. 96
+// decisions at a family-wise level of 0.01: 3.9 standard errors.
 TEST(Camera, JoinedPointsAddUpToTheRadianceOfEachPixel) {
     for (const double aperture : {0.0, 0.3}) {
         const Film film = splat_plane(aperture, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights and cameras on the device: every kind compiles alone, and what the device samples is what the host does from
-// the same source, whose distributions the host's tests judge.
+// Lights and cameras on the device: every kind compiles alone, and what the device samples is what the host
+// does from the same source, whose distributions the host's tests judge.
 #define FEATURE_triangles 1
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
@@ -18,17 +18,15 @@
 #define FEATURE_dome 1
 #define FEATURE_environment 1
 #define FEATURE_lens 1
-#include "renderer/tests/other_features.h"
-
-#include "renderer/kernels/camera/perspective.h"
-#include "renderer/kernels/light/emission.h"
-
 #include <gtest/gtest.h>
 
 #include "renderer/device/buffer.h"
 #include "renderer/device/kernel.h"
+#include "renderer/kernels/camera/perspective.h"
+#include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/tests/light_scene.h"
+#include "renderer/tests/other_features.h"
 
 namespace rtrays {
 namespace {
@@ -79,38 +77,47 @@ Program build(DeviceContext &device, FeatureMask mask) {
 // Code of one kind must not lean on that of another.
 TEST(LightDevice, EveryKindCompilesAlone) {
     DeviceContext device;
-    const FeatureMask both = FeatureMask().with(Feature::lights).with(Feature::from_light).with(Feature::light_strategy);
+    const FeatureMask both =
+        FeatureMask().with(Feature::lights).with(Feature::from_light).with(Feature::light_strategy);
     const FeatureMask infinite = both.with(Feature::infinite_lights);
     const FeatureMask planes = FeatureMask().with(Feature::shapes).with(Feature::quadrics);
     for (const FeatureMask &mask :
          {both.with(Feature::triangles).with(Feature::area_lights),
           both.with(Feature::triangles).with(Feature::area_lights).with(Feature::light_triangles),
-          (both | planes).with(Feature::shape_lights), both.with(Feature::point_lights), both.with(Feature::spot_lights),
-          both.with(Feature::directional_lights), infinite.with(Feature::dome), infinite.with(Feature::environment),
+          (both | planes).with(Feature::shape_lights), both.with(Feature::point_lights),
+          both.with(Feature::spot_lights), both.with(Feature::directional_lights),
+          infinite.with(Feature::dome), infinite.with(Feature::environment),
           infinite.with(Feature::dome) | planes, both.with(Feature::point_lights).with(Feature::lens)}) {
         // A light of that kind alone, then among others.
         EXPECT_NO_THROW(build(device, mask)) << ::testing::PrintToString(mask.names());
-        EXPECT_NO_THROW(build(device, mask.with(Feature::many_lights))) << ::testing::PrintToString(mask.names());
+        EXPECT_NO_THROW(build(device, mask.with(Feature::many_lights)))
+            << ::testing::PrintToString(mask.names());
     }
 }
 
-void append(std::vector<float> &list, float3 v) { list.insert(list.end(), {v.x, v.y, v.z}); }
+void append(std::vector<float> &list, float3 v) {
+    list.insert(list.end(), {v.x, v.y, v.z});
+}
 
 std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &camera, uint count) {
     std::vector<float> list;
     for (uint i = 0; i < count; ++i) {
-        const uint4 a = random_words(5, 0, 1, i, 0), b = random_words(5, 0, 1, i, 1), c = random_words(5, 0, 1, i, 2);
-        const EmissionSample e = sample_emission(
-            scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(), scene.emitter_triangles.data(),
-            scene.environment_texels.data(), scene.environment_ends.data(), scene.lighting, a, b);
+        const uint4 a = random_words(5, 0, 1, i, 0), b = random_words(5, 0, 1, i, 1),
+                    c = random_words(5, 0, 1, i, 2);
+        const EmissionSample e =
+            sample_emission(scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(),
+                            scene.emitter_triangles.data(), scene.environment_texels.data(),
+                            scene.environment_ends.data(), scene.lighting, a, b);
         append(list, e.origin);
         append(list, e.direction);
         append(list, e.weight);
-        list.insert(list.end(), {e.pdf_origin, e.pdf_direction, static_cast<float>(4u * e.light + 2u * e.is_delta + e.at_infinity)});
+        list.insert(list.end(), {e.pdf_origin, e.pdf_direction,
+                                 static_cast<float>(4u * e.light + 2u * e.is_delta + e.at_infinity)});
         const float3 from = make_float3(uniform_float(c.x) - 0.5f, 0.25f, uniform_float(c.y));
-        const LightSample s = sample_lights(
-            scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(), scene.emitter_triangles.data(),
-            scene.environment_texels.data(), scene.environment_ends.data(), scene.lighting, SELECT_LIGHT, from, c);
+        const LightSample s =
+            sample_lights(scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(),
+                          scene.emitter_triangles.data(), scene.environment_texels.data(),
+                          scene.environment_ends.data(), scene.lighting, SELECT_LIGHT, from, c);
         const bool any = s.pdf_w > 0.0f;
         list.push_back(s.pdf_w);
         append(list, any ? s.wi : from);
@@ -119,7 +126,8 @@ std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &
         const CameraJoin join = join_camera(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
         append(list, join.lens_point);
         list.push_back(join.pdf_w);
-        list.push_back(join.pdf_w > 0.0f ? camera_pdf_w(camera, normalize(e.point.position - join.lens_point)) : 0.0f);
+        list.push_back(join.pdf_w > 0.0f ? camera_pdf_w(camera, normalize(e.point.position - join.lens_point))
+                                         : 0.0f);
     }
     return list;
 }
@@ -141,10 +149,13 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
         const Buffer<LightRecord> lights(device, "lights", scene.lights);
         const Buffer<EmitterTriangle> emitters(device, "emitter_triangles", scene.emitter_triangles);
         const bool image = infinite == LightArrays::Kind::environment;
-        const Buffer<float> texels(device, "environment_texels", image ? scene.environment_texels : std::vector<float>(1));
-        const Buffer<uint> ends(device, "environment_ends", image ? scene.environment_ends : std::vector<uint>(1));
+        const Buffer<float> texels(device, "environment_texels",
+                                   image ? scene.environment_texels : std::vector<float>(1));
+        const Buffer<uint> ends(device, "environment_ends",
+                                image ? scene.environment_ends : std::vector<uint>(1));
         const Buffer<float> samples(device, "samples", count * word_count);
-        kernel.bind({surface_triangles, normals, uvs, shapes, lights, emitters, texels, ends, scene.lighting, camera, samples, count});
+        kernel.bind({surface_triangles, normals, uvs, shapes, lights, emitters, texels, ends, scene.lighting,
+                     camera, samples, count});
         kernel.enqueue(count);
         device.finish();
         const std::vector<float> found = samples.read(), expected = host_samples(scene, camera, count);
@@ -154,7 +165,8 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
             const float tolerance = 2e-4f * std::abs(expected[i]) + 2e-5f;
             off += std::abs(found[i] - expected[i]) <= tolerance ? 0u : 1u;
         }
-        EXPECT_LT(off, count / 1000) << "few lie where rounding tells one cell of the image, or an edge, from the next";
+        EXPECT_LT(off, count / 1000)
+            << "few lie where rounding tells one cell of the image, or an edge, from the next";
     }
 }
 

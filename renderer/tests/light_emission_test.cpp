@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start: origins and directions against their densities by chi-square, power in closed form, and
-// agreement with the lights as camera paths meet them; the shipped device code compiled for the host.
+// Where light paths start: origins and directions against their densities by chi-square, power in closed
+// form, and agreement with the lights as camera paths meet them; the shipped device code compiled for the
+// host.
 //
-// Eleven chi-square decisions at a family-wise level of 0.01: each at 0.01 / 11 (Bonferroni). Each has a planted error of
-// 2 % beside it that must be seen.
+// Eleven chi-square decisions at a family-wise level of 0.01: each at 0.01 / 11 (Bonferroni). Each has a
+// planted error of 2 % beside it that must be seen.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/chi_square.h"
@@ -16,7 +17,9 @@ constexpr double level = 0.01 / 11;
 constexpr uint32_t sample_count = 1'500'000;
 
 /// Which of `n` equal parts of [0, 1] holds x.
-size_t part(double x, int n) { return static_cast<size_t>(std::clamp(static_cast<int>(x * n), 0, n - 1)); }
+size_t part(double x, int n) {
+    return static_cast<size_t>(std::clamp(static_cast<int>(x * n), 0, n - 1));
+}
 
 /// Turns of the azimuth about an axis, from a direction of its own choice, in [0, 1].
 double turn(const Eigen::Vector3d &axis, const Eigen::Vector3d &v) {
@@ -24,14 +27,15 @@ double turn(const Eigen::Vector3d &axis, const Eigen::Vector3d &v) {
     return std::atan2(v.dot(y), v.dot(x)) / (2 * pi) + 0.5;
 }
 
-/// Cells of samples, each with its probability in closed form: p-values without and with 2 % added to the half of
-/// them whose numbers are even.
+/// Cells of samples, each with its probability in closed form: p-values without and with 2 % added to the
+/// half of them whose numbers are even.
 struct Cells {
     std::vector<uint64_t> observed;
     std::vector<double> probability;
     uint32_t samples = 0;
 
-    explicit Cells(std::vector<double> expected) : observed(expected.size()), probability(std::move(expected)) {}
+    explicit Cells(std::vector<double> expected)
+        : observed(expected.size()), probability(std::move(expected)) {}
     explicit Cells(size_t equal) : Cells(std::vector<double>(equal, 1.0 / static_cast<double>(equal))) {}
 
     void add(size_t cell) {
@@ -52,7 +56,8 @@ struct Cells {
     }
 };
 
-/// Eight cells of equal probability for a direction of density cos / pi about a normal: cos^2 and azimuth are uniform.
+/// Eight cells of equal probability for a direction of density cos / pi about a normal: cos^2 and azimuth are
+/// uniform.
 size_t cosine_cell(const EmissionSample &sample) {
     const Eigen::Vector3d n = to_double(sample.point.normal), d = to_double(sample.direction);
     return part(n.dot(d) * n.dot(d), 4) * 2 + part(turn(n, d), 2);
@@ -61,7 +66,8 @@ size_t cosine_cell(const EmissionSample &sample) {
 /// Eight cells of equal area of the disc that a ray from infinity crosses.
 size_t disc_cell(const CompiledScene &scene, const EmissionSample &sample) {
     const Eigen::Vector3d d = to_double(sample.direction);
-    const Eigen::Vector3d way = to_double(sample.origin) - Eigen::Vector3f(scene.lighting.scene_centre).cast<double>();
+    const Eigen::Vector3d way =
+        to_double(sample.origin) - Eigen::Vector3f(scene.lighting.scene_centre).cast<double>();
     const Eigen::Vector3d across = way - way.dot(d) * d;
     const double radius = static_cast<double>(scene.lighting.scene_radius);
     EXPECT_LT(across.norm(), radius * (1 + 1e-5));
@@ -99,7 +105,8 @@ TEST(Emission, LeavesMeshesUniformlyByAreaAndByTheCosine) {
         const EmissionSample sample = emit_from(scene, light, i);
         const EmitterTriangle &first = scene.emitter_triangles[scene.lights[light].first_triangle];
         const SurfaceTriangle &t0 = scene.surface_triangles[first.triangle];
-        const size_t triangle = dot(sample.point.normal, make_float3(t0.normal[0], t0.normal[1], t0.normal[2])) > 0.99f ? 0 : 1;
+        const size_t triangle =
+            dot(sample.point.normal, make_float3(t0.normal[0], t0.normal[1], t0.normal[2])) > 0.99f ? 0 : 1;
         const SurfaceTriangle &t = scene.surface_triangles[first.triangle + triangle];
         // Barycentrics, and the part of the medial subdivision.
         Eigen::Matrix3d corners;
@@ -121,16 +128,19 @@ TEST(Emission, LeavesDiscsUniformlyByAreaAndByTheCosine) {
     Cells cells(8 * 8);
     for (uint32_t i = 0; i < sample_count; ++i) {
         const EmissionSample sample = emit_from(scene, light, i);
-        const Eigen::Vector3d p = to_double(vector_to_object(&shape, sample.point.position - shape_centre(&shape)));
+        const Eigen::Vector3d p =
+            to_double(vector_to_object(&shape, sample.point.position - shape_centre(&shape)));
         ASSERT_NEAR(p.z(), 0, 1e-5);
-        cells.add((part(p.head<2>().squaredNorm(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) * 8 + cosine_cell(sample));
+        cells.add((part(p.head<2>().squaredNorm(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) * 8 +
+                  cosine_cell(sample));
     }
     cells.expect_fit("disc");
 }
 
 TEST(Emission, LeavesSpheresUniformlyByAreaAndByTheCosine) {
     for (const bool by_area : {false, true}) {  // whatever their sampling from a point
-        const CompiledScene scene = compile_light_scene(LightArrays::Kind::dome, LightSelection::mixed, by_area);
+        const CompiledScene scene =
+            compile_light_scene(LightArrays::Kind::dome, LightSelection::mixed, by_area);
         const uint32_t light = light_of(scene, by_area ? LIGHT_SPHERE_BY_AREA : LIGHT_SPHERE);
         const ShapeRecord &shape = scene.shapes[scene.lights[light].first_triangle];
         Cells cells(8 * 8);
@@ -138,9 +148,11 @@ TEST(Emission, LeavesSpheresUniformlyByAreaAndByTheCosine) {
             const EmissionSample sample = emit_from(scene, light, i);
             const Eigen::Vector3d p = to_double(sample.point.position - shape_centre(&shape)).normalized();
             ASSERT_GT(p.dot(to_double(sample.point.normal)), 1 - 1e-5);
-            cells.add((part(0.5 + 0.5 * p.z(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) * 8 + cosine_cell(sample));
+            cells.add((part(0.5 + 0.5 * p.z(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) * 8 +
+                      cosine_cell(sample));
             if (by_area) {
-                ASSERT_EQ(sample.pdf_origin, scene.lights[light].emission_selection * (1.0f / scene.lights[light].area));
+                ASSERT_EQ(sample.pdf_origin,
+                          scene.lights[light].emission_selection * (1.0f / scene.lights[light].area));
             }
         }
         cells.expect_fit("sphere");
@@ -176,7 +188,8 @@ TEST(Emission, LeavesSpotsByTheirDensity) {
             const double versine = outer * (ring + (i + 0.5) / steps) / rings;
             const Eigen::Vector3d d =
                 (1 - versine) * axis + std::sqrt(versine * (2 - versine)) * axis.unitOrthogonal();
-            mass += static_cast<double>(spot_pdf_w(record, spot_direction(record, to_float3(d)))) * 2 * pi * outer / rings / steps;
+            mass += static_cast<double>(spot_pdf_w(record, spot_direction(record, to_float3(d)))) * 2 * pi *
+                    outer / rings / steps;
         }
         expected.insert(expected.end(), sectors, mass / sectors);
     }
@@ -218,13 +231,14 @@ TEST(Emission, OfDomesIsUniformInDirectionAndOverTheDisc) {
     for (uint32_t i = 0; i < sample_count; ++i) {
         const EmissionSample sample = emit_from(scene, light, i);
         const Eigen::Vector3d d = to_double(sample.direction);
-        cells.add((part(0.5 + 0.5 * d.y(), 8) * 8 + part(turn(Eigen::Vector3d::UnitY(), d), 8)) * 8 + disc_cell(scene, sample));
+        cells.add((part(0.5 + 0.5 * d.y(), 8) * 8 + part(turn(Eigen::Vector3d::UnitY(), d), 8)) * 8 +
+                  disc_cell(scene, sample));
     }
     cells.expect_fit("dome");
 }
 
-// Over the cells of the image, whose probabilities are those that camera paths are told; environment_pdf_w itself is
-// tested against the sampler's directions in light_sampling_test.cpp.
+// Over the cells of the image, whose probabilities are those that camera paths are told; environment_pdf_w
+// itself is tested against the sampler's directions in light_sampling_test.cpp.
 TEST(Emission, OfEnvironmentsFollowsTheImageAndIsUniformOverTheDisc) {
     const CompiledScene scene = compile_light_scene(LightArrays::Kind::environment);
     const uint32_t light = light_of(scene, LIGHT_ENVIRONMENT);
@@ -232,8 +246,9 @@ TEST(Emission, OfEnvironmentsFollowsTheImageAndIsUniformOverTheDisc) {
     std::vector<double> expected;
     for (uint32_t row = 0; row < rows; ++row) {
         for (uint32_t column = 0; column < width; ++column) {
-            const double probability = static_cast<double>(cell_pdf_w(scene.environment_ends.data(), scene.lighting, column, row)) *
-                                       static_cast<double>(cell_solid_angle(scene.lighting, row));
+            const double probability =
+                static_cast<double>(cell_pdf_w(scene.environment_ends.data(), scene.lighting, column, row)) *
+                static_cast<double>(cell_solid_angle(scene.lighting, row));
             expected.insert(expected.end(), 8, probability / 8);
         }
     }
@@ -247,8 +262,8 @@ TEST(Emission, OfEnvironmentsFollowsTheImageAndIsUniformOverTheDisc) {
     cells.expect_fit("environment");
 }
 
-/// Power of every light in W, green, in closed form; of the environment by uniform directions, to within the standard
-/// error.
+/// Power of every light in W, green, in closed form; of the environment by uniform directions, to within the
+/// standard error.
 struct Power {
     double watts;
     double standard_error = 0;
@@ -283,7 +298,8 @@ Power power_of(const CompiledScene &scene, uint32_t index) {
     for (uint32_t i = 0; i < n; ++i) {
         const uint4 w = words(i, 3);
         const float3 d = sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y));
-        const double value = 4 * pi * disc * radiance * green(environment_radiance(scene.environment_texels.data(), scene.lighting, d));
+        const double value = 4 * pi * disc * radiance *
+                             green(environment_radiance(scene.environment_texels.data(), scene.lighting, d));
         sum += value;
         squares += value * value;
     }
@@ -303,11 +319,13 @@ TEST(Emission, CarriesThePowerOfTheLights) {
             double sum = 0, squares = 0;
             for (uint32_t i = 0; i < sample_count; ++i) {
                 const EmissionSample sample = emit_from(scene, light, i);
-                const double value = green(sample.weight) * static_cast<double>(scene.lights[light].emission_selection);
+                const double value =
+                    green(sample.weight) * static_cast<double>(scene.lights[light].emission_selection);
                 sum += value;
                 squares += value * value;
                 const uint kind = scene.lights[light].kind;
-                ASSERT_EQ(sample.is_delta, kind == LIGHT_POINT || kind == LIGHT_SPOT || kind == LIGHT_DIRECTIONAL ? 1u : 0u);
+                ASSERT_EQ(sample.is_delta,
+                          kind == LIGHT_POINT || kind == LIGHT_SPOT || kind == LIGHT_DIRECTIONAL ? 1u : 0u);
                 ASSERT_EQ(sample.at_infinity, kind >= LIGHT_DIRECTIONAL ? 1u : 0u);
                 ASSERT_NEAR(length(sample.direction), 1.0f, 2e-6f);
                 if (kind != LIGHT_SPOT && kind != LIGHT_ENVIRONMENT) {
@@ -315,8 +333,10 @@ TEST(Emission, CarriesThePowerOfTheLights) {
                 }
             }
             const double mean = sum / sample_count;
-            const double error = std::sqrt(std::max(squares / sample_count - mean * mean, 0.0) / sample_count);
-            EXPECT_NEAR(mean, power.watts, 3.5 * std::hypot(error, power.standard_error) + 1e-5 * power.watts);
+            const double error =
+                std::sqrt(std::max(squares / sample_count - mean * mean, 0.0) / sample_count);
+            EXPECT_NEAR(mean, power.watts,
+                        3.5 * std::hypot(error, power.standard_error) + 1e-5 * power.watts);
             EXPECT_LT(std::hypot(error, power.standard_error), 0.02 / 8 * power.watts) << "power of the test";
         }
         double sum = 0, squares = 0;
@@ -351,8 +371,8 @@ struct Patch {
     }
 };
 
-// What arrives on a patch: by light samples from its points, and by the light paths that hit it. Fourteen decisions at a
-// family-wise level of 0.01: 3.5 standard errors.
+// What arrives on a patch: by light samples from its points, and by the light paths that hit it. Fourteen
+// decisions at a family-wise level of 0.01: 3.5 standard errors.
 TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
     const Patch patch;
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
@@ -364,21 +384,27 @@ TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
             Estimate sampled, emitted;
             for (uint32_t i = 0; i < 1'000'000; ++i) {
                 const uint4 w = words(i, 4);
-                const Eigen::Vector3d from = patch.corner + static_cast<double>(uniform_float(w.x)) * patch.x +
+                const Eigen::Vector3d from = patch.corner +
+                                             static_cast<double>(uniform_float(w.x)) * patch.x +
                                              static_cast<double>(uniform_float(w.y)) * patch.y;
-                const LightSample sample = sample_lights(SURFACES, LIGHTS, light, to_float3(from), words(i, 5));
+                const LightSample sample =
+                    sample_lights(SURFACES, LIGHTS, light, to_float3(from), words(i, 5));
                 const double cosine = patch.normal.dot(to_double(sample.wi));
-                sampled.add(sample.pdf_w > 0.0f && cosine > 0 ? patch.area * green(sample.radiance) * cosine *
-                                                                    static_cast<double>(record.selection / sample.pdf_w)
-                                                              : 0.0);
+                sampled.add(sample.pdf_w > 0.0f && cosine > 0
+                                ? patch.area * green(sample.radiance) * cosine *
+                                      static_cast<double>(record.selection / sample.pdf_w)
+                                : 0.0);
             }
             for (uint32_t i = 0; i < 3'000'000; ++i) {
                 const EmissionSample sample = emit_from(scene, light, i);
-                emitted.add(patch.hit_by(sample) ? green(sample.weight) * static_cast<double>(record.emission_selection) : 0.0);
+                emitted.add(patch.hit_by(sample)
+                                ? green(sample.weight) * static_cast<double>(record.emission_selection)
+                                : 0.0);
             }
             const double error = std::hypot(sampled.error(), emitted.error());
             EXPECT_NEAR(sampled.mean(), emitted.mean(), 3.5 * error) << "light of kind " << record.kind;
-            EXPECT_LT(error, 0.02 / 5 * sampled.mean()) << "power of the test for a light of kind " << record.kind;
+            EXPECT_LT(error, 0.02 / 5 * sampled.mean())
+                << "power of the test for a light of kind " << record.kind;
         }
     }
 }
@@ -386,13 +412,15 @@ TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
 // (a) What a camera path is told where it hits a light is what the light path along the same line had.
 TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
-        const CompiledScene scene = compile_light_scene(
-            infinite, infinite == LightArrays::Kind::dome ? LightSelection::independent : LightSelection::mixed);
+        const CompiledScene scene =
+            compile_light_scene(infinite, infinite == LightArrays::Kind::dome ? LightSelection::independent
+                                                                              : LightSelection::mixed);
         int other_cell = 0;
         for (uint32_t i = 0; i < 200'000; ++i) {
             const EmissionSample sample = emit(scene, i);
             const LightRecord &light = scene.lights[sample.light];
-            const double emitted = static_cast<double>(sample.pdf_origin) * static_cast<double>(sample.pdf_direction);
+            const double emitted =
+                static_cast<double>(sample.pdf_origin) * static_cast<double>(sample.pdf_direction);
             double told = 0, expected = emitted;
             if (sample.at_infinity != 0u && sample.is_delta == 0u) {
                 const float3 met = sample.origin + sample.direction * scene.lighting.scene_radius;
@@ -405,16 +433,23 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
                 uint primitive = SHAPE_BIT | light.first_triangle, emitter = sample.light;
                 if (light.kind == LIGHT_MESH) {
                     emitter = light.first_triangle;
-                    const SurfaceTriangle &t = scene.surface_triangles[scene.emitter_triangles[emitter].triangle];
-                    emitter += dot(sample.point.normal, make_float3(t.normal[0], t.normal[1], t.normal[2])) > 0.99f ? 0u : 1u;
+                    const SurfaceTriangle &t =
+                        scene.surface_triangles[scene.emitter_triangles[emitter].triangle];
+                    emitter +=
+                        dot(sample.point.normal, make_float3(t.normal[0], t.normal[1], t.normal[2])) > 0.99f
+                            ? 0u
+                            : 1u;
                     primitive = scene.emitter_triangles[emitter].triangle;
                 }
                 told = static_cast<double>(emission_line_pdf(LIGHTS, light, primitive, emitter));
                 expected = emitted / static_cast<double>(dot(sample.point.normal, sample.direction));
                 ASSERT_NEAR(static_cast<double>(emission_pdf_a(LIGHTS, light, primitive, emitter)),
-                            static_cast<double>(sample.pdf_origin), 1e-6 * static_cast<double>(sample.pdf_origin));
+                            static_cast<double>(sample.pdf_origin),
+                            1e-6 * static_cast<double>(sample.pdf_origin));
                 // At grazing angles the cosine is what rounding of the direction leaves of it.
-                ASSERT_NEAR(told, expected, (1e-5 + 1e-6 / static_cast<double>(dot(sample.point.normal, sample.direction))) * expected);
+                ASSERT_NEAR(told, expected,
+                            (1e-5 + 1e-6 / static_cast<double>(dot(sample.point.normal, sample.direction))) *
+                                expected);
                 continue;
             } else {
                 continue;
@@ -425,12 +460,13 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
     }
 }
 
-// (b) What a light sample is told of light paths: with the density of the sample itself and the geometry between, it makes
-// their density.
+// (b) What a light sample is told of light paths: with the density of the sample itself and the geometry
+// between, it makes their density.
 TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
     test::Random random(5);
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
-        for (const LightSelection selection : {LightSelection::mixed, LightSelection::uniform, LightSelection::independent}) {
+        for (const LightSelection selection :
+             {LightSelection::mixed, LightSelection::uniform, LightSelection::independent}) {
             const CompiledScene scene = compile_light_scene(infinite, selection);
             const double disc = pi * std::pow(static_cast<double>(scene.lighting.scene_radius), 2);
             for (uint32_t i = 0; i < 100'000; ++i) {
@@ -455,21 +491,26 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                     if (cosine < 0.05 || way.norm() < 0.1) {
                         continue;  // the target lies a little off the surface: too coarse to judge by
                     }
-                    const double area = light.kind == LIGHT_MESH ? mesh_areas()[0] + mesh_areas()[1] : static_cast<double>(light.area);
+                    const double area = light.kind == LIGHT_MESH ? mesh_areas()[0] + mesh_areas()[1]
+                                                                 : static_cast<double>(light.area);
                     const double sampling_pdf_a = pdf_w * cosine / way.squaredNorm();
                     ASSERT_NEAR(ratio * sampling_pdf_a * area / emission, 1, 1e-3) << light.kind;
                     ASSERT_NEAR(direction_pdf * pi / cosine, 1, 1e-3) << light.kind;
                 } else if (light.kind == LIGHT_POINT) {
                     ASSERT_NEAR(direction_pdf * 4 * pi, 1, 1e-6);
                 } else if (light.kind == LIGHT_SPOT) {
-                    ASSERT_NEAR(direction_pdf, static_cast<double>(spot_pdf_w(light, spot_direction(light, -sample.wi))), 1e-6);
+                    ASSERT_NEAR(direction_pdf,
+                                static_cast<double>(spot_pdf_w(light, spot_direction(light, -sample.wi))),
+                                1e-6);
                 } else {
                     ASSERT_NEAR(direction_pdf * disc, 1, 1e-5);
                 }
                 if (light.kind > LIGHT_SPHERE) {
                     ASSERT_NEAR(ratio * static_cast<double>(light.selection) / emission, 1, 1e-6);
                 }
-                ASSERT_NEAR(ratio * static_cast<double>(sampling_over_emission(SURFACES, light, from, on)), 1, 1e-3) << light.kind;
+                ASSERT_NEAR(ratio * static_cast<double>(sampling_over_emission(SURFACES, light, from, on)), 1,
+                            1e-3)
+                    << light.kind;
             }
         }
     }

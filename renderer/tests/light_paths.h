@@ -19,14 +19,12 @@
 #define FEATURE_infinite_lights 1
 #define FEATURE_dome 1
 #define FEATURE_environment 1
-#include "renderer/tests/other_features.h"
-
-#include "renderer/kernels/light/emission.h"
-
 #include <cmath>
 
+#include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/tests/light_scene.h"
+#include "renderer/tests/other_features.h"
 #include "renderer/tests/shapes_double.h"
 
 namespace rtrays {
@@ -36,13 +34,18 @@ using test::to_float3;
 
 constexpr double pi = 3.14159265358979323846;
 
-inline uint4 words(uint32_t i, uint32_t block) { return random_words(13, STREAM_CAMERA, i, 0, block); }
+inline uint4 words(uint32_t i, uint32_t block) {
+    return random_words(13, STREAM_CAMERA, i, 0, block);
+}
 
-inline double green(float3 v) { return static_cast<double>(v.y); }
+inline double green(float3 v) {
+    return static_cast<double>(v.y);
+}
 
 #define SURFACES scene.surface_triangles.data(), scene.shapes.data()
-#define LIGHTS \
-    scene.lights.data(), scene.emitter_triangles.data(), scene.environment_texels.data(), scene.environment_ends.data(), scene.lighting
+#define LIGHTS                                                                            \
+    scene.lights.data(), scene.emitter_triangles.data(), scene.environment_texels.data(), \
+        scene.environment_ends.data(), scene.lighting
 
 inline EmissionSample emit(const CompiledScene &scene, uint32_t i) {
     return sample_emission(SURFACES, LIGHTS, words(i, 0), words(i, 1));

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start, at the edges: on curved surfaces, in narrow cones, and around a scene lit from infinity that
-// has planes.
+// Where light paths start, at the edges: on curved surfaces, in narrow cones, and around a scene lit from
+// infinity that has planes.
 #include <gtest/gtest.h>
 
-#include "renderer/tests/light_paths.h"
-
 #include "renderer/kernels/geometry/intersect_shapes.h"
+#include "renderer/tests/light_paths.h"
 
 namespace rtrays {
 namespace {
@@ -20,14 +19,17 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
             const EmissionSample sample = emit_from(scene, light, i);
             ASSERT_GT(dot(sample.direction, sample.point.normal), 0.0f);
             if (kind != LIGHT_MESH) {
-                ASSERT_FALSE(any_shape(&scene.shapes[record.first_triangle], 1, sample.origin, sample.direction, INFINITY)) << i;
+                ASSERT_FALSE(any_shape(&scene.shapes[record.first_triangle], 1, sample.origin,
+                                       sample.direction, INFINITY))
+                    << i;
                 continue;
             }
             TraversalRay ray;
             const float3 corner = make_float3(9, 9, 9);
             ASSERT_TRUE(make_traversal_ray(sample.origin, sample.direction, -corner, corner, &ray));
             for (uint32_t k = 0; k < record.triangle_count; ++k) {
-                const SurfaceTriangle &t = scene.surface_triangles[scene.emitter_triangles[record.first_triangle + k].triangle];
+                const SurfaceTriangle &t =
+                    scene.surface_triangles[scene.emitter_triangles[record.first_triangle + k].triangle];
                 if (dot(sample.point.normal, make_float3(t.normal[0], t.normal[1], t.normal[2])) < 0.99f) {
                     continue;  // the other one
                 }
@@ -44,8 +46,8 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
     }
 }
 
-// Between narrow cones, too, the share of the intensity is the linear fall with the angle, and the weights of light
-// paths stay within a factor of 2; versines keep the angle's digits where cosines are 1.
+// Between narrow cones, too, the share of the intensity is the linear fall with the angle, and the weights of
+// light paths stay within a factor of 2; versines keep the angle's digits where cosines are 1.
 TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
     for (const auto &[inner, outer] : {std::pair(0.0, 1e-4), std::pair(1e-3, 1.01e-3), std::pair(0.0, pi / 2),
                                        std::pair(1.5, pi / 2), std::pair(0.3, 0.3001)}) {
@@ -56,7 +58,8 @@ TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
         light.outer_angle = static_cast<float>(outer);
         light.angle_scale = static_cast<float>(1 / (outer - inner));
         light.versine_outer = static_cast<float>(2 * std::pow(std::sin(outer / 2), 2));
-        light.versine_range = static_cast<float>(2 * std::sin((outer + inner) / 2) * std::sin((outer - inner) / 2));
+        light.versine_range =
+            static_cast<float>(2 * std::sin((outer + inner) / 2) * std::sin((outer - inner) / 2));
         light.emission_selection = light.selection = 1;
         light.selection_end = ~0u;
         LightingRecord lighting{};
@@ -64,21 +67,24 @@ TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
         Estimate power;
         double least = 1e30, largest = 0;
         for (uint32_t i = 0; i < 100'000; ++i) {
-            const EmissionSample sample =
-                sample_emission(nullptr, nullptr, &light, nullptr, nullptr, nullptr, lighting, words(i, 7), words(i, 8));
-            const double angle = std::atan2(std::hypot(static_cast<double>(sample.direction.x), static_cast<double>(sample.direction.y)),
-                                            -static_cast<double>(sample.direction.z));
+            const EmissionSample sample = sample_emission(nullptr, nullptr, &light, nullptr, nullptr, nullptr,
+                                                          lighting, words(i, 7), words(i, 8));
+            const double angle = std::atan2(
+                std::hypot(static_cast<double>(sample.direction.x), static_cast<double>(sample.direction.y)),
+                -static_cast<double>(sample.direction.z));
             const double share = std::clamp((outer - angle) / (outer - inner), 0.0, 1.0);
             const double weight = green(sample.weight);
             // Float directions hold the angle to within some u of 1 rad, or of itself where it is small.
-            ASSERT_NEAR(weight * static_cast<double>(sample.pdf_direction), share, 1e-6 * outer / (outer - inner) + 1e-5);
+            ASSERT_NEAR(weight * static_cast<double>(sample.pdf_direction), share,
+                        1e-6 * outer / (outer - inner) + 1e-5);
             power.add(weight);
             least = std::min(least, weight);
             largest = std::max(largest, weight);
         }
         const double expected = 2 * pi * (1 - (std::sin(outer) - std::sin(inner)) / (outer - inner));
         // The closed form cancels in narrow cones.
-        EXPECT_NEAR(power.mean() / expected, 1, 3.3 * power.error() / expected + 1e-5 + 1e-15 / (outer * outer) / (outer - inner));
+        EXPECT_NEAR(power.mean() / expected, 1,
+                    3.3 * power.error() / expected + 1e-5 + 1e-15 / (outer * outer) / (outer - inner));
         EXPECT_LT(largest / least, 2.01);
     }
 }
@@ -86,7 +92,9 @@ TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
 CompiledScene compile_text(const std::string &nodes) {
     const Scene scene = parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 8}, "nodes": [
         {"name": "camera", "transform": [{"look_at": {"origin": [0, 40, 90], "target": [0, 1, 0], "up": [0, 1, 0]}}],
-         "camera": {"type": "pinhole", "fov": 45, "fov_axis": "smaller"}},)" + nodes + "]}", "test", "test");
+         "camera": {"type": "pinhole", "fov": 45, "fov_axis": "smaller"}},)" +
+                                             nodes + "]}",
+                                         "test", "test");
     CompileSettings settings;
     settings.width = settings.height = 8;
     return compile_scene(scene, settings);
@@ -95,7 +103,8 @@ CompiledScene compile_text(const std::string &nodes) {
 const std::string ground = R"({"name": "ground", "geometry": {"type": "plane"},
     "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": -80}}, {"translate": [0, -0.3, 0]}],
     "material": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}},)";
-const std::string ball = R"({"name": "ball", "geometry": {"type": "sphere"}, "transform": [{"translate": [0, 1, 0]}],
+const std::string ball =
+    R"({"name": "ball", "geometry": {"type": "sphere"}, "transform": [{"translate": [0, 1, 0]}],
     "material": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}},)";
 const std::string dome = R"({"name": "sky", "light": {"type": "dome", "radiance": [1, 1, 1]}})";
 
@@ -105,8 +114,10 @@ TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
     EXPECT_NEAR(scene.lighting.scene_centre[1], 1, 1e-6);
     EXPECT_GT(scene.lighting.scene_radius, 1.0f);
     EXPECT_LT(scene.lighting.scene_radius, 1.01f);
-    const CompiledScene cube = compile_text(R"({"name": "box", "geometry": {"type": "box"}, "material": {"type": "mirror",
-        "reflectance": [1, 1, 1]}},)" + dome);
+    const CompiledScene cube =
+        compile_text(R"({"name": "box", "geometry": {"type": "box"}, "material": {"type": "mirror",
+        "reflectance": [1, 1, 1]}},)" +
+                     dome);
     EXPECT_GT(cube.lighting.scene_radius, std::sqrt(3.0f));
     EXPECT_LT(cube.lighting.scene_radius, std::sqrt(3.0f) * 1.01f);
     // Points of shapes under affine maps, in double.
@@ -117,10 +128,14 @@ TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
          "transform": [{"rotate": {"axis": [1, 1, 0], "degrees": 50}}, {"translate": [-3, 1, 0]}],
          "material": {"type": "mirror", "reflectance": [1, 1, 1]}},
         {"name": "egg", "geometry": {"type": "ellipsoid", "radii": [0.2, 3, 1]},
-         "transform": [{"rotate": {"axis": [0, 1, 1], "degrees": 20}}], "material": {"type": "mirror", "reflectance": [1, 1, 1]}},)" + dome);
+         "transform": [{"rotate": {"axis": [0, 1, 1], "degrees": 20}}], "material": {"type": "mirror", "reflectance": [1, 1, 1]}},)" +
+                                              dome);
     const Eigen::Vector3d centre = Eigen::Vector3f(shapes.lighting.scene_centre).cast<double>();
     const auto farthest = [&](size_t shape, const Eigen::Vector3d &object_point) {
-        return (to_double(vector_to_world(&shapes.shapes[shape], to_float3(object_point)) + shape_centre(&shapes.shapes[shape])) - centre).norm();
+        return (to_double(vector_to_world(&shapes.shapes[shape], to_float3(object_point)) +
+                          shape_centre(&shapes.shapes[shape])) -
+                centre)
+            .norm();
     };
     double largest = 0;
     for (int i = 0; i < 360; ++i) {
@@ -139,8 +154,8 @@ TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
     EXPECT_LT(radius, 1.5 * largest);
 }
 
-// Light from below a plane never starts above it, and what is above gets all its light: the start lies on the same side
-// as infinity does, and the ray still goes through the disc.
+// Light from below a plane never starts above it, and what is above gets all its light: the start lies on the
+// same side as infinity does, and the ray still goes through the disc.
 TEST(Emission, FromInfinityStartsBeforePlanes) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     ASSERT_EQ(scene.lighting.plane_end, 1u);
@@ -153,7 +168,8 @@ TEST(Emission, FromInfinityStartsBeforePlanes) {
         // Grazing rays whose crossing lies beyond the horizon of shadow rays pass.
         ASSERT_TRUE(height * slope < 0.0f || fabsf(slope) < 1e-5f) << height << ' ' << slope;
         const Eigen::Vector3d d = to_double(sample.direction);
-        const Eigen::Vector3d way = to_double(sample.origin) - Eigen::Vector3f(scene.lighting.scene_centre).cast<double>();
+        const Eigen::Vector3d way =
+            to_double(sample.origin) - Eigen::Vector3f(scene.lighting.scene_centre).cast<double>();
         const double across = (way - way.dot(d) * d).norm();
         ASSERT_LT(across, static_cast<double>(scene.lighting.scene_radius) + 1e-6 * way.norm());
         moved += way.norm() > 1.5 * static_cast<double>(scene.lighting.scene_radius) ? 1 : 0;
@@ -166,7 +182,8 @@ TEST(Emission, FromInfinityHasNoDensityBeyondItsDisc) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     const float3 down = make_float3(0, 1, 0);
     const float inside = infinite_line_pdf(LIGHTS, make_float3(0.9f, -0.3f, 0), down);
-    EXPECT_NEAR(inside, 0.25 / pi / (pi * std::pow(static_cast<double>(scene.lighting.scene_radius), 2)), 1e-6);
+    EXPECT_NEAR(inside, 0.25 / pi / (pi * std::pow(static_cast<double>(scene.lighting.scene_radius), 2)),
+                1e-6);
     EXPECT_EQ(infinite_line_pdf(LIGHTS, make_float3(1.1f, -0.3f, 0), down), 0.0f);
     EXPECT_GT(infinite_line_pdf(LIGHTS, make_float3(0, 1e3f, 0), down), 0.0f);
     int reached = 0, beyond = 0;

@@ -15,10 +15,13 @@
 
 namespace rtrays {
 
-constexpr double spot_inner = 20 * 3.14159265358979323846 / 180, spot_outer = 35 * 3.14159265358979323846 / 180;
+constexpr double spot_inner = 20 * 3.14159265358979323846 / 180,
+                 spot_outer = 35 * 3.14159265358979323846 / 180;
 
 /// Areas of the two triangles of the mesh light.
-inline std::array<double, 2> mesh_areas() { return {1.0, 1.5}; }
+inline std::array<double, 2> mesh_areas() {
+    return {1.0, 1.5};
+}
 
 inline const char *light_scene_text() {
     return R"({
@@ -91,7 +94,8 @@ inline std::shared_ptr<const TextureImage> small_sky() {
 
 /// The scene with its sky a dome or an environment (turned), compiled.
 inline CompiledScene compile_light_scene(LightArrays::Kind infinite = LightArrays::Kind::dome,
-                                         LightSelection selection = LightSelection::mixed, bool spheres_by_area = false) {
+                                         LightSelection selection = LightSelection::mixed,
+                                         bool spheres_by_area = false) {
     const Scene scene = parse_scene_json(light_scene_text(), "light_scene", "light_scene");
     SceneArrays arrays = scene.arrays();
     if (infinite == LightArrays::Kind::environment) {
@@ -127,7 +131,8 @@ inline float3 normal_at(const CompiledScene &scene, const LightRecord &light, fl
         float distance = 1e30f;
         for (uint32_t i = 0; i < light.triangle_count; ++i) {
             const SurfaceTriangle &t = scene.surface_triangles[first[i].triangle];
-            const float off = fabsf(dot(at - make_float3(t.p0[0], t.p0[1], t.p0[2]), make_float3(t.normal[0], t.normal[1], t.normal[2])));
+            const float off = fabsf(dot(at - make_float3(t.p0[0], t.p0[1], t.p0[2]),
+                                        make_float3(t.normal[0], t.normal[1], t.normal[2])));
             if (off < distance) {
                 distance = off;
                 best = &t;
@@ -138,7 +143,8 @@ inline float3 normal_at(const CompiledScene &scene, const LightRecord &light, fl
     const ShapeRecord &shape = scene.shapes[light.first_triangle];
     const auto &m = shape.world_from_object;
     if (light.kind == LIGHT_DISC) {
-        return normalize(cross(make_float3(m[0][0], m[1][0], m[2][0]), make_float3(m[0][1], m[1][1], m[2][1])));
+        return normalize(
+            cross(make_float3(m[0][0], m[1][0], m[2][0]), make_float3(m[0][1], m[1][1], m[2][1])));
     }
     return normalize(at - make_float3(m[0][3], m[1][3], m[2][3]));
 }

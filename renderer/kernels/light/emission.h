@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start: rays away from the lights, sampled, with their densities (thesis 3.3.4; Veach 1997, 8.2).
-// The densities that MIS weights need of paths made otherwise are in light.h.
+// Where light paths start: rays away from the lights, sampled, with their densities (thesis 3.3.4; Veach
+// 1997, 8.2). The densities that MIS weights need of paths made otherwise are in light.h.
 //
-// Surfaces emit from points uniform in area into directions in proportion to the cosine, so the weight is pi L over the
-// density of the point. From infinity the direction is chosen first, then a point on a disc across it as wide as the
-// sphere around the scene's bounded surfaces; the weight is pi R^2 L over the density of the direction. Of a plane
-// such paths light only what lies in the shadow of that sphere: the rest is left to the other techniques
-// (`disc_pdf_a`), and remains dark where there are none.
+// Surfaces emit from points uniform in area into directions in proportion to the cosine, so the weight is pi
+// L over the density of the point. From infinity the direction is chosen first, then a point on a disc across
+// it as wide as the sphere around the scene's bounded surfaces; the weight is pi R^2 L over the density of
+// the direction. Of a plane such paths light only what lies in the shadow of that sphere: the rest is left to
+// the other techniques (`disc_pdf_a`), and remains dark where there are none.
 #pragma once
 
 #include "renderer/kernels/light/light.h"
@@ -15,14 +15,15 @@
 
 /// The start of a light path.
 typedef struct EmissionSample {
-    SurfacePoint point;   ///< on the light, `normal` on the side that emits. Of lights without a surface: the origin
-                          ///< of the ray, `normal` the direction
-    float3 origin;        ///< of the ray: off the light's own surface
-    float3 direction;     ///< unit, away from the light
-    float3 weight;        ///< power carried: L cos / (pdf_origin pdf_direction), W. Of a surface: pi L / pdf_origin
-    float pdf_origin;     ///< selection included: per area on surfaces; of point and spot the probability alone; at
-                          ///< infinity per solid angle of the direction; of directional the probability alone
-    float pdf_direction;  ///< surfaces, point, spot: per solid angle; infinity, directional: per area of the disc
+    SurfacePoint point;  ///< on the light, `normal` on the side that emits. Of lights without a surface: the
+                         ///< origin of the ray, `normal` the direction
+    float3 origin;     ///< of the ray: off the light's own surface
+    float3 direction;  ///< unit, away from the light
+    float3 weight;  ///< power carried: L cos / (pdf_origin pdf_direction), W. Of a surface: pi L / pdf_origin
+    float pdf_origin;  ///< selection included: per area on surfaces; of point and spot the probability alone;
+                       ///< at infinity per solid angle of the direction; of directional the probability alone
+    float pdf_direction;  ///< surfaces, point, spot: per solid angle; infinity, directional: per area of the
+                          ///< disc
     uint light;           ///< index
     uint is_delta;        ///< point, spot, directional: cannot be hit
     uint at_infinity;     ///< dome, environment, directional
@@ -30,20 +31,23 @@ typedef struct EmissionSample {
 
 #if FEATURE_infinite_lights || FEATURE_directional_lights
 
-/// A uniform point on the disc that rays of direction `d` (unit) from infinity cross before they meet the scene.
+/// A uniform point on the disc that rays of direction `d` (unit) from infinity cross before they meet the
+/// scene.
 DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, float3 d, float u, float v) {
     const Frame frame = frame_from_z(d);
     const float2 disc = sample_disc(u, v);
-    float3 origin = make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]) +
-                    (frame.x * disc.x + frame.y * disc.y - d) * lighting.scene_radius;
+    float3 origin =
+        make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]) +
+        (frame.x * disc.x + frame.y * disc.y - d) * lighting.scene_radius;
 #if FEATURE_quadrics
-    // Planes reach beyond the sphere: the ray starts before the first that it meets. Beyond the horizon of shadow rays
-    // they end here too.
+    // Planes reach beyond the sphere: the ray starts before the first that it meets. Beyond the horizon of
+    // shadow rays they end here too.
     float back = 0.0f;
     for (uint i = 0; i < lighting.plane_end; ++i) {
         GLOBAL const ShapeRecord *shape = shapes + i;
         if (shape->uv_kind == SHAPE_UV_PLANE) {
-            const float way = vector_to_object(shape, origin - shape_centre(shape)).z / vector_to_object(shape, d).z;
+            const float way =
+                vector_to_object(shape, origin - shape_centre(shape)).z / vector_to_object(shape, d).z;
             back = way < lighting.far_distance ? max(back, way) : back;
         }
     }
@@ -58,7 +62,8 @@ DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, flo
 #if FEATURE_area_lights || FEATURE_shape_lights
 
 /// From a point on an area light into the hemisphere of its normal, in proportion to the cosine.
-DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a, uint4 b, PRIVATE EmissionSample *sample) {
+DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a, uint4 b,
+                              PRIVATE EmissionSample *sample) {
     const float3 about_z = sample_cosine_hemisphere(uniform_float(b.x), uniform_float(b.y));
     sample->point = point;
     sample->direction = to_world(frame_from_z(point.normal), about_z);
@@ -93,78 +98,81 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
     sample.at_infinity = 0u;
     switch (light.kind) {
 #if FEATURE_area_lights
-    case LIGHT_MESH: {
-        const LightPoint on = sample_mesh_light(emitter_triangles, surface_triangles, light, a);
-        emit_from_surface(light, on.point, on.pdf_a, b, &sample);
-        return sample;
-    }
+        case LIGHT_MESH: {
+            const LightPoint on = sample_mesh_light(emitter_triangles, surface_triangles, light, a);
+            emit_from_surface(light, on.point, on.pdf_a, b, &sample);
+            return sample;
+        }
 #endif
 #if FEATURE_shape_lights
-    case LIGHT_DISC:
-    case LIGHT_SPHERE:
-    case LIGHT_SPHERE_BY_AREA: {
-        LightRecord by_area = light;
-        by_area.kind = light.kind == LIGHT_DISC ? LIGHT_DISC : LIGHT_SPHERE_BY_AREA;
-        const ShapeLightSample on =
-            sample_shape_light(by_area, shapes, shape_centre(shapes + light.first_triangle), u, v);
-        emit_from_surface(light, on.point, on.pdf_a, b, &sample);
-        return sample;
-    }
+        case LIGHT_DISC:
+        case LIGHT_SPHERE:
+        case LIGHT_SPHERE_BY_AREA: {
+            LightRecord by_area = light;
+            by_area.kind = light.kind == LIGHT_DISC ? LIGHT_DISC : LIGHT_SPHERE_BY_AREA;
+            const ShapeLightSample on =
+                sample_shape_light(by_area, shapes, shape_centre(shapes + light.first_triangle), u, v);
+            emit_from_surface(light, on.point, on.pdf_a, b, &sample);
+            return sample;
+        }
 #endif
 #if FEATURE_point_lights
-    case LIGHT_POINT:
-        sample.origin = make_float3(light.position[0], light.position[1], light.position[2]);
-        sample.direction = sample_uniform_sphere(u, v);
-        sample.pdf_direction = 0.25f * INV_PI;
-        sample.weight *= 4.0f * PI;
-        sample.is_delta = 1u;
-        break;
+        case LIGHT_POINT:
+            sample.origin = make_float3(light.position[0], light.position[1], light.position[2]);
+            sample.direction = sample_uniform_sphere(u, v);
+            sample.pdf_direction = 0.25f * INV_PI;
+            sample.weight *= 4.0f * PI;
+            sample.is_delta = 1u;
+            break;
 #endif
 #if FEATURE_spot_lights
-    case LIGHT_SPOT: {
-        const SpotDirection spot = sample_spot(light, u);
-        const float sine = sqrt(spot.versine * (2.0f - spot.versine));
-        sample.origin = make_float3(light.position[0], light.position[1], light.position[2]);
-        sample.direction = make_float3(light.axis_x[0], light.axis_x[1], light.axis_x[2]) * (sine * cospi(2.0f * v)) +
-                           make_float3(light.axis_y[0], light.axis_y[1], light.axis_y[2]) * (sine * sinpi(2.0f * v)) +
-                           light_axis_z(light) * (spot.versine - 1.0f);
-        sample.pdf_direction = spot_pdf_w(light, spot);
-        sample.weight *= spot_share(light, spot) / sample.pdf_direction;
-        sample.is_delta = 1u;
-        break;
-    }
+        case LIGHT_SPOT: {
+            const SpotDirection spot = sample_spot(light, u);
+            const float sine = sqrt(spot.versine * (2.0f - spot.versine));
+            sample.origin = make_float3(light.position[0], light.position[1], light.position[2]);
+            sample.direction =
+                make_float3(light.axis_x[0], light.axis_x[1], light.axis_x[2]) * (sine * cospi(2.0f * v)) +
+                make_float3(light.axis_y[0], light.axis_y[1], light.axis_y[2]) * (sine * sinpi(2.0f * v)) +
+                light_axis_z(light) * (spot.versine - 1.0f);
+            sample.pdf_direction = spot_pdf_w(light, spot);
+            sample.weight *= spot_share(light, spot) / sample.pdf_direction;
+            sample.is_delta = 1u;
+            break;
+        }
 #endif
 #if FEATURE_directional_lights
-    case LIGHT_DIRECTIONAL:
-        sample.direction = -light_axis_z(light);
-        sample.is_delta = 1u;
-        sample.at_infinity = 1u;
-        break;
+        case LIGHT_DIRECTIONAL:
+            sample.direction = -light_axis_z(light);
+            sample.is_delta = 1u;
+            sample.at_infinity = 1u;
+            break;
 #endif
 #if FEATURE_dome
-    case LIGHT_DOME:
-        sample.direction = sample_uniform_sphere(u, v);
-        sample.pdf_origin *= 0.25f * INV_PI;
-        sample.weight *= 4.0f * PI;
-        sample.at_infinity = 1u;
-        break;
+        case LIGHT_DOME:
+            sample.direction = sample_uniform_sphere(u, v);
+            sample.pdf_origin *= 0.25f * INV_PI;
+            sample.weight *= 4.0f * PI;
+            sample.at_infinity = 1u;
+            break;
 #endif
 #if FEATURE_environment
-    case LIGHT_ENVIRONMENT: {
-        const EnvironmentSample towards = sample_environment(environment_ends, lighting, a);
-        sample.direction = -from_light_space(light, towards.direction);
-        sample.pdf_origin *= towards.pdf_w;
-        sample.weight *= environment_radiance(environment_texels, lighting, towards.direction) / towards.pdf_w;
-        sample.at_infinity = 1u;
-        break;
-    }
+        case LIGHT_ENVIRONMENT: {
+            const EnvironmentSample towards = sample_environment(environment_ends, lighting, a);
+            sample.direction = -from_light_space(light, towards.direction);
+            sample.pdf_origin *= towards.pdf_w;
+            sample.weight *=
+                environment_radiance(environment_texels, lighting, towards.direction) / towards.pdf_w;
+            sample.at_infinity = 1u;
+            break;
+        }
 #endif
-    default:
-        break;
+        default:
+            break;
     }
 #if FEATURE_infinite_lights || FEATURE_directional_lights
     if (sample.at_infinity != 0u) {
-        sample.origin = sample_disc_origin(SURFACE_ARGUMENTS lighting, sample.direction, uniform_float(b.x), uniform_float(b.y));
+        sample.origin = sample_disc_origin(SURFACE_ARGUMENTS lighting, sample.direction, uniform_float(b.x),
+                                           uniform_float(b.y));
         sample.pdf_direction = disc_pdf_a_inside(lighting);
         sample.weight = sample.weight / sample.pdf_direction;
     }

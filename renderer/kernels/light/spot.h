@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Spots: full intensity inside the inner cone, from there a linear fall with the angle to 0 at the outer one (Mitsuba
-// 3's spot).
+// Spots: full intensity inside the inner cone, from there a linear fall with the angle to 0 at the outer one
+// (Mitsuba 3's spot).
 //
-// Light paths leave with a density that is constant inside the inner cone and falls linearly with the cosine outside:
-// between the cones intensity over density lies within [tan(o / 2) / o, 1] of its value on the axis, o the outer angle,
-// so weights vary by less than 2. Angles are held as versines, 1 - cos, which keep their digits in narrow cones.
+// Light paths leave with a density that is constant inside the inner cone and falls linearly with the cosine
+// outside: between the cones intensity over density lies within [tan(o / 2) / o, 1] of its value on the axis,
+// o the outer angle, so weights vary by less than 2. Angles are held as versines, 1 - cos, which keep their
+// digits in narrow cones.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -45,8 +46,8 @@ DEVICE float spot_share(LightRecord light, SpotDirection spot) {
 
 #if FEATURE_from_light || FEATURE_light_strategy
 
-/// Density per solid angle of `sample_spot`: its integral over the inner cone is 2 pi inner versine, over the rest pi
-/// times the versines between the cones.
+/// Density per solid angle of `sample_spot`: its integral over the inner cone is 2 pi inner versine, over the
+/// rest pi times the versines between the cones.
 DEVICE float spot_pdf_w(LightRecord light, SpotDirection spot) {
     return spot.profile * (INV_PI / (2.0f * light.versine_outer - light.versine_range));
 }
