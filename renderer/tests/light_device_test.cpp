@@ -1,32 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Lights and cameras on the device: every kind compiles alone, and what the device samples is what the host
 // does from the same source, whose distributions the host's tests judge.
-#define FEATURE_triangles 1
-#define FEATURE_shapes 1
-#define FEATURE_quadrics 1
-#define FEATURE_lights 1
-#define FEATURE_light_strategy 1
-#define FEATURE_from_light 1
-#define FEATURE_many_lights 1
-#define FEATURE_area_lights 1
-#define FEATURE_light_triangles 1
-#define FEATURE_shape_lights 1
-#define FEATURE_point_lights 1
-#define FEATURE_spot_lights 1
-#define FEATURE_directional_lights 1
-#define FEATURE_infinite_lights 1
-#define FEATURE_dome 1
-#define FEATURE_environment 1
-#define FEATURE_lens 1
 #include <gtest/gtest.h>
+
+#include "renderer/tests/light_paths.h"
 
 #include "renderer/device/buffer.h"
 #include "renderer/device/kernel.h"
 #include "renderer/kernels/camera/perspective.h"
-#include "renderer/kernels/light/emission.h"
-#include "renderer/kernels/sampling/random.h"
-#include "renderer/tests/light_scene.h"
-#include "renderer/tests/other_features.h"
 
 namespace rtrays {
 namespace {

@@ -19,12 +19,20 @@
 #define FEATURE_infinite_lights 1
 #define FEATURE_dome 1
 #define FEATURE_environment 1
-#include <cmath>
+#define FEATURE_lens 1
+
+// Before all device code.
+// clang-format off
+#include "renderer/tests/other_features.h"
 
 #include "renderer/kernels/light/emission.h"
+// clang-format on
+
+#include <cmath>
+
+#include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/tests/light_scene.h"
-#include "renderer/tests/other_features.h"
 #include "renderer/tests/shapes_double.h"
 
 namespace rtrays {

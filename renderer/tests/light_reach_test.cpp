@@ -3,7 +3,6 @@
 // infinity that has planes.
 #include <gtest/gtest.h>
 
-#include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/tests/light_paths.h"
 
 namespace rtrays {
