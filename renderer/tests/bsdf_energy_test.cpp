@@ -100,6 +100,42 @@ TEST(Energy, WhiteLambertScattersAll) {
     EXPECT_NEAR(albedo({"lambert", {component(BXDF_LAMBERT)}}, tilted_frame(60)).mean, 1.0, 1e-6);
 }
 
+/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta: cos(phi) where positive
+/// integrates to 2, and over theta_i there is one integral below theta and one above.
+double oren_nayar_albedo(double sigma, double theta) {
+    const double variance = sigma * sigma, s = std::sin(theta);
+    const double a = 1 - 0.5 * variance / (variance + 0.33), b = 0.45 * variance / (variance + 0.09);
+    return a + b * 2 / pi * (s * (theta - s * std::cos(theta)) / 2 + std::tan(theta) * (1 - s * s * s) / 3);
+}
+
+// The mean weight over a grid of numbers: a quadrature, so that 2 % in either coefficient are seen.
+TEST(Energy, OrenNayarHasTheAlbedoOfItsClosedForm) {
+    constexpr int steps = 400;
+    constexpr double tolerance = 2e-4;
+    const auto found = [&](float sigma, double degrees) {
+        const TestMaterial material = {"oren_nayar", {oren_nayar(sigma)}};
+        const SurfaceFrame frame = tilted_frame(degrees);
+        double sum = 0;
+        for (int i = 0; i < steps * steps; ++i) {
+            const auto u = static_cast<float>((i / steps + 0.5) / steps);
+            const auto v = static_cast<float>((i % steps + 0.5) / steps);
+            const BsdfSample sample = material.sample(frame, 0.5f, u, v);
+            sum += sample.pdf_w > 0.0f ? static_cast<double>(sample.weight.x) : 0.0;
+        }
+        return sum / (steps * steps);
+    };
+    for (const float sigma : {0.0f, 0.1f, 0.5f, 0.7853982f, 1.5707963f}) {
+        for (const double degrees : {0.0, 25.0, 60.0, 80.0}) {
+            EXPECT_NEAR(found(sigma, degrees), oren_nayar_albedo(static_cast<double>(sigma), degrees * pi / 180),
+                        tolerance)
+                << sigma << ' ' << degrees;
+        }
+    }
+    EXPECT_GT(std::abs(found(0.51f, 0) - oren_nayar_albedo(0.5, 0)), 10 * tolerance);
+    const double a = oren_nayar_albedo(0.5, 0);
+    EXPECT_GT(0.02 * std::min(a, oren_nayar_albedo(0.5, pi / 3) - a), 5 * tolerance);
+}
+
 // At normal incidence wo.m is positive for all normals: a distribution whose area projects to 1 and which
 // loses no light but by shadowing keeps nearly all of it.
 TEST(Energy, NarrowLobesScatterNearlyAll) {
