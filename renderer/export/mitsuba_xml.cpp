@@ -9,6 +9,7 @@
 #include "renderer/export/mitsuba_bsdf.h"
 #include "renderer/export/mitsuba_writer.h"
 #include "renderer/export/ply_file.h"
+#include "renderer/import/mitsuba_envmap.h"
 #include "renderer/import/texture_file.h"
 #include "renderer/scene/cores/shape.h"
 #include "renderer/scene/cores/transform.h"
@@ -272,7 +273,7 @@ class SceneWriter {
             factor.setOnes();
         }
         const std::filesystem::path file = folder_.new_file(lights.name[index], ".exr");
-        write_texture_file(image, file);
+        write_texture_file(to_mitsuba_envmap(image), file);
         add_property(emitter, "string", "filename", folder_.relative(file));
         add_property(emitter, "float", "scale", fmt::format("{}", factor[0]));
         add_transform(emitter, lights.world_from_light[index]);

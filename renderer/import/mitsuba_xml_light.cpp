@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "renderer/import/mitsuba_envmap.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/stores/pose.h"
 
@@ -72,10 +73,9 @@ PlacedLight read_envmap(Object &object, TextureFiles &files) {
     const Vector3d scale = Vector3d::Constant(object.number("scale", 1));
     const Matrix4d to_world = nearest_similarity(object.transform(), "an environment");
     pose_of(to_world, "an environment");  // neither can it be mirrored
-    return {std::make_shared<LightCore>(object.id(),
-                                        files.load(object.element().path(*file), TextureEncoding::linear),
-                                        ParameterValues{{"scale", scale}}),
-            to_world};
+    const auto image = std::make_shared<TextureImage>(
+        from_mitsuba_envmap(*files.load(object.element().path(*file), TextureEncoding::linear)));
+    return {std::make_shared<LightCore>(object.id(), image, ParameterValues{{"scale", scale}}), to_world};
 }
 
 struct Type {

@@ -188,8 +188,8 @@ struct LightArrays {
     std::vector<double> inner_angle;                ///< of a spot, from its axis, radians: full intensity inside
     std::vector<double> outer_angle;                ///< likewise: none outside, in (inner_angle, pi / 2]
     /// environment: the image holds floats. In light space direction d is looked up at u = atan2(d.x, -d.z) /
-    /// (2 pi), wrapped, from the left edge of the image and v = acos(d.y) / pi from its top edge (Mitsuba 3's
-    /// convention), bilinearly between texel centres, rows beyond the first and the last repeated.
+    /// (2 pi), wrapped, from the left edge of the image and v = acos(d.y) / pi from its top edge (the axes of
+    /// Mitsuba 3), bilinearly between texel centres, rows beyond the first and the last repeated.
     std::vector<std::shared_ptr<const TextureImage>> image;
 };
 

@@ -374,8 +374,8 @@ TEST_F(MitsubaTextures, NeedCoordinatesInCommon) {
 }
 
 TEST_F(MitsubaTextures, Environments) {
-    std::ofstream(testing::TempDir() + "sky.pfm", std::ios::binary) << "PF\n2 1\n-1.0\n"
-                                                                    << std::string(24, '\0');
+    std::ofstream(testing::TempDir() + "sky.pfm", std::ios::binary) << "PF\n2 3\n-1.0\n"
+                                                                    << std::string(72, '\0');
     const Scene scene = parse_elements(R"(<emitter type="envmap"><string name="filename" value="sky.pfm"/>
         <float name="scale" value="3"/><transform name="to_world"><rotate y="1" angle="90"/></transform></emitter>)");
     const LightArrays &lights = scene.lights();
