@@ -73,8 +73,9 @@ Image select_layers(const Image &image, const std::vector<std::string> &layers) 
     selected.attributes() = image.attributes();
     for (const Image::Channel &channel : image.channels()) {
         const std::string layer = channel.name.substr(0, channel.name.find('.'));
+        const bool pass = layer == "camera" || layer == "light";
         const bool colour = channel.name == "R" || channel.name == "G" || channel.name == "B";
-        if (colour || std::find(layers.begin(), layers.end(), layer) != layers.end()) {
+        if (colour || std::find(layers.begin(), layers.end(), pass ? "passes" : layer) != layers.end()) {
             selected.add_channel(channel.name) = channel.values;
         }
     }
@@ -257,6 +258,7 @@ ExitCode parse_and_run(int argc, char **argv) {
     app.add_option("-o,--output", options.output, "image to write (.exr)");
     app.add_option("--export", options.exported, "write the scene for Mitsuba 3 (.xml) or Blender's Cycles (.blender.json) and stop");
     app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")->capture_default_str();
+    app.add_option("--passes", options.settings.passes, "of an algorithm with two, to be merged later: all, camera or light")->check(CLI::IsMember({"all", "camera", "light"}))->capture_default_str();
     app.add_option("--spp", options.spp, "samples per pixel (default 64)")->check(CLI::PositiveNumber);
     app.add_option("--time", options.seconds, "render for that many seconds instead")->check(CLI::PositiveNumber);
     app.add_option("--samples", options.samples, "only the samples BEGIN:END of every pixel");
@@ -268,7 +270,7 @@ ExitCode parse_and_run(int argc, char **argv) {
     app.add_flag("--resume", options.resume, "continue from --state if it exists");
     app.add_option("--set", options.assignments, "NAME=VALUE, may be repeated")->allow_extra_args(false);
     app.add_option("--stats", options.stats, "write features, kernels, bytes, launches, seconds (.json)");
-    app.add_option("--layers", options.layers, "layers besides R,G,B")->delimiter(',')->check(CLI::IsMember({"variance", "samples", "none"}))->capture_default_str();
+    app.add_option("--layers", options.layers, "layers besides R,G,B")->delimiter(',')->check(CLI::IsMember({"variance", "samples", "passes", "none"}))->capture_default_str();
     app.add_flag("--print-scene", options.print_scene, "print nodes and properties and stop");
     app.add_flag("--dry-run", options.dry_run, "compile everything, print the stats document, render nothing");
     app.add_flag("-q,--quiet", options.quiet, "no progress");

@@ -7,8 +7,8 @@ std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_
     std::vector<RoundStage> round = {{"generate_camera_rays"}, {"begin_round"}, {"intersect_nearest"}};
     const bool emitters = features.has(Feature::area_lights) || features.has(Feature::shape_lights) ||
                           features.has(Feature::infinite_lights);
-    if (emitters) {
-        round.push_back({"evaluate_emission"});  // implicit paths, and emitters seen directly
+    if (emitters || features.has(Feature::light_strategy)) {
+        round.push_back({"evaluate_emission"});  // implicit paths, and emitters seen directly; the ratio R_0
     }
     if (features.has(Feature::explicit_light)) {
         const bool independent = features.has(Feature::independent_lights);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Stage evaluate_emission: adds what the hit of each active path, or the light at infinity, emits towards it: emitters
 // seen directly, and implicit paths.
-// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, depth, active queue. Writes: radiance.
+// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, depth, active queue. Writes: radiance; at the first
+// hit log_ratio.
 
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
@@ -11,18 +12,22 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// What a path meets: radiance towards it, and the density per solid angle with which light sampling at the vertex
-/// before would have found it.
+/// What a path meets: radiance towards it, and how else it might have been found.
 typedef struct Emission {
     float3 radiance;
-    float explicit_pdf_w;
+    float explicit_pdf_w;  ///< density per solid angle with which light sampling at the vertex before would have found it
+#if FEATURE_light_strategy
+    float line_pdf;        ///< p_o p_d of kernels/light/mis.h
+#endif
 } Emission;
 
-/// False when nothing is emitted this way. `density_needed`: explicit_pdf_w is to be set.
-DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS bool density_needed,
-                         PRIVATE Emission *met) {
+/// False when nothing is emitted this way. The densities are set where the path may have been found otherwise:
+/// `by_light_sampling`, `by_light_path`.
+DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS bool by_light_sampling,
+                         MAYBE_UNUSED bool by_light_path, PRIVATE Emission *met) {
     const uint primitive = get_hit_primitive(paths, slot);
     const float3 direction = get_ray_direction(paths, slot);
+    MAYBE_UNUSED const float3 from = get_ray_origin(paths, slot);
     met->explicit_pdf_w = 0.0f;
     if (primitive == NO_HIT) {
 #if FEATURE_infinite_lights
@@ -30,9 +35,14 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
             return false;
         }
         met->radiance = infinite_radiance(LIGHT_ARGUMENTS direction);
-        if (density_needed) {
+        if (by_light_sampling) {
             met->explicit_pdf_w = lights[lighting.infinite_light].selection * infinite_pdf_w(LIGHT_ARGUMENTS direction);
         }
+#if FEATURE_light_strategy
+        if (by_light_path) {
+            met->line_pdf = infinite_line_pdf(LIGHT_ARGUMENTS from, direction);
+        }
+#endif
         return true;
 #else
         return false;
@@ -45,20 +55,52 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     }
     const LightRecord light = lights[light_of_hit(LIGHT_ARGUMENTS primitive, hit.emitter)];
     met->radiance = light_radiance(light);
-    if (density_needed) {
-        const float3 from = get_ray_origin(paths, slot);
+    if (by_light_sampling) {
         met->explicit_pdf_w =
             light_pdf_a(SURFACE_ARGUMENTS LIGHT_ARGUMENTS light, primitive, hit.emitter, from, hit.point) *
             solid_angle_per_area(hit.point.position - from, hit.point.normal);
     }
+#if FEATURE_light_strategy
+    if (by_light_path) {
+        met->line_pdf = emission_line_pdf(LIGHT_ARGUMENTS light, primitive, hit.emitter);
+    }
+#endif
     return true;
 #else
     return false;
 #endif
 }
 
+#if FEATURE_light_strategy
+
+/// R_0 of kernels/light/mis.h at the first hit; `pdf_w` is that of the camera's ray.
+DEVICE void start_ratio(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings) {
+    const uint primitive = get_hit_primitive(paths, slot);
+    if (primitive == NO_HIT) {
+        set_log_ratio(paths, slot, -INFINITY);
+        return;
+    }
+    const SurfacePoint hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot)).point;
+    const float3 way = hit.position - get_ray_origin(paths, slot);
+    const float cosine = fabs(dot(hit.normal, get_ray_direction(paths, slot)));
+    const float log_first = log2(get_pdf_w(paths, slot)) + log2(cosine) - log2(dot(way, way));
+    // A hit in the plane of the surface is none in exact arithmetic.
+    set_log_ratio(paths, slot, cosine > 0.0f ? log2((float)settings.light_paths) - log_first : -INFINITY);
+}
+
+#endif
+
 DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
-    bool weighted = false;
+    bool by_light_sampling = false, by_light_path = false;
+#if FEATURE_light_strategy
+    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+        // Emitters seen directly are left to implicit paths, which find their radiance without noise.
+        by_light_path = get_depth(paths, slot) > 0u;
+        if (!by_light_path) {
+            start_ratio(paths, slot, SURFACE_ARGUMENTS settings);
+        }
+    }
+#endif
 #if FEATURE_scattering
     if (get_depth(paths, slot) > 0u) {
 #if FEATURE_direction_density
@@ -67,7 +109,7 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
             if ((settings.strategies & STRATEGY_IMPLICIT) == 0u) {
                 return;
             }
-            weighted = (settings.strategies & STRATEGY_EXPLICIT) != 0u;
+            by_light_sampling = (settings.strategies & STRATEGY_EXPLICIT) != 0u;
         }
 #else
         return;
@@ -75,7 +117,7 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     }
 #endif
     Emission met;
-    if (!emission_met(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS weighted, &met)) {
+    if (!emission_met(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS by_light_sampling, by_light_path, &met)) {
         return;
     }
     float3 radiance = met.radiance;
@@ -83,9 +125,16 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     radiance *= get_throughput(paths, slot);
 #endif
 #if FEATURE_direction_density
-    if (weighted) {
-        // p_E / p_I of thesis (2.73), both per solid angle. The density of a sampled direction is positive.
-        radiance *= power_heuristic(met.explicit_pdf_w / get_pdf_w(paths, slot), settings.beta);
+    // p_E / p_I of thesis (2.73), both per solid angle. The density of a sampled direction is positive.
+    const float by_explicit = by_light_sampling ? met.explicit_pdf_w / get_pdf_w(paths, slot) : 0.0f;
+#if FEATURE_light_strategy
+    if (by_light_path) {
+        const float log_light = get_log_ratio(paths, slot) + log2(met.line_pdf);  // p_L / p_I
+        radiance *= 1.0f / (1.0f + heuristic_power(by_explicit, settings.beta) + power_of(log_light, settings.beta));
+    } else
+#endif
+    if (by_light_sampling) {
+        radiance *= power_heuristic(by_explicit, settings.beta);
     }
 #endif
     set_radiance(paths, slot, get_radiance(paths, slot) + radiance);

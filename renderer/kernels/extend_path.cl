@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stage extend_path: samples the next direction of each active path, or ends the path and adds it to the film.
-// Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, depth; film.
+// Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, log_ratio, depth; film.
 // To: the active queue of the next round, or the free queue.
 
 #include "renderer/kernels/film/film.h"
@@ -14,8 +14,33 @@
 
 #if FEATURE_scattering
 
-#include "renderer/kernels/bsdf/bsdf.h"
-#include "renderer/kernels/bsdf/shading_frame.h"
+#include "renderer/kernels/bsdf/reverse.h"
+#include "renderer/kernels/light/mis.h"
+
+#if FEATURE_light_strategy
+
+/// log_ratio beyond the vertex at which the path was scattered, after `depth` events before: R of kernels/light/mis.h,
+/// or S of a light path.
+DEVICE float continue_ratio(PathStates paths, uint slot, IntegratorSettings settings, uint depth, bool is_delta,
+                            TwoWay both) {
+    const float before = get_log_ratio(paths, slot);
+#if FEATURE_from_light
+    if (depth == 0u) {
+        // What is carried so far is 1 / (p_o p_d) and 1 / E; nothing can be joined to a delta.
+        const float by_explicit = is_delta ? -INFINITY : get_log_explicit(paths, slot) - both.log_forward;
+        return log_sum(settings.beta * (before + both.log_ratio), settings.beta * by_explicit);
+    }
+    return before + settings.beta * both.log_ratio;
+#else
+    if (depth == 0u) {
+        // Light paths cannot be joined to the camera at a delta.
+        return is_delta ? -INFINITY : before - both.log_forward;
+    }
+    return before + both.log_ratio;
+#endif
+}
+
+#endif
 
 /// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
 DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
@@ -27,20 +52,37 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
     }
 #if FEATURE_depth_limit
     // The ray of the last scattering event counts only where it may find light: implicit paths, or after a delta event.
+    // That event of a light path is the one that is joined to the camera.
+#if FEATURE_from_light
+    const uint last_ray = 1u;
+#else
     const uint last_ray = FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u ? 0u : 1u;
+#endif
     if (depth + last_ray >= settings.max_depth) {
         return false;
     }
 #endif
     const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
     const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
-    const uint4 words = random_words(settings.seed, STREAM_CAMERA, get_pixel(paths, slot),
+    const uint4 words = random_words(settings.seed, PATH_STREAM, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
     const BsdfSample sample = bsdf_sample(MATERIAL_ARGUMENTS hit.material, frame, uniform_float(words.w),
                                           uniform_float(words.x), uniform_float(words.y));
+    if (!(sample.pdf_w > 0.0f)) {
+        return false;
+    }
+#if FEATURE_light_strategy || FEATURE_from_light
+    const TwoWay both = look_back(MATERIAL_ARGUMENTS hit, frame, sample);
+#endif
+#if FEATURE_from_light
+    float3 throughput = get_throughput(paths, slot) * both.importance;
+    const float scale_change = 1.0f;  // importance crosses boundaries unchanged
+#else
     float3 throughput = get_throughput(paths, slot) * sample.weight;
+    const float scale_change = sample.scale;
+#endif
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
-    if (!(largest > 0.0f && sample.pdf_w > 0.0f)) {
+    if (!(largest > 0.0f)) {
         return false;
     }
 #if FEATURE_roulette
@@ -49,10 +91,10 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
         // paths between surfaces that absorb nothing; it is close to 1 because the variance is infinite where the
         // squared albedo exceeds it. Left out of all MIS densities, kept in the contribution.
         // Inside glass radiance is larger by eta^2, which the path loses again on its way out: that part is left out
-        // (PBRT 4th ed., 13.2.2).
-#if FEATURE_refraction
-        const float scale = get_boundary_scale(paths, slot) * sample.scale;
-        set_boundary_scale(paths, slot, scale);
+        // (PBRT 4th ed., 13.2.2). What a light path carries is measured by what it began with.
+#if FEATURE_roulette_scale
+        const float scale = get_roulette_scale(paths, slot) * scale_change;
+        set_roulette_scale(paths, slot, scale);
 #else
         const float scale = 1.0f;
 #endif
@@ -75,6 +117,11 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
 #if FEATURE_direction_density
     set_pdf_w(paths, slot, sample.pdf_w);
 #endif
+#if FEATURE_light_strategy
+    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+        set_log_ratio(paths, slot, continue_ratio(paths, slot, settings, depth, !(sample.pdf_w < INFINITY), both));
+    }
+#endif
     return true;
 }
 
@@ -94,11 +141,13 @@ __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *fi
             continue;
         }
 #endif
+#if FEATURE_from_camera
         const ulong pixel = get_pixel(paths, slot);
         const uint error = film_add_sample(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), get_radiance(paths, slot));
         if (error != 0u) {
             atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
         }
+#endif
         push_slot(&ended, slot);
     }
     append_active(queues, counters, capacity, 1u - counters->parity, &extended);

@@ -24,29 +24,25 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
     set_radiance(paths, slot, make_float3(0.0f, 0.0f, 0.0f));
 #if FEATURE_scattering
     set_throughput(paths, slot, make_float3(1.0f, 1.0f, 1.0f));
-#if FEATURE_refraction
-    set_boundary_scale(paths, slot, 1.0f);
 #endif
+#if FEATURE_roulette_scale
+    set_roulette_scale(paths, slot, 1.0f);
+#endif
+#if FEATURE_light_strategy
+    set_pdf_w(paths, slot, camera_pdf_w(camera, ray.direction));
 #endif
 }
 
 __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,
                                    STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
-    const uint begin = min((uint)get_global_id(0) * STREAM_CHUNK, counters->free_slots);
-    const uint count = min(begin + STREAM_CHUNK, counters->free_slots) - begin;
-    if (count == 0u) {
-        return;
-    }
-    // Items of work are samples of the batch, sample by sample, each over all pixels. `work` is at most 2^31 and a
-    // round overshoots it by at most `capacity`, so the counter does not wrap before the host sees the end.
-    const uint first_item = atomic_add(&counters->next_work, count);
+    const WorkItems items = take_work(counters);
     const uint pixels = camera.width * camera.height;
     PushBuffer started;
     started.count = 0u;
-    for (uint i = 0; i < count && first_item + i < work; ++i) {
-        const uint slot = queues[QUEUE_FREE * capacity + begin + i];
-        start_path(paths, slot, camera, settings, first_sample, (first_item + i) % pixels, (first_item + i) / pixels);
+    for (uint i = 0; i < items.count && items.first + i < work; ++i) {
+        const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
+        start_path(paths, slot, camera, settings, first_sample, (items.first + i) % pixels, (items.first + i) / pixels);
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);

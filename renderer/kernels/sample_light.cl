@@ -14,6 +14,28 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
+#if FEATURE_light_strategy
+
+/// p_L / p_E of kernels/light/mis.h, log2; `log_ratio` is R.
+DEVICE float light_over_explicit(MATERIAL_PARAMETERS SurfaceHit hit, float3 wo, LightSample light, uint depth,
+                                 float log_ratio) {
+    const float cos_wo = fabs(dot(hit.point.normal, wo));
+    // Neither is infinity then subtracted from infinity.
+    if (!(log_ratio > -INFINITY && cos_wo > 0.0f)) {
+        return -INFINITY;
+    }
+    log_ratio += log2(light.arrival_pdf_a) + log2(light.emission_over_sampling) +
+                      log2(fabs(dot(hit.point.normal, light.wi)));
+    if (depth > 0u) {
+        const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, light.wi);
+        log_ratio += log2(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w) -
+                     log2(cos_wo);
+    }
+    return log_ratio;
+}
+
+#endif
+
 /// Prepares the shadow ray of a path to the light `chosen` or SELECT_LIGHT. False when there is nothing to gain.
 DEVICE bool join_to_light(PathStates paths, uint slot,
                           SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
@@ -50,9 +72,17 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
     // f cos L / p_E, thesis (2.62).
     float3 radiance = get_throughput(paths, slot) * bsdf.f_cos * light.radiance / light.pdf_w;
 #if FEATURE_implicit_light
-    if (light.is_delta == 0u && (settings.strategies & STRATEGY_IMPLICIT) != 0u) {
-        // p_I / p_E of thesis (2.73), both per solid angle.
-        radiance *= power_heuristic(bsdf.pdf_w / light.pdf_w, settings.beta);
+    // p_I / p_E of thesis (2.73), both per solid angle.
+    const bool by_hit = light.is_delta == 0u && (settings.strategies & STRATEGY_IMPLICIT) != 0u;
+    const float by_implicit = by_hit ? bsdf.pdf_w / light.pdf_w : 0.0f;
+#if FEATURE_light_strategy
+    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+        const float log_light = light_over_explicit(MATERIAL_ARGUMENTS hit, frame.wo, light, depth, get_log_ratio(paths, slot));
+        radiance *= 1.0f / (1.0f + heuristic_power(by_implicit, settings.beta) + power_of(log_light, settings.beta));
+    } else
+#endif
+    if (by_hit) {
+        radiance *= power_heuristic(by_implicit, settings.beta);
     }
 #endif
     const float3 origin = offset_ray_origin(hit.point, light.wi);

@@ -45,6 +45,24 @@ DEVICE void append_slots(GLOBAL uint *queues, uint queue, uint capacity, volatil
     }
 }
 
+/// Work for the free slots of this work-item: `count` slots from entry `slots` of the free queue on, to be given items
+/// from `first` on, those beyond the batch's work excepted.
+typedef struct WorkItems {
+    uint slots;
+    uint first;
+    uint count;
+} WorkItems;
+
+/// Items of work are paths of the batch, sample by sample, each over all pixels or light paths. There are at most 2^31 and
+/// a round overshoots them by at most `capacity`, so the counter does not wrap before the host sees the end.
+DEVICE WorkItems take_work(GLOBAL StreamCounters *counters) {
+    WorkItems items;
+    items.slots = min((uint)get_global_id(0) * STREAM_CHUNK, counters->free_slots);
+    items.count = min(items.slots + STREAM_CHUNK, counters->free_slots) - items.slots;
+    items.first = items.count > 0u ? atomic_add(&counters->next_work, items.count) : 0u;
+    return items;
+}
+
 /// Paths worked on in this round.
 DEVICE uint active_count(GLOBAL const StreamCounters *counters) { return counters->active[counters->parity]; }
 

@@ -113,8 +113,15 @@ FeatureMask FeatureMask::closed() const {
         before = mask;
         drop();
     }
-    return mask.with(Feature::direction_density,
-                     mask.has(Feature::implicit_light) || (mask.has(Feature::delta) && mask.has(Feature::lights)));
+    // What follows from the others.
+    const bool from_light = mask.has(Feature::from_light), strategy = mask.has(Feature::light_strategy);
+    return mask.with(Feature::from_camera, !from_light)
+        .with(Feature::shadow_rays, mask.has(Feature::explicit_light) || from_light)
+        .with(Feature::direction_density,
+              !from_light && (mask.has(Feature::implicit_light) || strategy ||
+                              (mask.has(Feature::delta) && mask.has(Feature::lights))))
+        .with(Feature::emission_density, from_light && strategy)
+        .with(Feature::roulette_scale, mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light));
 }
 
 std::vector<PathStateField> path_state_fields(FeatureMask mask) {

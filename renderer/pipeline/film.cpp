@@ -17,11 +17,12 @@ namespace rtrays {
 
 namespace {
 
-constexpr int state_version = 1;
+constexpr int state_version = 2;
 const std::string magic = "RTRaysFilm";
 
 size_t pixel_words(const FilmState &film) { return FILM_PIXEL_WORDS(film.variance); }
 
+/// Of one pass.
 size_t word_count(const FilmState &film) {
     return static_cast<size_t>(film.width) * static_cast<size_t>(film.height) * pixel_words(film);
 }
@@ -86,24 +87,44 @@ Image develop_film(const FilmState &film) {
         }
     }
     const auto n = static_cast<double>(film.samples());
-    const size_t sums = FILM_PIXEL_SUMS(film.variance);
     std::fill_n(image.add_channel("samples").begin(), image.pixel_count(), static_cast<float>(n));
+    const bool layers = film.passes.size() > 1;
+    for (size_t pass = 0; pass < film.passes.size() && layers; ++pass) {
+        for (const std::string &name : rgb_names(film.passes[pass])) {
+            image.add_channel(name);
+        }
+    }
     if (film.samples() == 0) {
         return image;
     }
+    const size_t sums = FILM_PIXEL_SUMS(film.variance);
     for (size_t c = 0; c < FILM_CHANNELS; ++c) {
-        std::vector<float> &means = image.channel(colour[c]);
-        std::vector<float> *variances = film.variance && n > 1 ? &image.channel(variance[c]) : nullptr;
-        for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
-            const int64_t *words = film.words.data() + pixel * pixel_words(film) + c;
-            const double mean = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
-            means[pixel] = static_cast<float>(mean);
-            if (variances != nullptr) {
-                // Squares are rounded by up to 2^-21 each: where all samples are equal the difference may come out
-                // below zero by that much of the mean's square; 0 is then the nearest variance.
-                const double mean_square = sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
-                (*variances)[pixel] = static_cast<float>(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
+        std::vector<double> mean(image.pixel_count()), mean_variance(image.pixel_count());
+        for (size_t pass = 0; pass < film.passes.size(); ++pass) {
+            // A sample of the camera's is one of n; a sample of the light pass is the sum over its paths.
+            const bool splats = film.passes[pass] == "light";
+            const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
+            const int64_t *const first = film.words.data() + pass * word_count(film) + c;
+            std::vector<float> *const layer = layers ? &image.channel(rgb_names(film.passes[pass])[c]) : nullptr;
+            for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
+                const int64_t *words = first + pixel * pixel_words(film);
+                const double own = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
+                mean[pixel] += own;
+                if (layer != nullptr) {
+                    (*layer)[pixel] = static_cast<float>(own);
+                }
+                if (film.variance && n * paths > 1) {
+                    // Squares are rounded by up to 2^-21 each: where all samples are equal the difference may come out
+                    // below zero by that much of the mean's square; 0 is then the nearest variance.
+                    const double square =
+                        sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
+                    mean_variance[pixel] += std::max(square - own * own / paths, 0.0) / (n - 1.0 / paths);
+                }
             }
+        }
+        std::copy(mean.begin(), mean.end(), image.channel(colour[c]).begin());
+        if (film.variance) {
+            std::copy(mean_variance.begin(), mean_variance.end(), image.channel(variance[c]).begin());
         }
     }
     return image;
@@ -117,16 +138,32 @@ void merge_film(FilmState &film, const FilmState &other) {
     };
     require(film.width == other.width && film.height == other.height, "size");
     require(film.variance == other.variance, "their layers");
+    require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1), "their passes");
     require(film.seed == other.seed, "seed");
     require(film.config == other.config, "scene or settings");
     FilmState merged = film;
-    for (const SampleRange &range : other.ranges) {
-        merged.add_range(range);
+    const bool other_pass = film.passes != other.passes;
+    if (other_pass) {
+        require(film.ranges == other.ranges, "samples, and are different passes,");
+    } else {
+        for (const SampleRange &range : other.ranges) {
+            merged.add_range(range);
+        }
     }
     merged.device_seconds += other.device_seconds;
     merged.wall_seconds += other.wall_seconds;
     merged.non_finite += other.non_finite;
     merged.out_of_range += other.out_of_range;
+    if (other_pass) {
+        const bool first = film.passes.front() == "camera";
+        const FilmState &camera = first ? film : other, &light = first ? other : film;
+        merged.passes = {camera.passes.front(), light.passes.front()};
+        merged.light_paths = light.light_paths;
+        merged.words = camera.words;
+        merged.words.insert(merged.words.end(), light.words.begin(), light.words.end());
+        film = std::move(merged);
+        return;
+    }
     for (size_t i = 0; i < merged.words.size(); ++i) {
         merged.words[i] += other.words[i];
     }
@@ -145,7 +182,8 @@ void save_film(const FilmState &film, const std::filesystem::path &path) {
                    {"seed", film.seed},          {"config", film.config},
                    {"ranges", Json::array()},    {"device_seconds", film.device_seconds},
                    {"non_finite", film.non_finite}, {"out_of_range", film.out_of_range},
-                   {"wall_seconds", film.wall_seconds}};
+                   {"wall_seconds", film.wall_seconds}, {"passes", film.passes},
+                   {"light_paths", film.light_paths}};
     for (const SampleRange &range : film.ranges) {
         header["ranges"].push_back({range.begin, range.end});
     }
@@ -178,12 +216,14 @@ FilmState load_film(const std::filesystem::path &path) {
     film.config = header.at("config");
     film.device_seconds = header.at("device_seconds");
     film.wall_seconds = header.at("wall_seconds");
+    film.passes = header.at("passes").get<std::vector<std::string>>();
+    film.light_paths = header.at("light_paths");
     film.non_finite = header.at("non_finite");
     film.out_of_range = header.at("out_of_range");
     for (const Json &range : header.at("ranges")) {
         film.add_range({range.at(0), range.at(1)});
     }
-    film.words.resize(word_count(film));
+    film.words.resize(film.passes.size() * word_count(film));
     if (content.size() - header_end - 1 != film.words.size() * sizeof(int64_t)) {
         throw fail("film state has the wrong length: render it again");
     }

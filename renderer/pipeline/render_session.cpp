@@ -12,7 +12,7 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/bvh/builder.h"
-#include "renderer/integrators/path_tracing.h"
+#include "renderer/integrators/algorithm.h"
 #include "renderer/pipeline/scene_buffers.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
@@ -57,7 +57,7 @@ FeatureMask select_features(const CompiledScene &compiled, const RenderSettings 
     if (settings.features == "scene") {
         features = settings_features(settings) | compiled.features;
     }
-    return features.with(Feature::int64_atomics, info.has_int64_atomics).closed();
+    return features.with(Feature::int64_atomics, info.has_int64_atomics);
 }
 
 RenderSettings complete(RenderSettings settings, const Scene &scene) {
@@ -71,6 +71,30 @@ RenderSettings complete(RenderSettings settings, const Scene &scene) {
     return settings;
 }
 
+/// A pass of the algorithm, compiled, with the film it adds to.
+struct CompiledPass {
+    CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout, const RenderSettings &settings)
+        : name(pass.name),
+          features(pass.features),
+          round(pass.round),
+          stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
+
+    static std::vector<std::string> stage_names(const Pass &pass) {
+        std::vector<std::string> names = {"reset_streams", "carry_film"};
+        for (const RoundStage &stage : pass.round) {
+            names.push_back(stage.name);
+        }
+        return names;
+    }
+
+    std::string name;
+    FeatureMask features;
+    std::vector<RoundStage> round;
+    StageSet stages;
+    Buffer<int64_t> film;
+    std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
+};
+
 }  // namespace
 
 struct RenderSession::State {
@@ -79,13 +103,20 @@ struct RenderSession::State {
           settings(complete(requested, scene)),
           layout(stream_layout(settings, device_context.info())),
           numbers(integrator_settings(settings)),
-          compiled(compile_scene(scene, compile_settings(settings))),
-          features(select_features(compiled, settings, device_context.info())),
-          round(path_tracing_round(features, compiled.lighting.light_count)),
-          stages(device_context, all_stages(), features, layout, settings.source_overlays) {
+          compiled(compile_scene(scene, compile_settings(settings))) {
+        for (const Pass &pass : algorithm_passes(settings.algorithm, select_features(compiled, settings, device.info()),
+                                                 compiled.lighting.light_count)) {
+            if (settings.passes == "all" || settings.passes == pass.name) {
+                passes.emplace_back(pass, device, layout, settings);
+                features = features | pass.features;
+                compile_seconds += passes.back().stages.build_seconds();
+            }
+        }
+        if (passes.empty()) {
+            throw input_error(fmt::format("{} has no pass '{}' in this scene", settings.algorithm, settings.passes));
+        }
         scene_hash = scene.hash();
         config = content_hash(scene_hash + image_settings(settings).dump());
-        compile_seconds = stages.build_seconds();
         if (features.has(Feature::triangles)) {
             build_bvh(scene.meshes());
         }
@@ -94,16 +125,7 @@ struct RenderSession::State {
         warm_up();
     }
 
-    std::vector<std::string> all_stages() const {
-        std::vector<std::string> names = {"reset_streams", "carry_film"};
-        for (const RoundStage &stage : round) {
-            names.push_back(stage.name);
-        }
-        return names;
-    }
-
     uint64_t pixels() const { return static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height); }
-    uint32_t pixel_words() const { return FILM_PIXEL_WORDS(settings.variance); }
 
     void build_bvh(const MeshArrays &meshes) {
         BvhBuilder builder(device);
@@ -117,19 +139,24 @@ struct RenderSession::State {
     void allocate() {
         const uint64_t capacity = layout.capacity;
         scene_buffers = SceneBuffers(device, compiled, features);
-        path_words = Buffer<uint32_t>(device, "path_states", capacity * path_state_words(features));
+        uint32_t words = 0;  // the passes take turns
+        for (const CompiledPass &pass : passes) {
+            words = std::max(words, path_state_words(pass.features));
+        }
+        path_words = Buffer<uint32_t>(device, "path_states", capacity * words);
         queues = Buffer<uint32_t>(device, "queues", capacity * STREAM_QUEUES);
         counters = Buffer<StreamCounters>(device, "counters", 1);
         counters.write({StreamCounters{}});
-        film = Buffer<int64_t>(device, "film", pixels() * pixel_words());
-        film.fill(0);
+        for (CompiledPass &pass : passes) {
+            pass.film = Buffer<int64_t>(device, "film." + pass.name, film_words());
+            pass.film.fill(0);
+        }
     }
 
     void bind() {
         using In = StageInput;
         StageArguments arguments = scene_buffers.arguments(bvh.nodes(), bvh.triangles());
         arguments[In::camera] = {compiled.camera};
-        arguments[In::film] = {film};
         arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
         arguments[In::first_sample] = {uint64_t{0}};
         arguments[In::chosen_light] = {uint32_t{SELECT_LIGHT}};
@@ -137,49 +164,81 @@ struct RenderSession::State {
         arguments[In::streams] = {path_words, queues, counters, layout.capacity};
         arguments[In::counters] = {counters};
         arguments[In::settings] = {numbers};
-        stages.bind(arguments);
+        for (CompiledPass &pass : passes) {
+            arguments[In::film] = {pass.film};
+            pass.stages.bind(arguments);
+        }
     }
 
-    uint64_t film_sums() const { return pixels() * pixel_words() / FILM_WORDS; }
+    uint64_t film_words() const { return pixels() * FILM_PIXEL_WORDS(settings.variance); }
+    uint64_t film_sums() const { return film_words() / FILM_WORDS; }
+
+    /// Paths of a pass in one sample of the image.
+    uint64_t paths_per_sample(const CompiledPass &pass) const {
+        return pass.name == "light" ? numbers.light_paths : pixels();
+    }
+    uint64_t paths_per_sample() const {
+        uint64_t paths = 0;
+        for (const CompiledPass &pass : passes) {
+            paths += paths_per_sample(pass);
+        }
+        return paths;
+    }
 
     /// The first enqueue of a kernel compiles it for its group size: a batch without work does that.
     void warm_up() {
         const auto start = Clock::now();
         run_batch(0, 0);
-        profile.clear();
+        for (CompiledPass &pass : passes) {
+            pass.profile.clear();
+        }
         compile_seconds += seconds_since(start);
     }
 
-    void enqueue(const std::string &name) {
+    void enqueue(CompiledPass &pass, const std::string &name) {
         using Items = StageDescription::Items;
         switch (stage_description(name).items) {
         case Items::entries:
-            return stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
+            return pass.stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
         case Items::slots:
-            return stages.enqueue(name, layout.capacity);
+            return pass.stages.enqueue(name, layout.capacity);
         case Items::film_sums:
-            return stages.enqueue(name, film_sums());
+            return pass.stages.enqueue(name, film_sums());
         case Items::one:
-            return stages.enqueue(name, 1);
+            return pass.stages.enqueue(name, 1);
         }
     }
 
-    /// Renders `count` samples of every pixel from `first` on.
+    /// Renders `count` samples of the image from `first` on.
     void run_batch(uint64_t first, uint64_t count) {
-        const auto work = static_cast<uint32_t>(count * pixels());
-        stages.bind({{StageInput::first_sample, {first}}, {StageInput::work, {work}}});
-        enqueue("reset_streams");
+        for (CompiledPass &pass : passes) {
+            run_pass(pass, first, count);
+        }
+    }
+
+    void run_pass(CompiledPass &pass, uint64_t first, uint64_t count) {
+        const auto work = static_cast<uint32_t>(count * paths_per_sample(pass));
+        pass.stages.bind({{StageInput::first_sample, {first}}, {StageInput::work, {work}}});
+        enqueue(pass, "reset_streams");
+        uint64_t additions = 0;  // to one pixel since the last carry, at most
         // The counters are read one check behind, so that the device is never idle while the host looks.
         std::array<StreamCounters, 2> seen{};
         std::array<ClEvent, 2> read;
         for (int check = 0;; ++check) {
             for (int i = 0; i < rounds_per_check; ++i) {
-                for (const RoundStage &stage : round) {
+                for (const RoundStage &stage : pass.round) {
                     if (stage.chosen_light != SELECT_LIGHT) {
-                        stages.bind({{StageInput::chosen_light, {stage.chosen_light}}});
+                        pass.stages.bind({{StageInput::chosen_light, {stage.chosen_light}}});
                     }
-                    enqueue(stage.name);
+                    enqueue(pass, stage.name);
                 }
+            }
+            // A camera path ends with one addition to its pixel, of which there are few in a batch; splats of all light
+            // paths may go to one.
+            additions += pass.name == "light" ? uint64_t{2} * rounds_per_check * layout.capacity : 0;
+            if (additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
+                enqueue(pass, "carry_film");
+                additions = 0;
             }
             const int now = check % 2;
             cl_event event = nullptr;
@@ -201,21 +260,31 @@ struct RenderSession::State {
                 }
             }
         }
-        enqueue("carry_film");
+        enqueue(pass, "carry_film");
         device.finish();
         for (const auto &[name, stage] : device.profiler().take()) {
-            profile[name].seconds += stage.seconds;
-            profile[name].launches += stage.launches;
+            pass.profile[name].seconds += stage.seconds;
+            pass.profile[name].launches += stage.launches;
         }
     }
 
     void reset_film() {
-        film.fill(0);
+        for (CompiledPass &pass : passes) {
+            pass.film.fill(0);
+            pass.profile.clear();
+        }
         counters.write({StreamCounters{}});
-        profile.clear();
         ranges = FilmState();
         wall_seconds = 0;
         samples = 0;
+    }
+
+    double device_seconds() const {
+        double seconds = 0;
+        for (const CompiledPass &pass : passes) {
+            seconds += total_seconds(pass.profile);
+        }
+        return seconds;
     }
 
     /// Metadata of the film without its words.
@@ -224,6 +293,11 @@ struct RenderSession::State {
         header.width = settings.width;
         header.height = settings.height;
         header.variance = settings.variance;
+        header.passes.clear();
+        for (const CompiledPass &pass : passes) {
+            header.passes.push_back(pass.name);
+            header.light_paths = pass.name == "light" ? numbers.light_paths : header.light_paths;
+        }
         header.seed = numbers.seed;
         header.config = config;
         return header;
@@ -234,20 +308,17 @@ struct RenderSession::State {
     StreamLayout layout;
     IntegratorSettings numbers;
     CompiledScene compiled;
-    FeatureMask features;
-    std::vector<RoundStage> round;
-    StageSet stages;
+    FeatureMask features;  ///< of all passes
+    std::vector<CompiledPass> passes;
     std::string scene_hash;
     std::string config;
 
     Bvh bvh;
     std::map<std::string, Profiler::Stage> bvh_stages;
-    std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
     SceneBuffers scene_buffers;
     Buffer<uint32_t> path_words;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
-    Buffer<int64_t> film;
 
     double compile_seconds = 0;
     double bvh_wall_seconds = 0;
@@ -263,7 +334,7 @@ RenderSession::RenderSession(RenderSession &&) noexcept = default;
 
 uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function<void(uint64_t)> &on_batch) {
     State &s = *state_;
-    const uint64_t batch = std::clamp<uint64_t>(batch_paths / s.pixels(), 1, FILM_ADDITIONS_BETWEEN_CARRIES);
+    const uint64_t batch = std::clamp<uint64_t>(batch_paths / s.paths_per_sample(), 1, FILM_ADDITIONS_BETWEEN_CARRIES);
     while (begin < end && !interrupted()) {
         const uint64_t count = std::min(batch, end - begin);
         s.ranges.add_range({begin, begin + count});
@@ -281,17 +352,22 @@ uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function
 
 void RenderSession::restart(uint32_t seed) {
     state_->numbers.seed = state_->settings.seed = seed;
-    state_->stages.bind({{StageInput::settings, {state_->numbers}}});
+    for (CompiledPass &pass : state_->passes) {
+        pass.stages.bind({{StageInput::settings, {state_->numbers}}});
+    }
     state_->reset_film();
 }
 
 FilmState RenderSession::film() const {
     FilmState film = state_->film_header();
-    film.words = state_->film.read();
+    for (const CompiledPass &pass : state_->passes) {
+        const std::vector<int64_t> words = pass.film.read();
+        film.words.insert(film.words.end(), words.begin(), words.end());
+    }
     const StreamCounters counters = state_->counters.read().front();
     film.non_finite += counters.non_finite;
     film.out_of_range += counters.out_of_range;
-    film.device_seconds += total_seconds(state_->profile);
+    film.device_seconds += state_->device_seconds();
     film.wall_seconds += state_->wall_seconds;
     return film;
 }
@@ -299,11 +375,14 @@ FilmState RenderSession::film() const {
 void RenderSession::restore(const FilmState &film) {
     const FilmState header = state_->film_header();
     if (film.config != header.config || film.seed != header.seed || film.width != header.width ||
-        film.height != header.height || film.variance != header.variance) {
+        film.height != header.height || film.variance != header.variance || film.passes != header.passes) {
         throw input_error("the film state belongs to another scene, other settings, another seed or size");
     }
     state_->reset_film();
-    state_->film.write(film.words);
+    for (size_t pass = 0; pass < film.passes.size(); ++pass) {
+        const auto first = film.words.begin() + static_cast<std::ptrdiff_t>(pass * state_->film_words());
+        state_->passes[pass].film.write({first, first + static_cast<std::ptrdiff_t>(state_->film_words())});
+    }
     state_->ranges = film;
     state_->ranges.words.clear();
 }
@@ -325,7 +404,7 @@ RenderStats RenderSession::stats() const {
     RenderStats stats;
     stats.compile_seconds = state_->compile_seconds;
     stats.bvh_seconds = state_->bvh.report().seconds_device;
-    stats.device_seconds = total_seconds(state_->profile);
+    stats.device_seconds = state_->device_seconds();
     stats.wall_seconds = state_->wall_seconds;
     stats.samples = state_->samples;
     return stats;
@@ -341,12 +420,12 @@ nlohmann::json RenderSession::report() const {
         {"dirty", RTRAYS_DIRTY},
         {"device", {{"name", s.device.info().name}, {"driver", s.device.info().driver}, {"platform", s.device.info().platform_name}}},
         {"settings", image_settings(s.settings)},
+        {"features", s.features.names()},
         {"stream",
          {{"group_size", s.layout.group_size},
           {"capacity", s.layout.capacity},
           {"chunk", s.layout.chunk},
           {"interleaved", s.layout.interleaved}}},
-        {"features", s.features.names()},
         {"scene", {{"hash", s.scene_hash}, {"triangles", s.compiled.surface_triangles.size()}, {"lights", s.compiled.lights.size()}}},
         {"seconds",
          {{"compile", numbers.compile_seconds},
@@ -358,15 +437,33 @@ nlohmann::json RenderSession::report() const {
         {"rays", {{"nearest", counters.nearest_rays}, {"shadow", counters.shadow_rays}}},
         {"rounds", counters.iterations},
     };
-    for (const auto &[file, program] : s.stages.programs()) {
-        report["programs"].push_back({{"file", file},
-                                      {"seconds", program.build_seconds()},
-                                      {"from_cache", program.from_cache()},
-                                      {"binary_bytes", program.binary_bytes()}});
+    uint32_t largest_path = 0;
+    for (const CompiledPass &pass : s.passes) {
+        for (const auto &[file, program] : pass.stages.programs()) {
+            report["programs"].push_back({{"pass", pass.name},
+                                          {"file", file},
+                                          {"seconds", program.build_seconds()},
+                                          {"from_cache", program.from_cache()},
+                                          {"binary_bytes", program.binary_bytes()}});
+        }
+        for (const auto &[name, stage] : pass.profile) {
+            report["stages"].push_back(
+                {{"pass", pass.name}, {"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
+        }
+        uint32_t path_bytes = STREAM_QUEUES * sizeof(uint32_t);
+        nlohmann::json fields;
+        for (const PathStateField &field : path_state_fields(pass.features)) {
+            fields.push_back({{"field", field.name}, {"bytes", field.words * sizeof(uint32_t)}});
+            path_bytes += field.words * static_cast<uint32_t>(sizeof(uint32_t));
+        }
+        report["passes"].push_back({{"name", pass.name},
+                                    {"features", pass.features.names()},
+                                    {"paths_per_sample", s.paths_per_sample(pass)},
+                                    {"path_state", fields},
+                                    {"bytes_per_path", path_bytes}});
+        largest_path = std::max(largest_path, path_bytes);
     }
-    for (const auto &[name, stage] : s.profile) {
-        report["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
-    }
+    report["bytes_per_path"] = largest_path;  // in memory; the passes take turns
     for (const auto &[name, stage] : s.bvh_stages) {
         report["bvh"]["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
@@ -384,13 +481,9 @@ nlohmann::json RenderSession::report() const {
     add_buffer(s.path_words);
     add_buffer(s.queues);
     add_buffer(s.counters);
-    add_buffer(s.film);
-    uint32_t path_bytes = STREAM_QUEUES * sizeof(uint32_t);
-    for (const PathStateField &field : path_state_fields(s.features)) {
-        report["path_state"].push_back({{"field", field.name}, {"bytes", field.words * sizeof(uint32_t)}});
-        path_bytes += field.words * static_cast<uint32_t>(sizeof(uint32_t));
+    for (const CompiledPass &pass : s.passes) {
+        add_buffer(pass.film);
     }
-    report["bytes_per_path"] = path_bytes;
     return report;
 }
 

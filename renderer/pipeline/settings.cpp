@@ -42,6 +42,7 @@ const std::vector<Setting> &setting_table() {
     using S = RenderSettings;
     static const std::vector<Setting> table = {
         {"integrator.strategies", TextSetting{&S::strategies, {"implicit", "explicit", "mis"}}, "how light is found"},
+        {"integrator.light_paths", CountSetting{&S::light_paths, 1u << 30}, "per sample of the image, 0: as many as pixels"},
         {"integrator.beta", NumberSetting{&S::beta, 0.0f, 1e3f}, "exponent of the power heuristic"},
         {"integrator.termination", TextSetting{&S::termination, {"roulette", "fixed", "adaptive"}},
          "how paths end; fixed (at max_depth) and adaptive are biased"},
@@ -95,7 +96,7 @@ void require_value(const Setting &setting, const TextSetting &text, const std::s
 }  // namespace
 
 const std::vector<std::string> &algorithm_names() {
-    static const std::vector<std::string> names = {"path_tracing"};
+    static const std::vector<std::string> names = {"path_tracing", "light_tracing", "truncated_bdpt"};
     return names;
 }
 
@@ -129,6 +130,10 @@ void require_consistent(const RenderSettings &settings) {
             require_value(setting, *text, settings.*text->field);
         }
     }
+    if (settings.algorithm != "path_tracing" && settings.strategies != "mis") {
+        throw input_error(fmt::format("integrator.strategies={}: {} has strategies of its own", settings.strategies,
+                                      settings.algorithm));
+    }
     if (settings.termination == "fixed" && settings.max_depth == 0) {
         throw input_error("integrator.termination=fixed needs a limit: --set integrator.max_depth=N");
     }
@@ -158,11 +163,21 @@ std::string describe_settings() {
     return description;
 }
 
+uint32_t light_paths_per_sample(const RenderSettings &settings) {
+    return settings.light_paths > 0 ? settings.light_paths
+                                    : static_cast<uint32_t>(settings.width) * static_cast<uint32_t>(settings.height);
+}
+
 IntegratorSettings integrator_settings(const RenderSettings &settings) {
     IntegratorSettings numbers{};
     numbers.seed = settings.seed;
-    numbers.strategies = (settings.strategies != "explicit" ? STRATEGY_IMPLICIT : 0u) |
-                         (settings.strategies != "implicit" ? STRATEGY_EXPLICIT : 0u);
+    numbers.strategies = 0u;
+    for (const auto &[feature, bit] : {std::pair(Feature::implicit_light, STRATEGY_IMPLICIT),
+                                       std::pair(Feature::explicit_light, STRATEGY_EXPLICIT),
+                                       std::pair(Feature::light_strategy, STRATEGY_LIGHT)}) {
+        numbers.strategies |= settings_features(settings).has(feature) ? bit : 0u;
+    }
+    numbers.light_paths = light_paths_per_sample(settings);
     numbers.termination = settings.termination == "roulette"   ? TERMINATION_ROULETTE
                           : settings.termination == "adaptive" ? TERMINATION_ADAPTIVE
                                                                : TERMINATION_FIXED;
@@ -183,9 +198,11 @@ CompileSettings compile_settings(const RenderSettings &settings) {
 }
 
 FeatureMask settings_features(const RenderSettings &settings) {
+    const bool light_tracing = settings.algorithm == "light_tracing";
     return FeatureMask()
-        .with(Feature::implicit_light, settings.strategies != "explicit")
-        .with(Feature::explicit_light, settings.strategies != "implicit")
+        .with(Feature::implicit_light, !light_tracing && settings.strategies != "explicit")
+        .with(Feature::explicit_light, !light_tracing && settings.strategies != "implicit")
+        .with(Feature::light_strategy, settings.algorithm == "truncated_bdpt")
         .with(Feature::roulette, settings.termination == "roulette")
         .with(Feature::adaptive, settings.termination == "adaptive")
         .with(Feature::depth_limit, settings.max_depth != 0)

@@ -20,9 +20,11 @@ struct RenderSettings {
     int height = 0;  ///< pixels; 0: the scene's film
     uint32_t seed = 1;
     bool variance = true;  ///< keep second moments: layers variance.R, .G, .B
+    std::string passes = "all";  ///< all | camera | light: the passes of the algorithm that are rendered
 
     // integrator.*
-    std::string strategies = "mis";         ///< implicit | explicit | mis
+    std::string strategies = "mis";         ///< implicit | explicit | mis; of path_tracing
+    uint32_t light_paths = 0;               ///< per sample of the image, 0: as many as pixels
     float beta = 2.0f;                      ///< exponent of the power heuristic, > 0
     std::string termination = "roulette";   ///< roulette | fixed | adaptive
     uint32_t max_depth = 0;                 ///< scattering events, 0: no limit
@@ -58,6 +60,9 @@ std::string describe_settings();
 const std::vector<std::string> &algorithm_names();
 
 // Of consistent settings:
+
+/// Light paths per sample of the image, in algorithms that trace some.
+uint32_t light_paths_per_sample(const RenderSettings &settings);
 
 /// The numbers as the stages take them.
 IntegratorSettings integrator_settings(const RenderSettings &settings);

@@ -11,9 +11,12 @@
     /* strategies and termination */                                                                \
     X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")                 \
     X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")               \
-    X(light_strategy, "light paths that are joined to the camera count too")                        \
+    X(light_strategy, "light paths that are joined to the camera share the weights")                \
+    X(from_camera, "this pass traces paths from the camera")                                        \
     X(from_light, "this pass traces paths from the lights")                                         \
+    X(shadow_rays, "vertices are joined to light samples or to the camera")                         \
     X(roulette, "Russian roulette ends paths")                                                      \
+    X(roulette_scale, "roulette measures the throughput by something of the path's own")            \
     X(adaptive, "paths end below a throughput threshold (biased)")                                  \
     X(depth_limit, "max_depth is finite")                                                           \
     /* geometry */                                                                                  \
@@ -50,6 +53,7 @@
     /* lights */                                                                                    \
     X(lights, "the scene has emitters")                                                             \
     X(direction_density, "paths carry the density of their direction")                              \
+    X(emission_density, "light paths carry the density of their start")                             \
     X(many_lights, "more than one light: a selection table is searched")                            \
     X(independent_lights, "every vertex is joined to every light, one after the other")             \
     X(area_lights, "emitting triangles")                                                            \

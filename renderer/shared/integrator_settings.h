@@ -8,6 +8,7 @@
 // when its bit is set, so that a program with everything compiled in behaves as the settings say.
 #define STRATEGY_IMPLICIT 1u
 #define STRATEGY_EXPLICIT 2u
+#define STRATEGY_LIGHT 4u
 
 #define TERMINATION_FIXED 0u
 #define TERMINATION_ROULETTE 1u
@@ -23,7 +24,7 @@ typedef struct IntegratorSettings {
     float beta;                 ///< exponent of the power heuristic
     float max_continuation;     ///< largest probability that roulette lets a path go on, below 1
     float adaptive_threshold;   ///< adaptive termination: paths end below this throughput
-    uint padding;
+    uint light_paths;           ///< per sample of the image
 } IntegratorSettings;
 
 #ifndef __OPENCL_VERSION__

@@ -9,21 +9,25 @@
 
 // X(feature, type, name): a field exists where its feature does. Types: uint, float, float3 (three words).
 #define PATH_STATE_FIELDS(X)                                                                      \
-    X(ALWAYS, uint, pixel)                                                                        \
+    X(ALWAYS, uint, pixel)                   /* of a light path: its number within the sample */  \
     X(ALWAYS, uint, sample)                  /* index within the batch */                         \
     X(ALWAYS, uint, depth)                   /* scattering events so far */                       \
     X(ALWAYS, float3, ray_origin)            /* of the path's ray, then of its shadow ray */      \
     X(ALWAYS, float3, ray_direction)         /* unit; the path's ray */                           \
-    X(ALWAYS, float3, radiance)              /* gathered so far, W / (sr m^2) */                  \
+    X(FEATURE_from_camera, float3, radiance) /* gathered so far, W / (sr m^2) */                  \
     X(ALWAYS, uint, hit_primitive)           /* NO_HIT, a triangle, or SHAPE_BIT and a shape */   \
     X(ALWAYS, float, hit_u)                  /* barycentrics; of a shape: the point in its */     \
     X(ALWAYS, float, hit_v)                  /* object space */                                   \
     X(FEATURE_shapes, float, hit_w)                                                               \
     X(FEATURE_scattering, float3, throughput)                                                     \
-    X(FEATURE_refraction, float, boundary_scale) /* part of the throughput: (3.40) along the path */ \
+    X(FEATURE_roulette_scale, float, roulette_scale) /* throughput over this is what roulette goes by */ \
     X(FEATURE_direction_density, float, pdf_w) /* of ray_direction, per solid angle; INFINITY: delta */ \
-    X(FEATURE_explicit_light, float3, shadow_vector)  /* from ray_origin to the light sample */   \
-    X(FEATURE_explicit_light, float3, shadow_radiance) /* gathered unless the way is blocked */
+    X(FEATURE_light_strategy, float, log_ratio) /* of densities along the path: kernels/light/mis.h */ \
+    X(FEATURE_emission_density, float, log_explicit) /* likewise, up to the first hit */          \
+    X(FEATURE_emission_density, uint, light) /* where the path began */                           \
+    X(FEATURE_shadow_rays, float3, shadow_vector)  /* from ray_origin to what is joined */        \
+    X(FEATURE_shadow_rays, float3, shadow_radiance) /* added unless the way is blocked */         \
+    X(FEATURE_from_light, uint, splat_pixel) /* to which it is added */
 
 /// Tells shapes from triangles in `hit_primitive`; NO_HIT has it too.
 #define SHAPE_BIT 0x80000000u

@@ -480,9 +480,10 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                 }
                 const auto emission = static_cast<double>(light.emission_selection);
                 const auto ratio = static_cast<double>(sample.emission_over_sampling);
-                const auto direction_pdf = static_cast<double>(sample.emission_pdf);
                 const auto pdf_w = static_cast<double>(sample.pdf_w);
                 const Eigen::Vector3d way = to_double(sample.target) - to_double(from);
+                const double spread = light.kind < LIGHT_DIRECTIONAL ? way.squaredNorm() : 1;
+                const double direction_pdf = static_cast<double>(sample.arrival_pdf_a) * spread;
                 SurfacePoint on{};
                 on.position = sample.target;
                 if (light.kind <= LIGHT_SPHERE) {

@@ -189,8 +189,8 @@ TEST(Emission, FromInfinityHasNoDensityBeyondItsDisc) {
     for (uint32_t i = 0; i < 1000; ++i) {
         const float3 from = make_float3(2, -0.3f, 0);
         const LightSample sample = sample_lights(SURFACES, LIGHTS, SELECT_LIGHT, from, words(i, 9));
-        ASSERT_EQ(sample.emission_pdf, disc_pdf_a(scene.lighting, from, sample.wi));
-        ++(sample.emission_pdf > 0.0f ? reached : beyond);
+        ASSERT_EQ(sample.arrival_pdf_a, disc_pdf_a(scene.lighting, from, sample.wi));
+        ++(sample.arrival_pdf_a > 0.0f ? reached : beyond);
     }
     EXPECT_GT(reached, 50);
     EXPECT_GT(beyond, 500);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/device/context.h"
-#include "renderer/integrators/path_tracing.h"
+#include "renderer/integrators/algorithm.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
@@ -52,15 +52,43 @@ bool contains(const std::vector<std::string> &list, const std::string &name) {
     return std::find(list.begin(), list.end(), name) != list.end();
 }
 
+struct Mean {
+    double value = 0;
+    double standard_error = 0;
+};
+
+/// Mean over a square of pixels and its standard error from the variance layer.
+Mean mean_of(const Image &image, const std::string &channel, int begin, int end) {
+    Mean mean;
+    const double n = (end - begin) * (end - begin);
+    for (int y = begin; y < end; ++y) {
+        for (int x = begin; x < end; ++x) {
+            const auto i = static_cast<size_t>(y * image.width() + x);
+            mean.value += static_cast<double>(image.channel(channel)[i]) / n;
+            mean.standard_error += static_cast<double>(image.channel("variance." + channel)[i]) / (n * n);
+        }
+    }
+    mean.standard_error = std::sqrt(mean.standard_error);
+    return mean;
+}
+
 TEST(Pipeline, GivesTheSameBitsHoweverTheWorkIsCut) {
-    const std::vector<int64_t> words = render_words(small());
-    EXPECT_NE(std::count(words.begin(), words.end(), 0), static_cast<long>(words.size()));
-    EXPECT_EQ(render_words(small()), words) << "a second run";
-    EXPECT_EQ(render_words(small({"device.group_size=16"})), words) << "another group size";
-    EXPECT_EQ(render_words(small({"device.stream_capacity=3000"})), words) << "another stream capacity";
-    EXPECT_EQ(render_words(small({"device.stream_chunk=7"})), words) << "another chunk of work";
-    EXPECT_EQ(render_words(small({"device.path_layout=arrays"})), words) << "another layout of the path states";
-    EXPECT_EQ(render_words(small(), 1), words) << "a batch split";
+    for (const std::string &algorithm : algorithm_names()) {
+        const auto with = [&](const std::vector<std::string> &assignments) {
+            RenderSettings settings = small(assignments);
+            settings.algorithm = algorithm;
+            return settings;
+        };
+        const std::vector<int64_t> words = render_words(with({}));
+        EXPECT_NE(std::count(words.begin(), words.end(), 0), static_cast<long>(words.size())) << algorithm;
+        EXPECT_EQ(render_words(with({})), words) << algorithm << ": a second run";
+        EXPECT_EQ(render_words(with({"device.group_size=16"})), words) << algorithm << ": another group size";
+        EXPECT_EQ(render_words(with({"device.stream_capacity=3000"})), words) << algorithm << ": another stream capacity";
+        EXPECT_EQ(render_words(with({"device.stream_chunk=7"})), words) << algorithm << ": another chunk of work";
+        EXPECT_EQ(render_words(with({"device.path_layout=arrays"})), words) << algorithm << ": another layout";
+        EXPECT_EQ(render_words(with({}), 1), words) << algorithm << ": a batch split";
+        EXPECT_EQ(render_words(with({"device.features=all"})), words) << algorithm << ": everything compiled in";
+    }
 }
 
 TEST(Pipeline, EverythingCompiledInChangesNoBit) {
@@ -72,6 +100,55 @@ TEST(Pipeline, EverythingCompiledInChangesNoBit) {
         const std::vector<int64_t> words = render_words(small({termination, "integrator.max_depth=3"}));
         EXPECT_EQ(render_words(small({termination, "integrator.max_depth=3", "device.features=all"})), words) << termination;
     }
+}
+
+TEST(Pipeline, MergesPassesThatWereRenderedApart) {
+    RenderSettings settings = small();
+    settings.algorithm = "truncated_bdpt";
+    const auto render = [&](const char *passes) {
+        settings.passes = passes;
+        RenderSession session(cornell_box(), settings, device());
+        session.render(0, 4);
+        return session.film();
+    };
+    const FilmState whole = render("all"), camera = render("camera");
+    FilmState merged = render("light");
+    expect_input_error("films differ in their passes", [&] {
+        FilmState film = merged;
+        merge_film(film, whole);
+    });
+    merge_film(merged, camera);
+    EXPECT_EQ(merged.words, whole.words);
+    EXPECT_EQ(merged.passes, whole.passes);
+    EXPECT_EQ(merged.light_paths, whole.light_paths);
+    const Image image = develop_film(merged);
+    for (size_t i = 0; i < image.pixel_count(); ++i) {
+        ASSERT_NEAR(image.channel("camera.G")[i] + image.channel("light.G")[i], image.channel("G")[i],
+                    1e-6 * (1 + image.channel("G")[i]));
+    }
+    settings.algorithm = "light_tracing";
+    expect_input_error("light_tracing has no pass 'camera'", [&] { render("camera"); });
+}
+
+TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
+    // A quarter as many light paths: another share of the work, the same image.
+    const auto mean = [&](const char *light_paths) {
+        RenderSettings settings = small({light_paths});
+        settings.algorithm = "truncated_bdpt";
+        RenderSession session(cornell_box(), settings, device());
+        session.render(0, 256);
+        const Image image = session.develop();
+        double light = 0;
+        for (const float value : image.channel("light.G")) {
+            light += static_cast<double>(value) / static_cast<double>(image.pixel_count());
+        }
+        return std::pair(mean_of(image, "G", 0, 32), light);
+    };
+    const auto [all, light_of_all] = mean("integrator.light_paths=1024");
+    const auto [few, light_of_few] = mean("integrator.light_paths=64");
+    EXPECT_LT(std::abs(all.value - few.value), 4 * std::hypot(all.standard_error, few.standard_error));
+    EXPECT_LT(all.standard_error, 0.01 * all.value) << "power";
+    EXPECT_LT(light_of_few, 0.7 * light_of_all);
 }
 
 TEST(Pipeline, ResumesAndMergesToTheSameBits) {
@@ -104,26 +181,6 @@ TEST(Pipeline, ResumesAndMergesToTheSameBits) {
 // means and 3 of the emitter below share a family-wise level of 0.01: each may lie 3.5 standard errors off
 // (two-sided, Bonferroni). The standard errors are small enough that an error of 2 % is seen.
 constexpr double bound = 3.5;
-
-struct Mean {
-    double value = 0;
-    double standard_error = 0;
-};
-
-/// Mean over a square of pixels and its standard error from the variance layer.
-Mean mean_of(const Image &image, const std::string &channel, int begin, int end) {
-    Mean mean;
-    const double n = (end - begin) * (end - begin);
-    for (int y = begin; y < end; ++y) {
-        for (int x = begin; x < end; ++x) {
-            const auto i = static_cast<size_t>(y * image.width() + x);
-            mean.value += static_cast<double>(image.channel(channel)[i]) / n;
-            mean.standard_error += static_cast<double>(image.channel("variance." + channel)[i]) / (n * n);
-        }
-    }
-    mean.standard_error = std::sqrt(mean.standard_error);
-    return mean;
-}
 
 TEST(ClosedForm, FurnaceGivesEmissionOverOneMinusAlbedo) {
     for (const auto &[file, albedo] : {std::pair("/analytic/furnace_050.json", 0.5f), std::pair("/analytic/furnace_090.json", 0.9f)}) {
@@ -171,20 +228,26 @@ TEST_P(FeatureBuild, Succeeds) {
     const int index = GetParam();
     const FeatureMask mask = index == -2   ? FeatureMask::all()
                              : index == -1 ? FeatureMask()
-                                           : FeatureMask::all().with(static_cast<Feature>(index), false).closed();
-    std::vector<std::string> stages = {"reset_streams", "carry_film"};
-    for (const RoundStage &stage : path_tracing_round(mask, 1)) {
-        stages.push_back(stage.name);
+                                           : FeatureMask::all().with(static_cast<Feature>(index), false);
+    for (const Pass &pass : algorithm_passes("truncated_bdpt", mask, 1)) {
+        std::vector<std::string> stages = {"reset_streams", "carry_film"};
+        for (const RoundStage &stage : pass.round) {
+            stages.push_back(stage.name);
+        }
+        EXPECT_NO_THROW(StageSet(device(), stages, pass.features, {64, 512, 4, true}, {})) << pass.name;
     }
-    EXPECT_NO_THROW(StageSet(device(), stages, mask, {64, 512, 4, true}, {}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Masks, FeatureBuild, testing::Range(-2, static_cast<int>(Feature::count)),
                          [](const auto &built) { return name_of_build(built.param); });
 
 TEST(Features, AreNamedAndClosed) {
-    EXPECT_EQ(FeatureMask::all().closed().bits(), FeatureMask::all().bits());
-    EXPECT_EQ(FeatureMask().closed().bits(), FeatureMask().bits());
+    // Each pass starts at one end.
+    const FeatureMask from_light = FeatureMask::all().with(Feature::from_camera, false).with(Feature::direction_density, false);
+    EXPECT_EQ(FeatureMask::all().closed().bits(), from_light.bits());
+    const FeatureMask from_camera = FeatureMask::all().with(Feature::from_light, false).with(Feature::emission_density, false);
+    EXPECT_EQ(from_camera.closed().bits(), from_camera.bits());
+    EXPECT_EQ(FeatureMask().closed().bits(), FeatureMask().with(Feature::from_camera).bits());
     const FeatureMask dark = FeatureMask::all().with(Feature::lights, false).closed();
     EXPECT_FALSE(dark.has(Feature::explicit_light));
     EXPECT_FALSE(dark.has(Feature::many_lights));
@@ -214,7 +277,7 @@ TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
     EXPECT_FALSE(contains(names(lean["stages"], "name"), "sample_light"));
     EXPECT_FALSE(contains(names(lean["stages"], "name"), "intersect_any"));
     EXPECT_FALSE(contains(names(lean["programs"], "file"), "kernels/sample_light.cl"));
-    EXPECT_FALSE(contains(names(lean["path_state"], "field"), "shadow_vector"));
+    EXPECT_FALSE(contains(names(lean["passes"][0]["path_state"], "field"), "shadow_vector"));
     EXPECT_LT(lean["bytes_per_path"], full["bytes_per_path"]);
     EXPECT_LE(full["bytes_per_path"], 128);
 
@@ -228,7 +291,7 @@ TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
     emission.render(0, 4);
     const nlohmann::json bare = emission.report();
     EXPECT_FALSE(contains(names(bare["buffers"], "name"), "materials"));
-    EXPECT_FALSE(contains(names(bare["path_state"], "field"), "throughput"));
+    EXPECT_FALSE(contains(names(bare["passes"][0]["path_state"], "field"), "throughput"));
     EXPECT_EQ(bare["rays"]["shadow"], 0);
     EXPECT_EQ(bare["rays"]["nearest"], 32 * 32 * 4);
 }

@@ -25,7 +25,9 @@ typedef struct BsdfSample {
     float3 weight;  ///< f |cos(ns, wi)| / pdf_w over all components but deltas. Of a delta: coefficient /
                     ///< probability
     float pdf_w;  ///< per solid angle; 0: nothing was sampled, the path ends; INFINITY: wi is that of a delta
-    float scale;    ///< the factor of weight that (3.40) puts on radiance crossing a boundary; 1 for reflection
+    float scale;    ///< the factor that (3.40) puts on radiance crossing a boundary, in the weight; 1 for reflection
+    uint component;     ///< the one that was drawn
+    float probability;  ///< with which it was
 } BsdfSample;
 
 /// A unit vector in the frame. Normalised: where narrow lobes are seen at a grazing angle the sum wo + wi is
@@ -125,7 +127,7 @@ DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame f
 /// A component drawn by its share. False when all shares are 0. `probability` is the share over the sum of
 /// all.
 DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame, float3 wo,
-                             float select, uint *selected, float *probability) {
+                             float select, PRIVATE uint *selected, PRIVATE float *probability) {
     *selected = material.first_component;
     *probability = 1.0f;
 #if FEATURE_composite
@@ -171,15 +173,15 @@ DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame fr
     sample.weight = make_float3(0.0f, 0.0f, 0.0f);
     sample.pdf_w = 0.0f;
     sample.scale = 1.0f;
+    sample.component = 0u;
+    sample.probability = 0.0f;
     const MaterialRecord record = materials[material];
     const float3 wo = to_local(frame, frame.wo);
-    uint selected = 0u;
-    float probability = 0.0f;
     if (!side_scatters(record, frame, wo.z) ||
-        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &selected, &probability)) {
+        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &sample.component, &sample.probability)) {
         return sample;
     }
-    GLOBAL const BxdfRecord *component = components + selected;
+    GLOBAL const BxdfRecord *component = components + sample.component;
     const float eta = component_eta(component, record.flags, frame.front);
     const float3 wi = component_direction(component, eta, wo, u, v);
     // Normalised: what rounding leaves would grow along the path.
@@ -197,7 +199,7 @@ DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame fr
 #if FEATURE_delta
     if (is_delta(component->kind)) {
         sample.weight = component_colour(MATERIAL_ARGUMENTS component, frame.uv) *
-                        component_fresnel(component, eta, wo.z, wi) / probability;
+                        component_fresnel(component, eta, wo.z, wi) / sample.probability;
         sample.weight *= sample.scale;
         sample.pdf_w = INFINITY;
         return sample;

@@ -10,24 +10,26 @@
 #endif
 
 /// Adds to a 64-bit word. Without 64-bit atomics the halves are added one after the other: the sum of all additions
-/// is right once they are done, which is all the film needs.
-DEVICE void film_add_word(volatile GLOBAL long *word, long value) {
+/// is right once they are done, which is all the film needs. Returns whether the word is half full: 2^18 additions before
+/// it could overflow. Carries come before that, unless splats gather in one pixel.
+DEVICE bool film_add_word(volatile GLOBAL long *word, long value) {
 #if FEATURE_int64_atomics
-    atom_add(word, value);
+    const int high = (int)(atom_add(word, value) >> 32);
 #else
     volatile GLOBAL uint *half_word = (volatile GLOBAL uint *)word;  // little-endian, as all OpenCL devices met so far
     const uint low = (uint)value;
     const uint before = atomic_add(half_word, low);
     const uint carry = before + low < before ? 1u : 0u;
-    atomic_add(half_word + 1, (uint)((ulong)value >> 32) + carry);
+    const int high = (int)atomic_add(half_word + 1, (uint)((ulong)value >> 32) + carry);
 #endif
+    return high >= (1 << 30) || high < -(1 << 30);
 }
 
 #define PIXEL_SUMS FILM_PIXEL_SUMS(FEATURE_variance)
 
 /// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`. `value` must be finite and
 /// below the largest limit, 2^(lowest + 5 step + 44), in magnitude.
-DEVICE void film_add_value(volatile GLOBAL long *words, float value, int lowest, int step) {
+DEVICE bool film_add_value(volatile GLOBAL long *words, float value, int lowest, int step) {
     // |value| < 2^exponent, from the bits: exact, unlike log2; 0 and denormals give -126.
     const int exponent = (int)((as_uint(value) >> 23) & 0xffu) - 126;
     const int above = exponent - (lowest + FILM_UNITS_PER_ADDITION);
@@ -35,11 +37,11 @@ DEVICE void film_add_value(volatile GLOBAL long *words, float value, int lowest,
     // The factor 2^-unit is a normal float: |unit| <= 104.
     const float units = value * as_float((uint)(127 - (lowest + word * step)) << 23);
     // Below 2^23 a float may hold a fraction: round to nearest, else it is an integer already.
-    film_add_word(words + word * PIXEL_SUMS, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
+    return film_add_word(words + word * PIXEL_SUMS, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
 }
 
 /// Adds one sample of a pixel, and its squares where the film keeps them. Returns 0, or FILM_NON_FINITE or
-/// FILM_OUT_OF_RANGE when the sample was not added.
+/// FILM_OUT_OF_RANGE when the sample was not added or sums are about to leave their range.
 #define FILM_NON_FINITE 1u
 #define FILM_OUT_OF_RANGE 2u
 
@@ -51,14 +53,14 @@ DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
     if (!(fabs(sample.x) < limit && fabs(sample.y) < limit && fabs(sample.z) < limit)) {
         return FILM_OUT_OF_RANGE;
     }
-    film_add_value(pixel_words, sample.x, FILM_SUM_LOWEST, FILM_SUM_STEP);
-    film_add_value(pixel_words + 1, sample.y, FILM_SUM_LOWEST, FILM_SUM_STEP);
-    film_add_value(pixel_words + 2, sample.z, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    bool full = film_add_value(pixel_words, sample.x, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    full |= film_add_value(pixel_words + 1, sample.y, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    full |= film_add_value(pixel_words + 2, sample.z, FILM_SUM_LOWEST, FILM_SUM_STEP);
 #if FEATURE_variance
     // Squares stay below 2^80, the limit of their top word.
-    film_add_value(pixel_words + 3, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    film_add_value(pixel_words + 4, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    film_add_value(pixel_words + 5, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 3, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 4, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 5, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
 #endif
-    return 0u;
+    return full ? FILM_OUT_OF_RANGE : 0u;
 }

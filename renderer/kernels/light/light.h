@@ -26,9 +26,9 @@ typedef struct LightSample {
     uint is_delta;    ///< point, spot, directional: cannot be hit
 #if FEATURE_light_strategy
     // What light paths would have needed to come this way (EmissionSample).
-    float emission_over_sampling;  ///< density of their origin, over that of this sample's (`emission_over_sampling`)
-    float emission_pdf;            ///< of their direction: per solid angle at the light; at infinity per area of the
-                                   ///< disc, 0 where that does not reach
+    float emission_over_sampling;  ///< density of their origin, over that of this sample's
+    float arrival_pdf_a;           ///< with which they then arrive here, per area across their way; at infinity 0 where
+                                   ///< the disc does not reach
 #endif
 } LightSample;
 
@@ -128,7 +128,7 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
 #if FEATURE_light_strategy
     // Where pdf_a is 0 there is no sample; the ratio is left infinite.
     sample->emission_over_sampling *= uniform_pdf_a / pdf_a;
-    sample->emission_pdf = max(-dot(point.normal, sample->wi), 0.0f) * INV_PI;
+    sample->arrival_pdf_a = max(-dot(point.normal, sample->wi), 0.0f) * INV_PI / dot(way, way);
 #endif
 }
 
@@ -138,7 +138,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     sample.is_delta = 0u;
 #if FEATURE_light_strategy
     sample.emission_over_sampling = light.emission_selection / light.selection;
-    sample.emission_pdf = 0.0f;
+    sample.arrival_pdf_a = 0.0f;
 #endif
     switch (light.kind) {
 #if FEATURE_area_lights
@@ -166,14 +166,14 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
         float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
         sample.wi = way / sqrt(squared);
 #if FEATURE_light_strategy
-        sample.emission_pdf = 0.25f * INV_PI;
+        sample.arrival_pdf_a = 0.25f * INV_PI / squared;
 #endif
 #if FEATURE_spot_lights
         if (light.kind == LIGHT_SPOT) {
             const SpotDirection spot = spot_direction(light, -sample.wi);
             intensity *= intensity > 0.0f ? spot_share(light, spot) : 0.0f;  // in the light itself wi is NaN
 #if FEATURE_light_strategy
-            sample.emission_pdf = spot_pdf_w(light, spot);
+            sample.arrival_pdf_a = spot_pdf_w(light, spot) / squared;
 #endif
         }
 #endif
@@ -215,7 +215,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     }
 #if FEATURE_light_strategy && (FEATURE_infinite_lights || FEATURE_directional_lights)
     if (light.kind >= LIGHT_DIRECTIONAL) {
-        sample.emission_pdf = disc_pdf_a(lighting, from, sample.wi);
+        sample.arrival_pdf_a = disc_pdf_a(lighting, from, sample.wi);
     }
 #endif
     sample.pdf_w *= light.selection;

@@ -10,12 +10,20 @@
 
 // Streams keep the passes of an algorithm apart.
 #define STREAM_CAMERA 0u
+#define STREAM_LIGHT_PATHS 1u
 #define STREAM_LIGHT(light) (16u + (light))  // light `light` where all are sampled one after the other
 
 // Blocks of four random words. Each vertex of a path owns two.
 #define BLOCK_CAMERA 0u
+#define BLOCK_EMISSION(i) (0x80000000u + (i))  // of a light path: its start
 #define BLOCK_LIGHT(depth) (1u + 2u * (depth))
 #define BLOCK_SCATTER(depth) (2u + 2u * (depth))
+
+#if FEATURE_from_light
+#define PATH_STREAM STREAM_LIGHT_PATHS
+#else
+#define PATH_STREAM STREAM_CAMERA
+#endif
 
 /// Four independent uniform 32-bit words. `sample` takes the full 64 bits: 200k spp times 65536 pixels times the
 /// dimensions of a path exceeds 2^32.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Stage connect_camera: joins the hit of each light path to a point of the lens ("light" paths of thesis 2.8).
+// Reads: hit, ray_origin, ray_direction, throughput, log_ratio, active queue. Writes: ray_origin (now that of the shadow
+// ray), shadow_vector, shadow_radiance, splat_pixel; at the first hit log_explicit. To: the shadow queue.
+
+#include "renderer/kernels/bsdf/bsdf.h"
+#include "renderer/kernels/bsdf/shading_frame.h"
+#include "renderer/kernels/camera/perspective.h"
+#include "renderer/kernels/light/light.h"
+#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
+
+#if FEATURE_emission_density
+
+/// At the first hit: log2 of p_o,explicit / (p_o E), E being the density per area with which the path arrives.
+DEVICE float explicit_over_light(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS SurfaceHit hit) {
+    const LightRecord light = lights[get_light(paths, slot)];
+    SurfacePoint start;
+    start.position = get_ray_origin(paths, slot);
+    start.normal = get_ray_direction(paths, slot);
+#if FEATURE_shape_lights
+    if (light.kind == LIGHT_SPHERE) {
+        start.normal = normalize(start.position - shape_centre(shapes + light.first_triangle));
+    }
+#endif
+    const float cosine = fabs(dot(hit.point.normal, get_ray_direction(paths, slot)));
+    float log_facing = log2(cosine);
+    if (light.kind < LIGHT_DIRECTIONAL) {
+        const float3 way = hit.point.position - start.position;
+        log_facing -= log2(dot(way, way));
+    }
+    return get_log_explicit(paths, slot) - log_facing +
+           log2(sampling_over_emission(SURFACE_ARGUMENTS light, hit.point.position, start));
+}
+
+#endif
+
+/// Prepares the shadow ray. False when there is nothing to gain.
+DEVICE bool join_hit(PathStates paths, uint slot,
+                     SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
+                     IntegratorSettings settings, ulong first_sample) {
+    const uint primitive = get_hit_primitive(paths, slot);
+    const uint depth = get_depth(paths, slot);
+    if (primitive == NO_HIT) {
+        return false;
+    }
+    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+#if FEATURE_emission_density
+    if (depth == 0u) {
+        set_log_explicit(paths, slot, explicit_over_light(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS hit));
+    }
+#endif
+#if FEATURE_depth_limit
+    if (depth >= settings.max_depth) {
+        return false;
+    }
+#endif
+#if FEATURE_delta
+    if ((materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+        return false;
+    }
+#endif
+    const uint4 words = random_words(settings.seed, STREAM_LIGHT_PATHS, get_pixel(paths, slot),
+                                     first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
+    const CameraJoin join = join_camera(camera, hit.point.position, uniform_float(words.x), uniform_float(words.y));
+    if (!(join.pdf_w > 0.0f)) {
+        return false;
+    }
+    const float3 way = join.lens_point - hit.point.position;
+    const float squared = dot(way, way);
+    const float3 wo = way / sqrt(squared);
+    const float3 wi = -get_ray_direction(paths, slot);
+    const float cos_wo = fabs(dot(hit.point.normal, wo));
+    const float cos_wi = fabs(dot(hit.point.normal, wi));
+    if (!(cos_wo > 0.0f && cos_wi > 0.0f)) {
+        return false;
+    }
+    // Radiance from wi to wo, as a camera path would have it. f_cos holds the cosine with the shading normal where the
+    // path's area measure has that with the geometric one (Veach 1997, 5.3).
+    const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, shading_frame(MATERIAL_ARGUMENTS hit, wo), wi);
+    if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
+        return false;
+    }
+    const float camera_pdf_a = join.pdf_w * cos_wo / squared;  // P_1, the density of camera paths here
+    const float light_paths = (float)settings.light_paths;
+    float3 radiance = get_throughput(paths, slot) * bsdf.f_cos * (camera_pdf_a / cos_wi / light_paths);
+#if FEATURE_light_strategy
+    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+        // p_I / p_L and p_E / p_L: what the vertices before gave, and this one's densities (kernels/light/mis.h).
+        const float log_first = log2(camera_pdf_a) - log2(light_paths);
+        const float log_back = log2(bsdf.pdf_w) - log2(cos_wi);
+        const float others =
+            depth == 0u ? power_of(get_log_ratio(paths, slot) + log_back + log_first, settings.beta) +
+                              power_of(get_log_explicit(paths, slot) + log_first, settings.beta)
+                        : exp2(get_log_ratio(paths, slot) + settings.beta * (log_back + log_first));
+        radiance *= 1.0f / (1.0f + others);
+    }
+#endif
+    const float3 origin = offset_ray_origin(hit.point, wo);
+    set_ray_origin(paths, slot, origin);
+    set_shadow_vector(paths, slot, join.lens_point - origin);
+    set_shadow_radiance(paths, slot, radiance);
+    set_splat_pixel(paths, slot, (uint)join.raster.y * camera.width + (uint)join.raster.x);
+    return true;
+}
+
+__kernel void connect_camera(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
+                                IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    PushBuffer shadow;
+    shadow.count = 0u;
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        const uint slot = active_slot(queues, counters, capacity, i);
+        if (join_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera, settings, first_sample)) {
+            push_slot(&shadow, slot);
+        }
+    }
+    append_slots(queues, QUEUE_SHADOW, capacity, &counters->shadow, counters, &shadow);
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Stage connect_emitter: joins the start of each new light path to the camera (emitters seen directly). Of light tracing
+// alone: next to camera paths, which find the same radiance without noise, it would add some.
+// Reads: pixel, sample, active queue. Writes: shadow_vector, shadow_radiance, splat_pixel; ray_origin of the shadow ray is
+// that of the path.
+// To: the shadow queue.
+
+#include "renderer/kernels/camera/perspective.h"
+#include "renderer/kernels/light/start.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
+
+/// Prepares the shadow ray. False when the camera does not look there.
+DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
+                       IntegratorSettings settings, ulong first_sample) {
+    const uint path = get_pixel(paths, slot);
+    const ulong sample = first_sample + get_sample(paths, slot);
+    if (get_depth(paths, slot) > 0u) {
+        return false;
+    }
+    const EmissionSample start = path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, sample);
+    if (start.is_delta != 0u || start.at_infinity != 0u) {
+        return false;
+    }
+    const uint4 words = random_words(settings.seed, STREAM_LIGHT_PATHS, path, sample, BLOCK_CAMERA);
+    const CameraJoin join = join_camera(camera, start.point.position, uniform_float(words.x), uniform_float(words.y));
+    const float3 way = join.lens_point - start.point.position;
+    const float squared = dot(way, way);
+    const float facing = dot(start.point.normal, way);  // cos times distance
+    if (!(join.pdf_w > 0.0f && facing > 0.0f)) {
+        return false;
+    }
+    // P_1, the density of camera paths per area here; L P_1 / (p_o n_L) is what the path adds.
+    const float camera_pdf_a = join.pdf_w * (facing / sqrt(squared)) / squared;
+    const float3 radiance = light_radiance(lights[start.light]) * (camera_pdf_a / (start.pdf_origin * (float)settings.light_paths));
+    set_shadow_vector(paths, slot, join.lens_point - start.origin);
+    set_shadow_radiance(paths, slot, radiance);
+    set_splat_pixel(paths, slot, (uint)join.raster.y * camera.width + (uint)join.raster.x);
+    return true;
+}
+
+__kernel void connect_emitter(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera, IntegratorSettings settings,
+                           ulong first_sample, STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    PushBuffer shadow;
+    shadow.count = 0u;
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        const uint slot = active_slot(queues, counters, capacity, i);
+        if (join_start(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS camera, settings, first_sample)) {
+            push_slot(&shadow, slot);
+        }
+    }
+    append_slots(queues, QUEUE_SHADOW, capacity, &counters->shadow, counters, &shadow);
+}

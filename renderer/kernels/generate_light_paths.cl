@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Stage generate_light_paths: starts a light path in every free slot while light paths of the batch are left.
+// Reads: free queue. Writes: path states. To: the active queue of this round.
+
+#include "renderer/kernels/light/emission.h"
+#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/light/start.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
+
+/// Starts light path `path` of a sample of the batch.
+DEVICE void start_path(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+                       ulong first_sample, uint path, uint sample) {
+    set_pixel(paths, slot, path);
+    set_sample(paths, slot, sample);
+    set_depth(paths, slot, 0u);
+    const EmissionSample emission = path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, first_sample + sample);
+    set_ray_origin(paths, slot, emission.origin);
+    set_ray_direction(paths, slot, emission.direction);
+#if FEATURE_scattering
+    set_throughput(paths, slot, emission.weight);
+#endif
+#if FEATURE_roulette_scale
+    set_roulette_scale(paths, slot, max(emission.weight.x, max(emission.weight.y, emission.weight.z)));
+#endif
+#if FEATURE_emission_density
+    set_light(paths, slot, emission.light);
+    // Directions leave surfaces in proportion to the cosine: p_d per projected solid angle is 1 / pi there. What cannot
+    // be hit no implicit path finds.
+    const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
+    set_log_ratio(paths, slot, emission.is_delta != 0u ? -INFINITY : -log2(emission.pdf_origin) - log2(p_d));
+    set_log_explicit(paths, slot, -log2(emission.pdf_direction));  // distance and cosine of the first hit follow there
+#endif
+}
+
+__kernel void generate_light_paths(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, ulong first_sample,
+                                   uint work, STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    const WorkItems items = take_work(counters);
+    PushBuffer started;
+    started.count = 0u;
+    for (uint i = 0; i < items.count && items.first + i < work; ++i) {
+        const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
+        start_path(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample,
+                   (items.first + i) % settings.light_paths, (items.first + i) / settings.light_paths);
+        push_slot(&started, slot);
+    }
+    append_active(queues, counters, capacity, counters->parity, &started);
+}
