@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -16,45 +19,99 @@ namespace rtrays {
 
 namespace {
 
-/// Sums over the pixels of one block.
-struct BlockSums {
-    double pixels = 0;
-    double image = 0, reference = 0;
-    double variance = 0;  ///< of both images together
+/// Sums of a channel over the pixels of every block, the whole image last.
+std::vector<double> block_sums(const Image &image, const std::string &channel, int size) {
+    const int columns = (image.width() + size - 1) / size, rows = (image.height() + size - 1) / size;
+    std::vector<double> sums(static_cast<size_t>(columns * rows) + 1);
+    const std::vector<float> &values = image.channel(channel);
+    for (size_t i = 0; i < values.size(); ++i) {
+        const int x = static_cast<int>(i) % image.width(), y = static_cast<int>(i) / image.width();
+        const auto value = static_cast<double>(values[i]);
+        if (!std::isfinite(value) || (value < 0 && channel.rfind("variance", 0) == 0)) {
+            throw input_error(fmt::format("pixel ({}, {}), channel {}: value {}; all must be finite, variances not negative",
+                                          x, y, channel, value));
+        }
+        sums[static_cast<size_t>(y / size * columns + x / size)] += value;
+        sums.back() += value;
+    }
+    return sums;
+}
+
+/// Pixels of every block and of the image.
+std::vector<double> block_pixels(const Image &image, int size) {
+    Image ones(image.width(), image.height());
+    std::fill_n(ones.add_channel("R").begin(), image.pixel_count(), 1.0f);
+    return block_sums(ones, "R", size);
+}
+
+/// An estimate of a sum with its variance, which is known from so many degrees of freedom.
+struct NoisySum {
+    double value = 0;
+    double variance = 0;
+    double freedom = std::numeric_limits<double>::infinity();
 };
 
-void add_pixel(BlockSums &block, double image, double reference, double variance) {
-    block.pixels += 1;
-    block.image += image;
-    block.reference += reference;
-    block.variance += variance;
+/// Of every block and the whole; variances from the layer, which stands for as many samples as there are.
+std::vector<NoisySum> sums_by_layer(const Image &image, size_t channel, int size) {
+    const std::vector<double> values = block_sums(image, rgb_names()[channel], size);
+    const std::vector<double> variances = block_sums(image, rgb_names("variance")[channel], size);
+    std::vector<NoisySum> sums(values.size());
+    for (size_t i = 0; i < values.size(); ++i) {
+        sums[i].value = values[i];
+        sums[i].variance = variances[i];
+    }
+    return sums;
+}
+
+/// Variances from how the batches scatter.
+std::vector<NoisySum> sums_by_batch(const std::vector<Image> &batches, size_t channel, int size) {
+    std::vector<std::vector<double>> values;
+    for (const Image &batch : batches) {
+        values.push_back(block_sums(batch, rgb_names()[channel], size));
+    }
+    const auto n = static_cast<double>(batches.size());
+    std::vector<NoisySum> sums(values.front().size());
+    for (size_t i = 0; i < sums.size(); ++i) {
+        for (const auto &batch : values) {
+            sums[i].value += batch[i] / n;
+        }
+        for (const auto &batch : values) {
+            sums[i].variance += std::pow(batch[i] - sums[i].value, 2) / (n * (n - 1));
+        }
+        sums[i].freedom = n - 1;
+    }
+    return sums;
 }
 
 /// The difference of one channel's means.
 struct BlockTest {
     double difference = 0;      ///< mean of image less mean of reference
     double standard_error = 0;  ///< of `difference`
-    double z = 0;
+    double p_value = 1;
+    double z = 0;               ///< of a normal variable with that p-value
     std::string where;
 };
 
-BlockTest test_block(const BlockSums &block) {
+BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pixels) {
     BlockTest test;
-    test.difference = (block.image - block.reference) / block.pixels;
+    test.difference = (image.value - reference.value) / pixels;
     // Pixels are rounded to float32: half an ulp each, in the worst case all the same way.
-    const double rounding = std::numeric_limits<float>::epsilon() *
-                            std::max(std::abs(block.image), std::abs(block.reference)) / block.pixels;
-    test.standard_error = std::sqrt(block.variance) / block.pixels + rounding;
+    const double rounding =
+        std::numeric_limits<float>::epsilon() * std::max(std::abs(image.value), std::abs(reference.value)) / pixels;
+    const double variance = image.variance + reference.variance;
+    test.standard_error = std::sqrt(variance) / pixels + rounding;
     // Black in both images: no difference and nothing to divide by.
     test.z = test.standard_error > 0 ? test.difference / test.standard_error : 0;
-    return test;
-}
-
-void require_comparable(const Image &image, const Image &reference) {
-    require_same_size(image, reference);
-    if (!has_variance(image) || !has_variance(reference)) {
-        throw input_error("both images need the layers variance.* (variance of the mean) to be tested");
+    test.p_value = normal_p_value(test.z);
+    if (std::isfinite(image.freedom) && image.variance > 0) {
+        // Welch's test; the reference's variance counts as known.
+        const double freedom = image.freedom * std::pow(variance / image.variance, 2);
+        const boost::math::students_t student(freedom);
+        test.p_value = 2 * boost::math::cdf(boost::math::complement(student, std::abs(test.z)));
+        const boost::math::normal normal;
+        test.z = test.p_value > 0 ? boost::math::quantile(boost::math::complement(normal, 0.5 * test.p_value)) : test.z;
     }
+    return test;
 }
 
 }  // namespace
@@ -71,48 +128,36 @@ const char *to_string(Equivalence equivalence) {
     throw run_error("unknown equivalence");
 }
 
-Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy) {
-    require_comparable(image, reference);
-    const int width = image.width(), size = policy.block_size;
-    const int columns = (width + size - 1) / size, rows = (image.height() + size - 1) / size;
-    const auto colours = rgb_names(), variances = rgb_names("variance");
+namespace {
 
+using Sums = std::function<std::vector<NoisySum>(size_t)>;
+
+/// `image_sums` and `reference_sums`: of a channel.
+Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape, const AgreementPolicy &policy) {
+    const std::vector<double> pixels = block_pixels(shape, policy.block_size);
+    const auto where = [&](size_t block) {
+        const size_t size = static_cast<size_t>(policy.block_size);
+        const size_t columns = (static_cast<size_t>(shape.width()) + size - 1) / size;
+        return block + 1 == pixels.size() ? "whole image" : fmt::format("({}, {})", block % columns * size, block / columns * size);
+    };
     std::vector<BlockTest> tests;
     double mean_difference = 0, mean_error = 0, mean_reference = 0;
-    for (size_t c = 0; c < colours.size(); ++c) {
-        std::vector<BlockSums> blocks(static_cast<size_t>(columns) * static_cast<size_t>(rows));
-        BlockSums whole;
-        const auto &a = image.channel(colours[c]), &b = reference.channel(colours[c]);
-        const auto &variance_a = image.channel(variances[c]), &variance_b = reference.channel(variances[c]);
-        for (size_t i = 0; i < a.size(); ++i) {
-            const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-            const double variance = static_cast<double>(variance_a[i]) + variance_b[i];
-            if (!std::isfinite(variance) || variance < 0 || !std::isfinite(a[i]) || !std::isfinite(b[i])) {
-                throw input_error(
-                    fmt::format("pixel ({}, {}), channel {}: values {} and {} with variance {}; "
-                                "all must be finite, the variance not negative",
-                                x, y, colours[c], a[i], b[i], variance));
-            }
-            add_pixel(blocks[static_cast<size_t>(y / size * columns + x / size)], a[i], b[i], variance);
-            add_pixel(whole, a[i], b[i], variance);
+    for (size_t c = 0; c < rgb_names().size(); ++c) {
+        const std::vector<NoisySum> image = image_sums(c), reference = reference_sums(c);
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            tests.push_back(test_block(image[i], reference[i], pixels[i]));
+            tests.back().where = rgb_names()[c] + " " + where(i);
         }
-        for (size_t i = 0; i < blocks.size(); ++i) {
-            tests.push_back(test_block(blocks[i]));
-            const int block = static_cast<int>(i);
-            tests.back().where = fmt::format("{} ({}, {})", colours[c], block % columns * size, block / columns * size);
-        }
-        tests.push_back(test_block(whole));
-        tests.back().where = colours[c] + " whole image";
         mean_difference += tests.back().difference / 3;
         mean_error += tests.back().standard_error / 3;
-        mean_reference += whole.reference / whole.pixels / 3;
+        mean_reference += reference.back().value / pixels.back() / 3;
     }
 
     Agreement result;
     result.tests = tests.size();
     std::vector<double> p_values;
     for (const auto &test : tests) {
-        p_values.push_back(normal_p_value(test.z));
+        p_values.push_back(test.p_value);
         if (std::abs(test.z) >= result.largest_z) {
             result.largest_z = std::abs(test.z);
             result.largest_z_at = test.where;
@@ -137,6 +182,28 @@ Agreement test_agreement(const Image &image, const Image &reference, const Agree
         result.equivalence = Equivalence::different;
     }
     return result;
+}
+
+}  // namespace
+
+Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy) {
+    require_same_size(image, reference);
+    if (!has_variance(image) || !has_variance(reference)) {
+        throw input_error("both images need the layers variance.* (variance of the mean) to be tested");
+    }
+    return test_sums([&](size_t channel) { return sums_by_layer(image, channel, policy.block_size); },
+                     [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, image, policy);
+}
+
+Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy) {
+    if (batches.size() < 2 || !has_variance(reference)) {
+        throw input_error("two batches at least, and a reference with the layers variance.*, are needed for a test");
+    }
+    for (const Image &batch : batches) {
+        require_same_size(batch, reference);
+    }
+    return test_sums([&](size_t channel) { return sums_by_batch(batches, channel, policy.block_size); },
+                     [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, reference, policy);
 }
 
 }  // namespace rtrays

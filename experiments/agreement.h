@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "experiments/statistics.h"
 #include "renderer/base/image.h"
@@ -35,7 +36,8 @@ struct AgreementPolicy {
 };
 
 /// Both images carry "variance.*" (variance of the mean of each pixel) and share no samples; pixels are taken
-/// as independent, which holds for algorithms without splats.
+/// as independent, which holds for algorithms without splats. For those with: `batches`, images of independent samples, as
+/// many each, whose scatter gives the variance of every block as a whole.
 ///
 /// Channels of a pixel are correlated, so each channel is tested alone, and the standard error of the mean
 /// over channels is bounded by the mean of their standard errors (perfect correlation). The standard error
@@ -43,5 +45,6 @@ struct AgreementPolicy {
 /// (bad input) when sizes differ, a variance layer is missing, a value is not finite or the reference is
 /// black.
 Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy = {});
+Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy = {});
 
 }  // namespace rtrays

@@ -2,6 +2,7 @@
 #include "experiments/scene_agreement.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -35,8 +36,13 @@ struct Description {
     int size = 0;  ///< pixels a side
     uint64_t spp = 0;
     uint64_t reference_spp = 0;
+    std::vector<std::string> algorithms = {"path_tracing"};
+    std::string features = "scene";
     AgreementPolicy policy;
 };
+
+/// Images by which the scatter of splats is told.
+constexpr uint64_t batches = 32;
 
 Description load(const fs::path &path, const std::string &profile) {
     const DescriptionFile file = load_description(path, "agreement.schema.json");
@@ -58,17 +64,65 @@ Description load(const fs::path &path, const std::string &profile) {
     chosen.at("size").get_to(description.size);
     chosen.at("spp").get_to(description.spp);
     chosen.at("reference_spp").get_to(description.reference_spp);
-    description.policy.alpha /= static_cast<double>(description.scenes.size());  // Bonferroni over the scenes
+    description.algorithms = file.json.value("algorithms", description.algorithms);
+    description.features = chosen.value("features", description.features);
+    // Bonferroni over all rows.
+    description.policy.alpha /= static_cast<double>(description.scenes.size() * description.algorithms.size());
     return description;
 }
 
-Image render(const Scene &scene, const Description &description, DeviceContext &device) {
+/// Why an algorithm does not see all of a scene's light; empty when it does.
+std::string blind_spot(const std::string &algorithm, const Scene &scene) {
+    if (algorithm != "light_tracing") {
+        return "";
+    }
+    // Its last vertex is joined to the camera.
+    const SceneArrays &arrays = scene.arrays();
+    for (const BxdfComponent &component : arrays.materials.component) {
+        if (component.kind == BxdfComponent::Kind::ideal_reflection || component.kind == BxdfComponent::Kind::ideal_refraction) {
+            return "cannot join a mirror or smooth glass to the camera";
+        }
+    }
+    for (const LightArrays::Kind kind : arrays.lights.kind) {
+        if (kind == LightArrays::Kind::dome || kind == LightArrays::Kind::environment) {
+            return "cannot join what is infinitely far to the camera";
+        }
+    }
+    return "";
+}
+
+/// The image in batches.
+std::vector<Image> render(const Scene &scene, const Description &description, const std::string &algorithm,
+                          DeviceContext &device) {
     RenderSettings settings;
+    settings.algorithm = algorithm;
     settings.width = settings.height = description.size;
     settings.seed = renderer_seed;
+    settings.features = description.features;
     RenderSession session(scene, settings, device);
-    render_whole(session, 0, description.spp);
-    return session.develop();
+    std::vector<Image> images;
+    for (uint64_t batch = 0; batch < batches; ++batch) {
+        session.restart(renderer_seed);
+        render_whole(session, batch * description.spp / batches, (batch + 1) * description.spp / batches);
+        images.push_back(session.develop());
+    }
+    return images;
+}
+
+/// Their mean.
+Image mean_of(const std::vector<Image> &images) {
+    Image mean = Image::rgb(images.front().width(), images.front().height());
+    for (const std::string &name : rgb_names()) {
+        std::vector<float> &values = mean.channel(name);
+        for (size_t i = 0; i < values.size(); ++i) {
+            double sum = 0;
+            for (const Image &image : images) {
+                sum += static_cast<double>(image.channel(name)[i]);
+            }
+            values[i] = static_cast<float>(sum / static_cast<double>(images.size()));
+        }
+    }
+    return mean;
 }
 
 Image render_reference(const Scene &scene, const Description &description) {
@@ -81,51 +135,63 @@ Image render_reference(const Scene &scene, const Description &description) {
     return reference.develop();
 }
 
-/// Renders and tests; the images are kept as arrays NAME.npy and NAME.reference.npy in `folder`.
+/// Renders and tests by every algorithm, a row each; the images are kept as arrays NAME.ALGORITHM.npy and
+/// NAME.reference.npy in `folder`.
 Json measure(const Scene &scene, const Description &description, DeviceContext &device, const fs::path &folder) {
-    const Image image = render(scene, description, device);
     const Image reference = render_reference(scene, description);
-    write_array(image, folder / (scene.name() + ".npy"));
     write_array(reference, folder / (scene.name() + ".reference.npy"));
-    const Agreement agreement = test_agreement(image, reference, description.policy);
-    return {{"scene", scene.name()},
-            {"agrees", agreement.agrees()},
-            {"rejected", agreement.rejected},
-            {"tests", agreement.tests},
-            {"largest_z", agreement.largest_z},
-            {"relative_difference", to_json(agreement.relative_difference)},
-            {"equivalence", to_string(agreement.equivalence)}};
+    Json rows = Json::array();
+    for (const std::string &algorithm : description.algorithms) {
+        const std::vector<Image> images = render(scene, description, algorithm, device);
+        write_array(mean_of(images), folder / fmt::format("{}.{}.npy", scene.name(), algorithm));
+        const Agreement agreement = test_agreement(images, reference, description.policy);
+        const std::string blind = blind_spot(algorithm, scene);
+        rows.push_back({{"scene", scene.name()},
+                        {"algorithm", algorithm},
+                        {"blind", blind},
+                        {"agrees", agreement.agrees() || !blind.empty()},
+                        {"rejected", agreement.rejected},
+                        {"tests", agreement.tests},
+                        {"largest_z", agreement.largest_z},
+                        {"relative_difference", to_json(agreement.relative_difference)},
+                        {"equivalence", to_string(agreement.equivalence)}});
+    }
+    return rows;
 }
 
 /// What a finished scene's result holds for.
 std::string key_of(const Scene &scene, const Description &description) {
-    return fmt::format("{} {} {} {} {}", scene.hash(), description.size, description.spp, description.reference_spp,
-                       RTRAYS_VERSION);
+    return fmt::format("{} {} {} {} {} {} {}", scene.hash(), description.size, description.spp, description.reference_spp,
+                       fmt::join(description.algorithms, " "), description.features, RTRAYS_VERSION);
 }
 
 std::string line_of(const Json &row) {
     const Json &difference = row.at("relative_difference");
-    return fmt::format("{} {}: {} of {} tests reject, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, {:+.3f}]\n",
-                       row.at("agrees").get<bool>() ? "ok  " : "FAIL", row.at("scene").get<std::string>(),
+    const std::string blind = row.at("blind").get<std::string>();
+    return fmt::format("{} {} {}: {} of {} tests reject, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, {:+.3f}]{}\n",
+                       !blind.empty() ? "--  " : row.at("agrees").get<bool>() ? "ok  " : "FAIL",
+                       row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(),
                        row.at("rejected").get<size_t>(), row.at("tests").get<size_t>(), row.at("largest_z").get<double>(),
                        100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
-                       100 * difference.at("high").get<double>());
+                       100 * difference.at("high").get<double>(), blind.empty() ? "" : "; it " + blind);
 }
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
         "Renderer against the Embree reference, {0} x {0} pixels, {1} spp against {2}. Blocks of 16 x 16 pixels and the "
-        "mean, per channel, Holm's correction, {3:.2g} over all scenes. The last columns: difference of the mean with "
-        "its 99 % interval, %.\n\n| scene | tests | rejected | largest z | difference | from | to |\n"
-        "| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        "mean, per channel, Holm's correction, {3:.2g} over all rows; variances of the renderer from {4} batches. The last "
+        "columns: difference of the mean with its 99 % interval, %. What an algorithm is blind to it does not see.\n\n"
+        "| scene | algorithm | tests | rejected | largest z | difference | from | to | blind: |\n"
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
         document.at("size").get<int>(), document.at("spp").get<uint64_t>(), document.at("reference_spp").get<uint64_t>(),
-        AgreementPolicy().alpha);
-    for (const Json &row : document.at("scenes")) {
+        AgreementPolicy().alpha, batches);
+    for (const Json &row : document.at("rows")) {
         const Json &difference = row.at("relative_difference");
-        table += fmt::format("| {} | {} | {} | {:.2f} | {:+.3f} | {:+.3f} | {:+.3f} |\n", row.at("scene").get<std::string>(),
+        table += fmt::format("| {} | {} | {} | {} | {:.2f} | {:+.3f} | {:+.3f} | {:+.3f} | {} |\n",
+                             row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(),
                              row.at("tests").get<size_t>(), row.at("rejected").get<size_t>(), row.at("largest_z").get<double>(),
                              100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
-                             100 * difference.at("high").get<double>());
+                             100 * difference.at("high").get<double>(), row.at("blind").get<std::string>());
     }
     return table;
 }
@@ -144,24 +210,27 @@ ExitCode run_agreement(const AgreeOptions &options) {
                      {"device", device.info().name},
                      {"size", description.size},
                      {"spp", description.spp},
-                     {"reference_spp", description.reference_spp}};
+                     {"reference_spp", description.reference_spp},
+                     {"features", description.features}};
     bool agrees = true;
     Progress progress(description.name, description.scenes.size(), "scenes", options.quiet);
+    size_t finished = 0;
     for (const fs::path &path : description.scenes) {
         const Scene scene = load_scene(path.string());
         const fs::path done = partial / path.filename();
         const std::string key = key_of(scene, description);
         Json result = fs::exists(done) ? load_json(done) : Json::object();
         if (result.value("key", "") != key) {
-            result = {{"key", key}, {"row", measure(scene, description, device, out / "images")}};
+            result = {{"key", key}, {"rows", measure(scene, description, device, out / "images")}};
             write_file(done, result.dump(1) + "\n");
         }
-        const Json &row = result.at("row");
-        fmt::print("{}", line_of(row));
+        for (const Json &row : result.at("rows")) {
+            fmt::print("{}", line_of(row));
+            agrees = agrees && row.at("agrees").get<bool>();
+            document["rows"].push_back(row);
+        }
         std::fflush(stdout);
-        agrees = agrees && row.at("agrees").get<bool>();
-        document["scenes"].push_back(row);
-        progress.update(document["scenes"].size());
+        progress.update(++finished);
     }
     write_file(out / "agreement.json", document.dump(1) + "\n");
     write_file(out / "agreement.md", table_of(document));
