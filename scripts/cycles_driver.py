@@ -5,7 +5,7 @@
         NAME.blender.json OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
 
 With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
-JSON for each image: file, seed, spp, seconds (of Blender's render call, synchronisation included).
+JSON for each image: file, seed, spp, mean of R, G and B, seconds (of Blender's render call, synchronisation included).
 
 The world is scaled to an extent of 1, since Cycles compares the edges of a bright triangle with a distance over an area
 (triangle_light_sample): in large units it takes lamps by solid angles that it knows to 1e-4 sr, and renders them up to
@@ -240,6 +240,15 @@ def set_up(scene, film, spp, max_depth):
     cycles.transparent_max_bounces = MOST_BOUNCES
 
 
+def mean_of(file):
+    """Of R, G and B."""
+    image = Images.as_numbers(bpy.data.images.load(str(file)))
+    texels = numpy.empty(4 * image.size[0] * image.size[1], numpy.float32)
+    image.pixels.foreach_get(texels)
+    bpy.data.images.remove(image)
+    return texels.reshape(-1, 4).mean(0, numpy.float64)[:3].tolist()
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="cycles_driver", description=__doc__.split("\n\n")[0])
     parser.add_argument("description", type=pathlib.Path)
@@ -279,6 +288,7 @@ def main(arguments):
         start = time.perf_counter()
         bpy.ops.render.render(write_still=True)
         record = {"file": str(output), "seed": seed, "spp": spp, "seconds": time.perf_counter() - start}
+        record["mean"] = mean_of(output)
         print(json.dumps({**record, "engine": "Cycles of Blender " + bpy.app.version_string}), flush=True)
 
 

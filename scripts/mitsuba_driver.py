@@ -5,7 +5,7 @@
     build/peers/bin/python scripts/mitsuba_driver.py NAME.xml OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
 
 With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
-JSON for each image: file, seed, spp, seconds. The depth is ours: Mitsuba counts one more. The reconstruction filter is a
+JSON for each image: file, seed, spp, seconds, mean of R, G and B. The depth is ours: Mitsuba counts one more. The reconstruction filter is a
 box of one pixel, also where the file names another.
 """
 
@@ -35,6 +35,7 @@ def main():
         os.environ.setdefault("DRJIT_LIBLLVM_PATH", str(libraries[0]))
     try:
         import mitsuba
+        import numpy
     except ImportError as error:
         print(f"mitsuba_driver: {error}; scripts/install --peers installs Mitsuba", file=sys.stderr)
         return 77
@@ -56,6 +57,7 @@ def main():
         formats = (mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False)
         image.convert(*formats).write(str(output))
         record = {"file": str(output), "seed": seed, "spp": options.spp, "seconds": seconds}
+        record["mean"] = [float(x) for x in numpy.array(image, dtype=numpy.float64).mean((0, 1))[:3]]
         print(json.dumps({**record, "engine": f"Mitsuba {mitsuba.__version__} {options.variant}"}), flush=True)
     return 0
 
