@@ -8,7 +8,7 @@ JOBS ?= $(shell nproc)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full specialisation references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation references format lint clean
 
 all: build
 
@@ -49,6 +49,11 @@ test-full: programs
 	mkdir -p results/feature_scenes
 	cp build/feature_scenes/agreement.json build/feature_scenes/agreement.md results/feature_scenes/
 	scripts/contact_sheet build/feature_scenes results/feature_scenes/contact_sheet.png
+
+# Mitsuba 3 and Blender's Cycles (scripts/install --peers) against the Embree reference, resumable; exit code 77 where they
+# are not installed. RTRAYS_MESHES adds scene files of others.
+peers: programs
+	scripts/peers --profile full
 
 # What leaving out saves on the Cornell box; on an idle machine.
 specialisation: programs
