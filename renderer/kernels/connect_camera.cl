@@ -94,11 +94,8 @@ DEVICE bool join_hit(PathStates paths, uint slot,
         // p_I / p_L and p_E / p_L: what the vertices before gave, and this one's densities (kernels/light/mis.h).
         const float log_first = log2(camera_pdf_a) - log2(light_paths);
         const float log_back = log2(bsdf.pdf_w) - log2(cos_wi);
-        const float others =
-            depth == 0u ? power_of(get_log_ratio(paths, slot) + log_back + log_first, settings.beta) +
-                              power_of(get_log_explicit(paths, slot) + log_first, settings.beta)
-                        : exp2(get_log_ratio(paths, slot) + settings.beta * (log_back + log_first));
-        radiance *= 1.0f / (1.0f + others);
+        radiance *= light_path_weight(get_log_ratio(paths, slot), get_log_explicit(paths, slot), depth, log_back, log_first,
+                                      settings.beta);
     }
 #endif
     const float3 origin = offset_ray_origin(hit.point, wo);

@@ -130,7 +130,7 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
 #if FEATURE_light_strategy
     if (by_light_path) {
         const float log_light = get_log_ratio(paths, slot) + log2(met.line_pdf);  // p_L / p_I
-        radiance *= 1.0f / (1.0f + heuristic_power(by_explicit, settings.beta) + power_of(log_light, settings.beta));
+        radiance *= camera_path_weight(by_explicit, log_light, settings.beta);
     } else
 #endif
     if (by_light_sampling) {

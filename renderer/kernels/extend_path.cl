@@ -17,31 +17,6 @@
 #include "renderer/kernels/bsdf/reverse.h"
 #include "renderer/kernels/light/mis.h"
 
-#if FEATURE_light_strategy
-
-/// log_ratio beyond the vertex at which the path was scattered, after `depth` events before: R of kernels/light/mis.h,
-/// or S of a light path.
-DEVICE float continue_ratio(PathStates paths, uint slot, IntegratorSettings settings, uint depth, bool is_delta,
-                            TwoWay both) {
-    const float before = get_log_ratio(paths, slot);
-#if FEATURE_from_light
-    if (depth == 0u) {
-        // What is carried so far is 1 / (p_o p_d) and 1 / E; nothing can be joined to a delta.
-        const float by_explicit = is_delta ? -INFINITY : get_log_explicit(paths, slot) - both.log_forward;
-        return log_sum(settings.beta * (before + both.log_ratio), settings.beta * by_explicit);
-    }
-    return before + settings.beta * both.log_ratio;
-#else
-    if (depth == 0u) {
-        // Light paths cannot be joined to the camera at a delta.
-        return is_delta ? -INFINITY : before - both.log_forward;
-    }
-    return before + both.log_ratio;
-#endif
-}
-
-#endif
-
 /// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
 DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
                     ulong first_sample) {
@@ -119,7 +94,15 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
 #endif
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        set_log_ratio(paths, slot, continue_ratio(paths, slot, settings, depth, !(sample.pdf_w < INFINITY), both));
+        const bool is_delta = !(sample.pdf_w < INFINITY);
+#if FEATURE_from_light
+        set_log_ratio(paths, slot,
+                      continue_light_ratio(get_log_ratio(paths, slot), get_log_explicit(paths, slot), depth, is_delta,
+                                           both.log_forward, both.log_ratio, settings.beta));
+#else
+        set_log_ratio(paths, slot, continue_camera_ratio(get_log_ratio(paths, slot), depth, is_delta, both.log_forward,
+                                                         both.log_ratio));
+#endif
     }
 #endif
     return true;

@@ -78,7 +78,7 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         const float log_light = light_over_explicit(MATERIAL_ARGUMENTS hit, frame.wo, light, depth, get_log_ratio(paths, slot));
-        radiance *= 1.0f / (1.0f + heuristic_power(by_implicit, settings.beta) + power_of(log_light, settings.beta));
+        radiance *= camera_path_weight(by_implicit, log_light, settings.beta);
     } else
 #endif
     if (by_hit) {
