@@ -6,7 +6,7 @@ REFERENCE_SPP ?= 100000
 JOBS ?= $(shell nproc)
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
-EXPERIMENTS = cornell_diffuse
+EXPERIMENTS = cornell_diffuse cornell_algorithms
 
 .PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation references format lint clean
 

@@ -55,7 +55,6 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
 
 LadderResult render_ladders(const LadderTask &task) {
     LadderResult result;
-    std::vector<Image> images;
     LazySession session(task);
     for (uint32_t seed = 1; seed <= static_cast<uint32_t>(task.seeds); ++seed) {
         const fs::path numbers = partial_file(task, seed, "json"), picture = partial_file(task, seed, "exr");
@@ -64,7 +63,7 @@ LadderResult render_ladders(const LadderTask &task) {
             const Json stored = load_json(numbers);
             result.repetitions.push_back(parse_repetition(stored.at("repetition")));
             result.cost = stored.at("cost");
-            images.push_back(read_exr(picture));
+            result.images.push_back(read_exr(picture));
             task.advance(task.spp.back());
             continue;
         }
@@ -73,12 +72,11 @@ LadderResult render_ladders(const LadderTask &task) {
         result.cost = {{"compile_seconds", stats.compile_seconds},
                        {"bvh_seconds", stats.bvh_seconds},
                        {"render_report", session.get().report()}};
-        images.push_back(session.get().develop());
-        write_exr(images.back(), picture);
+        result.images.push_back(session.get().develop());
+        write_exr(result.images.back(), picture);
         write_file(numbers,
                    Json{{"repetition", to_json(result.repetitions.back())}, {"cost", result.cost}}.dump());
     }
-    result.image = average_images(images);
     return result;
 }
 

@@ -31,7 +31,7 @@ struct LadderTask {
 
 struct LadderResult {
     std::vector<Repetition> repetitions;
-    Image image;          ///< mean over seeds at the top rung
+    std::vector<Image> images;  ///< of the seeds at the top rung
     nlohmann::json cost;  ///< {"compile_seconds", "bvh_seconds", "render_report"}
 };
 

@@ -124,7 +124,8 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     task.settings.height = experiment.height;
     const LadderResult ladder = render_ladders(task);
     const std::string image = "images/" + description.id() + ".exr";
-    write_exr(ladder.image, out / image);
+    const Image mean = average_images(ladder.images);
+    write_exr(mean, out / image);
 
     const AgreementPolicy policy;
     Json curve = summarise_curve(ladder.repetitions, noise_mse);
@@ -134,7 +135,10 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     curve["algorithm"] = description.settings.algorithm;
     curve["strategies"] = description.settings.strategies;
     curve["settings"] = image_settings(description.settings);
-    curve["agreement"] = to_json(test_agreement(ladder.image, task.reference, policy), policy);
+    const Agreement agreement = has_light_pass(description.settings)
+                                    ? test_agreement(ladder.images, task.reference, policy)
+                                    : test_agreement(mean, task.reference, policy);
+    curve["agreement"] = to_json(agreement, policy);
     curve["image"] = image;
     curve["image_spp"] = experiment.spp.back() * static_cast<uint64_t>(experiment.seeds);
     return curve;

@@ -163,6 +163,8 @@ std::string describe_settings() {
     return description;
 }
 
+bool has_light_pass(const RenderSettings &settings) { return settings.algorithm != "path_tracing"; }
+
 uint32_t light_paths_per_sample(const RenderSettings &settings) {
     return settings.light_paths > 0 ? settings.light_paths
                                     : static_cast<uint32_t>(settings.width) * static_cast<uint32_t>(settings.height);

@@ -61,6 +61,9 @@ const std::vector<std::string> &algorithm_names();
 
 // Of consistent settings:
 
+/// Whether the algorithm traces paths from the lights: its image has splats.
+bool has_light_pass(const RenderSettings &settings);
+
 /// Light paths per sample of the image, in algorithms that trace some.
 uint32_t light_paths_per_sample(const RenderSettings &settings);
 

@@ -2,7 +2,10 @@
 // The pipeline on the device: what is compiled, allocated and launched for a scene, and that it changes no bit.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "renderer/device/context.h"
 #include "renderer/integrators/algorithm.h"
@@ -10,6 +13,7 @@
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
 #include "renderer/tests/errors.h"
+#include "renderer/tests/temporary_folder.h"
 
 namespace rtrays {
 namespace {
@@ -240,6 +244,45 @@ TEST_P(FeatureBuild, Succeeds) {
 
 INSTANTIATE_TEST_SUITE_P(Masks, FeatureBuild, testing::Range(-2, static_cast<int>(Feature::count)),
                          [](const auto &built) { return name_of_build(built.param); });
+
+// Figure 3.7 of the thesis: which block serves which algorithm.
+TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
+    std::istringstream readme(bytes_of(RTRAYS_SCENES "/../README.md"));
+    std::vector<std::string> algorithms;
+    std::map<std::string, std::set<std::string>> listed;  // by algorithm
+    for (std::string line; std::getline(readme, line);) {
+        std::vector<std::string> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, '|');) {
+            const size_t begin = cell.find_first_not_of(' '), end = cell.find_last_not_of(' ');
+            cells.push_back(begin == std::string::npos ? "" : cell.substr(begin, end + 1 - begin));
+        }
+        if (cells.size() > 2 && cells[1] == "stage") {
+            algorithms.assign(cells.begin() + 2, cells.end());
+        } else if (!algorithms.empty() && cells.size() < 3) {
+            break;
+        }
+        for (size_t i = 0; i < algorithms.size() && i + 2 < cells.size(); ++i) {
+            if (cells[i + 2] == "x") {
+                listed[algorithms[i]].insert(cells[1]);
+            }
+        }
+    }
+    EXPECT_EQ(algorithms, algorithm_names());
+    // Stages that only keep counters are left out.
+    const std::set<std::string> bookkeeping = {"begin_round", "end_shadow_rays", "end_round"};
+    for (const std::string &algorithm : algorithms) {
+        std::set<std::string> used;
+        for (const Pass &pass : algorithm_passes(algorithm, FeatureMask::all(), 1)) {
+            for (const RoundStage &stage : pass.round) {
+                if (bookkeeping.count(stage.name) == 0) {
+                    used.insert(stage.name);
+                }
+            }
+        }
+        EXPECT_EQ(listed[algorithm], used) << algorithm;
+    }
+}
 
 TEST(Features, AreNamedAndClosed) {
     // Each pass starts at one end.
