@@ -12,7 +12,7 @@ The world is scaled to an extent of 1, since Cycles compares the edges of a brig
 2 % too dark from afar. Bright triangles are split for the same reason.
 
 Units. Emission nodes give radiance, W / (sr m^2); a sun's strength is the irradiance of a plane facing it, W / m^2; a
-point light of E watts whose shader emits 1 has E / (4 pi) W / sr. scripts/peers --calibrate holds all of them against closed forms.
+point light of E watts whose shader emits 1 has E / (4 pi) W / sr. scripts/peers holds all of them against closed forms.
 """
 
 import argparse
@@ -22,8 +22,12 @@ import pathlib
 import sys
 import time
 
-import bpy
-import mathutils
+try:
+    import bpy
+    import mathutils
+except ImportError:
+    print("cycles_driver: runs inside Blender; scripts/install --peers installs that", file=sys.stderr)
+    sys.exit(77)
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -219,6 +223,8 @@ def set_up(scene, film, spp, max_depth):
     film.render.dither_intensity = 0.0
     film.view_settings.view_transform = "Raw"
     output = film.render.image_settings
+    for stamp in [name for name in dir(film.render) if name.startswith("use_stamp")]:
+        setattr(film.render, stamp, False)  # else dates and file names go into the image
     output.file_format, output.color_mode, output.color_depth, output.exr_codec = "OPEN_EXR", "RGB", "32", "ZIP"
     cycles = film.cycles
     cycles.device = "CPU"
@@ -283,14 +289,20 @@ def main(arguments):
         output = options.output.resolve()
         if options.runs is not None:
             output = output.with_suffix(f".{seed}.exr")
-        film.render.filepath = str(output)
+        part = output.with_name(output.name + ".part")  # whole or not at all
+        film.render.filepath = str(part)
         film.render.use_file_extension = False
         start = time.perf_counter()
         bpy.ops.render.render(write_still=True)
+        part.replace(output)
         record = {"file": str(output), "seed": seed, "spp": spp, "seconds": time.perf_counter() - start}
         record["mean"] = mean_of(output)
         print(json.dumps({**record, "engine": "Cycles of Blender " + bpy.app.version_string}), flush=True)
 
 
 if __name__ == "__main__":
-    main(sys.argv[sys.argv.index("--") + 1 :])
+    try:
+        main(sys.argv[sys.argv.index("--") + 1 :])
+    except (OSError, ValueError) as error:
+        print(f"cycles_driver: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -13,7 +13,8 @@ BRIGHT_ROWS, BRIGHT_COLUMNS = 64, 128
 
 
 class Triangles:
-    """positions (n, 3), normals (n, 3) or None, uv (n, 2) or None, triangles (m, 3) counter-clockwise from the front."""
+    """positions (n, 3), normals (n, 3) or None, uv (n, 2) or None; triangles (m, 3), counter-clockwise seen from the
+    front."""
 
     def __init__(self, positions, triangles, normals=None, uv=None):
         self.positions, self.triangles, self.normals, self.uv = positions, triangles, normals, uv
@@ -144,7 +145,8 @@ def split(surface, longest_edge):
             return None
         return (values[corners[:, :3].astype(int)] * corners[:, 3:, None]).sum(1)
 
-    return Triangles(mixed(surface.positions), numpy.array(pieces, numpy.int32), mixed(surface.normals), mixed(surface.uv))
+    triangles = numpy.array(pieces, numpy.int32)
+    return Triangles(mixed(surface.positions), triangles, mixed(surface.normals), mixed(surface.uv))
 
 
 def place(surface, world_from_object):

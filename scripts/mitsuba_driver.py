@@ -5,8 +5,8 @@
     build/peers/bin/python scripts/mitsuba_driver.py NAME.xml OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
 
 With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
-JSON for each image: file, seed, spp, seconds, mean of R, G and B. The depth is ours: Mitsuba counts one more. The reconstruction filter is a
-box of one pixel, also where the file names another.
+JSON for each image: file, seed, spp, seconds, mean of R, G and B. The depth is ours: Mitsuba counts one more. The
+reconstruction filter is a box of one pixel, also where the file names another.
 """
 
 import argparse
@@ -55,7 +55,9 @@ def main():
         image = mitsuba.Bitmap(mitsuba.render(scene, spp=options.spp, seed=seed))
         seconds = time.perf_counter() - start
         formats = (mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False)
-        image.convert(*formats).write(str(output))
+        part = output.with_suffix(".part.exr")  # whole or not at all
+        image.convert(*formats).write(str(part))
+        part.replace(output)
         record = {"file": str(output), "seed": seed, "spp": options.spp, "seconds": seconds}
         record["mean"] = [float(x) for x in numpy.array(image, dtype=numpy.float64).mean((0, 1))[:3]]
         print(json.dumps({**record, "engine": f"Mitsuba {mitsuba.__version__} {options.variant}"}), flush=True)

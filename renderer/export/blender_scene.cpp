@@ -32,7 +32,8 @@ std::string missing_in_cycles(const BxdfComponent &part) {
         case Kind::lambert:
             return part.fresnel == Fresnel::ideal || part.fresnel_of_wo
                        ? ""
-                       : "a Fresnel term of a diffuse component there knows the direction of the eye alone, not that "
+                       : "a Fresnel term of a diffuse component there knows the direction of the eye alone, "
+                         "not that "
                          "of the light";
         case Kind::oren_nayar:
             return "its Oren-Nayar is another one (Fujii's, normalised)";
@@ -41,14 +42,16 @@ std::string missing_in_cycles(const BxdfComponent &part) {
             return "";
         case Kind::microfacet_reflection:
             if (part.fresnel != Fresnel::ideal) {
-                return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF takes it at the normal instead "
+                return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF takes it at the normal "
+                       "instead "
                        "of the half vector";
             }
             if (part.alpha[0] != part.alpha[1]) {
                 return "its tangents are others on meshes";
             }
             // bsdf_microfacet_ggx_sample and its like: alpha_x * alpha_y <= 1e-7 is a mirror.
-            return part.alpha[0] * part.alpha[1] <= 1.01e-7 ? "it takes a surface so smooth for a mirror" : "";
+            return part.alpha[0] * part.alpha[1] <= 1.01e-7 ? "it takes a surface so smooth for a mirror"
+                                                            : "";
         case Kind::microfacet_refraction:
             return "its rough Glass BSDF takes the Fresnel term at the normal instead of the half vector";
         case Kind::blinn:
@@ -94,7 +97,8 @@ class SceneWriter {
             textures.push_back(write_texture(texture));
         }
         for (uint32_t light = 0; light < arrays_.lights.name.size(); ++light) {
-            if (arrays_.lights.kind[light] != LightArrays::Kind::diffuse_area) {  // those are with their surface
+            if (arrays_.lights.kind[light] !=
+                LightArrays::Kind::diffuse_area) {  // those are with their surface
                 lights.push_back(write_light(light));
             }
         }
@@ -119,7 +123,8 @@ class SceneWriter {
         using Axis = CameraArrays::FovAxis;
         const bool wide = scene_.film_width() >= scene_.film_height();
         const Axis axis = cameras.fov_axis[i];
-        const bool along_x = axis == Axis::x || (axis == Axis::larger && wide) || (axis == Axis::smaller && !wide);
+        const bool along_x =
+            axis == Axis::x || (axis == Axis::larger && wide) || (axis == Axis::smaller && !wide);
         const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
         const Eigen::Vector3d eye =
             scene_.origin() + Eigen::Vector3d(cameras.world_from_camera[i].topRightCorner<3, 1>());
@@ -145,10 +150,11 @@ class SceneWriter {
                 if (!missing.empty() && !part.weight.isZero(0)) {
                     const std::string name = bxdf_names()[static_cast<size_t>(part.kind)];
                     const std::string term = fresnel_names()[static_cast<size_t>(part.fresnel)];
-                    throw input_error(fmt::format("{}material '{}', component {} ({}{}{}): Cycles cannot do that: {}",
-                                                  user_of(i), materials.name[i], c, name,
-                                                  part.fresnel == Fresnel::ideal ? "" : " with Fresnel term ",
-                                                  part.fresnel == Fresnel::ideal ? "" : term, missing));
+                    throw input_error(
+                        fmt::format("{}material '{}', component {} ({}{}{}): Cycles cannot do that: {}",
+                                    user_of(i), materials.name[i], c, name,
+                                    part.fresnel == Fresnel::ideal ? "" : " with Fresnel term ",
+                                    part.fresnel == Fresnel::ideal ? "" : term, missing));
                 }
                 components.push_back(write_component(part));
             }
@@ -179,7 +185,8 @@ class SceneWriter {
                           {"eta", numbers(part.eta)},
                           {"k", numbers(part.k)}};
         if (part.kind == Kind::microfacet_reflection) {
-            component["distribution"] = part.distribution == BxdfComponent::Distribution::ggx ? "ggx" : "beckmann";
+            component["distribution"] =
+                part.distribution == BxdfComponent::Distribution::ggx ? "ggx" : "beckmann";
             component["alpha"] = part.alpha[0];
         }
         if (part.texture != no_index) {
@@ -205,9 +212,10 @@ class SceneWriter {
             TextureImage linear = *image;
             if (linear.floats.empty()) {
                 linear.floats.resize(linear.bytes.size());
-                std::transform(linear.bytes.begin(), linear.bytes.end(), linear.floats.begin(), [&](uint8_t byte) {
-                    return static_cast<float>(linear.srgb ? srgb_decoded(byte / 255.0) : byte / 255.0);
-                });
+                std::transform(
+                    linear.bytes.begin(), linear.bytes.end(), linear.floats.begin(), [&](uint8_t byte) {
+                        return static_cast<float>(linear.srgb ? srgb_decoded(byte / 255.0) : byte / 255.0);
+                    });
                 linear.bytes.clear();
             }
             const std::filesystem::path path = folder_.new_file(name, ".exr");
@@ -244,12 +252,14 @@ class SceneWriter {
         Json list = Json::array();
         for (uint32_t i = 0; i < shapes.name.size(); ++i) {
             const ShapeArrays::Kind kind = shapes.kind[i];
-            const auto type = std::find_if(shape_types().begin(), shape_types().end(),
-                                           [&](const ShapeType &candidate) { return candidate.kind == kind; });
+            const auto type =
+                std::find_if(shape_types().begin(), shape_types().end(),
+                             [&](const ShapeType &candidate) { return candidate.kind == kind; });
             const std::string kind_name = type->name;  // every kind has a type
             if (kind == ShapeArrays::Kind::plane || kind == ShapeArrays::Kind::julia) {
-                throw input_error(fmt::format("'{}': Cycles has triangles, and they make no {}", shapes.name[i],
-                                              kind == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
+                throw input_error(
+                    fmt::format("'{}': Cycles has triangles, and they make no {}", shapes.name[i],
+                                kind == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
             }
             Json shape = {{"name", shapes.name[i]},
                           {"kind", kind_name},
@@ -264,7 +274,8 @@ class SceneWriter {
 
     Json write_light(uint32_t i) {
         const LightArrays &lights = arrays_.lights;
-        constexpr const char *names[] = {"diffuse_area", "point", "spot", "directional", "dome", "environment"};
+        constexpr const char *names[] = {"diffuse_area", "point", "spot",
+                                         "directional",  "dome",  "environment"};
         Json light = {{"name", lights.name[i]},
                       {"kind", names[static_cast<size_t>(lights.kind[i])]},
                       {"radiance", numbers(lights.radiance[i])},
@@ -285,7 +296,8 @@ class SceneWriter {
 
 }  // namespace
 
-void export_blender_scene(const Scene &scene, const std::filesystem::path &path, const ExportSettings &settings) {
+void export_blender_scene(const Scene &scene, const std::filesystem::path &path,
+                          const ExportSettings &settings) {
     require_writable(path);
     write_file(path, SceneWriter(scene, path).write(settings).dump(1) + "\n");
 }

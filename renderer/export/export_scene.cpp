@@ -25,7 +25,8 @@ const Format &format_of(const std::filesystem::path &path) {
     std::string known;
     for (const Format &format : formats) {
         const std::string ending = format.ending;
-        if (name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
+        if (name.size() > ending.size() &&
+            name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
             return format;
         }
         known += fmt::format("{}{} ({})", known.empty() ? "" : " or ", format.ending, format.renderer);

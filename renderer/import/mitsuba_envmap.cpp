@@ -72,7 +72,8 @@ TextureImage to_mitsuba_envmap(const TextureImage &image) {
 
 TextureImage from_mitsuba_envmap(const TextureImage &image) {
     if (image.width < 2 || image.height < 3) {
-        throw input_error(fmt::format("an image of {}x{} texels: Mitsuba wants 2x3 at least", image.width, image.height));
+        throw input_error(
+            fmt::format("an image of {}x{} texels: Mitsuba wants 2x3 at least", image.width, image.height));
     }
     const TextureImage rows = decoded(image);
     if (image.height % 2 == 1) {

@@ -36,10 +36,13 @@ class BlenderExport : public WithImages {
 /// What Cycles has not got of the scenes that show one feature each.
 const std::map<std::string, const char *> &beyond_cycles() {
     static const std::map<std::string, const char *> reasons = {
-        {"beckmann", "(microfacet_reflection with Fresnel term conductor): Cycles cannot do that: its Glossy BSDF has"},
-        {"blinn_64", "'object': material 'object', component 0 (blinn with Fresnel term conductor): Cycles cannot do "
-                     "that: it has no such model"},
-        {"car_paint", "component 1 (lambert with Fresnel term dielectric): Cycles cannot do that: a Fresnel term of a"},
+        {"beckmann",
+         "(microfacet_reflection with Fresnel term conductor): Cycles cannot do that: its Glossy BSDF has"},
+        {"blinn_64",
+         "'object': material 'object', component 0 (blinn with Fresnel term conductor): Cycles cannot do "
+         "that: it has no such model"},
+        {"car_paint",
+         "component 1 (lambert with Fresnel term dielectric): Cycles cannot do that: a Fresnel term of a"},
         {"ggx", "no Fresnel term"},
         {"julia", "'object': Cycles has triangles, and they make no Julia set"},
         {"oren_nayar_079", "its Oren-Nayar is another one"},
@@ -74,7 +77,8 @@ TEST_F(BlenderExport, ScenesOfSingleFeaturesAreWrittenOrAreErrors) {
             EXPECT_EQ(description.at("materials").size(), scene.materials().name.size());
             ++written;
         } catch (const Error &error) {  // of further scenes of the kinds above
-            EXPECT_NE(std::string(error.what()).find("Cycles cannot do that"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("Cycles cannot do that"), std::string::npos)
+                << error.what();
         }
     }
     EXPECT_GE(written, 35);
@@ -101,7 +105,8 @@ TEST_F(BlenderExport, SaysWhatTheArraysSay) {
         EXPECT_EQ(mesh.at("triangles"), meshes.triangle_count[i]);
         EXPECT_TRUE(std::filesystem::exists(folder_ / mesh.at("file").get<std::string>()));
         const Json &material = description.at("materials")[mesh.at("material").get<size_t>()];
-        const BxdfComponent &part = box.materials().component[box.materials().first_component[meshes.material[i]]];
+        const BxdfComponent &part =
+            box.materials().component[box.materials().first_component[meshes.material[i]]];
         EXPECT_EQ(material.at("components")[0].at("weight")[1].get<float>(), part.weight[1]);
         ASSERT_EQ(mesh.contains("radiance"), meshes.light[i] != no_index);
         if (mesh.contains("radiance")) {
@@ -117,8 +122,8 @@ TEST_F(BlenderExport, DecodesTexels) {
     const Scene scene = load_scene(scenes + "/features/texture_bilinear.json");
     const Json description = exported(scene);
     ASSERT_EQ(description.at("textures").size(), 1u);
-    const auto written = load_texture_file(folder_ / description.at("textures")[0].at("file").get<std::string>(),
-                                           TextureEncoding::linear);
+    const auto written = load_texture_file(
+        folder_ / description.at("textures")[0].at("file").get<std::string>(), TextureEncoding::linear);
     const TextureImage &image = *scene.arrays().textures.image[0];
     ASSERT_TRUE(image.srgb);
     ASSERT_EQ(written->floats.size(), image.bytes.size());
@@ -129,8 +134,11 @@ TEST_F(BlenderExport, DecodesTexels) {
 
 TEST_F(BlenderExport, ResolvesTheAxisOfTheField) {
     const auto axis = [&](const char *name, int width, int height) {
-        Scene scene = parse_scene_json(std::string(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
-            {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": ")") + name + R"("}}]})", "in.json", "in");
+        Scene scene =
+            parse_scene_json(std::string(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+            {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": ")") +
+                                 name + R"("}}]})",
+                             "in.json", "in");
         scene.set_film_size(width, height);
         return exported(scene).at("camera").at("fov_axis").get<std::string>();
     };

@@ -29,7 +29,9 @@ TextureImage noise(int width, int height) {
 double between_rows(const TextureImage &image, double row, int column) {
     const int above = std::min(static_cast<int>(row), image.height - 2);
     const double t = row - above;
-    const auto at = [&](int y) { return static_cast<double>(image.floats[3 * static_cast<size_t>(y * image.width + column)]); };
+    const auto at = [&](int y) {
+        return static_cast<double>(image.floats[3 * static_cast<size_t>(y * image.width + column)]);
+    };
     return (1 - t) * at(above) + t * at(above + 1);
 }
 
@@ -61,7 +63,8 @@ TEST(MitsubaEnvmap, ReadsTheRowsOfOthers) {
         double sum = 0, wanted = 0;
         for (int i = 0; i <= 1000; ++i) {
             const double v = i / 1000.0, row = v * (height - 1), from_row = std::abs(row - std::round(row));
-            // At a row an eighth of a second difference, which is at most 2; a quarter of a row at each pole is flat.
+            // At a row an eighth of a second difference, which is at most 2; a quarter of a row at each pole
+            // is flat.
             EXPECT_NEAR(ours(read, v, 1), mitsubas(image, v, 1), from_row >= 0.25 ? 1e-6 : 0.25) << v;
             sum += ours(read, v, 1);
             wanted += mitsubas(image, v, 1);

@@ -40,8 +40,9 @@ TEST_P(MitsubaRoundTrip, KeepsTheImageBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MitsubaRoundTrip,
-                         testing::Values("cornell_box/scene", "features/combined_lights", "features/rough_glass_ggx",
-                                         "features/texture_sphere", "features/thin_lens"),
+                         testing::Values("cornell_box/scene", "features/combined_lights",
+                                         "features/rough_glass_ggx", "features/texture_sphere",
+                                         "features/thin_lens"),
                          [](const auto &tested) {
                              const std::string path = tested.param;
                              return path.substr(0, path.find('/')) + "_" + path.substr(path.find('/') + 1);

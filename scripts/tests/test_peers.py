@@ -93,9 +93,10 @@ class MissingPeers(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             script = pathlib.Path(folder) / "scripts/peers"  # a tree without build/peers
             script.parent.mkdir()
-            script.write_text((SCRIPTS / "peers").read_text())
-            done = subprocess.run([sys.executable, script, "--programs", folder], capture_output=True, text=True, check=False,
-                                  env={"PATH": folder})
+            for name in ("peers", "peers_table.py"):
+                (script.parent / name).write_text((SCRIPTS / name).read_text())
+            done = subprocess.run([sys.executable, script, "--programs", folder], capture_output=True, text=True,
+                                  check=False, env={"PATH": folder})
             self.assertEqual(done.returncode, 77, done.stderr)
             self.assertIn("scripts/install --peers", done.stderr)
             self.assertFalse((pathlib.Path(folder) / "build").exists())
