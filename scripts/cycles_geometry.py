@@ -121,18 +121,20 @@ def tessellate(kind, flare=0.0, is_bright=False):
 
 def split(surface, longest_edge):
     """The same surface with each triangle cut into n^2 like it, so that no edge is longer."""
-    pieces, corners = [], []
-    for triangle in surface.triangles:
-        a, b, c = surface.positions[triangle].astype(numpy.float64)
-        edge = max(numpy.linalg.norm(b - a), numpy.linalg.norm(c - b), numpy.linalg.norm(a - c))
+    ends = surface.positions[surface.triangles]
+    edges = numpy.linalg.norm(ends - ends[:, [1, 2, 0]], axis=2).max(1)
+    if edges.max() <= longest_edge:
+        return surface
+    pieces, corners, first = [], [], 0
+    for triangle, edge in zip(surface.triangles, edges):
         n = max(1, int(numpy.ceil(edge / longest_edge)))
-        first = sum(map(len, corners))
         index, weights = {}, []
         for i in range(n + 1):
             for j in range(n + 1 - i):
                 index[i, j] = first + len(weights)
                 weights.append([(n - i - j) / n, i / n, j / n])
         corners.append(numpy.array([[*triangle, *weight] for weight in weights]))
+        first += len(weights)
         for i in range(n):
             for j in range(n - i):
                 pieces.append([index[i, j], index[i + 1, j], index[i, j + 1]])

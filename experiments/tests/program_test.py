@@ -91,7 +91,18 @@ class Program(unittest.TestCase):
         self.assertTrue(comparison["agreement"]["agrees"])
         same = json.loads(self.call("compare", images[0], images[0], "--json").stdout)
         self.assertEqual(same["rmse"], 0)
+        self.assertEqual(same["mean_ratio"], [1, 1, 1])
         self.refused(2, "nowhere.exr", "compare", images[0], "nowhere.exr")
+
+    def test_average(self):
+        images = [REFERENCES / f"cornell_box.embree.{half}.exr" for half in "ab"]
+        average = self.folder / "average.exr"
+        self.assertEqual(self.call("average", *images, "-o", average).returncode, 0)
+        # Its noise is correlated with that of a half, so that only the means can be told.
+        ratios = json.loads(self.call("compare", average, images[0], "--json").stdout)["mean_ratio"]
+        self.assertTrue(all(abs(ratio - 1) < 1e-3 for ratio in ratios), ratios)
+        self.refused(2, "at least two", "average", images[0], "-o", self.folder / "one.exr")
+        self.assertFalse((self.folder / "one.exr").exists())
 
     def test_report_of_an_empty_folder(self):
         self.refused(2, "run.json", "report", self.folder)
