@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The agreement.md of scripts/peers, from its agreement.json."""
 
+import re
+
 
 def percent(difference):
     return " | ".join(f"{100 * difference[key]:+.3f}" for key in ("value", "low", "high"))
@@ -17,7 +19,7 @@ def scene_rows(document):
     for scene in document["scenes"]:
         for renderer, row in scene["results"].items():
             if "missing" in row:
-                why = row["missing"].rpartition("Cycles cannot do that: ")[2]
+                why = re.sub(r"^.*(Cycles cannot do that: |(?=Mitsuba has))|; it has .*$", "", row["missing"])
                 missing.setdefault(f"{renderer}: {why}", []).append(scene["scene"])
                 continue
             lines.append(f"| {scene['scene']} | {renderer} | {row['tests']} | {row['rejected']} | "
