@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/integrators/algorithm.h"
 
+#include "renderer/integrators/bdpt.h"
 #include "renderer/integrators/light_tracing.h"
 #include "renderer/integrators/path_tracing.h"
 
 namespace rtrays {
 
-std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features, uint32_t light_count) {
+std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features, uint32_t light_count,
+                                   uint32_t light_vertices) {
+    features = features.with(Feature::vertex_joins,
+                             features.has(Feature::vertex_joins) && algorithm == "bdpt" && light_vertices > 0);
+    const FeatureMask camera = features.with(Feature::from_light, false).closed();
+    const FeatureMask light = features.with(Feature::from_light)
+                                  .with(Feature::light_strategy, algorithm != "light_tracing")
+                                  .closed();
+    if (camera.has(Feature::vertex_joins)) {
+        return bdpt_passes(camera, light, light_count, light_vertices);
+    }
     std::vector<Pass> passes;
     if (algorithm != "light_tracing") {
-        const FeatureMask camera = features.with(Feature::from_light, false).closed();
         passes.push_back({"camera", camera, path_tracing_round(camera, light_count)});
     }
     // Truncated bidirectional path tracing (thesis 2.8) is both: their weights know of each other.
     if (algorithm != "path_tracing" && features.has(Feature::lights)) {
-        const FeatureMask light = features.with(Feature::from_light)
-                                      .with(Feature::light_strategy, algorithm == "truncated_bdpt")
-                                      .closed();
         passes.push_back({"light", light, light_tracing_round(light)});
     }
     return passes;

@@ -12,11 +12,14 @@ namespace rtrays {
 /// A stage in a round.
 struct RoundStage {
     std::string name;
-    uint32_t chosen_light = SELECT_LIGHT;  ///< of sample_light
+    uint32_t chosen = SELECT_LIGHT;  ///< light of sample_light, vertex of connect_vertices
+    uint32_t rounds = 0;             ///< launched in the first so many rounds of a chunk of work; 0: in all
 };
 
 /// Paths from one end, round after round until all have ended; in every round each of them advances by one vertex.
-/// The image is the sum over the passes of an algorithm, which need nothing of each other.
+/// The image is the sum over the passes of an algorithm. They need nothing of each other, unless they have
+/// `vertex_joins`: then the work is cut into chunks of as many paths as the streams hold, in each of which one pass follows
+/// on the other. All paths of a chunk start in its first round, so that round number and depth are the same.
 struct Pass {
     std::string name;               ///< "camera" or "light"
     FeatureMask features;           ///< of its kernels and path states
@@ -24,7 +27,9 @@ struct Pass {
 };
 
 /// The passes of an algorithm (settings.h names them) for a scene and settings with these features.
-/// `light_count`: each light is sampled in turn where the features say so.
-std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features, uint32_t light_count);
+/// `light_count`: each light is sampled in turn where the features say so. `light_vertices`: as many are kept of light
+/// paths where the algorithm joins them.
+std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features, uint32_t light_count,
+                                   uint32_t light_vertices);
 
 }  // namespace rtrays

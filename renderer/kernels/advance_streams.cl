@@ -4,8 +4,8 @@
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// Stage reset_streams: all slots free, no work taken. Ray counts and errors are kept.
-__kernel void reset_streams(STREAM_PARAMETERS) {
+/// Stage reset_streams: all slots free, work taken up to `first_work`. Ray counts and errors are kept.
+__kernel void reset_streams(uint first_work, STREAM_PARAMETERS) {
     const uint i = get_global_id(0);
     if (i < capacity) {
         queues[QUEUE_FREE * capacity + i] = i;
@@ -16,7 +16,7 @@ __kernel void reset_streams(STREAM_PARAMETERS) {
         counters->parity = 0u;
         counters->shadow = 0u;
         counters->free_slots = capacity;
-        counters->next_work = 0u;
+        counters->next_work = first_work;
     }
 }
 

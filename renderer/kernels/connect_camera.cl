@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stage connect_camera: joins the hit of each light path to a point of the lens ("light" paths of thesis 2.8).
-// Reads: hit, ray_origin, ray_direction, throughput, log_ratio, active queue. Writes: ray_origin (now that of the shadow
-// ray), shadow_vector, shadow_radiance, splat_pixel; at the first hit log_explicit. To: the shadow queue.
+// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, log_strategies, active queue. Writes: ray_origin (now
+// that of the shadow ray), shadow_vector, shadow_radiance, splat_pixel; log_arrival. To: the shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -34,7 +34,7 @@ DEVICE float explicit_over_light(PathStates paths, uint slot, SURFACE_PARAMETERS
         const float3 way = hit.point.position - start.position;
         log_facing -= log2(dot(way, way));
     }
-    return get_log_explicit(paths, slot) - log_facing +
+    return get_log_arrival(paths, slot) - log_facing +
            log2(sampling_over_emission(SURFACE_ARGUMENTS light, hit.point.position, start));
 }
 
@@ -52,7 +52,14 @@ DEVICE bool join_hit(PathStates paths, uint slot,
     const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
 #if FEATURE_emission_density
     if (depth == 0u) {
-        set_log_explicit(paths, slot, explicit_over_light(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS hit));
+        set_log_arrival(paths, slot, explicit_over_light(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS hit));
+    }
+#endif
+#if FEATURE_vertex_joins
+    if (depth > 0u) {
+        const float3 from = hit.point.position - get_ray_origin(paths, slot);
+        const float cosine = fabs(dot(hit.point.normal, get_ray_direction(paths, slot)));
+        set_log_arrival(paths, slot, log_inverse_pdf_a(get_pdf_w(paths, slot), cosine, dot(from, from)));
     }
 #endif
 #if FEATURE_depth_limit
@@ -94,8 +101,18 @@ DEVICE bool join_hit(PathStates paths, uint slot,
         // p_I / p_L and p_E / p_L: what the vertices before gave, and this one's densities (kernels/light/mis.h).
         const float log_first = log2(camera_pdf_a) - log2(light_paths);
         const float log_back = log2(bsdf.pdf_w) - log2(cos_wi);
-        radiance *= light_path_weight(get_log_ratio(paths, slot), get_log_explicit(paths, slot), depth, log_back, log_first,
-                                      settings.beta);
+        const float log_arrival = get_log_arrival(paths, slot);
+#if FEATURE_vertex_joins
+        if (all_strategies(settings, depth + 1u)) {
+            radiance *= join_weight(-INFINITY,
+                                    log_first + strategies_before(get_log_strategies(paths, slot), log_arrival, log_back,
+                                                                  settings.beta),
+                                    settings.beta);
+        } else
+#endif
+        {
+            radiance *= light_path_weight(get_log_ratio(paths, slot), log_arrival, depth, log_back, log_first, settings.beta);
+        }
     }
 #endif
     const float3 origin = offset_ray_origin(hit.point, wo);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Stage evaluate_emission: adds what the hit of each active path, or the light at infinity, emits towards it: emitters
 // seen directly, and implicit paths.
-// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, depth, active queue. Writes: radiance; at the first
-// hit log_ratio.
+// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, log_strategies, depth, active queue.
+// Writes: radiance, log_arrival; at the first hit log_ratio.
 
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
@@ -73,19 +73,24 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
 
 #if FEATURE_light_strategy
 
-/// R_0 of kernels/light/mis.h at the first hit; `pdf_w` is that of the camera's ray.
-DEVICE void start_ratio(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings) {
+/// Sets R_0 of kernels/light/mis.h at the first hit, A_i at every hit. There `pdf_w` is that of the ray.
+DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings) {
     const uint primitive = get_hit_primitive(paths, slot);
-    if (primitive == NO_HIT) {
-        set_log_ratio(paths, slot, -INFINITY);
-        return;
+    const bool first = get_depth(paths, slot) == 0u;
+    float log_arrival = -INFINITY;
+    if (primitive != NO_HIT) {
+        const SurfacePoint hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot)).point;
+        const float3 way = hit.position - get_ray_origin(paths, slot);
+        const float cosine = fabs(dot(hit.normal, get_ray_direction(paths, slot)));
+        log_arrival = log_inverse_pdf_a(get_pdf_w(paths, slot), cosine, dot(way, way));
+        log_arrival += first ? log2((float)settings.light_paths) : 0.0f;
     }
-    const SurfacePoint hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot)).point;
-    const float3 way = hit.position - get_ray_origin(paths, slot);
-    const float cosine = fabs(dot(hit.normal, get_ray_direction(paths, slot)));
-    const float log_first = log2(get_pdf_w(paths, slot)) + log2(cosine) - log2(dot(way, way));
-    // A hit in the plane of the surface is none in exact arithmetic.
-    set_log_ratio(paths, slot, cosine > 0.0f ? log2((float)settings.light_paths) - log_first : -INFINITY);
+    if (first) {
+        set_log_ratio(paths, slot, log_arrival);
+    }
+#if FEATURE_vertex_joins
+    set_log_arrival(paths, slot, log_arrival);
+#endif
 }
 
 #endif
@@ -96,8 +101,8 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         // Emitters seen directly are left to implicit paths, which find their radiance without noise.
         by_light_path = get_depth(paths, slot) > 0u;
-        if (!by_light_path) {
-            start_ratio(paths, slot, SURFACE_ARGUMENTS settings);
+        if (FEATURE_vertex_joins || !by_light_path) {
+            arrive(paths, slot, SURFACE_ARGUMENTS settings);
         }
     }
 #endif
@@ -129,7 +134,13 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     const float by_explicit = by_light_sampling ? met.explicit_pdf_w / get_pdf_w(paths, slot) : 0.0f;
 #if FEATURE_light_strategy
     if (by_light_path) {
-        const float log_light = get_log_ratio(paths, slot) + log2(met.line_pdf);  // p_L / p_I
+        float log_light = get_log_ratio(paths, slot);
+#if FEATURE_vertex_joins
+        if (all_strategies(settings, get_depth(paths, slot))) {
+            log_light = get_log_strategies(paths, slot);
+        }
+#endif
+        log_light += log2(met.line_pdf);  // p_L / p_I
         radiance *= camera_path_weight(by_explicit, log_light, settings.beta);
     } else
 #endif

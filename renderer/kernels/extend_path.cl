@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stage extend_path: samples the next direction of each active path, or ends the path and adds it to the film.
-// Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, log_ratio, depth; film.
+// Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, log_ratio,
+// log_strategies, depth; film.
 // To: the active queue of the next round, or the free queue.
 
 #include "renderer/kernels/film/film.h"
@@ -97,11 +98,16 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
         const bool is_delta = !(sample.pdf_w < INFINITY);
 #if FEATURE_from_light
         set_log_ratio(paths, slot,
-                      continue_light_ratio(get_log_ratio(paths, slot), get_log_explicit(paths, slot), depth, is_delta,
+                      continue_light_ratio(get_log_ratio(paths, slot), get_log_arrival(paths, slot), depth, is_delta,
                                            both.log_forward, both.log_ratio, settings.beta));
 #else
         set_log_ratio(paths, slot, continue_camera_ratio(get_log_ratio(paths, slot), depth, is_delta, both.log_forward,
                                                          both.log_ratio));
+#endif
+#if FEATURE_vertex_joins
+        set_log_strategies(paths, slot,
+                           continue_strategies(get_log_strategies(paths, slot), get_log_arrival(paths, slot), is_delta,
+                                               both.log_forward, both.log_ratio, settings.beta));
 #endif
     }
 #endif

@@ -31,6 +31,9 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
 #if FEATURE_light_strategy
     set_pdf_w(paths, slot, camera_pdf_w(camera, ray.direction));
 #endif
+#if FEATURE_vertex_joins
+    set_log_strategies(paths, slot, -INFINITY);
+#endif
 }
 
 __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Stage generate_light_paths: starts a light path in every free slot while light paths of the batch are left.
-// Reads: free queue. Writes: path states. To: the active queue of this round.
+// Reads: free queue. Writes: path states; rows of the light vertices, emptied. To: the active queue of this round.
 
 #include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/integrator_settings.h"
+#if FEATURE_vertex_joins
+#include "renderer/shared/light_vertex.h"
+#endif
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
@@ -30,13 +33,17 @@ DEVICE void start_path(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PAR
     // Directions leave surfaces in proportion to the cosine: p_d per projected solid angle is 1 / pi there. What cannot
     // be hit no implicit path finds.
     const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
-    set_log_ratio(paths, slot, emission.is_delta != 0u ? -INFINITY : -log2(emission.pdf_origin) - log2(p_d));
-    set_log_explicit(paths, slot, -log2(emission.pdf_direction));  // distance and cosine of the first hit follow there
+    const float log_ratio = emission.is_delta != 0u ? -INFINITY : -log2(emission.pdf_origin) - log2(p_d);
+    set_log_ratio(paths, slot, log_ratio);
+#if FEATURE_vertex_joins
+    set_log_strategies(paths, slot, log_ratio);
+#endif
+    set_log_arrival(paths, slot, -log2(emission.pdf_direction));  // distance and cosine of the first hit follow there
 #endif
 }
 
 __kernel void generate_light_paths(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, ulong first_sample,
-                                   uint work, STREAM_PARAMETERS) {
+                                   uint work, VERTEX_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     const WorkItems items = take_work(counters);
     PushBuffer started;
@@ -45,6 +52,12 @@ __kernel void generate_light_paths(SURFACE_PARAMETERS LIGHT_PARAMETERS Integrato
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
         start_path(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample,
                    (items.first + i) % settings.light_paths, (items.first + i) / settings.light_paths);
+#if FEATURE_vertex_joins
+        for (uint vertex = 0; vertex < settings.light_vertices; ++vertex) {
+            clear_light_vertex(
+                light_vertex_place(vertex_words, capacity, settings.light_vertices, (items.first + i) % capacity, vertex));
+        }
+#endif
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stage sample_light: joins the hit of each active path to a point sampled on a light (explicit paths).
-// Reads: hit, ray_direction, throughput, active queue. Writes: ray_origin (now that of the shadow ray),
-// shadow_vector, shadow_radiance. To: the shadow queue.
+// Reads: hit, ray_direction, throughput, log_ratio, log_arrival, log_strategies, active queue. Writes: ray_origin (now
+// that of the shadow ray), shadow_vector, shadow_radiance. To: the shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -16,22 +16,36 @@
 
 #if FEATURE_light_strategy
 
-/// p_L / p_E of kernels/light/mis.h, log2; `log_ratio` is R.
-DEVICE float light_over_explicit(MATERIAL_PARAMETERS SurfaceHit hit, float3 wo, LightSample light, uint depth,
-                                 float log_ratio) {
+/// log2 of p_L / p_E of kernels/light/mis.h; where vertices are joined, of all that light paths take part in.
+DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETERS SurfaceHit hit, float3 wo,
+                                 LightSample light, IntegratorSettings settings) {
+    const uint depth = get_depth(paths, slot);
     const float cos_wo = fabs(dot(hit.point.normal, wo));
-    // Neither is infinity then subtracted from infinity.
-    if (!(log_ratio > -INFINITY && cos_wo > 0.0f)) {
+    // What is subtracted below is finite, and no infinity from another.
+    if (!(cos_wo > 0.0f)) {
         return -INFINITY;
     }
-    log_ratio += log2(light.arrival_pdf_a) + log2(light.emission_over_sampling) +
-                      log2(fabs(dot(hit.point.normal, light.wi)));
-    if (depth > 0u) {
-        const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, light.wi);
-        log_ratio += log2(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w) -
-                     log2(cos_wo);
+    const float log_arrive = log2(light.arrival_pdf_a) + log2(light.emission_over_sampling) +
+                             log2(fabs(dot(hit.point.normal, light.wi)));
+    const float log_ratio = get_log_ratio(paths, slot);
+#if FEATURE_vertex_joins
+    const bool all = all_strategies(settings, depth + 1u);
+#else
+    const bool all = false;
+    (void)settings;
+#endif
+    if (depth == 0u || (!all && !(log_ratio > -INFINITY))) {
+        return log_ratio + log_arrive;
     }
-    return log_ratio;
+    const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, light.wi);
+    const float log_back = log2(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w) - log2(cos_wo);
+#if FEATURE_vertex_joins
+    if (all) {
+        return log_arrive + strategies_before(get_log_strategies(paths, slot), get_log_arrival(paths, slot), log_back,
+                                              settings.beta);
+    }
+#endif
+    return log_ratio + log_arrive + log_back;
 }
 
 #endif
@@ -77,7 +91,7 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
     const float by_implicit = by_hit ? bsdf.pdf_w / light.pdf_w : 0.0f;
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        const float log_light = light_over_explicit(MATERIAL_ARGUMENTS hit, frame.wo, light, depth, get_log_ratio(paths, slot));
+        const float log_light = light_over_explicit(paths, slot, MATERIAL_ARGUMENTS hit, frame.wo, light, settings);
         radiance *= camera_path_weight(by_implicit, log_light, settings.beta);
     } else
 #endif

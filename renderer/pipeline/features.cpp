@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"
 
 namespace rtrays {
@@ -49,6 +50,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::explicit_light, Feature::lights},
     {Feature::light_strategy, Feature::scattering},
     {Feature::light_strategy, Feature::lights},
+    {Feature::vertex_joins, Feature::light_strategy},
     {Feature::from_light, Feature::lights},
     {Feature::area_lights, Feature::lights},
     {Feature::area_lights, Feature::triangles},
@@ -115,37 +117,65 @@ FeatureMask FeatureMask::closed() const {
     }
     // What follows from the others.
     const bool from_light = mask.has(Feature::from_light), strategy = mask.has(Feature::light_strategy);
+    const bool joins = mask.has(Feature::vertex_joins);
     return mask.with(Feature::from_camera, !from_light)
         .with(Feature::shadow_rays, mask.has(Feature::explicit_light) || from_light)
         .with(Feature::direction_density,
-              !from_light && (mask.has(Feature::implicit_light) || strategy ||
-                              (mask.has(Feature::delta) && mask.has(Feature::lights))))
+              joins || (!from_light && (mask.has(Feature::implicit_light) || strategy ||
+                                        (mask.has(Feature::delta) && mask.has(Feature::lights)))))
         .with(Feature::emission_density, from_light && strategy)
+        .with(Feature::arrival_density, joins || (from_light && strategy))
         .with(Feature::roulette_scale, mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light));
 }
 
-std::vector<PathStateField> path_state_fields(FeatureMask mask) {
-    std::vector<PathStateField> fields;
-    const auto add = [&](bool present, const char *type, const char *name) {
+namespace {
+
+/// Fields of a record (shared/path_state.h, shared/light_vertex.h) as they are declared.
+class FieldList {
+  public:
+    void add(bool present, const std::string &type, const char *name) {
         if (present) {
-            fields.push_back({name, std::string(type) == "float3" ? 3u : 1u});
+            fields.push_back({name, type == "float3" ? 3u : 1u});
         }
-    };
+    }
+
+    uint32_t words() const {
+        uint32_t words = 0;
+        for (const PathStateField &field : fields) {
+            words += field.words;
+        }
+        return words;
+    }
+
+    std::vector<PathStateField> fields;
+};
+
+}  // namespace
+
 #define FEATURE_VARIABLE(name, text) [[maybe_unused]] const bool FEATURE_##name = mask.has(Feature::name);
+#define ROW(feature, type, name) list.add(feature, #type, #name);
+
+std::vector<PathStateField> path_state_fields(FeatureMask mask) {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
-#undef FEATURE_VARIABLE
-#define ROW(feature, type, name) add(feature, #type, #name);
+    FieldList list;
     PATH_STATE_FIELDS(ROW)
-#undef ROW
-    return fields;
+    return list.fields;
 }
 
+uint32_t light_vertex_words(FeatureMask mask) {
+    RTRAYS_FEATURES(FEATURE_VARIABLE)
+    FieldList list;
+    LIGHT_VERTEX_FIELDS(ROW)
+    return list.words();
+}
+
+#undef FEATURE_VARIABLE
+#undef ROW
+
 uint32_t path_state_words(FeatureMask mask) {
-    uint32_t words = 0;
-    for (const PathStateField &field : path_state_fields(mask)) {
-        words += field.words;
-    }
-    return words;
+    FieldList list;
+    list.fields = path_state_fields(mask);
+    return list.words();
 }
 
 }  // namespace rtrays

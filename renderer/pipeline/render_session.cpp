@@ -17,6 +17,7 @@
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shared/film_layout.h"
+#include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/stream_counters.h"
 #include "rtrays_commit.h"
@@ -92,6 +93,8 @@ struct CompiledPass {
     std::vector<RoundStage> round;
     StageSet stages;
     Buffer<int64_t> film;
+    uint32_t chosen = SELECT_LIGHT;  ///< what StageInput::chosen is bound to
+    uint64_t additions = 0;          ///< to one pixel since the last carry, at most
     std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
 };
 
@@ -105,7 +108,7 @@ struct RenderSession::State {
           numbers(integrator_settings(settings)),
           compiled(compile_scene(scene, compile_settings(settings))) {
         for (const Pass &pass : algorithm_passes(settings.algorithm, select_features(compiled, settings, device.info()),
-                                                 compiled.lighting.light_count)) {
+                                                 compiled.lighting.light_count, numbers.light_vertices)) {
             if (settings.passes == "all" || settings.passes == pass.name) {
                 passes.emplace_back(pass, device, layout, settings);
                 features = features | pass.features;
@@ -144,6 +147,7 @@ struct RenderSession::State {
             words = std::max(words, path_state_words(pass.features));
         }
         path_words = Buffer<uint32_t>(device, "path_states", capacity * words);
+        vertex_words = Buffer<uint32_t>(device, "light_vertices", capacity * vertex_words_per_path());
         queues = Buffer<uint32_t>(device, "queues", capacity * STREAM_QUEUES);
         counters = Buffer<StreamCounters>(device, "counters", 1);
         counters.write({StreamCounters{}});
@@ -159,8 +163,13 @@ struct RenderSession::State {
         arguments[In::camera] = {compiled.camera};
         arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
         arguments[In::first_sample] = {uint64_t{0}};
-        arguments[In::chosen_light] = {uint32_t{SELECT_LIGHT}};
+        arguments[In::chosen] = {uint32_t{SELECT_LIGHT}};
+        arguments[In::first_work] = {uint32_t{0}};
         arguments[In::work] = {uint32_t{0}};
+        arguments[In::vertices] = {};
+        if (features.has(Feature::vertex_joins)) {
+            arguments[In::vertices] = {vertex_words};
+        }
         arguments[In::streams] = {path_words, queues, counters, layout.capacity};
         arguments[In::counters] = {counters};
         arguments[In::settings] = {numbers};
@@ -168,6 +177,11 @@ struct RenderSession::State {
             arguments[In::film] = {pass.film};
             pass.stages.bind(arguments);
         }
+    }
+
+    /// 4-byte words of the light vertices that are kept for every path in flight.
+    uint32_t vertex_words_per_path() const {
+        return features.has(Feature::vertex_joins) ? numbers.light_vertices * light_vertex_words(features) : 0;
     }
 
     uint64_t film_words() const { return pixels() * FILM_PIXEL_WORDS(settings.variance); }
@@ -209,36 +223,72 @@ struct RenderSession::State {
         }
     }
 
-    /// Renders `count` samples of the image from `first` on.
-    void run_batch(uint64_t first, uint64_t count) {
-        for (CompiledPass &pass : passes) {
-            run_pass(pass, first, count);
+    /// Stages share what is chosen: it is bound where the next to take it asks for another.
+    static void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
+        const auto &inputs = stage_description(stage.name).inputs;
+        if (stage.chosen != pass.chosen && std::find(inputs.begin(), inputs.end(), StageInput::chosen) != inputs.end()) {
+            pass.stages.bind({{StageInput::chosen, {stage.chosen}}});
+            pass.chosen = stage.chosen;
         }
     }
 
-    void run_pass(CompiledPass &pass, uint64_t first, uint64_t count) {
-        const auto work = static_cast<uint32_t>(count * paths_per_sample(pass));
-        pass.stages.bind({{StageInput::first_sample, {first}}, {StageInput::work, {work}}});
+    /// Renders `count` samples of the image from `first` on.
+    void run_batch(uint64_t first, uint64_t count) {
+        if (features.has(Feature::vertex_joins)) {
+            // One path of each pass for every pixel: chunk by chunk, so that both find the same light vertices.
+            const auto work = static_cast<uint32_t>(count * pixels());
+            for (uint32_t begin = 0; begin == 0 || begin < work; begin += layout.capacity) {
+                for (CompiledPass &pass : passes) {
+                    run_pass(pass, first, begin, std::min(begin + layout.capacity, work));
+                }
+            }
+        } else {
+            for (CompiledPass &pass : passes) {
+                run_pass(pass, first, 0, static_cast<uint32_t>(count * paths_per_sample(pass)));
+            }
+        }
+        for (CompiledPass &pass : passes) {
+            carry_film(pass);
+            collect_profile(pass);
+        }
+    }
+
+    void carry_film(CompiledPass &pass) {
+        enqueue(pass, "carry_film");
+        pass.additions = 0;
+    }
+
+    void collect_profile(CompiledPass &pass) {
+        device.finish();
+        for (const auto &[name, stage] : device.profiler().take()) {
+            pass.profile[name].seconds += stage.seconds;
+            pass.profile[name].launches += stage.launches;
+        }
+    }
+
+    /// Traces the paths from `begin` to `end` of the batch that starts at sample `first`.
+    void run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end) {
+        pass.stages.bind(
+            {{StageInput::first_sample, {first}}, {StageInput::first_work, {begin}}, {StageInput::work, {end}}});
         enqueue(pass, "reset_streams");
-        uint64_t additions = 0;  // to one pixel since the last carry, at most
         // The counters are read one check behind, so that the device is never idle while the host looks.
         std::array<StreamCounters, 2> seen{};
         std::array<ClEvent, 2> read;
         for (int check = 0;; ++check) {
             for (int i = 0; i < rounds_per_check; ++i) {
                 for (const RoundStage &stage : pass.round) {
-                    if (stage.chosen_light != SELECT_LIGHT) {
-                        pass.stages.bind({{StageInput::chosen_light, {stage.chosen_light}}});
+                    if (stage.rounds > 0 && static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
+                        continue;
                     }
+                    bind_chosen(pass, stage);
                     enqueue(pass, stage.name);
                 }
             }
             // A camera path ends with one addition to its pixel, of which there are few in a batch; splats of all light
             // paths may go to one.
-            additions += pass.name == "light" ? uint64_t{2} * rounds_per_check * layout.capacity : 0;
-            if (additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
-                enqueue(pass, "carry_film");
-                additions = 0;
+            pass.additions += pass.name == "light" ? uint64_t{2} * rounds_per_check * layout.capacity : 0;
+            if (pass.additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
+                carry_film(pass);
             }
             const int now = check % 2;
             cl_event event = nullptr;
@@ -255,17 +305,12 @@ struct RenderSession::State {
                 if (c.overflow > 0) {
                     throw run_error(fmt::format("a stream overflowed {} times", c.overflow));
                 }
-                if (c.next_work >= work && c.active[c.parity] == 0) {
+                if (c.next_work >= end && c.active[c.parity] == 0) {
                     break;
                 }
             }
         }
-        enqueue(pass, "carry_film");
-        device.finish();
-        for (const auto &[name, stage] : device.profiler().take()) {
-            pass.profile[name].seconds += stage.seconds;
-            pass.profile[name].launches += stage.launches;
-        }
+        collect_profile(pass);
     }
 
     void reset_film() {
@@ -317,6 +362,7 @@ struct RenderSession::State {
     std::map<std::string, Profiler::Stage> bvh_stages;
     SceneBuffers scene_buffers;
     Buffer<uint32_t> path_words;
+    Buffer<uint32_t> vertex_words;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
 
@@ -463,7 +509,10 @@ nlohmann::json RenderSession::report() const {
                                     {"bytes_per_path", path_bytes}});
         largest_path = std::max(largest_path, path_bytes);
     }
-    report["bytes_per_path"] = largest_path;  // in memory; the passes take turns
+    // In memory: the passes take turns, but for the light vertices that one keeps for the other.
+    const uint32_t vertex_bytes = s.vertex_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
+    report["light_vertex_bytes_per_path"] = vertex_bytes;
+    report["bytes_per_path"] = largest_path + vertex_bytes;
     for (const auto &[name, stage] : s.bvh_stages) {
         report["bvh"]["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
@@ -479,6 +528,7 @@ nlohmann::json RenderSession::report() const {
     add_buffer(s.bvh.triangles());
     s.scene_buffers.visit(add_buffer);
     add_buffer(s.path_words);
+    add_buffer(s.vertex_words);
     add_buffer(s.queues);
     add_buffer(s.counters);
     for (const CompiledPass &pass : s.passes) {

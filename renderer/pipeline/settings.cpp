@@ -43,6 +43,9 @@ const std::vector<Setting> &setting_table() {
     static const std::vector<Setting> table = {
         {"integrator.strategies", TextSetting{&S::strategies, {"implicit", "explicit", "mis"}}, "how light is found"},
         {"integrator.light_paths", CountSetting{&S::light_paths, 1u << 30}, "per sample of the image, 0: as many as pixels"},
+        {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
+         "of bdpt: vertices kept of each light path; paths of more scattering events than that and one have the strategies "
+         "of truncated_bdpt"},
         {"integrator.beta", NumberSetting{&S::beta, 0.0f, 1e3f}, "exponent of the power heuristic"},
         {"integrator.termination", TextSetting{&S::termination, {"roulette", "fixed", "adaptive"}},
          "how paths end; fixed (at max_depth) and adaptive are biased"},
@@ -96,7 +99,7 @@ void require_value(const Setting &setting, const TextSetting &text, const std::s
 }  // namespace
 
 const std::vector<std::string> &algorithm_names() {
-    static const std::vector<std::string> names = {"path_tracing", "light_tracing", "truncated_bdpt"};
+    static const std::vector<std::string> names = {"path_tracing", "light_tracing", "bdpt", "truncated_bdpt"};
     return names;
 }
 
@@ -133,6 +136,14 @@ void require_consistent(const RenderSettings &settings) {
     if (settings.algorithm != "path_tracing" && settings.strategies != "mis") {
         throw input_error(fmt::format("integrator.strategies={}: {} has strategies of its own", settings.strategies,
                                       settings.algorithm));
+    }
+    if (settings.algorithm == "bdpt" && settings.light_paths != 0) {
+        throw input_error(fmt::format("integrator.light_paths={}: bdpt joins every camera path to a light path of its own",
+                                      settings.light_paths));
+    }
+    if (settings.algorithm == "bdpt" && settings.passes != "all") {
+        throw input_error(fmt::format("the passes of bdpt share their light paths and are not rendered apart: '{}'",
+                                      settings.passes));
     }
     if (settings.termination == "fixed" && settings.max_depth == 0) {
         throw input_error("integrator.termination=fixed needs a limit: --set integrator.max_depth=N");
@@ -180,6 +191,7 @@ IntegratorSettings integrator_settings(const RenderSettings &settings) {
         numbers.strategies |= settings_features(settings).has(feature) ? bit : 0u;
     }
     numbers.light_paths = light_paths_per_sample(settings);
+    numbers.light_vertices = settings.bdpt_vertices;
     numbers.termination = settings.termination == "roulette"   ? TERMINATION_ROULETTE
                           : settings.termination == "adaptive" ? TERMINATION_ADAPTIVE
                                                                : TERMINATION_FIXED;
@@ -204,7 +216,8 @@ FeatureMask settings_features(const RenderSettings &settings) {
     return FeatureMask()
         .with(Feature::implicit_light, !light_tracing && settings.strategies != "explicit")
         .with(Feature::explicit_light, !light_tracing && settings.strategies != "implicit")
-        .with(Feature::light_strategy, settings.algorithm == "truncated_bdpt")
+        .with(Feature::light_strategy, settings.algorithm == "truncated_bdpt" || settings.algorithm == "bdpt")
+        .with(Feature::vertex_joins, settings.algorithm == "bdpt")
         .with(Feature::roulette, settings.termination == "roulette")
         .with(Feature::adaptive, settings.termination == "adaptive")
         .with(Feature::depth_limit, settings.max_depth != 0)

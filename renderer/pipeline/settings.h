@@ -25,6 +25,8 @@ struct RenderSettings {
     // integrator.*
     std::string strategies = "mis";         ///< implicit | explicit | mis; of path_tracing
     uint32_t light_paths = 0;               ///< per sample of the image, 0: as many as pixels
+    uint32_t bdpt_vertices = 8;             ///< of bdpt: vertices kept of each light path; paths of one scattering event more
+                                            ///< are the longest that all strategies find
     float beta = 2.0f;                      ///< exponent of the power heuristic, > 0
     std::string termination = "roulette";   ///< roulette | fixed | adaptive
     uint32_t max_depth = 0;                 ///< scattering events, 0: no limit

@@ -12,6 +12,7 @@
     X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")                 \
     X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")               \
     X(light_strategy, "light paths that are joined to the camera share the weights")                \
+    X(vertex_joins, "light vertices are kept and joined to those of camera paths")                  \
     X(from_camera, "this pass traces paths from the camera")                                        \
     X(from_light, "this pass traces paths from the lights")                                         \
     X(shadow_rays, "vertices are joined to light samples or to the camera")                         \
@@ -54,6 +55,7 @@
     X(lights, "the scene has emitters")                                                             \
     X(direction_density, "paths carry the density of their direction")                              \
     X(emission_density, "light paths carry the density of their start")                             \
+    X(arrival_density, "paths carry the density of their arrival at a vertex")                      \
     X(many_lights, "more than one light: a selection table is searched")                            \
     X(independent_lights, "every vertex is joined to every light, one after the other")             \
     X(area_lights, "emitting triangles")                                                            \

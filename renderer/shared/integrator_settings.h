@@ -25,8 +25,13 @@ typedef struct IntegratorSettings {
     float max_continuation;     ///< largest probability that roulette lets a path go on, below 1
     float adaptive_threshold;   ///< adaptive termination: paths end below this throughput
     uint light_paths;           ///< per sample of the image
+    uint light_vertices;        ///< kept of each light path where they are joined to camera paths
 } IntegratorSettings;
 
+/// Whether paths of so many scattering events are found by all strategies of full bidirectional path tracing, where
+/// light vertices are kept: joined to the camera's first, the last of them makes paths of one event more.
+DEVICE bool all_strategies(IntegratorSettings settings, uint events) { return events <= settings.light_vertices + 1u; }
+
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(IntegratorSettings) == 32, "layout shared with the device");
+static_assert(sizeof(IntegratorSettings) == 36, "layout shared with the device");
 #endif

@@ -23,7 +23,8 @@
     X(FEATURE_roulette_scale, float, roulette_scale) /* throughput over this is what roulette goes by */ \
     X(FEATURE_direction_density, float, pdf_w) /* of ray_direction, per solid angle; INFINITY: delta */ \
     X(FEATURE_light_strategy, float, log_ratio) /* of densities along the path: kernels/light/mis.h */ \
-    X(FEATURE_emission_density, float, log_explicit) /* likewise, up to the first hit */          \
+    X(FEATURE_arrival_density, float, log_arrival) /* likewise, of the last ray */                \
+    X(FEATURE_vertex_joins, float, log_strategies) /* likewise, of all strategies */              \
     X(FEATURE_emission_density, uint, light) /* where the path began */                           \
     X(FEATURE_shadow_rays, float3, shadow_vector)  /* from ray_origin to what is joined */        \
     X(FEATURE_shadow_rays, float3, shadow_radiance) /* added unless the way is blocked */         \

@@ -48,4 +48,10 @@
 #define MATERIAL_ARGUMENTS MATERIAL_BUFFERS(X_ARGUMENT)
 #define LIGHT_ARGUMENTS LIGHT_BUFFERS(X_ARGUMENT) lighting,
 
+// The light vertices of shared/light_vertex.h, where they are kept; ends in a comma, too.
+#define VERTEX_BUFFER_PARAMETER GLOBAL uint *vertex_words,
+#define VERTEX_BUFFER_ARGUMENT vertex_words,
+#define VERTEX_PARAMETERS WHEN(FEATURE_vertex_joins, VERTEX_BUFFER_PARAMETER)
+#define VERTEX_ARGUMENTS WHEN(FEATURE_vertex_joins, VERTEX_BUFFER_ARGUMENT)
+
 #define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "renderer/device/context.h"
+#include "renderer/device/source.h"
 #include "renderer/integrators/algorithm.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/pipeline/stages.h"
@@ -130,6 +131,12 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
         ASSERT_NEAR(image.channel("camera.G")[i] + image.channel("light.G")[i], image.channel("G")[i],
                     1e-6 * (1 + image.channel("G")[i]));
     }
+    settings.algorithm = "bdpt";
+    expect_input_error("share their light paths", [&] { render("light"); });
+    settings.passes = "all";
+    settings.light_paths = 7;
+    expect_input_error("a light path of its own", [&] { render("all"); });
+    settings.light_paths = 0;
     settings.algorithm = "light_tracing";
     expect_input_error("light_tracing has no pass 'camera'", [&] { render("camera"); });
 }
@@ -153,6 +160,75 @@ TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
     EXPECT_LT(std::abs(all.value - few.value), 4 * std::hypot(all.standard_error, few.standard_error));
     EXPECT_LT(all.standard_error, 0.01 * all.value) << "power";
     EXPECT_LT(light_of_few, 0.7 * light_of_all);
+}
+
+// With 16 vertices all strategies find all but the longest paths, with 1 only those of two scattering events: nothing is
+// lost or counted twice on either side of the limit. Five differences from path tracing at a family-wise level of 0.01,
+// standard errors from how 32 batches scatter: each may be 3.4 of them off (two-sided, t of 31 degrees, Bonferroni).
+TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
+    const auto mean = [&](const std::string &algorithm, uint32_t seed, const std::vector<std::string> &assignments,
+                          const SourceOverlays &overlays = {}) {
+        RenderSettings settings = small(assignments);
+        settings.algorithm = algorithm;
+        settings.seed = seed;
+        settings.source_overlays = overlays;
+        RenderSession session(cornell_box(), settings, device());
+        std::vector<double> batches;
+        for (uint64_t batch = 0; batch < 32; ++batch) {
+            session.restart(seed);
+            session.render(16 * batch, 16 * (batch + 1));
+            batches.push_back(mean_of(session.develop(), "G", 0, 32).value);
+        }
+        Mean result;
+        for (const double value : batches) {
+            result.value += value / 32;
+        }
+        for (const double value : batches) {
+            result.standard_error += std::pow(value - result.value, 2) / (32 * 31);
+        }
+        result.standard_error = std::sqrt(result.standard_error);
+        return result;
+    };
+    const Mean expected = mean("path_tracing", 1, {});
+    EXPECT_LT(expected.standard_error, 0.005 * expected.value) << "power";
+    const auto errors_off = [&](const Mean &found) {
+        return std::abs(found.value - expected.value) / std::hypot(found.standard_error, expected.standard_error);
+    };
+    uint32_t seed = 2;
+    for (const char *vertices : {"16", "8", "2", "1", "0"}) {
+        EXPECT_LT(errors_off(mean("bdpt", seed++, {std::string("integrator.bdpt_vertices=") + vertices})), 3.4) << vertices;
+    }
+    // And would be seen: a cosine that is missing in the joins, one strategy that is missing in all weights.
+    const auto planted = [&](const char *file, const std::string &search, const char *replacement) {
+        std::string text = device_source(file);
+        const size_t at = text.find(search);
+        EXPECT_NE(at, std::string::npos) << search;
+        return errors_off(mean("bdpt", seed++, {}, {{file, text.replace(at, search.size(), replacement)}}));
+    };
+    EXPECT_GT(planted("kernels/connect_vertices.cl", "weight * cos_there", "weight"), 6);
+    EXPECT_GT(planted("kernels/light/mis.h", "return log_norm(log_arrival, log_pdf + log_strategies, beta);",
+                      "(void)log_arrival; (void)beta; return log_pdf + log_strategies;"), 6);
+}
+
+TEST(Pipeline, KeepsLightVerticesInProportionToTheirNumber) {
+    const auto report = [&](const char *algorithm, const char *assignment) {
+        RenderSettings settings = small({assignment});
+        settings.algorithm = algorithm;
+        return RenderSession(cornell_box(), settings, device()).report();
+    };
+    const nlohmann::json truncated = report("truncated_bdpt", "integrator.max_depth=40");
+    EXPECT_EQ(truncated["bytes_per_path"], report("truncated_bdpt", "integrator.max_depth=4")["bytes_per_path"]);
+    const nlohmann::json four = report("bdpt", "integrator.bdpt_vertices=4");
+    const int vertex = four["light_vertex_bytes_per_path"].get<int>() / 4;
+    EXPECT_EQ(vertex, 44) << "hit, direction, throughput, two logarithms";
+    const nlohmann::json sixteen = report("bdpt", "integrator.bdpt_vertices=16");
+    EXPECT_EQ(sixteen["bytes_per_path"].get<int>() - four["bytes_per_path"].get<int>(), 12 * vertex);
+    uint64_t bytes = 0;
+    for (const auto &buffer : sixteen["buffers"]) {
+        const std::string name = buffer.at("name");
+        bytes += name == "path_states" || name == "queues" || name == "light_vertices" ? buffer.at("bytes").get<uint64_t>() : 0;
+    }
+    EXPECT_EQ(bytes, sixteen["bytes_per_path"].get<uint64_t>() * 512);
 }
 
 TEST(Pipeline, ResumesAndMergesToTheSameBits) {
@@ -233,7 +309,7 @@ TEST_P(FeatureBuild, Succeeds) {
     const FeatureMask mask = index == -2   ? FeatureMask::all()
                              : index == -1 ? FeatureMask()
                                            : FeatureMask::all().with(static_cast<Feature>(index), false);
-    for (const Pass &pass : algorithm_passes("truncated_bdpt", mask, 1)) {
+    for (const Pass &pass : algorithm_passes("bdpt", mask, 1, 2)) {
         std::vector<std::string> stages = {"reset_streams", "carry_film"};
         for (const RoundStage &stage : pass.round) {
             stages.push_back(stage.name);
@@ -273,7 +349,7 @@ TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
     const std::set<std::string> bookkeeping = {"begin_round", "end_shadow_rays", "end_round"};
     for (const std::string &algorithm : algorithms) {
         std::set<std::string> used;
-        for (const Pass &pass : algorithm_passes(algorithm, FeatureMask::all(), 1)) {
+        for (const Pass &pass : algorithm_passes(algorithm, FeatureMask::all(), 1, 2)) {
             for (const RoundStage &stage : pass.round) {
                 if (bookkeeping.count(stage.name) == 0) {
                     used.insert(stage.name);
@@ -286,7 +362,7 @@ TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
 
 TEST(Features, AreNamedAndClosed) {
     // Each pass starts at one end.
-    const FeatureMask from_light = FeatureMask::all().with(Feature::from_camera, false).with(Feature::direction_density, false);
+    const FeatureMask from_light = FeatureMask::all().with(Feature::from_camera, false);
     EXPECT_EQ(FeatureMask::all().closed().bits(), from_light.bits());
     const FeatureMask from_camera = FeatureMask::all().with(Feature::from_light, false).with(Feature::emission_density, false);
     EXPECT_EQ(from_camera.closed().bits(), from_camera.bits());

@@ -32,6 +32,21 @@ DEVICE float power_heuristic(float other_over_own, float beta) {
 // underflows however long the path; the error of a weight is some 1e-7 times the logarithm. What cannot happen has
 // -INFINITY, and no other infinity is added to it: densities of directions that were drawn are positive and finite.
 
+// Full bidirectional path tracing adds the strategies that join the camera path's x_m to the light path's x_{m+1}, m = 1
+// ... k - 2 (Veach 1997, 10.2). A path from either end keeps two numbers for them (Georgiev 2012, "Implementing vertex
+// connection and merging", dVCM and dVC), as logarithms: where it has arrived at vertex i with the density E_i per area,
+//
+//   A_i = 1 / E_i, the strategy that would have joined both ends of the ray rather than trace it; n_L / P_1 on the camera's
+//         first hit, p_o,explicit / (p_o E) on the light's; 0 where the vertex before had a delta event
+//   S_i = all strategies with i on the other side: S_i^beta = (A_i^beta + p_wp(i -> i-1)^beta S_{i-1}^beta) /
+//         p_wp(i -> i+1)^beta, without A_i at a delta; S_0 = 0 on the camera, 1 / (p_o p_d) on the light, 0 if that cannot be hit
+//
+// so that p_others / p_own = p_arrive (A^beta + p_wp(back)^beta S^beta)^(1 / beta) is what one side of a join adds,
+// p_arrive being the density per area with which the other side's path would have come here. With R in place of S, and A
+// only of the first hits, these are the weights above. Vertices are kept of light paths up to a number N: strategies that
+// join them exist for paths of at most N + 1 scattering events, all of them; longer paths are left to the three above,
+// so that none is lost.
+
 /// (2^x)^beta.
 DEVICE float power_of(float log_ratio, float beta) { return exp2(beta * log_ratio); }
 
@@ -75,4 +90,30 @@ DEVICE float light_path_weight(float log_ratio, float log_explicit, uint depth, 
                                            power_of(log_explicit + log_first, beta)
                                      : exp2(log_ratio + beta * (log_back + log_first));
     return 1.0f / (1.0f + others);
+}
+
+/// log2 of (2^(beta x) + 2^(beta y))^(1 / beta).
+DEVICE float log_norm(float x, float y, float beta) { return log_sum(beta * x, beta * y) / beta; }
+
+/// log2 of 1 / E of a hit after a way of that square, under that cosine, in a direction of density `pdf_w` per solid
+/// angle: -INFINITY after a delta event, and for a hit in the plane of the surface, which is none in exact arithmetic.
+DEVICE float log_inverse_pdf_a(float pdf_w, float cosine, float squared) {
+    return pdf_w < INFINITY && cosine > 0.0f ? log2(squared) - log2(cosine) - log2(pdf_w) : -INFINITY;
+}
+
+/// log2 of S_i from that of S_{i-1} and of A_i; the others as above.
+DEVICE float continue_strategies(float log_strategies, float log_arrival, bool is_delta, float log_forward,
+                                 float log_back, float beta) {
+    return log_norm(log_strategies + log_back, is_delta ? -INFINITY : log_arrival - log_forward, beta);
+}
+
+/// log2 of (A^beta + p^beta S^beta)^(1 / beta): the strategies on this side of a vertex that is joined, `log_pdf` being
+/// log2 of p, the density per projected solid angle of going back from there.
+DEVICE float strategies_before(float log_strategies, float log_arrival, float log_pdf, float beta) {
+    return log_norm(log_arrival, log_pdf + log_strategies, beta);
+}
+
+/// The weight of the join of two vertices, given log2 of what either side adds to p_others / p_own.
+DEVICE float join_weight(float log_camera_side, float log_light_side, float beta) {
+    return 1.0f / (1.0f + power_of(log_camera_side, beta) + power_of(log_light_side, beta));
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Stage store_vertex: keeps the hit of each light path where camera paths can be joined to it.
+// Reads: hit, ray_direction, throughput, log_arrival, log_strategies, active queue. Writes: light vertices.
+
+#include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/light_vertex.h"
+#include "renderer/shared/scene_buffers.h"
+#include "renderer/shared/scene_records.h"
+
+DEVICE void keep_hit(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS
+                     IntegratorSettings settings) {
+    const uint depth = get_depth(paths, slot);
+    LightVertex vertex;
+    vertex.hit_primitive = get_hit_primitive(paths, slot);
+    if (depth >= settings.light_vertices || vertex.hit_primitive == NO_HIT) {
+        return;
+    }
+    const float3 at = get_hit_at(paths, slot);
+#if FEATURE_delta
+    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS vertex.hit_primitive, at);
+    if ((materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+        return;
+    }
+#endif
+    vertex.hit_u = at.x;
+    vertex.hit_v = at.y;
+#if FEATURE_shapes
+    vertex.hit_w = at.z;
+#endif
+    vertex.direction = get_ray_direction(paths, slot);
+    vertex.throughput = get_throughput(paths, slot);
+    vertex.log_arrival = get_log_arrival(paths, slot);
+    vertex.log_strategies = get_log_strategies(paths, slot);
+    const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot), settings.light_paths, paths.capacity);
+    store_light_vertex(light_vertex_place(vertex_words, paths.capacity, settings.light_vertices, row, depth), vertex);
+}
+
+__kernel void store_vertex(SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
+                           VERTEX_PARAMETERS STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        keep_hit(paths, active_slot(queues, counters, capacity, i), SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS
+                 settings);
+    }
+}
