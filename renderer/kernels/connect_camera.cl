@@ -8,7 +8,7 @@
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
-#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
@@ -72,8 +72,8 @@ DEVICE bool join_hit(PathStates paths, uint slot,
         return false;
     }
 #endif
-    const uint4 words = random_words(settings.seed, STREAM_LIGHT_PATHS, get_pixel(paths, slot),
-                                     first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
+    const uint4 words = path_sample(settings, get_pixel(paths, slot), first_sample + get_sample(paths, slot),
+                                    BLOCK_LIGHT(depth));
     const CameraJoin join = join_camera(camera, hit.point.position, uniform_float(words.x), uniform_float(words.y));
     if (!(join.pdf_w > 0.0f)) {
         return false;

@@ -1,29 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Stage connect_emitter: joins the start of each new light path to the camera (emitters seen directly). Of light tracing
-// alone: next to camera paths, which find the same radiance without noise, it would add some.
+// Stage connect_emitter: joins the start of each new light path to the camera (emitters seen directly).
 // Reads: pixel, sample, active queue. Writes: shadow_vector, shadow_radiance, splat_pixel; ray_origin of the shadow ray is
 // that of the path.
 // To: the shadow queue.
 
 #include "renderer/kernels/camera/perspective.h"
+#include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
+
+#if FEATURE_light_strategy
+#define SEEN_BY_CAMERA_ALONE ((settings.strategies & (STRATEGY_LIGHT | STRATEGY_LIGHT_EMITTERS)) == STRATEGY_LIGHT)
+#else
+#define SEEN_BY_CAMERA_ALONE false
+#endif
 
 /// Prepares the shadow ray. False when the camera does not look there.
 DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
                        IntegratorSettings settings, ulong first_sample) {
     const uint path = get_pixel(paths, slot);
     const ulong sample = first_sample + get_sample(paths, slot);
-    if (get_depth(paths, slot) > 0u) {
+    if (get_depth(paths, slot) > 0u || SEEN_BY_CAMERA_ALONE) {
         return false;
     }
     const EmissionSample start = path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, sample);
     if (start.is_delta != 0u || start.at_infinity != 0u) {
         return false;
     }
-    const uint4 words = random_words(settings.seed, STREAM_LIGHT_PATHS, path, sample, BLOCK_CAMERA);
+    const uint4 words = path_sample(settings, path, sample, BLOCK_CAMERA);
     const CameraJoin join = join_camera(camera, start.point.position, uniform_float(words.x), uniform_float(words.y));
     const float3 way = join.lens_point - start.point.position;
     const float squared = dot(way, way);
@@ -33,7 +39,14 @@ DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PAR
     }
     // P_1, the density of camera paths per area here; L P_1 / (p_o n_L) is what the path adds.
     const float camera_pdf_a = join.pdf_w * (facing / sqrt(squared)) / squared;
-    const float3 radiance = light_radiance(lights[start.light]) * (camera_pdf_a / (start.pdf_origin * (float)settings.light_paths));
+    float3 radiance = light_radiance(lights[start.light]) * (camera_pdf_a / (start.pdf_origin * (float)settings.light_paths));
+#if FEATURE_light_emitters
+    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+        // p_I / p_L of a path of one edge, kernels/light/mis.h.
+        radiance *= camera_path_weight(0.0f, log2(camera_pdf_a) - log2(start.pdf_origin) - log2((float)settings.light_paths),
+                                       settings.beta);
+    }
+#endif
     set_shadow_vector(paths, slot, join.lens_point - start.origin);
     set_shadow_radiance(paths, slot, radiance);
     set_splat_pixel(paths, slot, (uint)join.raster.y * camera.width + (uint)join.raster.x);

@@ -17,7 +17,7 @@ typedef struct Emission {
     float3 radiance;
     float explicit_pdf_w;  ///< density per solid angle with which light sampling at the vertex before would have found it
 #if FEATURE_light_strategy
-    float line_pdf;        ///< p_o p_d of kernels/light/mis.h
+    float line_pdf;        ///< p_o p_d of kernels/light/mis.h; of what the camera sees directly, p_o
 #endif
 } Emission;
 
@@ -40,7 +40,8 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
         }
 #if FEATURE_light_strategy
         if (by_light_path) {
-            met->line_pdf = infinite_line_pdf(LIGHT_ARGUMENTS from, direction);
+            // What is infinitely far is not joined to the camera.
+            met->line_pdf = get_depth(paths, slot) > 0u ? infinite_line_pdf(LIGHT_ARGUMENTS from, direction) : 0.0f;
         }
 #endif
         return true;
@@ -62,7 +63,8 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     }
 #if FEATURE_light_strategy
     if (by_light_path) {
-        met->line_pdf = emission_line_pdf(LIGHT_ARGUMENTS light, primitive, hit.emitter);
+        met->line_pdf = get_depth(paths, slot) > 0u ? emission_line_pdf(LIGHT_ARGUMENTS light, primitive, hit.emitter)
+                                                    : emission_pdf_a(LIGHT_ARGUMENTS light, primitive, hit.emitter);
     }
 #endif
     return true;
@@ -99,10 +101,13 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     bool by_light_sampling = false, by_light_path = false;
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        // Emitters seen directly are left to implicit paths, which find their radiance without noise.
-        by_light_path = get_depth(paths, slot) > 0u;
-        if (FEATURE_vertex_joins || !by_light_path) {
+        by_light_path = true;
+        const bool first = get_depth(paths, slot) == 0u;
+        if (FEATURE_vertex_joins || first) {
             arrive(paths, slot, SURFACE_ARGUMENTS settings);
+        }
+        if (first) {
+            by_light_path = (settings.strategies & STRATEGY_LIGHT_EMITTERS) != 0u;
         }
     }
 #endif

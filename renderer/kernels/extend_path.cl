@@ -6,7 +6,7 @@
 
 #include "renderer/kernels/film/film.h"
 #include "renderer/kernels/geometry/surface_hit.h"
-#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
@@ -40,8 +40,8 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
 #endif
     const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
     const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
-    const uint4 words = random_words(settings.seed, PATH_STREAM, get_pixel(paths, slot),
-                                     first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
+    const uint4 words = path_sample(settings, get_pixel(paths, slot), first_sample + get_sample(paths, slot),
+                                    BLOCK_SCATTER(depth));
     const BsdfSample sample = bsdf_sample(MATERIAL_ARGUMENTS hit.material, frame, uniform_float(words.w),
                                           uniform_float(words.x), uniform_float(words.y));
     if (!(sample.pdf_w > 0.0f)) {

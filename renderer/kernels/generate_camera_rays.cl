@@ -3,7 +3,7 @@
 // Reads: free queue. Writes: path states. To: the active queue of this round.
 
 #include "renderer/kernels/camera/perspective.h"
-#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
@@ -12,7 +12,7 @@
 /// Starts sample `sample` of the batch in a pixel.
 DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, IntegratorSettings settings, ulong first_sample,
                        uint pixel, uint sample) {
-    const uint4 words = random_words(settings.seed, STREAM_CAMERA, pixel, first_sample + sample, BLOCK_CAMERA);
+    const uint4 words = path_sample(settings, pixel, first_sample + sample, BLOCK_CAMERA);
     const float x = (float)(pixel % camera.width) + uniform_float(words.x);
     const float y = (float)(pixel / camera.width) + uniform_float(words.y);
     set_pixel(paths, slot, pixel);

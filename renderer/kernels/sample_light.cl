@@ -7,7 +7,7 @@
 #include "renderer/kernels/bsdf/shading_frame.h"
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
-#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
@@ -72,7 +72,7 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
 #endif
     // Lights that are sampled one after the other have numbers of their own.
     const uint stream = chosen == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(chosen);
-    const uint4 words = random_words(settings.seed, stream, get_pixel(paths, slot),
+    const uint4 words = sample_words(settings, stream, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
     const LightSample light = sample_lights(SURFACE_ARGUMENTS LIGHT_ARGUMENTS chosen, hit.point.position, words);
     if (!(light.pdf_w > 0.0f)) {

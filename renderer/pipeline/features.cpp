@@ -51,6 +51,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::light_strategy, Feature::scattering},
     {Feature::light_strategy, Feature::lights},
     {Feature::vertex_joins, Feature::light_strategy},
+    {Feature::light_emitters, Feature::light_strategy},
     {Feature::from_light, Feature::lights},
     {Feature::area_lights, Feature::lights},
     {Feature::area_lights, Feature::triangles},

@@ -42,6 +42,10 @@ const std::vector<Setting> &setting_table() {
     using S = RenderSettings;
     static const std::vector<Setting> table = {
         {"integrator.strategies", TextSetting{&S::strategies, {"implicit", "explicit", "mis"}}, "how light is found"},
+        {"integrator.sampler", TextSetting{&S::sampler, {"independent", "sobol"}},
+         "random numbers; sobol: stratified over the samples of a pixel, and over light paths"},
+        {"integrator.seen_emitters", TextSetting{&S::seen_emitters, {"mis", "camera"}},
+         "truncated_bdpt: emitters seen directly by both passes, or by camera paths alone"},
         {"integrator.light_paths", CountSetting{&S::light_paths, 1u << 30}, "per sample of the image, 0: as many as pixels"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
          "of bdpt: vertices kept of each light path; paths of more scattering events than that and one have the strategies "
@@ -187,9 +191,11 @@ IntegratorSettings integrator_settings(const RenderSettings &settings) {
     numbers.strategies = 0u;
     for (const auto &[feature, bit] : {std::pair(Feature::implicit_light, STRATEGY_IMPLICIT),
                                        std::pair(Feature::explicit_light, STRATEGY_EXPLICIT),
-                                       std::pair(Feature::light_strategy, STRATEGY_LIGHT)}) {
+                                       std::pair(Feature::light_strategy, STRATEGY_LIGHT),
+                               std::pair(Feature::light_emitters, STRATEGY_LIGHT_EMITTERS)}) {
         numbers.strategies |= settings_features(settings).has(feature) ? bit : 0u;
     }
+    numbers.sampler = settings.sampler == "sobol" ? SAMPLER_SOBOL : SAMPLER_INDEPENDENT;
     numbers.light_paths = light_paths_per_sample(settings);
     numbers.light_vertices = settings.bdpt_vertices;
     numbers.termination = settings.termination == "roulette"   ? TERMINATION_ROULETTE
@@ -218,8 +224,10 @@ FeatureMask settings_features(const RenderSettings &settings) {
         .with(Feature::explicit_light, !light_tracing && settings.strategies != "implicit")
         .with(Feature::light_strategy, settings.algorithm == "truncated_bdpt" || settings.algorithm == "bdpt")
         .with(Feature::vertex_joins, settings.algorithm == "bdpt")
+        .with(Feature::light_emitters, settings.algorithm == "truncated_bdpt" && settings.seen_emitters == "mis")
         .with(Feature::roulette, settings.termination == "roulette")
         .with(Feature::adaptive, settings.termination == "adaptive")
+        .with(Feature::sobol, settings.sampler == "sobol")
         .with(Feature::depth_limit, settings.max_depth != 0)
         .with(Feature::variance, settings.variance);
 }

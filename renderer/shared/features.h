@@ -13,6 +13,7 @@
     X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")               \
     X(light_strategy, "light paths that are joined to the camera share the weights")                \
     X(vertex_joins, "light vertices are kept and joined to those of camera paths")                  \
+    X(light_emitters, "they show emitters that the camera sees directly, too")                      \
     X(from_camera, "this pass traces paths from the camera")                                        \
     X(from_light, "this pass traces paths from the lights")                                         \
     X(shadow_rays, "vertices are joined to light samples or to the camera")                         \
@@ -20,6 +21,7 @@
     X(roulette_scale, "roulette measures the throughput by something of the path's own")            \
     X(adaptive, "paths end below a throughput threshold (biased)")                                  \
     X(depth_limit, "max_depth is finite")                                                           \
+    X(sobol, "samples are stratified")                                                              \
     /* geometry */                                                                                  \
     X(triangles, "the scene has triangles: a hierarchy is built and traversed")                     \
     X(shapes, "the scene has surfaces that are not made of triangles")                              \

@@ -9,10 +9,14 @@
 #define STRATEGY_IMPLICIT 1u
 #define STRATEGY_EXPLICIT 2u
 #define STRATEGY_LIGHT 4u
+#define STRATEGY_LIGHT_EMITTERS 8u  // with STRATEGY_LIGHT: light paths show emitters, too, that the camera sees directly
 
 #define TERMINATION_FIXED 0u
 #define TERMINATION_ROULETTE 1u
 #define TERMINATION_ADAPTIVE 2u
+
+#define SAMPLER_INDEPENDENT 0u
+#define SAMPLER_SOBOL 1u
 
 #define UNLIMITED_DEPTH 0xffffffffu
 
@@ -26,6 +30,7 @@ typedef struct IntegratorSettings {
     float adaptive_threshold;   ///< adaptive termination: paths end below this throughput
     uint light_paths;           ///< per sample of the image
     uint light_vertices;        ///< kept of each light path where they are joined to camera paths
+    uint sampler;               ///< SAMPLER_*
 } IntegratorSettings;
 
 /// Whether paths of so many scattering events are found by all strategies of full bidirectional path tracing, where
@@ -33,5 +38,5 @@ typedef struct IntegratorSettings {
 DEVICE bool all_strategies(IntegratorSettings settings, uint events) { return events <= settings.light_vertices + 1u; }
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(IntegratorSettings) == 36, "layout shared with the device");
+static_assert(sizeof(IntegratorSettings) == 40, "layout shared with the device");
 #endif

@@ -93,6 +93,9 @@ TEST(Pipeline, GivesTheSameBitsHoweverTheWorkIsCut) {
         EXPECT_EQ(render_words(with({"device.path_layout=arrays"})), words) << algorithm << ": another layout";
         EXPECT_EQ(render_words(with({}), 1), words) << algorithm << ": a batch split";
         EXPECT_EQ(render_words(with({"device.features=all"})), words) << algorithm << ": everything compiled in";
+        const std::vector<int64_t> sobol = render_words(with({"integrator.sampler=sobol"}));
+        EXPECT_NE(sobol, words) << algorithm;
+        EXPECT_EQ(render_words(with({"integrator.sampler=sobol", "device.features=all"}), 1), sobol) << algorithm;
     }
 }
 
@@ -144,7 +147,7 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
 TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
     // A quarter as many light paths: another share of the work, the same image.
     const auto mean = [&](const char *light_paths) {
-        RenderSettings settings = small({light_paths});
+        RenderSettings settings = small({light_paths, "integrator.seen_emitters=camera"});
         settings.algorithm = "truncated_bdpt";
         RenderSession session(cornell_box(), settings, device());
         session.render(0, 256);

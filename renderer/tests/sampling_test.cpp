@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Random numbers, discrete choices and their weights: the shipped device code compiled for the host. Samplers of lights
 // and cameras: light_sampling_test.cpp, of BSDFs: bsdf_sampling_test.cpp.
+#define FEATURE_sobol 1
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/hemisphere.h"
-#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/sampling/sampler.h"
 
 #include <gtest/gtest.h>
 
@@ -63,6 +64,83 @@ TEST(Random, UniformFloatsPassChiSquareInPairs) {
         ++observed[static_cast<size_t>(uniform_float(w.x) * bins) * bins + static_cast<size_t>(uniform_float(w.y) * bins)];
     }
     EXPECT_GT(chi_square_p(observed, std::vector<double>(bins * bins, sample_count / double(bins * bins))), level);
+}
+
+// The direction numbers from the primitive polynomials and initial values of Joe & Kuo's table (new-joe-kuo-6).
+TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
+    struct Row {
+        uint32_t degree, coefficients;
+        std::vector<uint64_t> m;
+    };
+    for (uint32_t i = 0; i < 32; ++i) {
+        EXPECT_EQ(SOBOL_DIRECTIONS[0][i], 1u << (31 - i));
+    }
+    uint32_t dimension = 1;
+    for (Row row : {Row{1, 0, {1}}, Row{2, 1, {1, 3}}, Row{3, 1, {1, 3, 1}}}) {
+        for (uint32_t i = row.degree; i < 32; ++i) {
+            uint64_t m = row.m[i - row.degree] ^ (row.m[i - row.degree] << row.degree);
+            for (uint32_t k = 1; k < row.degree; ++k) {
+                m ^= (row.coefficients >> (row.degree - 1 - k) & 1u) != 0 ? row.m[i - k] << k : 0;
+            }
+            row.m.push_back(m);
+        }
+        for (uint32_t i = 0; i < 32; ++i) {
+            EXPECT_EQ(SOBOL_DIRECTIONS[dimension][i], static_cast<uint32_t>(row.m[i] << (31 - i)));
+        }
+        ++dimension;
+    }
+}
+
+uint4 sobol_words(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
+    IntegratorSettings settings{};
+    settings.seed = seed;
+    settings.sampler = SAMPLER_SOBOL;
+    return sample_words(settings, STREAM_CAMERA, pixel, sample, block);
+}
+
+TEST(Sobol, EveryRunOfSamplesIsStratified) {
+    // Elementary intervals of every shape in the first two dimensions, and each dimension by itself.
+    for (const uint32_t log_count : {4u, 8u}) {
+        const uint32_t count = 1u << log_count;
+        for (const uint64_t first : {uint64_t{0}, uint64_t{3} * count, (uint64_t{1} << 32) + count}) {
+            for (uint32_t split = 0; split <= log_count; ++split) {
+                std::vector<int> cells(count);
+                for (uint32_t i = 0; i < count; ++i) {
+                    const uint4 w = sobol_words(5, 77, first + i, 3);
+                    const uint32_t x = split > 0 ? w.x >> (32 - split) : 0;
+                    const uint32_t y = split < log_count ? w.y >> (32 - (log_count - split)) : 0;
+                    ++cells[(y << split) + x];
+                }
+                EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), count) << "2^" << split << " columns";
+            }
+            std::vector<int> z(count), w(count);
+            for (uint32_t i = 0; i < count; ++i) {
+                const uint4 words = sobol_words(5, 77, first + i, 3);
+                ++z[words.z >> (32 - log_count)];
+                ++w[words.w >> (32 - log_count)];
+            }
+            EXPECT_EQ(std::count(z.begin(), z.end(), 1), count);
+            EXPECT_EQ(std::count(w.begin(), w.end(), 1), count);
+        }
+    }
+}
+
+TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
+    // The same sample of other pixels, blocks and seeds, in pairs: uniform.
+    constexpr int bins = 32;
+    constexpr uint32_t pairs = 200'000;
+    const auto uniform = [&](const std::function<std::pair<uint32_t, uint32_t>(uint32_t)> &pair) {
+        std::vector<uint64_t> observed(bins * bins);
+        for (uint32_t i = 0; i < pairs; ++i) {
+            const auto [a, b] = pair(i);
+            ++observed[static_cast<size_t>(uniform_float(a) * bins) * bins + static_cast<size_t>(uniform_float(b) * bins)];
+        }
+        return chi_square_p(observed, std::vector<double>(bins * bins, pairs / double(bins * bins)));
+    };
+    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i + 1, 6, 0).x); }), level / 4);
+    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i, 6, 2).x); }), level / 4);
+    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).y, sobol_words(2, i, 6, 0).y); }), level / 4);
+    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).z, sobol_words(1, i, 6, 0).w); }), level / 4);
 }
 
 TEST(Frame, IsOrthonormalInAllDirections) {

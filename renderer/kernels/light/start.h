@@ -2,7 +2,7 @@
 #pragma once
 
 #include "renderer/kernels/light/emission.h"
-#include "renderer/kernels/sampling/random.h"
+#include "renderer/kernels/sampling/sampler.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/scene_buffers.h"
 
@@ -10,6 +10,6 @@
 DEVICE EmissionSample path_start(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, uint path,
                                  ulong sample) {
     return sample_emission(SURFACE_ARGUMENTS LIGHT_ARGUMENTS
-                           random_words(settings.seed, STREAM_LIGHT_PATHS, path, sample, BLOCK_EMISSION(0u)),
-                           random_words(settings.seed, STREAM_LIGHT_PATHS, path, sample, BLOCK_EMISSION(1u)));
+                           path_sample(settings, path, sample, BLOCK_EMISSION(0u)),
+                           path_sample(settings, path, sample, BLOCK_EMISSION(1u)));
 }

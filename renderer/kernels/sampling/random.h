@@ -19,12 +19,6 @@
 #define BLOCK_LIGHT(depth) (1u + 2u * (depth))
 #define BLOCK_SCATTER(depth) (2u + 2u * (depth))
 
-#if FEATURE_from_light
-#define PATH_STREAM STREAM_LIGHT_PATHS
-#else
-#define PATH_STREAM STREAM_CAMERA
-#endif
-
 /// Four independent uniform 32-bit words. `sample` takes the full 64 bits: 200k spp times 65536 pixels times the
 /// dimensions of a path exceeds 2^32.
 DEVICE uint4 random_words(uint seed, uint stream, uint pixel, ulong sample, uint block) {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The random words of a path, by the sampler that the settings choose.
+#pragma once
+
+#include "renderer/kernels/sampling/random.h"
+#include "renderer/shared/integrator_settings.h"
+
+#if FEATURE_sobol
+#include "renderer/kernels/sampling/sobol.h"
+#endif
+
+/// Four words of block `block`: uniform each, and independent of those of all other blocks, pixels and streams. From
+/// sample to sample they are independent, or those of a stratified sequence.
+DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, ulong sample, uint block) {
+#if FEATURE_sobol
+    if (settings.sampler == SAMPLER_SOBOL) {
+        // A sequence has 2^32 points; then comes another.
+        const ulong sequence = (sample >> 32) << 1;
+        const uint4 seeds = random_words(settings.seed, stream, pixel, sequence, block);
+        const uint order = random_words(settings.seed, stream, pixel, sequence + 1u, block).x;
+        return sobol_point((uint)sample, order, seeds);
+    }
+#endif
+    return random_words(settings.seed, stream, pixel, sample, block);
+}
+
+/// Of camera paths, where this pass traces those; of light paths `pixel` numbers the path within its sample, and all paths
+/// of all samples share one sequence.
+DEVICE uint4 path_sample(IntegratorSettings settings, uint pixel, ulong sample, uint block) {
+#if FEATURE_from_light
+    return sample_words(settings, STREAM_LIGHT_PATHS, 0u, sample * settings.light_paths + pixel, block);
+#else
+    return sample_words(settings, STREAM_CAMERA, pixel, sample, block);
+#endif
+}
