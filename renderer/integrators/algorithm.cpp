@@ -9,9 +9,8 @@ namespace rtrays {
 
 std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features, uint32_t light_count,
                                    uint32_t light_vertices) {
-    features = features.with(Feature::vertex_joins,
-                             features.has(Feature::vertex_joins) && algorithm == "bdpt" && light_vertices > 0)
-                   .with(Feature::light_emitters, features.has(Feature::light_emitters) && algorithm == "truncated_bdpt");
+    features = features.with(Feature::vertex_joins, features.has(Feature::vertex_joins) &&
+                                                        algorithm == "bdpt" && light_vertices > 0);
     const FeatureMask camera = features.with(Feature::from_light, false).closed();
     const FeatureMask light = features.with(Feature::from_light)
                                   .with(Feature::light_strategy, algorithm != "light_tracing")

@@ -13,14 +13,16 @@ namespace {
 /// A round whose paths all start in the first, with more stages before its paths are extended.
 std::vector<RoundStage> with_stages(std::vector<RoundStage> round, const std::vector<RoundStage> &stages) {
     round.front().rounds = 1;
-    const auto extend = std::find_if(round.begin(), round.end(), [](const RoundStage &s) { return s.name == "extend_path"; });
+    const auto extend =
+        std::find_if(round.begin(), round.end(), [](const RoundStage &s) { return s.name == "extend_path"; });
     round.insert(extend, stages.begin(), stages.end());
     return round;
 }
 
 }  // namespace
 
-std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t light_count, uint32_t light_vertices) {
+std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t light_count,
+                              uint32_t light_vertices) {
     std::vector<RoundStage> joins;
     for (uint32_t vertex = 0; vertex < light_vertices; ++vertex) {
         // Both ends together have as many scattering events as the longest path that all strategies find.
@@ -29,7 +31,8 @@ std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t li
         joins.push_back({"intersect_any", SELECT_LIGHT, rounds});
         joins.push_back({"end_shadow_rays", SELECT_LIGHT, rounds});
     }
-    return {{"light", light, with_stages(light_tracing_round(light), {{"store_vertex", SELECT_LIGHT, light_vertices}})},
+    return {{"light", light,
+             with_stages(light_tracing_round(light), {{"store_vertex", SELECT_LIGHT, light_vertices}})},
             {"camera", camera, with_stages(path_tracing_round(camera, light_count), joins)}};
 }
 

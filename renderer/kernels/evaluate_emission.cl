@@ -141,7 +141,7 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     if (by_light_path) {
         float log_light = get_log_ratio(paths, slot);
 #if FEATURE_vertex_joins
-        if (all_strategies(settings, get_depth(paths, slot))) {
+        if (get_depth(paths, slot) > 0u && all_strategies(settings, get_depth(paths, slot))) {
             log_light = get_log_strategies(paths, slot);
         }
 #endif

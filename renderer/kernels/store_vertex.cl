@@ -10,8 +10,8 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-DEVICE void keep_hit(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS
-                     IntegratorSettings settings) {
+DEVICE void keep_hit(PathStates paths, uint slot,
+                     SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS IntegratorSettings settings) {
     const uint depth = get_depth(paths, slot);
     LightVertex vertex;
     vertex.hit_primitive = get_hit_primitive(paths, slot);
@@ -34,15 +34,17 @@ DEVICE void keep_hit(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PA
     vertex.throughput = get_throughput(paths, slot);
     vertex.log_arrival = get_log_arrival(paths, slot);
     vertex.log_strategies = get_log_strategies(paths, slot);
-    const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot), settings.light_paths, paths.capacity);
-    store_light_vertex(light_vertex_place(vertex_words, paths.capacity, settings.light_vertices, row, depth), vertex);
+    const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot), settings.light_paths,
+                                      paths.capacity);
+    store_light_vertex(light_vertex_place(vertex_words, paths.capacity, settings.light_vertices, row, depth),
+                       vertex);
 }
 
 __kernel void store_vertex(SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
                            VERTEX_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        keep_hit(paths, active_slot(queues, counters, capacity, i), SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS
-                 settings);
+        keep_hit(paths, active_slot(queues, counters, capacity, i),
+                 SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings);
     }
 }

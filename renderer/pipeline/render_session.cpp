@@ -271,6 +271,9 @@ struct RenderSession::State {
         pass.stages.bind(
             {{StageInput::first_sample, {first}}, {StageInput::first_work, {begin}}, {StageInput::work, {end}}});
         enqueue(pass, "reset_streams");
+        const auto splat_stages = std::count_if(pass.round.begin(), pass.round.end(),
+                                                [](const RoundStage &stage) { return stage.name == "splat_unblocked"; });
+        uint64_t in_flight = layout.capacity;
         // The counters are read one check behind, so that the device is never idle while the host looks.
         std::array<StreamCounters, 2> seen{};
         std::array<ClEvent, 2> read;
@@ -286,7 +289,7 @@ struct RenderSession::State {
             }
             // A camera path ends with one addition to its pixel, of which there are few in a batch; splats of all light
             // paths may go to one.
-            pass.additions += pass.name == "light" ? uint64_t{2} * rounds_per_check * layout.capacity : 0;
+            pass.additions += static_cast<uint64_t>(splat_stages * rounds_per_check) * in_flight;
             if (pass.additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
                 carry_film(pass);
             }
@@ -305,7 +308,10 @@ struct RenderSession::State {
                 if (c.overflow > 0) {
                     throw run_error(fmt::format("a stream overflowed {} times", c.overflow));
                 }
-                if (c.next_work >= end && c.active[c.parity] == 0) {
+                if (c.next_work >= end) {
+                    in_flight = c.active[c.parity];
+                }
+                if (in_flight == 0) {
                     break;
                 }
             }

@@ -45,7 +45,7 @@ const std::vector<Setting> &setting_table() {
         {"integrator.sampler", TextSetting{&S::sampler, {"independent", "sobol"}},
          "random numbers; sobol: stratified over the samples of a pixel, and over light paths"},
         {"integrator.seen_emitters", TextSetting{&S::seen_emitters, {"mis", "camera"}},
-         "truncated_bdpt: emitters seen directly by both passes, or by camera paths alone"},
+         "bdpt, truncated_bdpt: emitters seen directly by both passes, or by camera paths alone"},
         {"integrator.light_paths", CountSetting{&S::light_paths, 1u << 30}, "per sample of the image, 0: as many as pixels"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
          "of bdpt: vertices kept of each light path; paths of more scattering events than that and one have the strategies "
@@ -219,12 +219,13 @@ CompileSettings compile_settings(const RenderSettings &settings) {
 
 FeatureMask settings_features(const RenderSettings &settings) {
     const bool light_tracing = settings.algorithm == "light_tracing";
+    const bool both_ways = settings.algorithm == "truncated_bdpt" || settings.algorithm == "bdpt";
     return FeatureMask()
         .with(Feature::implicit_light, !light_tracing && settings.strategies != "explicit")
         .with(Feature::explicit_light, !light_tracing && settings.strategies != "implicit")
-        .with(Feature::light_strategy, settings.algorithm == "truncated_bdpt" || settings.algorithm == "bdpt")
+        .with(Feature::light_strategy, both_ways)
         .with(Feature::vertex_joins, settings.algorithm == "bdpt")
-        .with(Feature::light_emitters, settings.algorithm == "truncated_bdpt" && settings.seen_emitters == "mis")
+        .with(Feature::light_emitters, both_ways && settings.seen_emitters == "mis")
         .with(Feature::roulette, settings.termination == "roulette")
         .with(Feature::adaptive, settings.termination == "adaptive")
         .with(Feature::sobol, settings.sampler == "sobol")

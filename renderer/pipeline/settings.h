@@ -25,7 +25,7 @@ struct RenderSettings {
     // integrator.*
     std::string strategies = "mis";         ///< implicit | explicit | mis; of path_tracing
     std::string sampler = "independent";    ///< independent | sobol
-    std::string seen_emitters = "mis";      ///< mis | camera; of truncated_bdpt
+    std::string seen_emitters = "mis";      ///< mis | camera; of bdpt and truncated_bdpt
     uint32_t light_paths = 0;               ///< per sample of the image, 0: as many as pixels
     uint32_t bdpt_vertices = 8;             ///< of bdpt: vertices kept of each light path; paths of one scattering event more
                                             ///< are the longest that all strategies find

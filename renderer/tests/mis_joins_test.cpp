@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The weights of one path by all strategies of full bidirectional path tracing, as the stages come to them vertex by
-// vertex, against those from the densities of the whole path in double: they agree and sum to 1.
-#include "renderer/kernels/light/mis.h"
-
+// The weights of one path by all strategies of full bidirectional path tracing, as the stages come to them
+// vertex by vertex, against those from the densities of the whole path in double: they agree and sum to 1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,21 +9,24 @@
 #include <random>
 #include <vector>
 
+#include "renderer/kernels/light/mis.h"
+
 namespace rtrays {
 namespace {
 
 using Random = std::mt19937_64;
 
-/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1}, away from the
-/// camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times the factor between both solid angles.
+/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1}, away from
+/// the camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times the factor between
+/// both solid angles.
 struct Path {
     size_t k = 0;
     std::vector<double> forward, back, geometry;  ///< `geometry[i]`: G of x_i and x_{i+1}
     std::vector<bool> delta;
-    double first = 0, light_paths = 0;            ///< P_1, n_L
-    double origin = 0, explicit_origin = 0;       ///< p_o of emission and of light sampling
-    double direction = 0;                         ///< p_d
-    bool hittable = true;                         ///< the light
+    double first = 0, light_paths = 0;       ///< P_1, n_L
+    double origin = 0, explicit_origin = 0;  ///< p_o of emission and of light sampling
+    double direction = 0;                    ///< p_d
+    bool hittable = true;                    ///< the light
 };
 
 /// Densities within `decades` of 1 or, one in three, three times as far.
@@ -56,8 +57,9 @@ Path random_path(Random &random, double decades) {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Weight m belongs to the strategy whose camera path ends at x_m: 0 light, 1 to k - 2 joins, k - 1 explicit, k implicit.
-/// NaN where it cannot make the path. From the densities of the whole path, in logarithms of doubles.
+/// Weight m belongs to the strategy whose camera path ends at x_m: 0 light, 1 to k - 2 joins, k - 1 explicit,
+/// k implicit. NaN where it cannot make the path. From the densities of the whole path, in logarithms of
+/// doubles.
 std::vector<double> expected(const Path &p, double beta) {
     std::vector<double> logs(p.k + 1, -std::numeric_limits<double>::infinity());
     for (size_t m = 0; m <= p.k; ++m) {
@@ -94,14 +96,17 @@ std::vector<double> expected(const Path &p, double beta) {
     return weights;
 }
 
-float log2_of(double x) { return static_cast<float>(std::log2(x)); }
+float log2_of(double x) {
+    return static_cast<float>(std::log2(x));
+}
 
 /// What a path has when it arrives at a vertex.
 struct Arrival {
     float strategies = 0, arrival = 0;
 };
 
-/// log2 of A at the end of a ray that leaves a vertex with this density, G included: distance and cosine are 1.
+/// log2 of A at the end of a ray that leaves a vertex with this density, G included: distance and cosine
+/// are 1.
 float arrive(bool delta, double density) {
     return log_inverse_pdf_a(delta ? INFINITY : static_cast<float>(density), 1.0f, 1.0f);
 }
@@ -112,14 +117,16 @@ std::vector<double> shipped(const Path &p, float beta) {
     camera[1] = {-INFINITY, log2_of(p.light_paths / p.first)};
     for (size_t i = 1; i < p.k; ++i) {
         camera[i + 1] = {continue_strategies(camera[i].strategies, camera[i].arrival, p.delta[i],
-                                             p.delta[i] ? 0.0f : log2_of(p.forward[i]), log2_of(p.back[i] / p.forward[i]), beta),
+                                             p.delta[i] ? 0.0f : log2_of(p.forward[i]),
+                                             log2_of(p.back[i] / p.forward[i]), beta),
                          arrive(p.delta[i], p.forward[i] * p.geometry[i])};
     }
     light[p.k - 1] = {p.hittable ? -log2_of(p.origin * p.direction) : -INFINITY,
                       log2_of(p.explicit_origin / p.origin) - log2_of(p.direction * p.geometry[p.k - 1])};
     for (size_t i = p.k - 1; i >= 2; --i) {
         light[i - 1] = {continue_strategies(light[i].strategies, light[i].arrival, p.delta[i],
-                                            p.delta[i] ? 0.0f : log2_of(p.back[i]), log2_of(p.forward[i] / p.back[i]), beta),
+                                            p.delta[i] ? 0.0f : log2_of(p.back[i]),
+                                            log2_of(p.forward[i] / p.back[i]), beta),
                         arrive(p.delta[i], p.back[i] * p.geometry[i - 1])};
     }
     const auto before = [&](const Arrival &at, double density) {
@@ -132,17 +139,19 @@ std::vector<double> shipped(const Path &p, float beta) {
     }
     for (size_t m = 1; m + 2 <= p.k; ++m) {
         if (!p.delta[m] && !p.delta[m + 1]) {
-            weights[m] = static_cast<double>(
-                join_weight(log2_of(p.back[m + 1] * p.geometry[m]) + before(camera[m], p.back[m]),
-                            log2_of(p.forward[m] * p.geometry[m]) + before(light[m + 1], p.forward[m + 1]), beta));
+            weights[m] = static_cast<double>(join_weight(
+                log2_of(p.back[m + 1] * p.geometry[m]) + before(camera[m], p.back[m]),
+                log2_of(p.forward[m] * p.geometry[m]) + before(light[m + 1], p.forward[m + 1]), beta));
         }
     }
     const size_t last = p.k - 1;
     const double by_implicit = p.forward[last] * p.geometry[last] / p.explicit_origin;
     if (!p.delta[last]) {
-        const float arriving = log2_of(p.direction * p.geometry[last]) + log2_of(p.origin / p.explicit_origin);
-        weights[last] = static_cast<double>(camera_path_weight(p.hittable ? static_cast<float>(by_implicit) : 0.0f,
-                                                               arriving + before(camera[last], p.back[last]), beta));
+        const float arriving =
+            log2_of(p.direction * p.geometry[last]) + log2_of(p.origin / p.explicit_origin);
+        weights[last] =
+            static_cast<double>(camera_path_weight(p.hittable ? static_cast<float>(by_implicit) : 0.0f,
+                                                   arriving + before(camera[last], p.back[last]), beta));
     }
     if (p.hittable) {
         weights[p.k] = static_cast<double>(
@@ -159,7 +168,8 @@ TEST(JoinWeights, OfAPathAgreeAndSumToOne) {
             int many = 0;
             for (int trial = 0; trial < 50'000; ++trial) {
                 const Path path = random_path(random, decades);
-                const std::vector<double> a = shipped(path, beta), b = expected(path, static_cast<double>(beta));
+                const std::vector<double> a = shipped(path, beta),
+                                          b = expected(path, static_cast<double>(beta));
                 double sum = 0;
                 int shares = 0, techniques = 0;
                 for (size_t m = 0; m <= path.k; ++m) {
@@ -177,7 +187,8 @@ TEST(JoinWeights, OfAPathAgreeAndSumToOne) {
                     ASSERT_NEAR(sum, 1, 6e-4);
                 }
             }
-            EXPECT_GT(many, decades < 1 ? 10'000 : 1'000) << "power: paths of which more than two strategies count";
+            EXPECT_GT(many, decades < 1 ? 10'000 : 1'000)
+                << "power: paths of which more than two strategies count";
         }
     }
 }
