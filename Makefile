@@ -42,12 +42,14 @@ test-asan: install
 	cmake --build --preset asan -j $(JOBS) --target host_tests
 	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L host
 
-# The heavy versions, hours, resumable: all feature scenes by renderer and reference, with a contact sheet. What they
-# print is evidence and is kept in results/.
+# The heavy versions, hours, resumable: all feature scenes by renderer and reference, with a contact sheet, and by every
+# algorithm. What they print is evidence and is kept in results/.
 test-full: programs
-	build/bin/rtrays-experiment agree experiments/feature_scenes.json --profile full --out build/feature_scenes
-	mkdir -p results/feature_scenes
-	cp build/feature_scenes/agreement.json build/feature_scenes/agreement.md results/feature_scenes/
+	for agreement in feature_scenes algorithms; do \
+	    build/bin/rtrays-experiment agree experiments/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
+	    mkdir -p results/$$agreement; \
+	    cp build/$$agreement/agreement.json build/$$agreement/agreement.md results/$$agreement/; \
+	done
 	scripts/contact_sheet build/feature_scenes results/feature_scenes/contact_sheet.png
 
 # Mitsuba 3 and Blender's Cycles (scripts/install --peers) against the Embree reference, resumable; exit code 77 where they
