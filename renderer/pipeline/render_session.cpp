@@ -116,7 +116,9 @@ struct RenderSession::State {
             }
         }
         if (passes.empty()) {
-            throw input_error(fmt::format("{} has no pass '{}' in this scene", settings.algorithm, settings.passes));
+            throw input_error(settings.passes == "all"
+                                  ? fmt::format("{}: the scene has no light", settings.algorithm)
+                                  : fmt::format("{} has no pass '{}' in this scene", settings.algorithm, settings.passes));
         }
         scene_hash = scene.hash();
         config = content_hash(scene_hash + image_settings(settings).dump());

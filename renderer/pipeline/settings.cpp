@@ -188,12 +188,12 @@ uint32_t light_paths_per_sample(const RenderSettings &settings) {
 IntegratorSettings integrator_settings(const RenderSettings &settings) {
     IntegratorSettings numbers{};
     numbers.seed = settings.seed;
-    numbers.strategies = 0u;
+    const FeatureMask features = settings_features(settings);
     for (const auto &[feature, bit] : {std::pair(Feature::implicit_light, STRATEGY_IMPLICIT),
                                        std::pair(Feature::explicit_light, STRATEGY_EXPLICIT),
                                        std::pair(Feature::light_strategy, STRATEGY_LIGHT),
-                               std::pair(Feature::light_emitters, STRATEGY_LIGHT_EMITTERS)}) {
-        numbers.strategies |= settings_features(settings).has(feature) ? bit : 0u;
+                                       std::pair(Feature::light_emitters, STRATEGY_LIGHT_EMITTERS)}) {
+        numbers.strategies |= features.has(feature) ? bit : 0u;
     }
     numbers.sampler = settings.sampler == "sobol" ? SAMPLER_SOBOL : SAMPLER_INDEPENDENT;
     numbers.light_paths = light_paths_per_sample(settings);

@@ -25,8 +25,8 @@ DEVICE float power_heuristic(float other_over_own, float beta) {
 //   p_E / p_I = density of light sampling at x_{k-1} / density of BSDF sampling there
 //
 // For k = 1, emitters seen directly, p_L / p_I = R_0 p_o and p_E = 0, unless camera paths alone count: those find the
-// emitter without noise but at its edges, light paths find the edges, too, but add noise inside, more than a large emitter
-// can bear (on a visible sphere light of a tenth of the image: twice the error; on the lamp of the Cornell box half).
+// emitter without noise but at its edges, light paths find the edges, too, but add noise inside. Which is better depends
+// on the scene: with both, the error of the Cornell box is about half, that of features/sphere_light twice as large.
 //
 // A camera path keeps log2 R. A light path, which meets the same vertices the other way round, keeps from x_{k-1} on the
 // log2 of S, what its vertices so far give of (p_I / p_L)^beta + (p_E / p_L)^beta. In logarithms nothing overflows or
