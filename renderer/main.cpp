@@ -67,15 +67,19 @@ void print_devices() {
     }
 }
 
+bool wanted(const std::vector<std::string> &layers, const std::string &name) {
+    return std::find(layers.begin(), layers.end(), name) != layers.end();
+}
+
 /// Removes the layers that were not asked for.
 Image select_layers(const Image &image, const std::vector<std::string> &layers) {
     Image selected(image.width(), image.height());
     selected.attributes() = image.attributes();
     for (const Image::Channel &channel : image.channels()) {
         const std::string layer = channel.name.substr(0, channel.name.find('.'));
-        const bool pass = layer == "camera" || layer == "light";
         const bool colour = channel.name == "R" || channel.name == "G" || channel.name == "B";
-        if (colour || std::find(layers.begin(), layers.end(), pass ? "passes" : layer) != layers.end()) {
+        const bool own = layer == "variance" || layer == "samples";  // all others are images of passes
+        if (colour || (own ? wanted(layers, layer) : wanted(layers, "passes") || wanted(layers, "strategies"))) {
             selected.add_channel(channel.name) = channel.values;
         }
     }
@@ -144,7 +148,8 @@ ExitCode run(Options &options) {
             require_writable(path);
         }
     }
-    options.settings.variance = std::find(options.layers.begin(), options.layers.end(), "variance") != options.layers.end();
+    options.settings.variance = wanted(options.layers, "variance");
+    options.settings.strategies_apart = wanted(options.layers, "strategies");
 
     Scene scene = load_scene(options.scene, options.quiet);
     for (const std::string &assignment : options.assignments) {
@@ -270,7 +275,7 @@ ExitCode parse_and_run(int argc, char **argv) {
     app.add_flag("--resume", options.resume, "continue from --state if it exists");
     app.add_option("--set", options.assignments, "NAME=VALUE, may be repeated")->allow_extra_args(false);
     app.add_option("--stats", options.stats, "write features, kernels, bytes, launches, seconds (.json)");
-    app.add_option("--layers", options.layers, "layers besides R,G,B")->delimiter(',')->check(CLI::IsMember({"variance", "samples", "passes", "none"}))->capture_default_str();
+    app.add_option("--layers", options.layers, "layers besides R,G,B")->delimiter(',')->check(CLI::IsMember({"variance", "samples", "passes", "strategies", "none"}))->capture_default_str();
     app.add_flag("--print-scene", options.print_scene, "print nodes and properties and stop");
     app.add_flag("--dry-run", options.dry_run, "compile everything, print the stats document, render nothing");
     app.add_flag("-q,--quiet", options.quiet, "no progress");

@@ -8,7 +8,7 @@
 namespace rtrays {
 
 std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features, uint32_t light_count,
-                                   uint32_t light_vertices) {
+                                   uint32_t light_vertices, bool apart) {
     features = features.with(Feature::vertex_joins, features.has(Feature::vertex_joins) &&
                                                         algorithm == "bdpt" && light_vertices > 0);
     const FeatureMask camera = features.with(Feature::from_light, false).closed();
@@ -16,11 +16,11 @@ std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask fea
                                   .with(Feature::light_strategy, algorithm != "light_tracing")
                                   .closed();
     if (camera.has(Feature::vertex_joins)) {
-        return bdpt_passes(camera, light, light_count, light_vertices);
+        return bdpt_passes(camera, light, light_count, light_vertices, apart);
     }
     std::vector<Pass> passes;
     if (algorithm != "light_tracing") {
-        passes.push_back({"camera", camera, path_tracing_round(camera, light_count)});
+        passes = path_tracing_passes(camera, light_count, apart);
     }
     // Truncated bidirectional path tracing (thesis 2.8) is both: their weights know of each other.
     if (algorithm != "path_tracing" && features.has(Feature::lights)) {

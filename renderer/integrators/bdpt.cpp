@@ -22,7 +22,7 @@ std::vector<RoundStage> with_stages(std::vector<RoundStage> round, const std::ve
 }  // namespace
 
 std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t light_count,
-                              uint32_t light_vertices) {
+                              uint32_t light_vertices, bool apart) {
     std::vector<RoundStage> joins;
     for (uint32_t vertex = 0; vertex < light_vertices; ++vertex) {
         // Both ends together have as many scattering events as the longest path that all strategies find.
@@ -31,9 +31,19 @@ std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t li
         joins.push_back({"intersect_any", SELECT_LIGHT, rounds});
         joins.push_back({"end_shadow_rays", SELECT_LIGHT, rounds});
     }
-    return {{"light", light,
-             with_stages(light_tracing_round(light), {{"store_vertex", SELECT_LIGHT, light_vertices}})},
-            {"camera", camera, with_stages(path_tracing_round(camera, light_count), joins)}};
+    std::vector<Pass> passes = path_tracing_passes(camera, light_count, apart);
+    for (Pass &pass : passes) {
+        pass.round = with_stages(pass.round, apart ? std::vector<RoundStage>() : joins);
+    }
+    if (apart) {
+        const FeatureMask joined_only = camera.with(Feature::explicit_light, false);
+        passes.push_back(
+            {"joins", camera, with_stages(path_tracing_round(joined_only, light_count, false), joins), false});
+    }
+    passes.insert(passes.begin(), {"light", light,
+                                   with_stages(light_tracing_round(light),
+                                               {{"store_vertex", SELECT_LIGHT, light_vertices}})});
+    return passes;
 }
 
 }  // namespace rtrays

@@ -3,11 +3,11 @@
 
 namespace rtrays {
 
-std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count) {
+std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count, bool adds_hits) {
     std::vector<RoundStage> round = {{"generate_camera_rays"}, {"begin_round"}, {"intersect_nearest"}};
     const bool emitters = features.has(Feature::area_lights) || features.has(Feature::shape_lights) ||
                           features.has(Feature::infinite_lights);
-    if (emitters || features.has(Feature::light_strategy)) {
+    if ((emitters && adds_hits) || features.has(Feature::light_strategy)) {
         round.push_back({"evaluate_emission"});  // implicit paths, and emitters seen directly; the ratio R_0
     }
     if (features.has(Feature::explicit_light)) {
@@ -21,6 +21,18 @@ std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_
     round.push_back({"extend_path"});
     round.push_back({"end_round"});
     return round;
+}
+
+std::vector<Pass> path_tracing_passes(FeatureMask features, uint32_t light_count, bool apart) {
+    if (!apart) {
+        return {{"camera", features, path_tracing_round(features, light_count, true)}};
+    }
+    const FeatureMask hits = features.with(Feature::explicit_light, false);
+    std::vector<Pass> passes = {{"implicit", features, path_tracing_round(hits, light_count, true)}};
+    if (features.has(Feature::explicit_light)) {
+        passes.push_back({"explicit", features, path_tracing_round(features, light_count, false), false});
+    }
+    return passes;
 }
 
 }  // namespace rtrays

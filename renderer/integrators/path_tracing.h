@@ -6,7 +6,10 @@
 namespace rtrays {
 
 /// The stages of one round of path tracing (thesis 2.7, 3.3.1).
-/// `light_count`: each of them is sampled in turn where the features say so.
-std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count);
+/// `light_count`: each of them is sampled in turn where the features say so. `adds_hits`: see `Pass`.
+std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count, bool adds_hits);
+
+/// Path tracing as one pass, or `apart` as one for each strategy.
+std::vector<Pass> path_tracing_passes(FeatureMask features, uint32_t light_count, bool apart);
 
 }  // namespace rtrays

@@ -111,6 +111,9 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
         }
     }
 #endif
+    if ((settings.strategies & STRATEGY_HITS_ELSEWHERE) != 0u) {
+        return;
+    }
 #if FEATURE_scattering
     if (get_depth(paths, slot) > 0u) {
 #if FEATURE_direction_density

@@ -78,6 +78,7 @@ struct CompiledPass {
         : name(pass.name),
           features(pass.features),
           round(pass.round),
+          adds_hits(pass.adds_hits),
           stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
 
     static std::vector<std::string> stage_names(const Pass &pass) {
@@ -88,9 +89,16 @@ struct CompiledPass {
         return names;
     }
 
+    /// The integrator's numbers for this pass.
+    IntegratorSettings numbers(IntegratorSettings of_all) const {
+        of_all.strategies |= adds_hits ? 0u : STRATEGY_HITS_ELSEWHERE;
+        return of_all;
+    }
+
     std::string name;
     FeatureMask features;
     std::vector<RoundStage> round;
+    bool adds_hits;
     StageSet stages;
     Buffer<int64_t> film;
     uint32_t chosen = SELECT_LIGHT;  ///< what StageInput::chosen is bound to
@@ -108,7 +116,8 @@ struct RenderSession::State {
           numbers(integrator_settings(settings)),
           compiled(compile_scene(scene, compile_settings(settings))) {
         for (const Pass &pass : algorithm_passes(settings.algorithm, select_features(compiled, settings, device.info()),
-                                                 compiled.lighting.light_count, numbers.light_vertices)) {
+                                                 compiled.lighting.light_count, numbers.light_vertices,
+                                                 settings.strategies_apart)) {
             if (settings.passes == "all" || settings.passes == pass.name) {
                 passes.emplace_back(pass, device, layout, settings);
                 features = features | pass.features;
@@ -174,8 +183,8 @@ struct RenderSession::State {
         }
         arguments[In::streams] = {path_words, queues, counters, layout.capacity};
         arguments[In::counters] = {counters};
-        arguments[In::settings] = {numbers};
         for (CompiledPass &pass : passes) {
+            arguments[In::settings] = {pass.numbers(numbers)};
             arguments[In::film] = {pass.film};
             pass.stages.bind(arguments);
         }
@@ -407,7 +416,7 @@ uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function
 void RenderSession::restart(uint32_t seed) {
     state_->numbers.seed = state_->settings.seed = seed;
     for (CompiledPass &pass : state_->passes) {
-        pass.stages.bind({{StageInput::settings, {state_->numbers}}});
+        pass.stages.bind({{StageInput::settings, {pass.numbers(state_->numbers)}}});
     }
     state_->reset_film();
 }

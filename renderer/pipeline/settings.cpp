@@ -149,6 +149,9 @@ void require_consistent(const RenderSettings &settings) {
         throw input_error(fmt::format("the passes of bdpt share their light paths and are not rendered apart: '{}'",
                                       settings.passes));
     }
+    if (settings.strategies_apart && (settings.variance || settings.passes != "all")) {
+        throw input_error("layers of strategies go with all passes and without variance: the strategies share their paths");
+    }
     if (settings.termination == "fixed" && settings.max_depth == 0) {
         throw input_error("integrator.termination=fixed needs a limit: --set integrator.max_depth=N");
     }

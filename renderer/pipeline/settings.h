@@ -21,6 +21,7 @@ struct RenderSettings {
     uint32_t seed = 1;
     bool variance = true;  ///< keep second moments: layers variance.R, .G, .B
     std::string passes = "all";  ///< all | camera | light: the passes of the algorithm that are rendered
+    bool strategies_apart = false;  ///< layers of what each strategy contributes; instead of second moments
 
     // integrator.*
     std::string strategies = "mis";         ///< implicit | explicit | mis; of path_tracing

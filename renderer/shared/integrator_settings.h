@@ -10,6 +10,7 @@
 #define STRATEGY_EXPLICIT 2u
 #define STRATEGY_LIGHT 4u
 #define STRATEGY_LIGHT_EMITTERS 8u  // with STRATEGY_LIGHT: light paths show emitters, too, that the camera sees directly
+#define STRATEGY_HITS_ELSEWHERE 16u  // what paths hit is weighed, but added by another pass
 
 #define TERMINATION_FIXED 0u
 #define TERMINATION_ROULETTE 1u
