@@ -3,7 +3,8 @@
 
 namespace rtrays {
 
-std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count, bool adds_hits) {
+std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count, bool adds_hits,
+                                           const std::string &secondary) {
     std::vector<RoundStage> round = {{"generate_camera_rays"}, {"begin_round"}, {"intersect_nearest"}};
     const bool emitters = features.has(Feature::area_lights) || features.has(Feature::shape_lights) ||
                           features.has(Feature::infinite_lights);
@@ -18,7 +19,7 @@ std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_
             round.push_back({"end_shadow_rays"});
         }
     }
-    round.push_back({"extend_path"});
+    round.push_back({secondary});
     round.push_back({"end_round"});
     return round;
 }

@@ -56,7 +56,7 @@ DEVICE bool join_to_vertex(
 #endif
     const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot), settings.light_paths,
                                       paths.capacity);
-    const LightVertexPlace place =
+    const WordPlace place =
         light_vertex_place(vertex_words, paths.capacity, settings.light_vertices, row, chosen);
     if (!has_light_vertex(place)) {
         return false;

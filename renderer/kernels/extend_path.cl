@@ -4,7 +4,7 @@
 // log_strategies, depth; film.
 // To: the active queue of the next round, or the free queue.
 
-#include "renderer/kernels/film/film.h"
+#include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
@@ -131,11 +131,7 @@ __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *fi
         }
 #endif
 #if FEATURE_from_camera
-        const ulong pixel = get_pixel(paths, slot);
-        const uint error = film_add_sample(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), get_radiance(paths, slot));
-        if (error != 0u) {
-            atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
-        }
+        add_path(paths, slot, film, counters);
 #endif
         push_slot(&ended, slot);
     }

@@ -25,6 +25,9 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
 #if FEATURE_scattering
     set_throughput(paths, slot, make_float3(1.0f, 1.0f, 1.0f));
 #endif
+#if FEATURE_branches
+    set_pending(paths, slot, 0u);
+#endif
 #if FEATURE_roulette_scale
     set_roulette_scale(paths, slot, 1.0f);
 #endif

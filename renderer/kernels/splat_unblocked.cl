@@ -2,7 +2,7 @@
 // Stage splat_unblocked: adds the light paths that nothing hides from the camera to the film.
 // Reads: ray_origin, shadow_vector, shadow_radiance, splat_pixel, shadow queue. Writes: film.
 
-#include "renderer/kernels/film/film.h"
+#include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/shadow_ray.h"
 #include "renderer/shared/path_state.h"
@@ -14,10 +14,6 @@ __kernel void splat_unblocked(GEOMETRY_PARAMETERS GLOBAL long *film, STREAM_PARA
         if (is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot))) {
             continue;
         }
-        const ulong pixel = get_splat_pixel(paths, slot);
-        const uint error = film_add_sample(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), get_shadow_radiance(paths, slot));
-        if (error != 0u) {
-            atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
-        }
+        add_to_pixel(film, get_splat_pixel(paths, slot), get_shadow_radiance(paths, slot), counters);
     }
 }

@@ -187,6 +187,19 @@ void select_lights(const std::vector<double> &powers, LightSelection selection, 
     }
 }
 
+/// A point light at the camera: a white surface at the middle of the scene that faces it has radiance 1.
+Compiled headlight(const Extent &extent, CompiledScene &compiled) {
+    const double away = (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
+    const double intensity = pi * std::pow(std::max(away, extent.radius), 2);
+    Compiled light;
+    light.record.kind = LIGHT_POINT;
+    copy3(Eigen::Vector3d::Constant(intensity).eval(), light.record.radiance);
+    std::copy_n(compiled.camera.position, 3, light.record.position);
+    light.power = 4.0 * pi * intensity;
+    compiled.features = compiled.features.with(Feature::point_lights);
+    return light;
+}
+
 }  // namespace
 
 void compile_lights(const SceneArrays &scene, const CompileSettings &settings, CompiledScene &compiled) {
@@ -205,12 +218,17 @@ void compile_lights(const SceneArrays &scene, const CompileSettings &settings, C
     const double camera = (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
     std::vector<double> powers;
-    for (size_t i = 0; i < scene.lights.name.size(); ++i) {
-        const Compiled light = compile_light(scene, i, settings, extent, compiled);
+    const auto add = [&](const Compiled &light) {
         if (light.power > 0.0) {
             compiled.lights.push_back(light.record);
             powers.push_back(light.power);
         }
+    };
+    for (size_t i = 0; i < scene.lights.name.size(); ++i) {
+        add(compile_light(scene, i, settings, extent, compiled));
+    }
+    if (settings.headlight && compiled.lights.empty()) {
+        add(headlight(extent, compiled));
     }
     if (!compiled.lights.empty()) {
         select_lights(powers, settings.light_selection, compiled.lights);

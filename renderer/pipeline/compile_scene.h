@@ -20,6 +20,7 @@ struct CompileSettings {
     LightSelection light_selection = LightSelection::mixed;
     bool spheres_by_area = false;  ///< sphere lights are sampled by area instead of by the cone they subtend
     bool every_array = false;      ///< corner normals and coordinates even if the scene has none
+    bool headlight = false;        ///< a scene without lights is lit from the camera
 };
 
 /// A scene as the device reads it, and the structural facts about it. Arrays are named as in shared/scene_buffers.h.

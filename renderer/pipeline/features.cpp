@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "renderer/shared/branch.h"
 #include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"
 
@@ -24,6 +25,8 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::quadrics, Feature::shapes},
     {Feature::julia, Feature::shapes},
     {Feature::composite, Feature::scattering},
+    {Feature::branches, Feature::composite},
+    {Feature::branches, Feature::delta},
     {Feature::one_sided, Feature::scattering},
     {Feature::lambert, Feature::scattering},
     {Feature::oren_nayar, Feature::scattering},
@@ -167,6 +170,13 @@ uint32_t light_vertex_words(FeatureMask mask) {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
     FieldList list;
     LIGHT_VERTEX_FIELDS(ROW)
+    return list.words();
+}
+
+uint32_t branch_words(FeatureMask mask) {
+    RTRAYS_FEATURES(FEATURE_VARIABLE)
+    FieldList list;
+    BRANCH_FIELDS(ROW)
     return list.words();
 }
 

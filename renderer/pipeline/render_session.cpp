@@ -16,6 +16,7 @@
 #include "renderer/pipeline/scene_buffers.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
+#include "renderer/shared/branch.h"
 #include "renderer/shared/film_layout.h"
 #include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"
@@ -63,6 +64,7 @@ FeatureMask select_features(const CompiledScene &compiled, const RenderSettings 
 
 RenderSettings complete(RenderSettings settings, const Scene &scene) {
     require_consistent(settings);
+    settings = with_fixed_choices(std::move(settings));
     settings.width = settings.width > 0 ? settings.width : scene.film_width();
     settings.height = settings.height > 0 ? settings.height : scene.film_height();
     const uint64_t pixels = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
@@ -159,6 +161,7 @@ struct RenderSession::State {
         }
         path_words = Buffer<uint32_t>(device, "path_states", capacity * words);
         vertex_words = Buffer<uint32_t>(device, "light_vertices", capacity * vertex_words_per_path());
+        branch_vertices = Buffer<uint32_t>(device, "branches", capacity * branch_words_per_path());
         queues = Buffer<uint32_t>(device, "queues", capacity * STREAM_QUEUES);
         counters = Buffer<StreamCounters>(device, "counters", 1);
         counters.write({StreamCounters{}});
@@ -181,6 +184,10 @@ struct RenderSession::State {
         if (features.has(Feature::vertex_joins)) {
             arguments[In::vertices] = {vertex_words};
         }
+        arguments[In::branches] = {};
+        if (features.has(Feature::branches)) {
+            arguments[In::branches] = {branch_vertices};
+        }
         arguments[In::streams] = {path_words, queues, counters, layout.capacity};
         arguments[In::counters] = {counters};
         for (CompiledPass &pass : passes) {
@@ -193,6 +200,11 @@ struct RenderSession::State {
     /// 4-byte words of the light vertices that are kept for every path in flight.
     uint32_t vertex_words_per_path() const {
         return features.has(Feature::vertex_joins) ? numbers.light_vertices * light_vertex_words(features) : 0;
+    }
+
+    /// Likewise of the vertices to which each path in flight may come back.
+    uint32_t branch_words_per_path() const {
+        return features.has(Feature::branches) ? numbers.max_depth * branch_words(features) : 0;
     }
 
     uint64_t film_words() const { return pixels() * FILM_PIXEL_WORDS(settings.variance); }
@@ -380,6 +392,7 @@ struct RenderSession::State {
     SceneBuffers scene_buffers;
     Buffer<uint32_t> path_words;
     Buffer<uint32_t> vertex_words;
+    Buffer<uint32_t> branch_vertices;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
 
@@ -528,8 +541,10 @@ nlohmann::json RenderSession::report() const {
     }
     // In memory: the passes take turns, but for the light vertices that one keeps for the other.
     const uint32_t vertex_bytes = s.vertex_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
+    const uint32_t branch_bytes = s.branch_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
     report["light_vertex_bytes_per_path"] = vertex_bytes;
-    report["bytes_per_path"] = largest_path + vertex_bytes;
+    report["branch_bytes_per_path"] = branch_bytes;
+    report["bytes_per_path"] = largest_path + vertex_bytes + branch_bytes;
     for (const auto &[name, stage] : s.bvh_stages) {
         report["bvh"]["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
@@ -546,6 +561,7 @@ nlohmann::json RenderSession::report() const {
     s.scene_buffers.visit(add_buffer);
     add_buffer(s.path_words);
     add_buffer(s.vertex_words);
+    add_buffer(s.branch_vertices);
     add_buffer(s.queues);
     add_buffer(s.counters);
     for (const CompiledPass &pass : s.passes) {

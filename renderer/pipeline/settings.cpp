@@ -42,8 +42,9 @@ const std::vector<Setting> &setting_table() {
     using S = RenderSettings;
     static const std::vector<Setting> table = {
         {"integrator.strategies", TextSetting{&S::strategies, {"implicit", "explicit", "mis"}}, "how light is found"},
-        {"integrator.sampler", TextSetting{&S::sampler, {"independent", "sobol"}},
-         "random numbers; sobol: stratified over the samples of a pixel, and over light paths"},
+        {"integrator.sampler", TextSetting{&S::sampler, {"independent", "sobol", "regular"}},
+         "random numbers; sobol: stratified over the samples of a pixel, and over light paths; regular: the same points in "
+         "every pixel, the first in its centre, for ray_casting and whitted, which take no others"},
         {"integrator.seen_emitters", TextSetting{&S::seen_emitters, {"mis", "camera"}},
          "bdpt, truncated_bdpt: emitters seen directly by both passes, or by camera paths alone"},
         {"integrator.light_paths", CountSetting{&S::light_paths, 1u << 30}, "per sample of the image, 0: as many as pixels"},
@@ -52,14 +53,14 @@ const std::vector<Setting> &setting_table() {
          "of truncated_bdpt"},
         {"integrator.beta", NumberSetting{&S::beta, 0.0f, 1e3f}, "exponent of the power heuristic"},
         {"integrator.termination", TextSetting{&S::termination, {"roulette", "fixed", "adaptive"}},
-         "how paths end; fixed (at max_depth) and adaptive are biased"},
-        {"integrator.max_depth", CountSetting{&S::max_depth, largest_count}, "scattering events, 0: no limit"},
+         "how paths end; fixed (at max_depth) and adaptive are biased; whitted takes roulette for fixed"},
+        {"integrator.max_depth", CountSetting{&S::max_depth, largest_count}, "scattering events, 0: no limit (of whitted: 8)"},
         {"integrator.max_continuation", NumberSetting{&S::max_continuation, 0.0f, 1.0f},
          "largest continuation probability of roulette"},
         {"integrator.adaptive_threshold", NumberSetting{&S::adaptive_threshold, 0.0f, 1e3f},
          "throughput below which adaptive termination stops"},
         {"integrator.light_selection", TextSetting{&S::light_selection, {"uniform", "power", "mixed", "independent"}},
-         "probability of a light; independent: all of them at every vertex"},
+         "probability of a light; independent: all of them at every vertex, as always in ray_casting and whitted"},
         {"integrator.sphere_sampling", TextSetting{&S::sphere_sampling, {"cone", "area"}},
          "how sphere lights are sampled from a point; area is the thesis' choice"},
         {"device.group_size", CountSetting{&S::group_size, 4096}, "work-items per group, 0: by device"},
@@ -93,6 +94,31 @@ T parse_number(const std::string &assignment, const std::string &text, T low, T 
     return value;
 }
 
+/// What an algorithm is made of.
+struct Algorithm {
+    std::string name;
+    bool from_camera;
+    bool from_light;
+    bool draws;  ///< random numbers
+};
+
+const std::vector<Algorithm> &algorithm_table() {
+    static const std::vector<Algorithm> table = {
+        {"ray_casting", true, false, false},  {"whitted", true, false, false}, {"path_tracing", true, false, true},
+        {"light_tracing", false, true, true}, {"bdpt", true, true, true},      {"truncated_bdpt", true, true, true},
+    };
+    return table;
+}
+
+const Algorithm &algorithm_of(const RenderSettings &settings) {
+    const auto &table = algorithm_table();
+    const auto found = std::find_if(table.begin(), table.end(), [&](const Algorithm &a) { return a.name == settings.algorithm; });
+    if (found == table.end()) {
+        throw input_error(fmt::format("no algorithm '{}'; there are: {}", settings.algorithm, fmt::join(algorithm_names(), ", ")));
+    }
+    return *found;
+}
+
 void require_value(const Setting &setting, const TextSetting &text, const std::string &value) {
     if (std::find(text.values.begin(), text.values.end(), value) == text.values.end()) {
         throw input_error(fmt::format("{}={}: the values of {} are {}", setting.name, value, setting.name,
@@ -103,7 +129,13 @@ void require_value(const Setting &setting, const TextSetting &text, const std::s
 }  // namespace
 
 const std::vector<std::string> &algorithm_names() {
-    static const std::vector<std::string> names = {"path_tracing", "light_tracing", "bdpt", "truncated_bdpt"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const Algorithm &algorithm : algorithm_table()) {
+            list.push_back(algorithm.name);
+        }
+        return list;
+    }();
     return names;
 }
 
@@ -128,10 +160,7 @@ void apply_setting(RenderSettings &settings, const std::string &assignment) {
 }
 
 void require_consistent(const RenderSettings &settings) {
-    const auto &names = algorithm_names();
-    if (std::find(names.begin(), names.end(), settings.algorithm) == names.end()) {
-        throw input_error(fmt::format("no algorithm '{}'; there are: {}", settings.algorithm, fmt::join(names, ", ")));
-    }
+    const bool draws = algorithm_of(settings).draws;
     for (const Setting &setting : setting_table()) {
         if (const auto *text = std::get_if<TextSetting>(&setting.kind)) {
             require_value(setting, *text, settings.*text->field);
@@ -140,6 +169,16 @@ void require_consistent(const RenderSettings &settings) {
     if (settings.algorithm != "path_tracing" && settings.strategies != "mis") {
         throw input_error(fmt::format("integrator.strategies={}: {} has strategies of its own", settings.strategies,
                                       settings.algorithm));
+    }
+    if (draws && settings.sampler == "regular") {
+        throw input_error(fmt::format("integrator.sampler=regular: {} needs random numbers, independent or sobol", settings.algorithm));
+    }
+    if (!draws && settings.sampler == "sobol") {
+        throw input_error(fmt::format("integrator.sampler=sobol: {} draws no random numbers; its samples are regular", settings.algorithm));
+    }
+    if (!draws && (settings.light_selection == "uniform" || settings.light_selection == "power")) {
+        throw input_error(fmt::format("integrator.light_selection={}: {} draws no light, it joins every point to all of them",
+                                      settings.light_selection, settings.algorithm));
     }
     if (settings.algorithm == "bdpt" && settings.light_paths != 0) {
         throw input_error(fmt::format("integrator.light_paths={}: bdpt joins every camera path to a light path of its own",
@@ -152,12 +191,27 @@ void require_consistent(const RenderSettings &settings) {
     if (settings.strategies_apart && (settings.variance || settings.passes != "all")) {
         throw input_error("layers of strategies go with all passes and without variance: the strategies share their paths");
     }
-    if (settings.termination == "fixed" && settings.max_depth == 0) {
+    if (settings.strategies_apart && !draws) {
+        throw input_error(fmt::format("layers of strategies: {} has but one", settings.algorithm));
+    }
+    if (draws && settings.termination == "fixed" && settings.max_depth == 0) {
         throw input_error("integrator.termination=fixed needs a limit: --set integrator.max_depth=N");
     }
 }
 
-nlohmann::json image_settings(const RenderSettings &settings) {
+RenderSettings with_fixed_choices(RenderSettings settings) {
+    if (!algorithm_of(settings).draws) {
+        settings.strategies = "explicit";
+        settings.sampler = "regular";
+        settings.light_selection = "independent";
+        settings.termination = settings.termination == "roulette" ? "fixed" : settings.termination;
+        settings.max_depth = settings.algorithm == "ray_casting" ? 1 : settings.max_depth == 0 ? 8 : settings.max_depth;
+    }
+    return settings;
+}
+
+nlohmann::json image_settings(const RenderSettings &requested) {
+    const RenderSettings settings = with_fixed_choices(requested);
     nlohmann::json document = {{"algorithm", settings.algorithm}};
     for (const Setting &setting : setting_table()) {
         if (setting.name.rfind("integrator.", 0) == 0) {
@@ -181,7 +235,7 @@ std::string describe_settings() {
     return description;
 }
 
-bool has_light_pass(const RenderSettings &settings) { return settings.algorithm != "path_tracing"; }
+bool has_light_pass(const RenderSettings &settings) { return algorithm_of(settings).from_light; }
 
 uint32_t light_paths_per_sample(const RenderSettings &settings) {
     return settings.light_paths > 0 ? settings.light_paths
@@ -198,7 +252,9 @@ IntegratorSettings integrator_settings(const RenderSettings &settings) {
                                        std::pair(Feature::light_emitters, STRATEGY_LIGHT_EMITTERS)}) {
         numbers.strategies |= features.has(feature) ? bit : 0u;
     }
-    numbers.sampler = settings.sampler == "sobol" ? SAMPLER_SOBOL : SAMPLER_INDEPENDENT;
+    numbers.sampler = settings.sampler == "sobol"     ? SAMPLER_SOBOL
+                      : settings.sampler == "regular" ? SAMPLER_REGULAR
+                                                      : SAMPLER_INDEPENDENT;
     numbers.light_paths = light_paths_per_sample(settings);
     numbers.light_vertices = settings.bdpt_vertices;
     numbers.termination = settings.termination == "roulette"   ? TERMINATION_ROULETTE
@@ -217,21 +273,22 @@ CompileSettings compile_settings(const RenderSettings &settings) {
                                      : settings.light_selection == "independent" ? LightSelection::independent
                                                                                  : LightSelection::mixed;
     return {settings.width, settings.height, selection, settings.sphere_sampling == "area",
-            settings.features == "all"};
+            settings.features == "all", !algorithm_of(settings).draws};
 }
 
 FeatureMask settings_features(const RenderSettings &settings) {
-    const bool light_tracing = settings.algorithm == "light_tracing";
-    const bool both_ways = settings.algorithm == "truncated_bdpt" || settings.algorithm == "bdpt";
+    const Algorithm &algorithm = algorithm_of(settings);
+    const bool both_ways = algorithm.from_camera && algorithm.from_light;
     return FeatureMask()
-        .with(Feature::implicit_light, !light_tracing && settings.strategies != "explicit")
-        .with(Feature::explicit_light, !light_tracing && settings.strategies != "implicit")
+        .with(Feature::implicit_light, algorithm.from_camera && settings.strategies != "explicit")
+        .with(Feature::explicit_light, algorithm.from_camera && settings.strategies != "implicit")
         .with(Feature::light_strategy, both_ways)
         .with(Feature::vertex_joins, settings.algorithm == "bdpt")
+        .with(Feature::branches, settings.algorithm == "whitted")
         .with(Feature::light_emitters, both_ways && settings.seen_emitters == "mis")
         .with(Feature::roulette, settings.termination == "roulette")
         .with(Feature::adaptive, settings.termination == "adaptive")
-        .with(Feature::sobol, settings.sampler == "sobol")
+        .with(Feature::sobol, settings.sampler != "independent")
         .with(Feature::depth_limit, settings.max_depth != 0)
         .with(Feature::variance, settings.variance);
 }

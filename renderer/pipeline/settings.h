@@ -25,7 +25,7 @@ struct RenderSettings {
 
     // integrator.*
     std::string strategies = "mis";         ///< implicit | explicit | mis; of path_tracing
-    std::string sampler = "independent";    ///< independent | sobol
+    std::string sampler = "independent";    ///< independent | sobol | regular
     std::string seen_emitters = "mis";      ///< mis | camera; of bdpt and truncated_bdpt
     uint32_t light_paths = 0;               ///< per sample of the image, 0: as many as pixels
     uint32_t bdpt_vertices = 8;             ///< of bdpt: vertices kept of each light path; paths of one scattering event more
@@ -54,6 +54,10 @@ void apply_setting(RenderSettings &settings, const std::string &assignment);
 
 /// Throws `Error` (bad usage) when settings contradict each other or a name is none of its alternatives.
 void require_consistent(const RenderSettings &settings);
+
+/// Consistent settings in which the choices that the algorithm makes by itself have been made: those of ray_casting and
+/// whitted, which draw no random numbers (thesis 2.7.6).
+RenderSettings with_fixed_choices(RenderSettings settings);
 
 /// All settings that decide the image ("integrator.*", algorithm), for provenance and for the config hash.
 nlohmann::json image_settings(const RenderSettings &settings);

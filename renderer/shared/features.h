@@ -17,11 +17,12 @@
     X(from_camera, "this pass traces paths from the camera")                                        \
     X(from_light, "this pass traces paths from the lights")                                         \
     X(shadow_rays, "vertices are joined to light samples or to the camera")                         \
+    X(branches, "paths come back to vertices of which several components are followed")             \
     X(roulette, "Russian roulette ends paths")                                                      \
     X(roulette_scale, "roulette measures the throughput by something of the path's own")            \
     X(adaptive, "paths end below a throughput threshold (biased)")                                  \
     X(depth_limit, "max_depth is finite")                                                           \
-    X(sobol, "samples are stratified")                                                              \
+    X(sobol, "samples are stratified, or regular")                                                  \
     /* geometry */                                                                                  \
     X(triangles, "the scene has triangles: a hierarchy is built and traversed")                     \
     X(shapes, "the scene has surfaces that are not made of triangles")                              \

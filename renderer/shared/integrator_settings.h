@@ -18,6 +18,7 @@
 
 #define SAMPLER_INDEPENDENT 0u
 #define SAMPLER_SOBOL 1u
+#define SAMPLER_REGULAR 2u
 
 #define UNLIMITED_DEPTH 0xffffffffu
 

@@ -26,6 +26,7 @@
     X(FEATURE_arrival_density, float, log_arrival) /* likewise, of the last ray */                \
     X(FEATURE_vertex_joins, float, log_strategies) /* likewise, of all strategies */              \
     X(FEATURE_emission_density, uint, light) /* where the path began */                           \
+    X(FEATURE_branches, uint, pending)       /* vertices it will come back to: branch.h */        \
     X(FEATURE_shadow_rays, float3, shadow_vector)  /* from ray_origin to what is joined */        \
     X(FEATURE_shadow_rays, float3, shadow_radiance) /* added unless the way is blocked */         \
     X(FEATURE_from_light, uint, splat_pixel) /* to which it is added */

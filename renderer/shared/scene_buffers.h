@@ -54,4 +54,10 @@
 #define VERTEX_PARAMETERS WHEN(FEATURE_vertex_joins, VERTEX_BUFFER_PARAMETER)
 #define VERTEX_ARGUMENTS WHEN(FEATURE_vertex_joins, VERTEX_BUFFER_ARGUMENT)
 
+// The vertices of shared/branch.h likewise.
+#define BRANCH_BUFFER_PARAMETER GLOBAL uint *branch_words,
+#define BRANCH_BUFFER_ARGUMENT branch_words,
+#define BRANCH_PARAMETERS WHEN(FEATURE_branches, BRANCH_BUFFER_PARAMETER)
+#define BRANCH_ARGUMENTS WHEN(FEATURE_branches, BRANCH_BUFFER_ARGUMENT)
+
 #define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity

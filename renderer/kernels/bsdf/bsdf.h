@@ -165,9 +165,8 @@ DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, Surfac
 #endif
 }
 
-/// A direction, from `select`, u and v in [0, 1).
-DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float select, float u,
-                              float v) {
+/// Nothing sampled: the path ends.
+DEVICE BsdfSample no_sample(SurfaceFrame frame) {
     BsdfSample sample;
     sample.wi = frame.ns;
     sample.weight = make_float3(0.0f, 0.0f, 0.0f);
@@ -175,12 +174,13 @@ DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame fr
     sample.scale = 1.0f;
     sample.component = 0u;
     sample.probability = 0.0f;
-    const MaterialRecord record = materials[material];
-    const float3 wo = to_local(frame, frame.wo);
-    if (!side_scatters(record, frame, wo.z) ||
-        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &sample.component, &sample.probability)) {
-        return sample;
-    }
+    return sample;
+}
+
+/// Completes `sample`, in which component and probability are set, by a direction of that component, from u and v in
+/// [0, 1). `wo` is frame.wo in the frame; the side that it is on scatters.
+DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame, float3 wo,
+                                   BsdfSample sample, float u, float v) {
     GLOBAL const BxdfRecord *component = components + sample.component;
     const float eta = component_eta(component, record.flags, frame.front);
     const float3 wi = component_direction(component, eta, wo, u, v);
@@ -212,3 +212,33 @@ DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame fr
     }
     return sample;
 }
+
+/// A direction, from `select`, u and v in [0, 1).
+DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float select, float u,
+                              float v) {
+    BsdfSample sample = no_sample(frame);
+    const MaterialRecord record = materials[material];
+    const float3 wo = to_local(frame, frame.wo);
+    if (!side_scatters(record, frame, wo.z) ||
+        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &sample.component, &sample.probability)) {
+        return sample;
+    }
+    return sample_component(MATERIAL_ARGUMENTS record, frame, wo, sample, u, v);
+}
+
+#if FEATURE_delta
+
+/// The direction of an ideal reflection or refraction, its weight the coefficient of the delta; nothing of another kind of
+/// component, nor past the critical angle.
+DEVICE BsdfSample bsdf_delta(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame, uint component) {
+    BsdfSample sample = no_sample(frame);
+    const float3 wo = to_local(frame, frame.wo);
+    if (!is_delta(components[component].kind) || !side_scatters(record, frame, wo.z)) {
+        return sample;
+    }
+    sample.component = component;
+    sample.probability = 1.0f;
+    return sample_component(MATERIAL_ARGUMENTS record, frame, wo, sample, 0.0f, 0.0f);
+}
+
+#endif

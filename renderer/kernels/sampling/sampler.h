@@ -10,7 +10,8 @@
 #endif
 
 /// Four words of block `block`: uniform each, and independent of those of all other blocks, pixels and streams. From
-/// sample to sample they are independent, or those of a stratified sequence.
+/// sample to sample they are independent, or those of a stratified sequence. Regular samples are not random: the same in
+/// all pixels, whatever the seed.
 DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, ulong sample, uint block) {
 #if FEATURE_sobol
     if (settings.sampler == SAMPLER_SOBOL) {
@@ -19,6 +20,12 @@ DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, 
         const uint4 seeds = random_words(settings.seed, stream, pixel, sequence, block);
         const uint order = random_words(settings.seed, stream, pixel, sequence + 1u, block).x;
         return sobol_point((uint)sample, order, seeds);
+    }
+    if (settings.sampler == SAMPLER_REGULAR) {
+        const ulong sequence = (sample >> 32) << 1;
+        const uint4 seeds = random_words(0u, stream, 0u, sequence, block);
+        const uint order = random_words(0u, stream, 0u, sequence + 1u, block).x;
+        return regular_point((uint)sample, order, seeds);
     }
 #endif
     return random_words(settings.seed, stream, pixel, sample, block);

@@ -61,3 +61,12 @@ DEVICE uint4 sobol_point(uint index, uint order, uint4 seeds) {
     return make_uint4(scramble(point.x, seeds.x), scramble(point.y, seeds.y), scramble(point.z, seeds.z),
                       scramble(point.w, seeds.w));
 }
+
+/// The same points moved by a digital shift, which keeps their stratification, so that point 0 is (1/2, 1/2, 0, 1/2): the
+/// centre of a pixel and of the lens.
+DEVICE uint4 regular_point(uint index, uint order, uint4 seeds) {
+    const uint4 first = sobol_point(0u, order, seeds);
+    const uint4 point = sobol_point(index, order, seeds);
+    return make_uint4(point.x ^ first.x ^ 0x80000000u, point.y ^ first.y ^ 0x80000000u, point.z ^ first.z,
+                      point.w ^ first.w ^ 0x80000000u);
+}

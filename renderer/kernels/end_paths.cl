@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Stage end_paths: ends each active path where it is and adds it to the film.
+// Reads: pixel, radiance, active queue. Writes: film. To: the free queue.
+
+#include "renderer/kernels/film/add_sample.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/scene_buffers.h"
+
+__kernel void end_paths(GLOBAL long *film, STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    PushBuffer ended;
+    ended.count = 0u;
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        const uint slot = active_slot(queues, counters, capacity, i);
+        add_path(paths, slot, film, counters);
+        push_slot(&ended, slot);
+    }
+    append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);
+}
