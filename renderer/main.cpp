@@ -101,15 +101,15 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
         while (!interrupted()) {
             const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
             progress.update(static_cast<uint64_t>(std::min(elapsed, *options.seconds) * 1000));
-            if (elapsed >= *options.seconds) {
+            if (elapsed >= *options.seconds || session.is_complete()) {
                 save();
                 return true;
             }
+            const double before = session.stats().wall_seconds;
             range.begin = session.render(range.begin, range.begin + step);
-            // Steps of about a tenth of the time left keep the overshoot small.
-            const double rate = static_cast<double>(session.stats().samples) / std::max(session.stats().wall_seconds, 1e-9);
-            const auto pixels = static_cast<double>(options.settings.width) * options.settings.height;
-            step = std::max<uint64_t>(1, static_cast<uint64_t>(0.1 * (*options.seconds - elapsed) * rate / pixels));
+            // Steps of about a tenth of the time left, by what the last one took, keep the overshoot small.
+            const double rate = static_cast<double>(step) / std::max(session.stats().wall_seconds - before, 1e-9);
+            step = std::max<uint64_t>(1, static_cast<uint64_t>(0.1 * (*options.seconds - elapsed) * rate));
         }
     } else {
         Progress progress("rendering", range.end, "spp", options.quiet);

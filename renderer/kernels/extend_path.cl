@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stage extend_path: samples the next direction of each active path, or ends the path and adds it to the film.
 // Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, log_ratio,
-// log_strategies, depth; film.
+// log_strategies, depth; film, half film.
 // To: the active queue of the next round, or the free queue.
 
 #include "renderer/kernels/film/add_sample.h"
@@ -10,6 +10,7 @@
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/live_pixels.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
@@ -116,8 +117,8 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
 
 #endif
 
-__kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film, IntegratorSettings settings,
-                          ulong first_sample, STREAM_PARAMETERS) {
+__kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film, HALF_FILM_PARAMETERS
+                          IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer extended, ended;
     extended.count = 0u;
@@ -131,7 +132,13 @@ __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *fi
         }
 #endif
 #if FEATURE_from_camera
+#if FEATURE_convergence
+        if (add_path(paths, slot, film, counters)) {
+            add_path_to_half(paths, slot, half_film, first_sample, counters);
+        }
+#else
         add_path(paths, slot, film, counters);
+#endif
 #endif
         push_slot(&ended, slot);
     }

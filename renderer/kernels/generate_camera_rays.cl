@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stage generate_camera_rays: starts a camera path in every free slot while samples of the batch are left.
-// Reads: free queue. Writes: path states. To: the active queue of this round.
+// Reads: free queue, list of live pixels. Writes: path states. To: the active queue of this round.
 
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/live_pixels.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
@@ -40,15 +41,16 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
 }
 
 __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,
-                                   STREAM_PARAMETERS) {
+                                   LIVE_PIXELS_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     const WorkItems items = take_work(counters);
-    const uint pixels = camera.width * camera.height;
+    const uint pixels = LIVE_COUNT(camera.width * camera.height);
     PushBuffer started;
     started.count = 0u;
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
-        start_path(paths, slot, camera, settings, first_sample, (items.first + i) % pixels, (items.first + i) / pixels);
+        const uint item = items.first + i;
+        start_path(paths, slot, camera, settings, first_sample, LIVE_PIXEL(item % pixels), item / pixels);
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);

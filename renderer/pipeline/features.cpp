@@ -123,6 +123,7 @@ FeatureMask FeatureMask::closed() const {
     const bool from_light = mask.has(Feature::from_light), strategy = mask.has(Feature::light_strategy);
     const bool joins = mask.has(Feature::vertex_joins);
     return mask.with(Feature::from_camera, !from_light)
+        .with(Feature::convergence, mask.has(Feature::convergence) && !from_light)
         .with(Feature::shadow_rays, mask.has(Feature::explicit_light) || joins || from_light)
         .with(Feature::direction_density,
               joins || (!from_light && (mask.has(Feature::implicit_light) || strategy ||

@@ -17,7 +17,7 @@ namespace rtrays {
 
 namespace {
 
-constexpr int state_version = 2;
+constexpr int state_version = 3;
 const std::string magic = "RTRaysFilm";
 
 size_t pixel_words(const FilmState &film) { return FILM_PIXEL_WORDS(film.variance); }
@@ -86,8 +86,10 @@ Image develop_film(const FilmState &film) {
             image.add_channel(name);
         }
     }
-    const auto n = static_cast<double>(film.samples());
-    std::fill_n(image.add_channel("samples").begin(), image.pixel_count(), static_cast<float>(n));
+    std::vector<float> &samples = image.add_channel("samples");
+    for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
+        samples[pixel] = static_cast<float>(film.convergence ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
+    }
     const bool layers = film.passes.size() > 1;
     for (size_t pass = 0; pass < film.passes.size() && layers; ++pass) {
         for (const std::string &name : rgb_names(film.passes[pass])) {
@@ -104,10 +106,12 @@ Image develop_film(const FilmState &film) {
             // A sample of the camera's is one of n; a sample of the light pass is the sum over its paths.
             const bool splats = film.passes[pass] == "light";
             const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
+            const bool stops = !splats && film.convergence;
             const int64_t *const first = film.words.data() + pass * word_count(film) + c;
             std::vector<float> *const layer = layers ? &image.channel(rgb_names(film.passes[pass])[c]) : nullptr;
             for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
                 const int64_t *words = first + pixel * pixel_words(film);
+                const auto n = static_cast<double>(stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
                 const double own = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
                 mean[pixel] += own;
                 if (layer != nullptr) {
@@ -145,6 +149,9 @@ void merge_film(FilmState &film, const FilmState &other) {
     const bool other_pass = film.passes != other.passes;
     if (other_pass) {
         require(film.ranges == other.ranges, "samples, and are different passes,");
+    } else if (film.convergence || other.convergence) {
+        throw input_error("films whose pixels were stopped as they converged hold what their first samples decided; only another "
+                          "pass can be merged into them");
     } else {
         for (const SampleRange &range : other.ranges) {
             merged.add_range(range);
@@ -161,6 +168,7 @@ void merge_film(FilmState &film, const FilmState &other) {
         merged.light_paths = light.light_paths;
         merged.words = camera.words;
         merged.words.insert(merged.words.end(), light.words.begin(), light.words.end());
+        merged.convergence = camera.convergence;
         film = std::move(merged);
         return;
     }
@@ -187,8 +195,19 @@ void save_film(const FilmState &film, const std::filesystem::path &path) {
     for (const SampleRange &range : film.ranges) {
         header["ranges"].push_back({range.begin, range.end});
     }
+    if (film.convergence) {
+        const ConvergenceRule &rule = film.convergence->rule;
+        header["convergence"] = {{"error", rule.error}, {"interval", rule.interval}, {"start", rule.start}};
+    }
     std::string content = magic + "\n" + header.dump() + "\n";
-    content.append(reinterpret_cast<const char *>(film.words.data()), film.words.size() * sizeof(int64_t));
+    const auto append = [&](const auto &values) {
+        content.append(reinterpret_cast<const char *>(values.data()), values.size() * sizeof values[0]);
+    };
+    append(film.words);
+    if (film.convergence) {
+        append(film.convergence->stopped_at);
+        append(film.convergence->half_words);
+    }
     write_file(path, content_hash(content) + content);
 }
 
@@ -224,10 +243,33 @@ FilmState load_film(const std::filesystem::path &path) {
         film.add_range({range.at(0), range.at(1)});
     }
     film.words.resize(film.passes.size() * word_count(film));
-    if (content.size() - header_end - 1 != film.words.size() * sizeof(int64_t)) {
+    if (header.contains("convergence")) {
+        const Json &rule = header.at("convergence");
+        const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
+        film.convergence = ConvergenceState{{rule.at("error"), rule.at("interval"), rule.at("start")},
+                                            std::vector<uint64_t>(pixels),
+                                            std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
+    }
+    size_t at = header_end + 1;
+    const auto take = [&](auto &values) {
+        const size_t bytes = values.size() * sizeof values[0];
+        if (bytes > content.size() - at) {
+            throw fail("film state has the wrong length: render it again");
+        }
+        std::memcpy(values.data(), content.data() + at, bytes);
+        at += bytes;
+    };
+    take(film.words);
+    if (film.convergence) {
+        take(film.convergence->stopped_at);
+        take(film.convergence->half_words);
+    }
+    if (at != content.size()) {
         throw fail("film state has the wrong length: render it again");
     }
-    std::memcpy(film.words.data(), content.data() + header_end + 1, film.words.size() * sizeof(int64_t));
+    if (film.convergence && !film.convergence->is_consistent(film.samples())) {
+        throw fail("film state has pixels that stopped between checks: render it again");
+    }
     return film;
 }
 

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/base/image.h"
+#include "renderer/pipeline/convergence.h"
 
 namespace rtrays {
 
@@ -33,8 +35,9 @@ struct FilmState {
     uint64_t non_finite = 0;          ///< samples that were not added
     uint64_t out_of_range = 0;        ///< likewise, of 2^40 or more in magnitude
     std::vector<int64_t> words;       ///< carried; pass by pass, per pixel FILM_PIXEL_WORDS
+    std::optional<ConvergenceState> convergence;  ///< of the camera pass, where pixels are stopped
 
-    /// Number of samples per pixel.
+    /// Number of samples per pixel; where pixels are stopped: of those that were not, and of the light pass.
     uint64_t samples() const;
 
     /// Adds a range; throws `Error` (bad input) when it overlaps one that is there.
@@ -44,15 +47,16 @@ struct FilmState {
 /// Throws `Error` (run failed) naming the number of samples that were not finite or out of the film's range.
 void require_valid(const FilmState &film);
 
-/// R, G, B; variance.R, .G, .B (of the mean, from the squares); samples; and camera.R, ..., light.R, ... where there are
-/// two passes. Sums are taken in double from the exact integers: the mean's relative error is that of its rounding to
+/// R, G, B; variance.R, .G, .B (of the mean, from the squares); samples, camera paths of each pixel; and camera.R, ...,
+/// light.R, ... where there are two passes. Sums are taken in double from the exact integers: the mean's relative error is that of its rounding to
 /// float.
 ///
 /// A light path adds to many pixels: its variances are those of the pixels by themselves, and neighbours go together.
 Image develop_film(const FilmState &film);
 
 /// Adds `other` into `film`: other samples of the same passes, or another pass of the same samples. Throws `Error` (bad
-/// input) when size, seed, config or layout differ, or what is there already would be added again.
+/// input) when size, seed, config or layout differ, or what is there already would be added again. Where convergence
+/// control stops a pixel depends on all its samples from the first on: of such films only passes can be merged.
 void merge_film(FilmState &film, const FilmState &other);
 
 /// The film's file: a checksum, a line that names the format, a line of JSON and the words; written whole or not at

@@ -13,6 +13,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/bvh/builder.h"
 #include "renderer/integrators/algorithm.h"
+#include "renderer/pipeline/convergence_control.h"
 #include "renderer/pipeline/scene_buffers.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
@@ -55,6 +56,7 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
 
 FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings, const DeviceInfo &info) {
     FeatureMask features = FeatureMask::all().with(Feature::variance, settings.variance)
+                               .with(Feature::convergence, has_convergence_control(settings))
                                .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
     if (settings.features == "scene") {
         features = settings_features(settings) | compiled.features;
@@ -168,6 +170,11 @@ struct RenderSession::State {
         for (CompiledPass &pass : passes) {
             pass.film = Buffer<int64_t>(device, "film." + pass.name, film_words());
             pass.film.fill(0);
+            if (pass.features.has(Feature::convergence)) {
+                const ConvergenceRule rule{settings.convergence_error, settings.convergence_interval, settings.convergence_start};
+                convergence = std::make_unique<ConvergenceControl>(device, rule, static_cast<uint32_t>(pixels()), pass.features,
+                                                                   layout.group_size, settings.source_overlays);
+            }
         }
     }
 
@@ -193,6 +200,12 @@ struct RenderSession::State {
         for (CompiledPass &pass : passes) {
             arguments[In::settings] = {pass.numbers(numbers)};
             arguments[In::film] = {pass.film};
+            arguments[In::half_film] = arguments[In::live_pixels] = {};
+            if (pass.features.has(Feature::convergence)) {
+                for (const auto &[input, list] : convergence->arguments()) {
+                    arguments[input] = list;
+                }
+            }
             pass.stages.bind(arguments);
         }
     }
@@ -214,12 +227,35 @@ struct RenderSession::State {
     uint64_t paths_per_sample(const CompiledPass &pass) const {
         return pass.name == "light" ? numbers.light_paths : pixels();
     }
-    uint64_t paths_per_sample() const {
+    /// Of these, those that are still traced.
+    uint64_t live_paths_per_sample(const CompiledPass &pass) const {
+        return pass.features.has(Feature::convergence) ? convergence->live_count() : paths_per_sample(pass);
+    }
+    uint64_t live_paths_per_sample() const {
         uint64_t paths = 0;
         for (const CompiledPass &pass : passes) {
-            paths += paths_per_sample(pass);
+            paths += live_paths_per_sample(pass);
         }
         return paths;
+    }
+
+    /// How many of the samples from `begin` on are rendered next: a batch, up to the next check.
+    uint64_t batch_size(uint64_t begin, uint64_t end) const {
+        const uint64_t batch = batch_paths / std::max<uint64_t>(1, live_paths_per_sample());
+        uint64_t count = std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_BETWEEN_CARRIES), end - begin);
+        if (convergence != nullptr && convergence->live_count() > 0) {
+            count = std::min(count, convergence->rule().next_check(begin) - begin);
+        }
+        return count;
+    }
+
+    /// Where convergence control stops a pixel depends on all samples before.
+    void require_next(uint64_t begin) const {
+        const uint64_t done = ranges.samples();
+        if (convergence != nullptr && begin != done) {
+            throw input_error(fmt::format("convergence control decides by all samples from 0 on, of which there are {}: the next is {}, not {}",
+                                          done, done, begin));
+        }
     }
 
     /// The first enqueue of a kernel compiles it for its group size: a batch without work does that.
@@ -267,11 +303,18 @@ struct RenderSession::State {
             }
         } else {
             for (CompiledPass &pass : passes) {
-                run_pass(pass, first, 0, static_cast<uint32_t>(count * paths_per_sample(pass)));
+                const auto work = static_cast<uint32_t>(count * live_paths_per_sample(pass));
+                if (work > 0 || count == 0) {
+                    run_pass(pass, first, 0, work);
+                }
             }
         }
         for (CompiledPass &pass : passes) {
             carry_film(pass);
+            if (pass.features.has(Feature::convergence) && (count == 0 || convergence->rule().is_check(first + count))) {
+                convergence->check(pass.film, first + count);
+                pass.stages.bind(convergence->arguments());
+            }
             collect_profile(pass);
         }
     }
@@ -346,6 +389,10 @@ struct RenderSession::State {
         for (CompiledPass &pass : passes) {
             pass.film.fill(0);
             pass.profile.clear();
+            if (pass.features.has(Feature::convergence)) {
+                convergence->reset();
+                pass.stages.bind(convergence->arguments());
+            }
         }
         counters.write({StreamCounters{}});
         ranges = FilmState();
@@ -395,6 +442,7 @@ struct RenderSession::State {
     Buffer<uint32_t> branch_vertices;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
+    std::unique_ptr<ConvergenceControl> convergence;  ///< of the camera pass, where pixels are stopped
 
     double compile_seconds = 0;
     double bvh_wall_seconds = 0;
@@ -410,14 +458,15 @@ RenderSession::RenderSession(RenderSession &&) noexcept = default;
 
 uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function<void(uint64_t)> &on_batch) {
     State &s = *state_;
-    const uint64_t batch = std::clamp<uint64_t>(batch_paths / s.paths_per_sample(), 1, FILM_ADDITIONS_BETWEEN_CARRIES);
+    s.require_next(begin);
     while (begin < end && !interrupted()) {
-        const uint64_t count = std::min(batch, end - begin);
+        const uint64_t count = s.batch_size(begin, end);
+        const uint64_t camera_paths = count * (s.convergence != nullptr ? s.convergence->live_count() : s.pixels());
         s.ranges.add_range({begin, begin + count});
         const auto start = Clock::now();
         s.run_batch(begin, count);
         s.wall_seconds += seconds_since(start);
-        s.samples += count * s.pixels();
+        s.samples += camera_paths;
         begin += count;
         if (on_batch) {
             on_batch(begin);
@@ -425,6 +474,8 @@ uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function
     }
     return begin;
 }
+
+bool RenderSession::is_complete() const { return state_->live_paths_per_sample() == 0; }
 
 void RenderSession::restart(uint32_t seed) {
     state_->numbers.seed = state_->settings.seed = seed;
@@ -445,13 +496,17 @@ FilmState RenderSession::film() const {
     film.out_of_range += counters.out_of_range;
     film.device_seconds += state_->device_seconds();
     film.wall_seconds += state_->wall_seconds;
+    if (state_->convergence != nullptr) {
+        film.convergence = state_->convergence->state();
+    }
     return film;
 }
 
 void RenderSession::restore(const FilmState &film) {
     const FilmState header = state_->film_header();
     if (film.config != header.config || film.seed != header.seed || film.width != header.width ||
-        film.height != header.height || film.variance != header.variance || film.passes != header.passes) {
+        film.height != header.height || film.variance != header.variance || film.passes != header.passes ||
+        film.convergence.has_value() != (state_->convergence != nullptr)) {
         throw input_error("the film state belongs to another scene, other settings, another seed or size");
     }
     state_->reset_film();
@@ -459,8 +514,13 @@ void RenderSession::restore(const FilmState &film) {
         const auto first = film.words.begin() + static_cast<std::ptrdiff_t>(pass * state_->film_words());
         state_->passes[pass].film.write({first, first + static_cast<std::ptrdiff_t>(state_->film_words())});
     }
+    if (state_->convergence != nullptr) {
+        state_->convergence->restore(*film.convergence);
+        state_->passes.front().stages.bind(state_->convergence->arguments());
+    }
     state_->ranges = film;
     state_->ranges.words.clear();
+    state_->ranges.convergence.reset();
 }
 
 Image RenderSession::develop() const {
@@ -515,12 +575,18 @@ nlohmann::json RenderSession::report() const {
     };
     uint32_t largest_path = 0;
     for (const CompiledPass &pass : s.passes) {
-        for (const auto &[file, program] : pass.stages.programs()) {
-            report["programs"].push_back({{"pass", pass.name},
-                                          {"file", file},
-                                          {"seconds", program.build_seconds()},
-                                          {"from_cache", program.from_cache()},
-                                          {"binary_bytes", program.binary_bytes()}});
+        const auto add_programs = [&](const std::map<std::string, Program> &programs) {
+            for (const auto &[file, program] : programs) {
+                report["programs"].push_back({{"pass", pass.name},
+                                              {"file", file},
+                                              {"seconds", program.build_seconds()},
+                                              {"from_cache", program.from_cache()},
+                                              {"binary_bytes", program.binary_bytes()}});
+            }
+        };
+        add_programs(pass.stages.programs());
+        if (pass.features.has(Feature::convergence)) {
+            add_programs(s.convergence->programs());
         }
         for (const auto &[name, stage] : pass.profile) {
             report["stages"].push_back(
@@ -567,6 +633,10 @@ nlohmann::json RenderSession::report() const {
     for (const CompiledPass &pass : s.passes) {
         add_buffer(pass.film);
     }
+    if (s.convergence != nullptr) {
+        s.convergence->visit_buffers(add_buffer);
+        report["convergence"] = convergence_report(s.convergence->state(), s.ranges.samples());
+    }
     return report;
 }
 
@@ -583,6 +653,9 @@ void describe_image(Image &image, const FilmState &film) {
     attributes["rtrays:seed"] = std::to_string(film.seed);
     attributes["rtrays:samples"] = ranges;
     attributes["rtrays:config"] = film.config;
+    if (film.convergence) {
+        attributes["rtrays:convergence"] = film.convergence->rule.describe();
+    }
 }
 
 }  // namespace rtrays

@@ -21,7 +21,7 @@ struct RenderStats {
     double bvh_seconds = 0;      ///< device time of the BVH build
     double device_seconds = 0;   ///< device time of all stages of `render` so far
     double wall_seconds = 0;     ///< wall time of `render` so far; compilation and BVH build come before it
-    uint64_t samples = 0;        ///< camera paths
+    uint64_t samples = 0;        ///< camera paths; where pixels are stopped: that were traced
 };
 
 /// One scene on one device: compiles the scene and the kernels it needs, accumulates sample ranges in a film and
@@ -36,8 +36,12 @@ class RenderSession {
 
     /// Adds the samples [begin, end) of every pixel to the film. Returns early, at a batch boundary, once
     /// `interrupted()`; the return value is the end of what was rendered. `on_batch`, where given, is called with
-    /// that end after each batch.
+    /// that end after each batch. Under convergence control `begin` is the end of what is there: throws `Error` (bad input)
+    /// otherwise.
     uint64_t render(uint64_t begin, uint64_t end, const std::function<void(uint64_t)> &on_batch = {});
+
+    /// Whether no path is left to trace: convergence control has stopped all pixels of an image without light paths.
+    bool is_complete() const;
 
     /// Empties the film and the stats of rendering, and sets another seed; kernels, buffers and BVH are kept.
     void restart(uint32_t seed);

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "renderer/base/error.h"
+#include "renderer/shared/film_layout.h"
 
 namespace rtrays {
 
@@ -28,6 +29,7 @@ struct NumberSetting {
     float RenderSettings::*field;
     float above;  // exclusive bounds
     float below;
+    bool or_zero = false;  // which then turns something off
 };
 
 struct Setting {
@@ -63,6 +65,13 @@ const std::vector<Setting> &setting_table() {
          "probability of a light; independent: all of them at every vertex, as always in ray_casting and whitted"},
         {"integrator.sphere_sampling", TextSetting{&S::sphere_sampling, {"cone", "area"}},
          "how sphere lights are sampled from a point; area is the thesis' choice"},
+        {"integrator.convergence.error", NumberSetting{&S::convergence_error, 0.0f, 1e3f, true},
+         "path_tracing, truncated_bdpt: pixels whose mean changes by less, in proportion, from N to 2N samples get no more "
+         "camera paths (biased; thesis 3.3.7: 0.01 to 0.03); 0: all go on"},
+        {"integrator.convergence.interval", CountSetting{&S::convergence_interval, FILM_ADDITIONS_BETWEEN_CARRIES},
+         "samples between two checks of that"},
+        {"integrator.convergence.start", CountSetting{&S::convergence_start, FILM_ADDITIONS_BETWEEN_CARRIES},
+         "samples of the first check"},
         {"device.group_size", CountSetting{&S::group_size, 4096}, "work-items per group, 0: by device"},
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
@@ -83,12 +92,12 @@ std::string value_text(const RenderSettings &settings, const Setting &setting) {
 }
 
 template <typename T>
-T parse_number(const std::string &assignment, const std::string &text, T low, T high, bool exclusive) {
+T parse_number(const std::string &assignment, const std::string &text, T low, T high, bool exclusive, bool or_zero = false) {
     T value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool inside = exclusive ? value > low && value < high : value >= low && value <= high;
-    if (error != std::errc() || end != text.data() + text.size() || !inside) {
-        throw input_error(fmt::format("{}: the value must be a number {} {} and {} {}", assignment,
+    if (error != std::errc() || end != text.data() + text.size() || !(inside || (or_zero && value == 0))) {
+        throw input_error(fmt::format("{}: the value must be {}a number {} {} and {} {}", assignment, or_zero ? "0 or " : "",
                                       exclusive ? "above" : "from", low, exclusive ? "below" : "to", high));
     }
     return value;
@@ -100,12 +109,14 @@ struct Algorithm {
     bool from_camera;
     bool from_light;
     bool draws;  ///< random numbers
+    bool stops;  ///< pixels that have converged, if asked to
 };
 
 const std::vector<Algorithm> &algorithm_table() {
     static const std::vector<Algorithm> table = {
-        {"ray_casting", true, false, false},  {"whitted", true, false, false}, {"path_tracing", true, false, true},
-        {"light_tracing", false, true, true}, {"bdpt", true, true, true},      {"truncated_bdpt", true, true, true},
+        {"ray_casting", true, false, false, false},  {"whitted", true, false, false, false},
+        {"path_tracing", true, false, true, true},   {"light_tracing", false, true, true, false},
+        {"bdpt", true, true, true, false},           {"truncated_bdpt", true, true, true, true},
     };
     return table;
 }
@@ -123,6 +134,33 @@ void require_value(const Setting &setting, const TextSetting &text, const std::s
     if (std::find(text.values.begin(), text.values.end(), value) == text.values.end()) {
         throw input_error(fmt::format("{}={}: the values of {} are {}", setting.name, value, setting.name,
                                       fmt::join(text.values, ", ")));
+    }
+}
+
+void require_consistent_convergence(const RenderSettings &settings) {
+    if (!has_convergence_control(settings)) {
+        return;
+    }
+    if (!algorithm_of(settings).stops) {
+        std::vector<std::string> names;
+        for (const Algorithm &algorithm : algorithm_table()) {
+            if (algorithm.stops) {
+                names.push_back(algorithm.name);
+            }
+        }
+        throw input_error(fmt::format("integrator.convergence.error={}: {} does not stop pixels; {} do", settings.convergence_error,
+                                      settings.algorithm, fmt::join(names, " and ")));
+    }
+    if (settings.strategies_apart) {
+        throw input_error("integrator.convergence.error: pixels are stopped by their image, which layers of strategies do not hold whole");
+    }
+    for (const auto &[name, samples] : {std::pair("interval", settings.convergence_interval),
+                                        std::pair("start", settings.convergence_start)}) {
+        if (samples == 0 || samples % 2 != 0) {
+            throw input_error(fmt::format("integrator.convergence.{}={}: must be even and not 0, since half of the samples are compared "
+                                          "with all",
+                                          name, samples));
+        }
     }
 }
 
@@ -155,7 +193,7 @@ void apply_setting(RenderSettings &settings, const std::string &assignment) {
         settings.*count->field = parse_number<uint32_t>(assignment, value, 0, count->largest, false);
     } else {
         const auto &number = std::get<NumberSetting>(found->kind);
-        settings.*number.field = parse_number<float>(assignment, value, number.above, number.below, true);
+        settings.*number.field = parse_number<float>(assignment, value, number.above, number.below, true, number.or_zero);
     }
 }
 
@@ -197,6 +235,7 @@ void require_consistent(const RenderSettings &settings) {
     if (draws && settings.termination == "fixed" && settings.max_depth == 0) {
         throw input_error("integrator.termination=fixed needs a limit: --set integrator.max_depth=N");
     }
+    require_consistent_convergence(settings);
 }
 
 RenderSettings with_fixed_choices(RenderSettings settings) {
@@ -236,6 +275,8 @@ std::string describe_settings() {
 }
 
 bool has_light_pass(const RenderSettings &settings) { return algorithm_of(settings).from_light; }
+
+bool has_convergence_control(const RenderSettings &settings) { return settings.convergence_error > 0; }
 
 uint32_t light_paths_per_sample(const RenderSettings &settings) {
     return settings.light_paths > 0 ? settings.light_paths
@@ -290,6 +331,7 @@ FeatureMask settings_features(const RenderSettings &settings) {
         .with(Feature::adaptive, settings.termination == "adaptive")
         .with(Feature::sobol, settings.sampler != "independent")
         .with(Feature::depth_limit, settings.max_depth != 0)
+        .with(Feature::convergence, has_convergence_control(settings))
         .with(Feature::variance, settings.variance);
 }
 

@@ -37,6 +37,9 @@ struct RenderSettings {
     float adaptive_threshold = 0.01f;       ///< throughput below which adaptive termination stops
     std::string light_selection = "mixed";  ///< uniform | power | mixed | independent
     std::string sphere_sampling = "cone";   ///< cone | area
+    float convergence_error = 0.0f;         ///< relative change at which a pixel stops (biased), 0: none stops
+    uint32_t convergence_interval = 50;     ///< samples between two checks, even
+    uint32_t convergence_start = 200;       ///< samples of the first check, even
 
     // device.*
     uint32_t group_size = 0;                ///< work-items per group, 0: the device's default
@@ -72,6 +75,9 @@ const std::vector<std::string> &algorithm_names();
 
 /// Whether the algorithm traces paths from the lights: its image has splats.
 bool has_light_pass(const RenderSettings &settings);
+
+/// Whether pixels are stopped as they converge, which biases the image.
+bool has_convergence_control(const RenderSettings &settings);
 
 /// Light paths per sample of the image, in algorithms that trace some.
 uint32_t light_paths_per_sample(const RenderSettings &settings);

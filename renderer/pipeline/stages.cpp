@@ -14,7 +14,7 @@ const std::vector<StageDescription> &stage_table() {
     static const std::vector<StageDescription> table = {
         {"reset_streams", "kernels/advance_streams.cl", {In::first_work, In::streams}, Items::slots},
         {"generate_camera_rays", "kernels/generate_camera_rays.cl",
-         {In::camera, In::settings, In::first_sample, In::work, In::streams}, Items::entries},
+         {In::camera, In::settings, In::first_sample, In::work, In::live_pixels, In::streams}, Items::entries},
         {"generate_light_paths", "kernels/generate_light_paths.cl",
          {In::surfaces, In::lights, In::settings, In::first_sample, In::work, In::vertices, In::streams}, Items::entries},
         {"begin_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
@@ -33,7 +33,7 @@ const std::vector<StageDescription> &stage_table() {
          {In::surfaces, In::materials, In::settings, In::chosen, In::vertices, In::streams}, Items::entries},
         {"splat_unblocked", "kernels/splat_unblocked.cl", {In::geometry, In::film, In::streams}, Items::entries},
         {"extend_path", "kernels/extend_path.cl",
-         {In::surfaces, In::materials, In::film, In::settings, In::first_sample, In::streams}, Items::entries},
+         {In::surfaces, In::materials, In::film, In::half_film, In::settings, In::first_sample, In::streams}, Items::entries},
         {"follow_branches", "kernels/follow_branches.cl",
          {In::surfaces, In::materials, In::film, In::settings, In::branches, In::streams}, Items::entries},
         {"end_paths", "kernels/end_paths.cl", {In::film, In::streams}, Items::entries},

@@ -72,6 +72,7 @@
     X(environment, "radiance from infinity by an image")                                            \
     /* camera and film */                                                                           \
     X(lens, "the camera has an aperture")                                                           \
+    X(convergence, "camera paths are left out of pixels that have converged (biased)")              \
     X(variance, "the film holds second moments")                                                    \
     X(int64_atomics, "the device adds 64-bit integers atomically")
 

@@ -30,6 +30,10 @@
 /// to together, share a cache line.
 #define FILM_PIXEL_WORDS(variance) (FILM_WORDS * FILM_PIXEL_SUMS(variance))
 
+/// The same of the film of every other sample (kernels/film/convergence.h), which keeps no squares.
+#define HALF_FILM_SUMS FILM_PIXEL_SUMS(0)
+#define HALF_FILM_PIXEL_WORDS FILM_PIXEL_WORDS(0)
+
 /// Moves what exceeds a word's own range up to the next, so that equal sums have equal words: all but the top word end
 /// in [0, 2^step), the top word keeps the sign. `sum` numbers one of the `sums` (FILM_PIXEL_SUMS) of the pixel.
 DEVICE void film_carry_sum(GLOBAL long *pixel_words, uint sums, uint sum) {

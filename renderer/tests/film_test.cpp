@@ -83,7 +83,7 @@ TEST(Film, KeepsSmallSamplesBesideAFirefly) {
     EXPECT_EQ(mean_of(samples), static_cast<float>(exact / 200000.0));
     // and exactly what the firefly leaves: the sum without it
     FilmState film = film_of(samples);
-    film_add_value(film.words.data(), -1e8f, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    film_add_value(film.words.data(), PIXEL_SUMS, -1e8f, FILM_SUM_LOWEST, FILM_SUM_STEP);
     carry_pixel(film.words);
     std::vector<float> rest(199999, 1e-3f);
     FilmState without = film_of(rest);

@@ -136,6 +136,26 @@ class Program(unittest.TestCase):
         self.assertTrue(all(stage["launches"] > 0 for stage in document["stages"]))
         self.assertTrue(all(buffer["bytes"] > 0 for buffer in document["buffers"]))
 
+    def test_convergence_control_says_what_it_did(self):
+        stats = self.path / "stats.json"
+        control = ["--set", "integrator.convergence.error=0.5", "--set", "integrator.convergence.start=8",
+                   "--set", "integrator.convergence.interval=4"]
+        result = self.run_program(CORNELL, "-o", self.output(), "--spp", 16, "-q", "--stats", stats, *SMALL, *control)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(stats.read_text())
+        checks = document["convergence"]["checks"]
+        self.assertEqual([check["samples"] for check in checks], [8, 12, 16])
+        live = [1] + [check["live"] for check in checks]
+        self.assertEqual(live, sorted(live, reverse=True))
+        self.assertLess(live[-1], 1)
+        spent = 16 * 16 * sum(share * samples for share, samples in zip(live, [8, 4, 4]))
+        self.assertEqual(document["convergence"]["camera_paths"], spent)
+        self.assertEqual(document["samples"], spent)
+        self.output().unlink()
+        stats.unlink()
+        self.expect_error(2, ["from 0 on"], CORNELL, "-o", self.output(), "--samples", "8:16", *SMALL, *control)
+        self.expect_error(2, ["bdpt does not stop"], CORNELL, "-o", self.output(), "--algorithm", "bdpt", *SMALL, *control)
+
     def film(self, name, *arguments, **options):
         state = self.path / name
         result = self.run_program(CORNELL, "-o", self.path / (name + ".exr"), "-q", "--state", state, *SMALL, *arguments,

@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "renderer/kernels/film/convergence.h"
 #include "renderer/kernels/film/film.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/stream_counters.h"
 
-/// Adds to a pixel; what the film refuses is counted.
-DEVICE void add_to_pixel(GLOBAL long *film, uint pixel, float3 sample, GLOBAL StreamCounters *counters) {
+/// Adds to a pixel; what the film refuses is counted. Returns whether it took the sample.
+DEVICE bool add_to_pixel(GLOBAL long *film, uint pixel, float3 sample, GLOBAL StreamCounters *counters) {
     const uint error = film_add_sample(film + (ulong)pixel * FILM_PIXEL_WORDS(FEATURE_variance), sample);
     if (error != 0u) {
         atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
     }
+    return error == 0u;
 }
 
 #if FEATURE_from_camera
 
 /// Adds what a camera path gathered, which ends here.
-DEVICE void add_path(PathStates paths, uint slot, GLOBAL long *film, GLOBAL StreamCounters *counters) {
-    add_to_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot), counters);
+DEVICE bool add_path(PathStates paths, uint slot, GLOBAL long *film, GLOBAL StreamCounters *counters) {
+    return add_to_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot), counters);
 }
+
+#if FEATURE_convergence
+
+/// Adds what the film took of a camera path to the half film, if it is a sample of even number.
+DEVICE void add_path_to_half(PathStates paths, uint slot, GLOBAL long *half_film, ulong first_sample,
+                             GLOBAL StreamCounters *counters) {
+    const float3 radiance = get_radiance(paths, slot);
+    if (half_film_add_sample(half_film, get_pixel(paths, slot), first_sample + get_sample(paths, slot), radiance) != 0u) {
+        atomic_inc(&counters->out_of_range);
+    }
+}
+
+#endif
 
 #endif

@@ -27,17 +27,25 @@ DEVICE bool film_add_word(volatile GLOBAL long *word, long value) {
 
 #define PIXEL_SUMS FILM_PIXEL_SUMS(FEATURE_variance)
 
-/// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`. `value` must be finite and
-/// below the largest limit, 2^(lowest + 5 step + 44), in magnitude.
-DEVICE bool film_add_value(volatile GLOBAL long *words, float value, int lowest, int step) {
+/// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`, in pixels of `sums` sums.
+/// `value` must be finite and below the largest limit, 2^(lowest + 5 step + 44), in magnitude.
+DEVICE bool film_add_value(volatile GLOBAL long *words, uint sums, float value, int lowest, int step) {
     // |value| < 2^exponent, from the bits: exact, unlike log2; 0 and denormals give -126.
     const int exponent = (int)((as_uint(value) >> 23) & 0xffu) - 126;
     const int above = exponent - (lowest + FILM_UNITS_PER_ADDITION);
-    const int word = above <= 0 ? 0 : (above + step - 1) / step;
+    const uint word = above <= 0 ? 0u : (uint)((above + step - 1) / step);
     // The factor 2^-unit is a normal float: |unit| <= 104.
-    const float units = value * as_float((uint)(127 - (lowest + word * step)) << 23);
+    const float units = value * as_float((uint)(127 - (lowest + (int)word * step)) << 23);
     // Below 2^23 a float may hold a fraction: round to nearest, else it is an integer already.
-    return film_add_word(words + word * PIXEL_SUMS, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
+    return film_add_word(words + word * sums, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
+}
+
+/// Adds a colour within the film's range to the first three sums of a pixel.
+DEVICE bool film_add_colour(volatile GLOBAL long *pixel_words, uint sums, float3 colour) {
+    bool full = film_add_value(pixel_words, sums, colour.x, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    full |= film_add_value(pixel_words + 1, sums, colour.y, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    full |= film_add_value(pixel_words + 2, sums, colour.z, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    return full;
 }
 
 /// Adds one sample of a pixel, and its squares where the film keeps them. Returns 0, or FILM_NON_FINITE or
@@ -53,14 +61,12 @@ DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
     if (!(fabs(sample.x) < limit && fabs(sample.y) < limit && fabs(sample.z) < limit)) {
         return FILM_OUT_OF_RANGE;
     }
-    bool full = film_add_value(pixel_words, sample.x, FILM_SUM_LOWEST, FILM_SUM_STEP);
-    full |= film_add_value(pixel_words + 1, sample.y, FILM_SUM_LOWEST, FILM_SUM_STEP);
-    full |= film_add_value(pixel_words + 2, sample.z, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    bool full = film_add_colour(pixel_words, PIXEL_SUMS, sample);
 #if FEATURE_variance
     // Squares stay below 2^80, the limit of their top word.
-    full |= film_add_value(pixel_words + 3, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    full |= film_add_value(pixel_words + 4, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    full |= film_add_value(pixel_words + 5, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 3, PIXEL_SUMS, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 4, PIXEL_SUMS, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 5, PIXEL_SUMS, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
 #endif
     return full ? FILM_OUT_OF_RANGE : 0u;
 }

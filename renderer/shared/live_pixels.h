@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The pixels that convergence control has not stopped, as the stages of camera paths take them: where it is off there is no
+// list, and all pixels are live.
+#pragma once
+
+#include "compat.h"
+#include "declare.h"
+
+/// Pixels that one work-item counts and lists.
+#define LIVE_BLOCK 64u
+#define LIVE_BLOCKS(pixels) (((pixels) + LIVE_BLOCK - 1u) / LIVE_BLOCK)
+
+// Parameters of a stage; each ends in a comma.
+#define LIVE_LIST_PARAMETER GLOBAL const uint *live_pixels, uint live_count,
+#define LIVE_PIXELS_PARAMETERS WHEN(FEATURE_convergence, LIVE_LIST_PARAMETER)
+#define HALF_FILM_PARAMETER GLOBAL long *half_film,
+#define HALF_FILM_PARAMETERS WHEN(FEATURE_convergence, HALF_FILM_PARAMETER)
+
+/// The number of live pixels of so many, and the pixel at a place of their list.
+#ifdef __OPENCL_VERSION__
+#if FEATURE_convergence
+#define LIVE_COUNT(pixels) live_count
+#define LIVE_PIXEL(place) live_pixels[place]
+#else
+#define LIVE_COUNT(pixels) (pixels)
+#define LIVE_PIXEL(place) (place)
+#endif
+#endif
