@@ -25,6 +25,7 @@ struct Pass {
     FeatureMask features;           ///< of its kernels and path states
     std::vector<RoundStage> round;  ///< in order; stages that the features do not call for are absent
     bool adds_hits = true;          ///< what its paths hit counts; else another pass sees to that
+    bool streams = true;            ///< of paths between its stages; else it has one, which runs once and ends all paths
 };
 
 /// The passes of an algorithm (settings.h names them) for a scene and settings with these features.

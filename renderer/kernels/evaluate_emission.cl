@@ -159,9 +159,13 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     set_radiance(paths, slot, get_radiance(paths, slot) + radiance);
 }
 
+#if !PATH_STATES_PRIVATE
+
 __kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
         add_emission(paths, active_slot(queues, counters, capacity, i), SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings);
     }
 }
+
+#endif

@@ -117,6 +117,22 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
 
 #endif
 
+/// Adds a path that ends here to the film.
+DEVICE void end_path(PathStates paths, uint slot, GLOBAL long *film, HALF_FILM_PARAMETERS MAYBE_UNUSED ulong first_sample,
+                     GLOBAL StreamCounters *counters) {
+#if FEATURE_from_camera
+#if FEATURE_convergence
+    if (add_path(paths, slot, film, counters)) {
+        add_path_to_half(paths, slot, half_film, first_sample, counters);
+    }
+#else
+    add_path(paths, slot, film, counters);
+#endif
+#endif
+}
+
+#if !PATH_STATES_PRIVATE
+
 __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film, HALF_FILM_PARAMETERS
                           IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
@@ -131,17 +147,11 @@ __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *fi
             continue;
         }
 #endif
-#if FEATURE_from_camera
-#if FEATURE_convergence
-        if (add_path(paths, slot, film, counters)) {
-            add_path_to_half(paths, slot, half_film, first_sample, counters);
-        }
-#else
-        add_path(paths, slot, film, counters);
-#endif
-#endif
+        end_path(paths, slot, film, HALF_FILM_ARGUMENTS first_sample, counters);
         push_slot(&ended, slot);
     }
     append_active(queues, counters, capacity, 1u - counters->parity, &extended);
     append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);
 }
+
+#endif

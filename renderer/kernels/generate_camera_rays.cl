@@ -40,6 +40,8 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
 #endif
 }
 
+#if !PATH_STATES_PRIVATE
+
 __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,
                                    LIVE_PIXELS_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
@@ -55,3 +57,5 @@ __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings setti
     }
     append_active(queues, counters, capacity, counters->parity, &started);
 }
+
+#endif

@@ -6,12 +6,21 @@
 #include "renderer/kernels/traversal/shadow_ray.h"
 #include "renderer/shared/path_state.h"
 
+/// Adds the light sample of a path unless something is in the way.
+DEVICE void add_unblocked(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin, float3 way) {
+    if (!is_blocked(GEOMETRY_ARGUMENTS origin, way)) {
+        set_radiance(paths, slot, get_radiance(paths, slot) + get_shadow_radiance(paths, slot));
+    }
+}
+
+#if !PATH_STATES_PRIVATE
+
 __kernel void intersect_any(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, counters->shadow) {
         const uint slot = queues[QUEUE_SHADOW * capacity + i];
-        if (!is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot))) {
-            set_radiance(paths, slot, get_radiance(paths, slot) + get_shadow_radiance(paths, slot));
-        }
+        add_unblocked(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot));
     }
 }
+
+#endif

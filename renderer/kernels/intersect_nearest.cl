@@ -35,6 +35,8 @@ DEVICE void find_hit(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 ori
     set_hit_v(paths, slot, at.y);
 }
 
+#if !PATH_STATES_PRIVATE
+
 __kernel void intersect_nearest(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
@@ -42,3 +44,5 @@ __kernel void intersect_nearest(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
         find_hit(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_ray_direction(paths, slot));
     }
 }
+
+#endif

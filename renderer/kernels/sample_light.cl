@@ -106,6 +106,8 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
     return true;
 }
 
+#if !PATH_STATES_PRIVATE
+
 __kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
                            ulong first_sample, uint chosen, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
@@ -119,3 +121,5 @@ __kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETE
     }
     append_slots(queues, QUEUE_SHADOW, capacity, &counters->shadow, counters, &shadow);
 }
+
+#endif

@@ -13,6 +13,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/bvh/builder.h"
 #include "renderer/integrators/algorithm.h"
+#include "renderer/integrators/megakernel.h"
 #include "renderer/pipeline/convergence_control.h"
 #include "renderer/pipeline/scene_buffers.h"
 #include "renderer/pipeline/stages.h"
@@ -83,10 +84,14 @@ struct CompiledPass {
           features(pass.features),
           round(pass.round),
           adds_hits(pass.adds_hits),
+          streams(pass.streams),
           stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
 
     static std::vector<std::string> stage_names(const Pass &pass) {
-        std::vector<std::string> names = {"reset_streams", "carry_film"};
+        std::vector<std::string> names = {"carry_film"};
+        if (pass.streams) {
+            names.emplace_back("reset_streams");
+        }
         for (const RoundStage &stage : pass.round) {
             names.push_back(stage.name);
         }
@@ -103,6 +108,7 @@ struct CompiledPass {
     FeatureMask features;
     std::vector<RoundStage> round;
     bool adds_hits;
+    bool streams;
     StageSet stages;
     Buffer<int64_t> film;
     uint32_t chosen = SELECT_LIGHT;  ///< what StageInput::chosen is bound to
@@ -119,9 +125,13 @@ struct RenderSession::State {
           layout(stream_layout(settings, device_context.info())),
           numbers(integrator_settings(settings)),
           compiled(compile_scene(scene, compile_settings(settings))) {
-        for (const Pass &pass : algorithm_passes(settings.algorithm, select_features(compiled, settings, device.info()),
-                                                 compiled.lighting.light_count, numbers.light_vertices,
-                                                 settings.strategies_apart)) {
+        std::vector<Pass> all_passes =
+            algorithm_passes(settings.algorithm, select_features(compiled, settings, device.info()),
+                             compiled.lighting.light_count, numbers.light_vertices, settings.strategies_apart);
+        if (settings.pipeline == "megakernel") {
+            all_passes = megakernel_passes(std::move(all_passes));
+        }
+        for (const Pass &pass : all_passes) {
             if (settings.passes == "all" || settings.passes == pass.name) {
                 passes.emplace_back(pass, device, layout, settings);
                 features = features | pass.features;
@@ -161,10 +171,11 @@ struct RenderSession::State {
         for (const CompiledPass &pass : passes) {
             words = std::max(words, path_state_words(pass.features));
         }
-        path_words = Buffer<uint32_t>(device, "path_states", capacity * words);
+        const bool streams = passes.front().streams;
+        path_words = Buffer<uint32_t>(device, "path_states", streams ? capacity * words : 0);
         vertex_words = Buffer<uint32_t>(device, "light_vertices", capacity * vertex_words_per_path());
         branch_vertices = Buffer<uint32_t>(device, "branches", capacity * branch_words_per_path());
-        queues = Buffer<uint32_t>(device, "queues", capacity * STREAM_QUEUES);
+        queues = Buffer<uint32_t>(device, "queues", streams ? capacity * STREAM_QUEUES : 0);
         counters = Buffer<StreamCounters>(device, "counters", 1);
         counters.write({StreamCounters{}});
         for (CompiledPass &pass : passes) {
@@ -268,11 +279,14 @@ struct RenderSession::State {
         compile_seconds += seconds_since(start);
     }
 
-    void enqueue(CompiledPass &pass, const std::string &name) {
+    /// `paths`: what a stage that traces whole paths is to trace.
+    void enqueue(CompiledPass &pass, const std::string &name, uint64_t paths = 0) {
         using Items = StageDescription::Items;
         switch (stage_description(name).items) {
         case Items::entries:
             return pass.stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
+        case Items::paths:
+            return pass.stages.enqueue(name, (paths + layout.chunk - 1) / layout.chunk);
         case Items::slots:
             return pass.stages.enqueue(name, layout.capacity);
         case Items::film_sums:
@@ -336,6 +350,10 @@ struct RenderSession::State {
     void run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end) {
         pass.stages.bind(
             {{StageInput::first_sample, {first}}, {StageInput::first_work, {begin}}, {StageInput::work, {end}}});
+        if (!pass.streams) {
+            enqueue(pass, pass.round.front().name, std::max<uint64_t>(end - begin, 1));  // 1: the first enqueue compiles
+            return collect_profile(pass);
+        }
         enqueue(pass, "reset_streams");
         const auto splat_stages = std::count_if(pass.round.begin(), pass.round.end(),
                                                 [](const RoundStage &stage) { return stage.name == "splat_unblocked"; });
@@ -557,6 +575,7 @@ nlohmann::json RenderSession::report() const {
         {"device", {{"name", s.device.info().name}, {"driver", s.device.info().driver}, {"platform", s.device.info().platform_name}}},
         {"settings", image_settings(s.settings)},
         {"features", s.features.names()},
+        {"pipeline", s.settings.pipeline},
         {"stream",
          {{"group_size", s.layout.group_size},
           {"capacity", s.layout.capacity},
@@ -592,7 +611,7 @@ nlohmann::json RenderSession::report() const {
             report["stages"].push_back(
                 {{"pass", pass.name}, {"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
         }
-        uint32_t path_bytes = STREAM_QUEUES * sizeof(uint32_t);
+        uint32_t path_bytes = pass.streams ? STREAM_QUEUES * sizeof(uint32_t) : 0;
         nlohmann::json fields;
         for (const PathStateField &field : path_state_fields(pass.features)) {
             fields.push_back({{"field", field.name}, {"bytes", field.words * sizeof(uint32_t)}});

@@ -30,9 +30,11 @@ StageArguments SceneBuffers::arguments(const Buffer<BvhNode> &bvh_nodes_,
     }
     std::vector<KernelArgument> *list = &arguments[StageInput::geometry];
     GEOMETRY_BUFFERS(ROW)
+    arguments[StageInput::traversal] = *list;
     ROW(FEATURE_shapes, ShapeRecord, shapes)
     if (FEATURE_shapes) {
         list->emplace_back(shape_count_);
+        arguments[StageInput::traversal].emplace_back(shape_count_);
     }
     list = &arguments[StageInput::surfaces];
     SURFACE_BUFFERS(ROW)

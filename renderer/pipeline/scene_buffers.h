@@ -16,7 +16,7 @@ class SceneBuffers {
     SceneBuffers() = default;
     SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
 
-    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry, given the hierarchy's buffers
+    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry and traversal, given the hierarchy's buffers
     /// (where there are triangles).
     StageArguments arguments(const Buffer<BvhNode> &bvh_nodes, const Buffer<LeafTriangle> &bvh_triangles) const;
 

@@ -76,6 +76,8 @@ const std::vector<Setting> &setting_table() {
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
         {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}}, "path states in memory"},
+        {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
+         "a kernel for every block, or one that traces whole paths, of path_tracing"},
         {"device.features", TextSetting{&S::features, {"scene", "all"}}, "what is compiled in"},
     };
     return table;
@@ -228,6 +230,13 @@ void require_consistent(const RenderSettings &settings) {
     }
     if (settings.strategies_apart && (settings.variance || settings.passes != "all")) {
         throw input_error("layers of strategies go with all passes and without variance: the strategies share their paths");
+    }
+    if (settings.pipeline == "megakernel" && settings.algorithm != "path_tracing") {
+        throw input_error(fmt::format("device.pipeline=megakernel traces path_tracing alone; {} needs device.pipeline=wavefront",
+                                      settings.algorithm));
+    }
+    if (settings.pipeline == "megakernel" && settings.strategies_apart) {
+        throw input_error("layers of strategies need device.pipeline=wavefront");
     }
     if (settings.strategies_apart && !draws) {
         throw input_error(fmt::format("layers of strategies: {} has but one", settings.algorithm));

@@ -46,6 +46,7 @@ struct RenderSettings {
     uint32_t stream_capacity = 0;           ///< paths in flight, 0: the device's default
     uint32_t stream_chunk = 0;              ///< queue entries per work-item, 0: the device's default
     std::string path_layout = "auto";       ///< auto | interleaved | arrays: words of a path together, or word by word
+    std::string pipeline = "wavefront";     ///< wavefront | megakernel: a kernel for every block, or one for all
     std::string features = "scene";         ///< scene | all: what is compiled in
 
     SourceOverlays source_overlays;         ///< planted errors of the tests

@@ -12,7 +12,7 @@ namespace rtrays {
 
 /// What a stage takes, in the order of its parameters; each stands for one or more kernel parameters.
 enum class StageInput {
-    geometry, surfaces, materials, lights, camera, film, half_film, live_pixels, film_sums, settings, first_sample, chosen, first_work, work, vertices, branches, streams, counters
+    geometry, traversal, surfaces, materials, lights, camera, film, half_film, live_pixels, film_sums, settings, first_sample, chosen, first_work, work, vertices, branches, streams, counters
 };
 
 /// One block of the pipeline: one kernel.
@@ -20,8 +20,9 @@ struct StageDescription {
     std::string name;  ///< of the kernel, in source, profile and results
     std::string file;
     std::vector<StageInput> inputs;
-    /// What its work-items stand for: chunks of a queue's entries, slots, sums of the film, or just one.
-    enum class Items { entries, slots, film_sums, one } items;
+    /// What its work-items stand for: chunks of a queue's entries, slots, chunks of the work's paths, sums of the
+    /// film, or just one.
+    enum class Items { entries, slots, paths, film_sums, one } items;
 };
 
 /// All stages there are.

@@ -15,6 +15,8 @@
 #define LIVE_PIXELS_PARAMETERS WHEN(FEATURE_convergence, LIVE_LIST_PARAMETER)
 #define HALF_FILM_PARAMETER GLOBAL long *half_film,
 #define HALF_FILM_PARAMETERS WHEN(FEATURE_convergence, HALF_FILM_PARAMETER)
+#define HALF_FILM_ARGUMENT half_film,
+#define HALF_FILM_ARGUMENTS WHEN(FEATURE_convergence, HALF_FILM_ARGUMENT)
 
 /// The number of live pixels of so many, and the pixel at a place of their list.
 #ifdef __OPENCL_VERSION__

@@ -36,6 +36,16 @@
 
 #ifdef __OPENCL_VERSION__
 
+// A program whose paths never leave their work-item (trace_paths.cl) keeps them in its own memory and has no queues.
+#ifndef PATH_STATES_PRIVATE
+#define PATH_STATES_PRIVATE 0
+#endif
+#if PATH_STATES_PRIVATE
+#define PATH_MEMORY PRIVATE
+#else
+#define PATH_MEMORY GLOBAL
+#endif
+
 #define WORDS_uint 1
 #define WORDS_float 1
 #define WORDS_float3 3
@@ -52,7 +62,7 @@ enum PathStateLayout {
 
 /// The path states of one stream.
 typedef struct PathStates {
-    GLOBAL uint *words;
+    PATH_MEMORY uint *words;
     uint capacity;
 } PathStates;
 

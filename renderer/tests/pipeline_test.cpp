@@ -10,6 +10,7 @@
 #include "renderer/device/context.h"
 #include "renderer/device/source.h"
 #include "renderer/integrators/algorithm.h"
+#include "renderer/integrators/megakernel.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
@@ -323,6 +324,9 @@ TEST_P(FeatureBuild, Succeeds) {
     };
     for (const Pass &pass : algorithm_passes("bdpt", mask, 1, 2)) {
         build(pass, {"reset_streams", "carry_film"});
+    }
+    for (const Pass &pass : megakernel_passes(algorithm_passes("path_tracing", mask, 1, 2))) {
+        build(pass, {});
     }
     // Of what the others have besides: the stages of their own.
     for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
