@@ -13,6 +13,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/bvh/builder.h"
 #include "renderer/integrators/algorithm.h"
+#include "renderer/integrators/count_rays.h"
 #include "renderer/integrators/megakernel.h"
 #include "renderer/pipeline/convergence_control.h"
 #include "renderer/pipeline/scene_buffers.h"
@@ -22,6 +23,7 @@
 #include "renderer/shared/film_layout.h"
 #include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"
+#include "renderer/shared/ray_counts.h"
 #include "renderer/shared/stream_counters.h"
 #include "rtrays_commit.h"
 
@@ -104,6 +106,26 @@ struct CompiledPass {
         return of_all;
     }
 
+    /// Empties what rendering added to.
+    void clear() {
+        film.fill(0);
+        if (ray_counts.size() > 0) {
+            ray_counts.fill(0);
+        }
+        profile.clear();
+    }
+
+    /// Rays of one kind (RAY_*) by depth, up to the last depth that has any.
+    std::vector<int64_t> rays_by_depth(size_t kind) const {
+        const std::vector<int64_t> all = ray_counts.read();
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * RAY_DEPTHS);
+        std::vector<int64_t> rays(first, first + RAY_DEPTHS);
+        while (!rays.empty() && rays.back() == 0) {
+            rays.pop_back();
+        }
+        return rays;
+    }
+
     std::string name;
     FeatureMask features;
     std::vector<RoundStage> round;
@@ -111,6 +133,7 @@ struct CompiledPass {
     bool streams;
     StageSet stages;
     Buffer<int64_t> film;
+    Buffer<int64_t> ray_counts;
     uint32_t chosen = SELECT_LIGHT;  ///< what StageInput::chosen is bound to
     uint64_t additions = 0;          ///< to one pixel since the last carry, at most
     std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
@@ -130,6 +153,9 @@ struct RenderSession::State {
                              compiled.lighting.light_count, numbers.light_vertices, settings.strategies_apart);
         if (settings.pipeline == "megakernel") {
             all_passes = megakernel_passes(std::move(all_passes));
+        }
+        if (settings.count_rays == "by_depth") {
+            all_passes = counting_passes(std::move(all_passes));
         }
         for (const Pass &pass : all_passes) {
             if (settings.passes == "all" || settings.passes == pass.name) {
@@ -180,7 +206,10 @@ struct RenderSession::State {
         counters.write({StreamCounters{}});
         for (CompiledPass &pass : passes) {
             pass.film = Buffer<int64_t>(device, "film." + pass.name, film_words());
-            pass.film.fill(0);
+            if (settings.count_rays == "by_depth") {
+                pass.ray_counts = Buffer<int64_t>(device, "ray_counts." + pass.name, RAY_KINDS * RAY_DEPTHS);
+            }
+            pass.clear();
             if (pass.features.has(Feature::convergence)) {
                 const ConvergenceRule rule{settings.convergence_error, settings.convergence_interval, settings.convergence_start};
                 convergence = std::make_unique<ConvergenceControl>(device, rule, static_cast<uint32_t>(pixels()), pass.features,
@@ -211,6 +240,7 @@ struct RenderSession::State {
         for (CompiledPass &pass : passes) {
             arguments[In::settings] = {pass.numbers(numbers)};
             arguments[In::film] = {pass.film};
+            arguments[In::ray_counts] = {pass.ray_counts};
             arguments[In::half_film] = arguments[In::live_pixels] = {};
             if (pass.features.has(Feature::convergence)) {
                 for (const auto &[input, list] : convergence->arguments()) {
@@ -405,8 +435,7 @@ struct RenderSession::State {
 
     void reset_film() {
         for (CompiledPass &pass : passes) {
-            pass.film.fill(0);
-            pass.profile.clear();
+            pass.clear();
             if (pass.features.has(Feature::convergence)) {
                 convergence->reset();
                 pass.stages.bind(convergence->arguments());
@@ -622,6 +651,10 @@ nlohmann::json RenderSession::report() const {
                                     {"paths_per_sample", s.paths_per_sample(pass)},
                                     {"path_state", fields},
                                     {"bytes_per_path", path_bytes}});
+        if (pass.ray_counts.size() > 0) {
+            report["passes"].back()["rays_by_depth"] = {{"nearest", pass.rays_by_depth(RAY_NEAREST)},
+                                                        {"shadow", pass.rays_by_depth(RAY_SHADOW)}};
+        }
         largest_path = std::max(largest_path, path_bytes);
     }
     // In memory: the passes take turns, but for the light vertices that one keeps for the other.
@@ -651,6 +684,7 @@ nlohmann::json RenderSession::report() const {
     add_buffer(s.counters);
     for (const CompiledPass &pass : s.passes) {
         add_buffer(pass.film);
+        add_buffer(pass.ray_counts);
     }
     if (s.convergence != nullptr) {
         s.convergence->visit_buffers(add_buffer);

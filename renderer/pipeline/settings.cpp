@@ -78,6 +78,8 @@ const std::vector<Setting> &setting_table() {
         {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}}, "path states in memory"},
         {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
          "a kernel for every block, or one that traces whole paths, of path_tracing"},
+        {"device.count_rays", TextSetting{&S::count_rays, {"in_all", "by_depth"}},
+         "what --stats says of rays; by_depth: also by the scattering events before, pass by pass"},
         {"device.features", TextSetting{&S::features, {"scene", "all"}}, "what is compiled in"},
     };
     return table;
@@ -234,6 +236,9 @@ void require_consistent(const RenderSettings &settings) {
     if (settings.pipeline == "megakernel" && settings.algorithm != "path_tracing") {
         throw input_error(fmt::format("device.pipeline=megakernel traces path_tracing alone; {} needs device.pipeline=wavefront",
                                       settings.algorithm));
+    }
+    if (settings.pipeline == "megakernel" && settings.count_rays == "by_depth") {
+        throw input_error("device.count_rays=by_depth counts what is in the streams of device.pipeline=wavefront");
     }
     if (settings.pipeline == "megakernel" && settings.strategies_apart) {
         throw input_error("layers of strategies need device.pipeline=wavefront");

@@ -42,6 +42,8 @@ const std::vector<StageDescription> &stage_table() {
           In::first_sample, In::first_work, In::work, In::live_pixels, In::counters},
          Items::paths},
         {"end_shadow_rays", "kernels/advance_streams.cl", {In::counters}, Items::one},
+        {"count_nearest_rays", "kernels/count_rays.cl", {In::ray_counts, In::streams}, Items::entries},
+        {"count_shadow_rays", "kernels/count_rays.cl", {In::ray_counts, In::streams}, Items::entries},
         {"end_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
         {"carry_film", "kernels/carry_film.cl", {In::film, In::film_sums}, Items::film_sums},
     };

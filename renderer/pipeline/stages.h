@@ -12,7 +12,7 @@ namespace rtrays {
 
 /// What a stage takes, in the order of its parameters; each stands for one or more kernel parameters.
 enum class StageInput {
-    geometry, traversal, surfaces, materials, lights, camera, film, half_film, live_pixels, film_sums, settings, first_sample, chosen, first_work, work, vertices, branches, streams, counters
+    geometry, traversal, surfaces, materials, lights, camera, film, half_film, live_pixels, film_sums, settings, first_sample, chosen, first_work, work, vertices, branches, streams, counters, ray_counts
 };
 
 /// One block of the pipeline: one kernel.

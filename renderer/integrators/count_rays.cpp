@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/integrators/count_rays.h"
+
+namespace rtrays {
+
+std::vector<Pass> counting_passes(std::vector<Pass> passes) {
+    for (Pass &pass : passes) {
+        std::vector<RoundStage> round;
+        for (const RoundStage &stage : pass.round) {
+            if (stage.name == "begin_round") {
+                round.push_back({"count_nearest_rays"});
+            } else if (stage.name == "end_shadow_rays") {
+                round.push_back({"count_shadow_rays", stage.chosen, stage.rounds});
+            }
+            round.push_back(stage);
+        }
+        pass.round = round;
+    }
+    return passes;
+}
+
+}  // namespace rtrays

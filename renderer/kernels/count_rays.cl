@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Stages count_nearest_rays and count_shadow_rays: count the rays of the active paths, and of the shadow queue, by depth.
+// Reads: depth; active queue or shadow queue. Writes: ray counts.
+
+#include "renderer/kernels/film/film.h"
+#include "renderer/kernels/stream.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/ray_counts.h"
+#include "renderer/shared/scene_buffers.h"
+
+/// `counts`: RAY_DEPTHS of each kind.
+DEVICE void count_ray(GLOBAL long *counts, uint kind, uint depth) {
+    film_add_word(counts + kind * RAY_DEPTHS + min(depth, RAY_DEPTHS - 1u), 1);
+}
+
+__kernel void count_nearest_rays(GLOBAL long *ray_counts, STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    FOR_EACH_ENTRY(i, active_count(counters)) {
+        count_ray(ray_counts, RAY_NEAREST, get_depth(paths, active_slot(queues, counters, capacity, i)));
+    }
+}
+
+__kernel void count_shadow_rays(GLOBAL long *ray_counts, STREAM_PARAMETERS) {
+    const PathStates paths = {path_words, capacity};
+    FOR_EACH_ENTRY(i, counters->shadow) {
+        count_ray(ray_counts, RAY_SHADOW, get_depth(paths, queues[QUEUE_SHADOW * capacity + i]));
+    }
+}
