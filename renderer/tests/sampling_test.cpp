@@ -91,14 +91,19 @@ TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
     }
 }
 
-uint4 sobol_words(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
+uint4 stratified_words(uint32_t sampler, uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
     IntegratorSettings settings{};
     settings.seed = seed;
-    settings.sampler = SAMPLER_SOBOL;
+    settings.sampler = sampler;
     return sample_words(settings, STREAM_CAMERA, pixel, sample, block);
 }
+uint4 sobol_words(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
+    return stratified_words(SAMPLER_SOBOL, seed, pixel, sample, block);
+}
 
-TEST(Sobol, EveryRunOfSamplesIsStratified) {
+class Stratified : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(Stratified, EveryRunOfSamplesIs) {
     // Elementary intervals of every shape in the first two dimensions, and each dimension by itself.
     for (const uint32_t log_count : {4u, 8u}) {
         const uint32_t count = 1u << log_count;
@@ -106,7 +111,7 @@ TEST(Sobol, EveryRunOfSamplesIsStratified) {
             for (uint32_t split = 0; split <= log_count; ++split) {
                 std::vector<int> cells(count);
                 for (uint32_t i = 0; i < count; ++i) {
-                    const uint4 w = sobol_words(5, 77, first + i, 3);
+                    const uint4 w = stratified_words(GetParam(), 5, 77, first + i, 3);
                     const uint32_t x = split > 0 ? w.x >> (32 - split) : 0;
                     const uint32_t y = split < log_count ? w.y >> (32 - (log_count - split)) : 0;
                     ++cells[(y << split) + x];
@@ -115,7 +120,7 @@ TEST(Sobol, EveryRunOfSamplesIsStratified) {
             }
             std::vector<int> z(count), w(count);
             for (uint32_t i = 0; i < count; ++i) {
-                const uint4 words = sobol_words(5, 77, first + i, 3);
+                const uint4 words = stratified_words(GetParam(), 5, 77, first + i, 3);
                 ++z[words.z >> (32 - log_count)];
                 ++w[words.w >> (32 - log_count)];
             }
@@ -123,6 +128,31 @@ TEST(Sobol, EveryRunOfSamplesIsStratified) {
             EXPECT_EQ(std::count(w.begin(), w.end(), 1), count);
         }
     }
+}
+
+INSTANTIATE_TEST_SUITE_P(Samplers, Stratified, testing::Values(SAMPLER_SOBOL, SAMPLER_REGULAR));
+
+TEST(Regular, BeginsInTheCentreAndIsTheSameEverywhere) {
+    for (const uint32_t block : {0u, 1u, 7u}) {
+        const uint4 first = stratified_words(SAMPLER_REGULAR, 1, 5, 0, block);
+        EXPECT_EQ(uniform_float(first.x), 0.5f);
+        EXPECT_EQ(uniform_float(first.y), 0.5f);
+        EXPECT_EQ(uniform_float(first.z), 0.0f) << "the radius on the lens";
+        EXPECT_EQ(uniform_float(first.w), 0.5f);
+        const uint4 here = stratified_words(SAMPLER_REGULAR, 1, 5, 9, block), there = stratified_words(SAMPLER_REGULAR, 2, 6, 9, block);
+        EXPECT_EQ(here.x, there.x);
+        EXPECT_EQ(here.w, there.w);
+    }
+    // Points of the pixel and of a light go through all pairs.
+    constexpr int bins = 32;
+    constexpr uint32_t pairs = 200'000;
+    std::vector<uint64_t> observed(bins * bins);
+    for (uint32_t i = 0; i < pairs; ++i) {
+        const float a = uniform_float(stratified_words(SAMPLER_REGULAR, 1, 0, i, BLOCK_CAMERA).x);
+        const float b = uniform_float(stratified_words(SAMPLER_REGULAR, 1, 0, i, BLOCK_LIGHT(0)).x);
+        ++observed[static_cast<size_t>(a * bins) * bins + static_cast<size_t>(b * bins)];
+    }
+    EXPECT_GT(chi_square_p(observed, std::vector<double>(bins * bins, pairs / double(bins * bins))), level);
 }
 
 TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
