@@ -47,11 +47,14 @@ constexpr double roulette_cap = 1.0 - 0x1p-20;
 template <class BsdfModel, class Lights>
 class PathIntegrator {
   public:
-    PathIntegrator(const World<BsdfModel, Lights> &world, Strategies strategies, uint32_t max_depth)
+    /// `joinable_only`: see ReferenceSettings.
+    PathIntegrator(const World<BsdfModel, Lights> &world, Strategies strategies, uint32_t max_depth,
+                   bool joinable_only = false)
         : world_(world),
           samples_lights_(strategies != Strategies::implicit_only && !world.lights.empty()),
           counts_hits_(strategies != Strategies::explicit_only),
-          max_depth_(max_depth) {}
+          max_depth_(max_depth),
+          joinable_only_(joinable_only) {}
 
     /// Estimate of the radiance arriving along a camera ray [W / (sr m^2)]: emitters seen directly
     /// included. Unbiased for every choice of strategies, but that point, spot and directional lights are
@@ -69,7 +72,7 @@ class PathIntegrator {
             SurfacePoint hit;
             if (!world_.geometry.intersect(ray, depth == 0 ? Coherence::coherent : Coherence::incoherent,
                                            hit)) {
-                if (world_.lights.reach_to_infinity()) {
+                if (world_.lights.reach_to_infinity() && !(joinable_only_ && depth == 0)) {
                     result +=
                         throughput * escaped_radiance(ray.direction, light_sampled_too, pdf_of_direction);
                 }
@@ -105,6 +108,9 @@ class PathIntegrator {
             }
             ray.direction = shading.frame.to_world(sample->wi);
             if (!shading.agrees(ray.direction, sample->wi)) {
+                return result;
+            }
+            if (joinable_only_ && depth == 0 && sample->delta) {
                 return result;
             }
             throughput *= sample->weight;
@@ -173,6 +179,7 @@ class PathIntegrator {
     bool samples_lights_;
     bool counts_hits_;
     uint32_t max_depth_;
+    bool joinable_only_;
 };
 
 }  // namespace rtrays::reference

@@ -76,7 +76,7 @@ struct ReferenceRenderer::State {
           geometry(scene.meshes, scene.shapes),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
-          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth),
+          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth, wanted.joinable_only),
           film(wanted.width, wanted.height, 0),
           threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
           arena(threads) {}

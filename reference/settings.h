@@ -33,6 +33,9 @@ struct ReferenceSettings {
     uint64_t seed = 1;
     Strategies strategies = Strategies::mis;
     uint32_t max_depth = 0;  ///< scattering events, 1 is direct light; 0: no limit
+    /// Only what light tracing sees: without light at infinity that the camera looks at, and without what it sees in
+    /// mirrors and smooth glass.
+    bool joinable_only = false;
     int threads = 0;         ///< 0: all
 };
 

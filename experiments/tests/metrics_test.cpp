@@ -181,6 +181,48 @@ TEST(AverageRuns, EstimatesTheVarianceOfTheMean) {
     EXPECT_THROW(average_runs({runs[0], constant(8, 8, 2)}), Error);
 }
 
+/// Images of standard deviation sqrt(32) times that of their mean.
+std::vector<Image> noisy_batches(double bias, double sigma, uint64_t seed) {
+    std::vector<Image> batches;
+    for (uint64_t i = 0; i < 32; ++i) {
+        batches.push_back(noisy(1, bias, sigma * std::sqrt(32.0), seed + i));
+    }
+    return batches;
+}
+
+TEST(Agreement, OfBatchesFindsABiasAndNothingElse) {
+    const Image reference = noisy(1, 0, 0.01, 7);
+    const Agreement clean = test_agreement(noisy_batches(0, 0.05, 100), reference);
+    EXPECT_TRUE(clean.agrees());
+    EXPECT_EQ(clean.tests + clean.undecided, 51u);
+    EXPECT_EQ(clean.undecided, 0u);
+    EXPECT_FALSE(test_agreement(noisy_batches(0.02, 0.05, 200), reference).agrees());
+}
+
+// Log-normal batches of mean 1 whose median is a quarter of that: most estimates are too low, and too sure of it.
+TEST(Agreement, LeavesBatchesUndecidedThatAreTooSkewed) {
+    const Image reference = noisy(1, 0, 0.001, 7, 16);
+    AgreementPolicy all;
+    all.largest_skewness = std::numeric_limits<double>::infinity();
+    int rejected = 0, rejected_by_all = 0, decided = 0;
+    const double spread = std::sqrt(2 * std::log(4.0));
+    std::mt19937_64 engine(5);
+    std::lognormal_distribution<float> brightness(static_cast<float>(-spread * spread / 2), static_cast<float>(spread));
+    for (int run = 0; run < 500; ++run) {
+        std::vector<Image> batches;
+        for (int i = 0; i < 32; ++i) {
+            batches.push_back(constant(16, 16, brightness(engine)));
+        }
+        rejected_by_all += test_agreement(batches, reference, all).agrees() ? 0 : 1;
+        const Agreement agreement = test_agreement(batches, reference);
+        rejected += agreement.agrees() ? 0 : 1;
+        decided += agreement.undecided == 0 ? 1 : 0;
+    }
+    EXPECT_GT(rejected_by_all, 50) << "ten times the level";
+    EXPECT_LE(rejected, 12) << "the 99.9 % quantile of the binomial";
+    EXPECT_LT(decided, 100);
+}
+
 TEST(Agreement, NeedsVarianceLayers) {
     EXPECT_THROW(test_agreement(constant(16, 16, 1), noisy(1, 0, 1, 1, 16)), Error);
 }
