@@ -4,11 +4,12 @@
 PROFILE ?= quick
 REFERENCE_SPP ?= 100000
 JOBS ?= $(shell nproc)
+BENCH ?= .
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation bench references format lint clean
 
 all: build
 
@@ -61,6 +62,14 @@ peers: programs
 specialisation: programs
 	scripts/specialisation build/bin/rtrays-render scenes/cornell_box/scene.json > results/specialisation.md.new
 	mv results/specialisation.md.new results/specialisation.md
+
+# Rays per second of the hierarchy beside Embree's, by scene and kind of ray, as JSON too; on an idle machine. A part of them:
+# BENCH=sphere (a regular expression).
+bench: install
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS) --target benchmark_ray_rates
+	build/bin/benchmark_ray_rates --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
+	    --benchmark_out=build/ray_rates.json --benchmark_out_format=json
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
 references: programs

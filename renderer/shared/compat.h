@@ -25,9 +25,25 @@
 #define make_float3(x, y, z) ((float3)((x), (y), (z)))
 #define make_float4(x, y, z, w) ((float4)((x), (y), (z), (w)))
 #define make_uint4(x, y, z, w) ((uint4)((x), (y), (z), (w)))
+#define splat_float8(x) ((float8)(x))
 
 #define PI M_PI_F
 #define INV_PI M_1_PI_F
+
+/// Index of the lowest bit that is set; x must not be 0.
+DEVICE uint lowest_bit(uint x) { return popcount(~x & (x - 1u)); }
+
+/// One bit per lane of a comparison's result, lane 0 the lowest.
+DEVICE uint lane_bits(int8 mask) {
+#if defined(__AVX__) && defined(__clang__)
+    return (uint)__builtin_ia32_movmskps256(as_float8(mask));
+#else
+    const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+    const int4 four = bits.lo | bits.hi;
+    const int2 two = four.lo | four.hi;
+    return (uint)(two.x | two.y);
+#endif
+}
 
 #else
 
@@ -35,6 +51,9 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
+
+// Vectors of eight travel between inline functions only, where no calling convention matters.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 #define DEVICE [[maybe_unused]] static inline
 #define GLOBAL
@@ -57,6 +76,10 @@ struct float4 {
 struct uint4 {
     uint x, y, z, w;
 };
+
+// Eight lanes with the operators of OpenCL C: arithmetic, comparisons to 0 or -1 by lane, and selection by ?:.
+using float8 = float __attribute__((vector_size(32)));
+using int8 = int __attribute__((vector_size(32)));
 
 constexpr float PI = 3.14159274101257f;
 constexpr float INV_PI = 0.31830988618379f;
@@ -108,6 +131,28 @@ DEVICE float as_float(uint bits) {
     float x;
     memcpy(&x, &bits, sizeof x);
     return x;
+}
+
+DEVICE float8 splat_float8(float x) { return float8{x, x, x, x, x, x, x, x}; }
+DEVICE float8 vload8(size_t, const float *p) {
+    float8 v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+DEVICE void vstore8(float8 v, size_t, float *p) { memcpy(p, &v, sizeof v); }
+DEVICE float8 fma(float8 a, float8 b, float8 c) {
+    for (int lane = 0; lane < 8; ++lane) {
+        c[lane] = fmaf(a[lane], b[lane], c[lane]);
+    }
+    return c;
+}
+DEVICE uint lowest_bit(uint x) { return static_cast<uint>(__builtin_ctz(x)); }
+DEVICE uint lane_bits(int8 mask) {
+    uint bits = 0;
+    for (uint lane = 0; lane < 8; ++lane) {
+        bits |= mask[lane] != 0 ? 1u << lane : 0u;
+    }
+    return bits;
 }
 
 // Atomics as the tests need them; orders as in OpenCL 1.2 (relaxed).

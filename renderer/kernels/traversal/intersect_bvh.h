@@ -1,87 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the two-wide hierarchy with a stack: T. Aila, S. Laine, "Understanding the Efficiency of Ray
-// Traversal on GPUs", HPG 2009; thesis 3.1. Both children of a node are tested, the nearer is entered, the
-// farther postponed with its distance of entry, so that a hit found in between discards it unseen.
+// The queries of a hierarchy, whatever its layout (shared/bvh_layout.h).
 #pragma once
 
-#include "renderer/kernels/traversal/intersect_box.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
-#include "renderer/shared/bvh_node.h"
-#include "renderer/shared/triangle.h"
+#include "renderer/shared/bvh_layout.h"
 
-/// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
-DEVICE Hit traverse_bvh(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin,
-                        float3 direction, float t_max, bool any) {
-    Hit hit;
-    hit.t = t_max;
-    hit.u = 0.0f;
-    hit.v = 0.0f;
-    hit.triangle = NO_HIT;
-    hit.slot = NO_HIT;
-    const float3 scene_lower = make_float3(min(nodes->bounds[0][0][0], nodes->bounds[1][0][0]),
-                                           min(nodes->bounds[0][0][1], nodes->bounds[1][0][1]),
-                                           min(nodes->bounds[0][0][2], nodes->bounds[1][0][2]));
-    const float3 scene_upper = make_float3(max(nodes->bounds[0][1][0], nodes->bounds[1][1][0]),
-                                           max(nodes->bounds[0][1][1], nodes->bounds[1][1][1]),
-                                           max(nodes->bounds[0][1][2], nodes->bounds[1][1][2]));
-    TraversalRay ray;
-    if (!make_traversal_ray(origin, direction, scene_lower, scene_upper, &ray)) {
-        return hit;
+#if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_BVH2
+#include "renderer/kernels/traversal/traverse_bvh2.h"
+#endif
+#if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_WIDE8
+#include "renderer/kernels/traversal/traverse_wide.h"
+#endif
+
+// trace_nearest: the nearest hit at 0 < t < t_max (which may be INFINITY). Rays that are not finite hit nothing.
+// trace_any: whether anything is hit at 0 < t < t_max: true exactly when `trace_nearest` finds a hit.
+#define BVH_QUERIES(NODE, TRIANGLES, traverse)                                                                        \
+    DEVICE Hit trace_nearest(GLOBAL const NODE *nodes, GLOBAL const TRIANGLES *triangles, float3 origin,              \
+                             float3 direction, float t_max) {                                                         \
+        return traverse(nodes, triangles, origin, direction, t_max, false);                                           \
+    }                                                                                                                 \
+    DEVICE bool trace_any(GLOBAL const NODE *nodes, GLOBAL const TRIANGLES *triangles, float3 origin,                 \
+                          float3 direction, float t_max) {                                                            \
+        return traverse(nodes, triangles, origin, direction, t_max, true).slot != NO_HIT;                             \
     }
-    uint links[BVH_STACK_SIZE];
-    float entries[BVH_STACK_SIZE];
-    uint size = 0;
-    uint link = 0;
-    for (;;) {
-        if ((link & BVH_LEAF_BIT) == 0) {
-            GLOBAL const BvhNode *node = nodes + link;
-            const float left = intersect_box(node, 0, &ray, hit.t);
-            const float right = intersect_box(node, 1, &ray, hit.t);
-            const uint nearer = right < left ? 1u : 0u;
-            const float near_entry = nearer ? right : left;
-            const float far_entry = nearer ? left : right;
-            if (near_entry < INFINITY) {
-                link = node->child[nearer];
-                if (far_entry < INFINITY) {
-                    links[size] = node->child[1u - nearer];
-                    entries[size] = far_entry;
-                    ++size;
-                }
-                continue;
-            }
-        } else {
-            const uint first = bvh_leaf_first(link);
-            const uint end = first + bvh_leaf_count(link);
-            for (uint slot = first; slot < end; ++slot) {
-                if (intersect_triangle(triangles + slot, &ray, hit.t, &hit)) {
-                    hit.slot = slot;
-                }
-            }
-            if (any && hit.slot != NO_HIT) {
-                return hit;
-            }
-        }
-        do {
-            if (size == 0) {
-                if (hit.slot != NO_HIT) {
-                    hit.triangle = triangles[hit.slot].id;
-                }
-                return hit;
-            }
-            --size;
-            link = links[size];
-        } while (entries[size] > hit.t);
-    }
-}
 
-/// The nearest hit at 0 < t < t_max (which may be INFINITY). Rays that are not finite hit nothing.
-DEVICE Hit trace_nearest(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin,
-                         float3 direction, float t_max) {
-    return traverse_bvh(nodes, triangles, origin, direction, t_max, false);
-}
-
-/// Whether anything is hit at 0 < t < t_max: true exactly when `trace_nearest` finds a hit.
-DEVICE bool trace_any(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin,
-                      float3 direction, float t_max) {
-    return traverse_bvh(nodes, triangles, origin, direction, t_max, true).slot != NO_HIT;
-}
+#ifdef __cplusplus
+BVH_QUERIES(BvhNode, LeafTriangle, traverse_bvh2)
+BVH_QUERIES(WideNode, TriangleBlock, traverse_wide)
+#else
+BVH_QUERIES(BVH_NODE, BVH_TRIANGLES, TRAVERSE_BVH)
+#endif

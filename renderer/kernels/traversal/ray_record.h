@@ -11,6 +11,12 @@ typedef struct RayRecord {
     uint padding;
 } RayRecord;
 
+/// What tracing one ray took.
+typedef struct RayWork {
+    uint nodes;      ///< nodes whose boxes were tested
+    uint triangles;  ///< triangles tested
+} RayWork;
+
 #ifdef __cplusplus
 static_assert(sizeof(RayRecord) == 32, "as in OpenCL C");
 #endif

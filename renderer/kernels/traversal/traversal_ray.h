@@ -17,12 +17,12 @@
 #include "renderer/shared/compat.h"
 
 typedef struct TraversalRay {
-    float origin[3];
     float entry_origin[3];  ///< origin shifted so that boxes are entered early
     float exit_origin[3];   ///< and left late
     float inverse[3];       ///< 1 / direction, infinite where that is 0
     uint entry_side[3];     ///< 0: a slab is entered at the lower plane, 1: at the upper
     uint kx, ky, kz;        ///< axes; kz that of the largest direction component
+    float ox, oy, oz;       ///< origin along kx, ky, kz
     float sx, sy, sz;       ///< shear and scale that map the direction to +z, length 1
 } TraversalRay;
 
@@ -50,13 +50,15 @@ DEVICE bool make_traversal_ray(float3 origin, float3 direction, float3 scene_low
     }
     ray->kx = ray->kz == 2u ? 0u : ray->kz + 1u;
     ray->ky = ray->kx == 2u ? 0u : ray->kx + 1u;
+    ray->ox = o[ray->kx];
+    ray->oy = o[ray->ky];
+    ray->oz = o[ray->kz];
     ray->sx = d[ray->kx] / d[ray->kz];
     ray->sy = d[ray->ky] / d[ray->kz];
     ray->sz = 1.0f / d[ray->kz];
     for (uint axis = 0; axis < 3; ++axis) {
         const float margin = 4.76837158e-7f * extent + 1.1920929e-7f * fabs(o[axis]);  // 8 u E + 2 u |o|
         const float outwards = d[axis] < 0.0f ? -margin : margin;
-        ray->origin[axis] = o[axis];
         ray->entry_origin[axis] = o[axis] + outwards;
         ray->exit_origin[axis] = o[axis] - outwards;
         ray->inverse[axis] = 1.0f / (d[axis] == 0.0f ? 0.0f : d[axis]);  // -0 counts as +0

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// Rays per second of the hierarchy on the OpenCL device and of Embree, in turns, by scene and kind of ray.
+//
+// An iteration traces the same rays by both, in the order AB BA AB ..., on as many threads as the device has compute
+// units. Its time is the device's. Counters: Mrays_s and embree_Mrays_s by wall time (medians); ratio, ratio_low,
+// ratio_high: device over Embree by processor time of all threads, median with 95 % interval, which other load on the
+// machine hardly changes; wall_ratio the same by wall time; nodes and triangles tested per ray; MB of the tree. Embree
+// runs by the instruction set that is fastest on these rays (the label says which), ROBUST.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <thread>
+
+#include "experiments/benchmarks/benchmark_rays.h"
+#include "experiments/statistics.h"
+#include "renderer/base/error.h"
+#include "renderer/bvh/builder.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+
+namespace rtrays::benchmarks {
+namespace {
+
+constexpr size_t ray_count = 256 * 256;
+constexpr int iterations = 11;
+
+/// Seconds of one run: by the clock on the wall, and of processor by all threads of this process.
+struct Seconds {
+    double wall, processor;
+};
+
+template <typename Work>
+Seconds time_of(const Work &work) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t processor = std::clock();
+    work();
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+            static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
+}
+
+DeviceContext &device() {
+    static DeviceContext context;
+    return context;
+}
+
+class EmbreeTracer {
+  public:
+    EmbreeTracer(const test::Mesh &mesh, const std::string &configuration)
+        : scene_(mesh, configuration), threads_(device().info().compute_units) {}
+
+    const test::EmbreeScene &scene() const { return scene_; }
+
+    /// Number of rays that hit something.
+    size_t trace(const std::vector<RayRecord> &rays, Query query) const {
+        std::vector<size_t> hits(threads_);
+        std::vector<std::thread> workers;
+        for (size_t worker = 0; worker < threads_; ++worker) {
+            workers.emplace_back([&, worker] {
+                const size_t end = rays.size() * (worker + 1) / threads_;
+                size_t found = 0;
+                for (size_t i = rays.size() * worker / threads_; i < end; ++i) {
+                    const bool hit = query == Query::nearest ? scene_.nearest(rays[i]) < rays[i].t_max
+                                                             : scene_.occluded(rays[i]);
+                    found += hit ? 1 : 0;
+                }
+                hits[worker] = found;
+            });
+        }
+        for (std::thread &worker : workers) {
+            worker.join();
+        }
+        size_t all = 0;
+        for (const size_t found : hits) {
+            all += found;
+        }
+        return all;
+    }
+
+  private:
+    test::EmbreeScene scene_;
+    size_t threads_;
+};
+
+class DeviceTracer {
+  public:
+    explicit DeviceTracer(const test::Mesh &mesh)
+        : bvh_(BvhBuilder(device()).build(mesh.positions, mesh.triangles)),
+          trace_(device(), "kernels/traversal/trace_rays.cl"),
+          count_(device(), "kernels/traversal/trace_rays.cl", {{"TRAVERSAL_COUNTS", "1"}}) {}
+
+    const BvhReport &report() const { return bvh_.report(); }
+
+    void load(const std::vector<RayRecord> &rays, Query query) {
+        count_of_rays_ = static_cast<uint32_t>(rays.size());
+        rays_ = Buffer<RayRecord>(device(), "rays", rays);
+        if (query == Query::nearest) {
+            hits_ = Buffer<Hit>(device(), "hits", rays.size());
+            kernel_ = Kernel(trace_, "trace_nearest_rays", group_size);
+            kernel_.bind({bvh_.nodes(), bvh_.triangles(), rays_, count_of_rays_, hits_});
+        } else {
+            occluded_ = Buffer<uint32_t>(device(), "occlusion", rays.size());
+            kernel_ = Kernel(trace_, "trace_any_rays", group_size);
+            kernel_.bind({bvh_.nodes(), bvh_.triangles(), rays_, count_of_rays_, occluded_});
+        }
+        trace();  // the first launch compiles
+    }
+
+    void trace() {
+        kernel_.enqueue(count_of_rays_);
+        device().finish();
+    }
+
+    size_t hits(Query query) const {
+        size_t found = 0;
+        if (query == Query::nearest) {
+            for (const Hit &hit : hits_.read()) {
+                found += hit.triangle != NO_HIT ? 1 : 0;
+            }
+        } else {
+            for (const uint32_t occluded : occluded_.read()) {
+                found += occluded;
+            }
+        }
+        return found;
+    }
+
+    /// Means over the rays: {nodes, triangles}.
+    std::pair<double, double> work_per_ray(Query query) {
+        const Buffer<RayWork> work(device(), "work of rays", count_of_rays_);
+        Kernel count(count_, query == Query::nearest ? "count_nearest_rays" : "count_any_rays", group_size);
+        count.bind({bvh_.nodes(), bvh_.triangles(), rays_, count_of_rays_, work});
+        count.enqueue(count_of_rays_);
+        device().finish();
+        double nodes = 0, triangles = 0;
+        for (const RayWork &ray : work.read()) {
+            nodes += ray.nodes;
+            triangles += ray.triangles;
+        }
+        return {nodes / count_of_rays_, triangles / count_of_rays_};
+    }
+
+  private:
+    static constexpr uint32_t group_size = 64;
+
+    Bvh bvh_;
+    Program trace_, count_;
+    Kernel kernel_;
+    uint32_t count_of_rays_ = 0;
+    Buffer<RayRecord> rays_;
+    Buffer<Hit> hits_;
+    Buffer<uint32_t> occluded_;
+};
+
+/// One scene by Embree, with every instruction set, and by the device. Benchmarks run scene by scene: the last is kept.
+struct LoadedScene {
+    explicit LoadedScene(const BenchmarkScene &scene)
+        : name(scene.name), view(scene.view), mesh(load_benchmark_mesh(scene.name)), ours(mesh) {
+        const uint32_t threads = device().info().compute_units;
+        for (const auto &[isa, width] : {std::pair("sse4.2", 128), std::pair("avx2", 256), std::pair("avx512", 512)}) {
+            embree.emplace_back(isa, std::make_unique<EmbreeTracer>(mesh, fmt::format("threads={},isa={},frequency_level=simd{}",
+                                                                                      threads, isa, width)));
+        }
+    }
+
+    std::string name;
+    View view;
+    test::Mesh mesh;
+    DeviceTracer ours;
+    std::vector<std::pair<std::string, std::unique_ptr<EmbreeTracer>>> embree;
+};
+
+LoadedScene &loaded(const BenchmarkScene &scene) {
+    static std::unique_ptr<LoadedScene> last;
+    if (!last || last->name != scene.name) {
+        last.reset();
+        last = std::make_unique<LoadedScene>(scene);
+    }
+    return *last;
+}
+
+/// Of the instruction sets the one that traces these rays fastest, best of three.
+size_t fastest_embree(const LoadedScene &scene, const std::vector<RayRecord> &rays, Query query) {
+    size_t fastest = 0;
+    double best = INFINITY;
+    for (int turn = 0; turn < 3; ++turn) {
+        for (size_t i = 0; i < scene.embree.size(); ++i) {
+            const double seconds = time_of([&] { scene.embree[i].second->trace(rays, query); }).processor;
+            if (seconds < best) {
+                best = seconds;
+                fastest = i;
+            }
+        }
+    }
+    return fastest;
+}
+
+void trace_rays(benchmark::State &state, const BenchmarkScene &description, const RayKind &kind) {
+    LoadedScene &scene = loaded(description);
+    const std::vector<RayRecord> rays =
+        make_rays(kind.name, scene.mesh, scene.view, scene.embree.front().second->scene(), ray_count);
+    const auto &[isa, embree] = scene.embree[fastest_embree(scene, rays, kind.query)];
+    scene.ours.load(rays, kind.query);
+    const size_t embree_hits = embree->trace(rays, kind.query), hits = scene.ours.hits(kind.query);
+    if (std::max(hits, embree_hits) - std::min(hits, embree_hits) > rays.size() / 10000) {
+        state.SkipWithError(fmt::format("{} of {} rays hit, {} by Embree", hits, rays.size(), embree_hits).c_str());
+        return;
+    }
+
+    std::vector<double> wall_seconds, embree_wall_seconds, ratios, wall_ratios;
+    for (auto _ : state) {
+        Seconds ours{}, theirs{};
+        const bool ours_first = wall_seconds.size() % 2 == 0;
+        if (ours_first) {
+            ours = time_of([&] { scene.ours.trace(); });
+        }
+        theirs = time_of([&] { benchmark::DoNotOptimize(embree->trace(rays, kind.query)); });
+        if (!ours_first) {
+            ours = time_of([&] { scene.ours.trace(); });
+        }
+        wall_seconds.push_back(ours.wall);
+        embree_wall_seconds.push_back(theirs.wall);
+        ratios.push_back(theirs.processor / ours.processor);
+        wall_ratios.push_back(theirs.wall / ours.wall);
+        state.SetIterationTime(ours.wall);
+    }
+    const double millions = 1e-6 * static_cast<double>(rays.size());
+    const Interval ratio = median_interval(ratios);
+    const auto [nodes, triangles] = scene.ours.work_per_ray(kind.query);
+    state.SetLabel("Embree by " + isa);
+    state.counters["Mrays_s"] = millions / median(wall_seconds);
+    state.counters["embree_Mrays_s"] = millions / median(embree_wall_seconds);
+    state.counters["ratio"] = ratio.value;
+    state.counters["ratio_low"] = ratio.low;
+    state.counters["ratio_high"] = ratio.high;
+    state.counters["wall_ratio"] = median(wall_ratios);
+    state.counters["nodes"] = nodes;
+    state.counters["triangles"] = triangles;
+    state.counters["MB"] = 1e-6 * static_cast<double>(scene.ours.report().bytes);
+}
+
+void register_all() {
+    for (const BenchmarkScene &scene : benchmark_scenes()) {
+        for (const RayKind &kind : ray_kinds()) {
+            benchmark::RegisterBenchmark(fmt::format("rays/{}/{}", scene.name, kind.name).c_str(),
+                                         [scene, kind](benchmark::State &state) { trace_rays(state, scene, kind); })
+                ->Iterations(iterations)
+                ->UseManualTime()
+                ->Unit(benchmark::kMillisecond);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rtrays::benchmarks
+
+int main(int argc, char **argv) {
+    rtrays::benchmarks::register_all();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+        return 2;
+    }
+    benchmark::AddCustomContext("device", rtrays::benchmarks::device().info().name);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The layouts of a hierarchy. A program is compiled for one of them, BVH_LAYOUT.
+#pragma once
+
+#include "renderer/shared/bvh_node.h"
+#include "renderer/shared/triangle.h"
+#include "renderer/shared/wide_node.h"
+
+#define BVH_LAYOUT_BVH2 0
+#define BVH_LAYOUT_WIDE8 1
+
+#ifndef BVH_LAYOUT
+#define BVH_LAYOUT BVH_LAYOUT_BVH2
+#endif
+
+// What a layout consists of, and the function that traverses it.
+#if BVH_LAYOUT == BVH_LAYOUT_WIDE8
+#define BVH_NODE WideNode
+#define BVH_TRIANGLES TriangleBlock
+#define TRAVERSE_BVH traverse_wide
+#else
+#define BVH_NODE BvhNode
+#define BVH_TRIANGLES LeafTriangle
+#define TRAVERSE_BVH traverse_bvh2
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// A mesh in Embree 3, with its ROBUST flag: what our traversal is compared with.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <string>
+
+#include "renderer/kernels/traversal/ray_record.h"
+#include "renderer/tests/bvh_meshes.h"
+
+namespace rtrays::test {
+
+struct EmbreeHit {
+    float t;            ///< infinite for none; the rest is then undefined
+    float u, v;         ///< weights of vertices 1 and 2
+    uint32_t triangle;  ///< of the mesh
+};
+
+class EmbreeScene {
+  public:
+    /// `configuration`: as rtcNewDevice takes it.
+    explicit EmbreeScene(const Mesh &mesh, const std::string &configuration = "threads=1")
+        : device_(rtcNewDevice(configuration.c_str())), scene_(rtcNewScene(device_)) {
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto *positions = static_cast<float *>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                                       RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                                       mesh.positions.size()));
+        for (size_t i = 0; i < mesh.positions.size(); ++i) {
+            std::copy_n(mesh.positions[i].data(), 3, positions + 3 * i);
+        }
+        auto *indices = static_cast<uint32_t *>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(uint32_t), mesh.triangles.size()));
+        for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+            std::copy_n(mesh.triangles[i].data(), 3, indices + 3 * i);
+        }
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene_);
+    }
+    ~EmbreeScene() {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+    EmbreeScene(const EmbreeScene &) = delete;
+    EmbreeScene &operator=(const EmbreeScene &) = delete;
+
+    EmbreeHit nearest_hit(const RayRecord &ray) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRayHit hit{embree_ray(ray), {}};
+        hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene_, &context, &hit);
+        const bool found = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        return {found ? hit.ray.tfar : INFINITY, hit.hit.u, hit.hit.v, hit.hit.primID};
+    }
+
+    /// Distance of the nearest hit, infinite for none.
+    float nearest(const RayRecord &ray) const { return nearest_hit(ray).t; }
+
+    /// Whether anything is hit before the ray's end.
+    bool occluded(const RayRecord &ray) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay shadow = embree_ray(ray);
+        rtcOccluded1(scene_, &context, &shadow);
+        return shadow.tfar < 0;
+    }
+
+  private:
+    static RTCRay embree_ray(const RayRecord &ray) {
+        return {ray.origin[0],
+                ray.origin[1],
+                ray.origin[2],
+                0,
+                ray.direction[0],
+                ray.direction[1],
+                ray.direction[2],
+                0,
+                ray.t_max,
+                ~0u,
+                0,
+                0};
+    }
+
+    RTCDevice device_;
+    RTCScene scene_;
+};
+
+}  // namespace rtrays::test
