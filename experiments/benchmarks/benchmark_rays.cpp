@@ -11,8 +11,12 @@ namespace {
 using test::Random;
 using test::uniform;
 
-float3 to_float3(const Eigen::Vector3f &v) { return {v.x(), v.y(), v.z()}; }
-Eigen::Vector3f to_vector(float3 v) { return {v.x, v.y, v.z}; }
+float3 to_float3(const Eigen::Vector3f &v) {
+    return {v.x(), v.y(), v.z()};
+}
+Eigen::Vector3f to_vector(float3 v) {
+    return {v.x, v.y, v.z};
+}
 
 Eigen::Vector3f cosine_direction(const Eigen::Vector3f &normal, Random &random) {
     for (;;) {
@@ -55,15 +59,18 @@ Hit hit_point(const test::Mesh &mesh, const RayRecord &ray, const test::EmbreeHi
         surface_point(to_float3(mesh.vertex(hit.triangle, 0)), to_float3(mesh.vertex(hit.triangle, 1)),
                       to_float3(mesh.vertex(hit.triangle, 2)), hit.u, hit.v);
     const Eigen::Vector3f normal = to_vector(point.normal);
-    const bool from_front = normal.dot(Eigen::Vector3f(ray.direction[0], ray.direction[1], ray.direction[2])) < 0;
+    const bool from_front =
+        normal.dot(Eigen::Vector3f(ray.direction[0], ray.direction[1], ray.direction[2])) < 0;
     return {point, from_front ? normal : Eigen::Vector3f(-normal)};
 }
 
 }  // namespace
 
 const std::vector<RayKind> &ray_kinds() {
-    static const std::vector<RayKind> kinds = {
-        {"primary", Query::nearest}, {"shadow", Query::any}, {"ambient_occlusion", Query::any}, {"diffuse", Query::nearest}};
+    static const std::vector<RayKind> kinds = {{"primary", Query::nearest},
+                                               {"shadow", Query::any},
+                                               {"ambient_occlusion", Query::any},
+                                               {"diffuse", Query::nearest}};
     return kinds;
 }
 
@@ -87,7 +94,8 @@ std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh
             if (kind == "shadow") {
                 const Eigen::Vector3f at(uniform(random, -0.05f, 0.05f), 0, uniform(random, -0.05f, 0.05f));
                 const Eigen::Vector3f end = lamp + at.cwiseProduct(box.sizes());
-                const float3 origin = offset_ray_origin(hit.point, to_float3(end - to_vector(hit.point.position)));
+                const float3 origin =
+                    offset_ray_origin(hit.point, to_float3(end - to_vector(hit.point.position)));
                 rays.push_back(ray_of(to_vector(origin), end - to_vector(origin), 1 - 0x1p-20f));
             } else {
                 const Eigen::Vector3f direction = cosine_direction(hit.normal, random);

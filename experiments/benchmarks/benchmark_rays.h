@@ -18,9 +18,10 @@ struct RayKind {
     Query query;
 };
 
-/// primary: through random points of the image plane, row by row. The others start where those hit, on the side they
-/// came from. shadow: to a random point of a square of a tenth of the scene's width, nine tenths up in it; ambient
-/// occlusion: cosine-distributed, a tenth of the scene's diagonal long; diffuse: cosine-distributed, endless.
+/// primary: through random points of the image plane, row by row. The others start where those hit, on the
+/// side they came from. shadow: to a random point of a square of a tenth of the scene's width, nine tenths up
+/// in it; ambient occlusion: cosine-distributed, a tenth of the scene's diagonal long; diffuse:
+/// cosine-distributed, endless.
 const std::vector<RayKind> &ray_kinds();
 
 /// About `count` rays of the kind. Hits are found by Embree: the rays do not depend on what is measured.

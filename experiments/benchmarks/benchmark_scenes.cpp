@@ -18,7 +18,9 @@ test::Mesh load_mesh(const fs::path &file) {
     return {file.stem().string(), scene.meshes().position, scene.meshes().triangle};
 }
 
-test::Mesh cornell_box() { return load_mesh(RTRAYS_SOURCE "/scenes/cornell_box/scene.json"); }
+test::Mesh cornell_box() {
+    return load_mesh(RTRAYS_SOURCE "/scenes/cornell_box/scene.json");
+}
 test::Mesh bumpy_sphere(uint32_t rings, uint32_t segments) {
     return test::sphere(rings, segments, 1.0f, 0.02f, {0, 0, 0});
 }
@@ -42,7 +44,10 @@ constexpr Source sources[] = {
     {"bunny", {-0.02f, 0.12f, 0.3f, 0, 0, -1, 40}, nullptr, "bunny/bunny.ply"},
     {"sibenik", {-15, -9, 0, 1, -0.05f, 0, 75}, nullptr, "sibenik/sibenik-75k-geometry.ply"},
     {"conference", {-800, 400, 500, 0.75f, -0.3f, -0.6f, 80}, nullptr, "conference/conference-clean.ply"},
-    {"bistro_interior", {150, 160, -60, 0.8f, -0.12f, -0.45f, 80}, nullptr, "bistro-interior/bistro-interior.ply"},
+    {"bistro_interior",
+     {150, 160, -60, 0.8f, -0.12f, -0.45f, 80},
+     nullptr,
+     "bistro-interior/bistro-interior.ply"},
     {"sponza_crytek", {-1300, 250, 0, 1, 0.05f, 0.05f, 80}, nullptr, "sponza-crytek/sponza-crytek.ply"},
 };
 

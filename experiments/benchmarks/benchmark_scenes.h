@@ -21,8 +21,8 @@ struct BenchmarkScene {
     View view;
 };
 
-/// The Cornell box, procedural meshes of stated triangle counts, and those models of the folder $RTRAYS_MESHES that
-/// are there (../shared/meshes of a checkout unless it is set).
+/// The Cornell box, procedural meshes of stated triangle counts, and those models of the folder
+/// $RTRAYS_MESHES that are there (../shared/meshes of a checkout unless it is set).
 std::vector<BenchmarkScene> benchmark_scenes();
 
 /// Throws `Error` when the scene's file cannot be read.

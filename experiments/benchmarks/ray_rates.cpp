@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Rays per second of the hierarchy on the OpenCL device and of Embree, in turns, by scene and kind of ray.
+// Rays per second of the hierarchy on the OpenCL device and of Embree, in turns, by scene, kind of ray
+// and layout.
 //
-// An iteration traces the same rays by both, in the order AB BA AB ..., on as many threads as the device has compute
-// units. Its time is the device's. Counters: Mrays_s and embree_Mrays_s by wall time (medians); ratio, ratio_low,
-// ratio_high: device over Embree by processor time of all threads, median with 95 % interval, which other load on the
-// machine hardly changes; wall_ratio the same by wall time; nodes and triangles tested per ray; MB of the tree. Embree
-// runs by the instruction set that is fastest on these rays (the label says which), ROBUST.
+// An iteration traces the same rays by both, in the order AB BA AB ..., on as many threads as the device has
+// compute units. Its time is the device's. Counters: Mrays_s and embree_Mrays_s by wall time (medians);
+// ratio, ratio_low, ratio_high: device over Embree by processor time of all threads, median with 95 %
+// interval, which other load on the machine hardly changes; wall_ratio the same by wall time; nodes and
+// triangles tested per ray; MB of the tree. Embree runs by the instruction set that is fastest on these rays
+// (the label says which), ROBUST.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <chrono>
 #include <ctime>
+#include <map>
 #include <memory>
 #include <thread>
 
 #include "experiments/benchmarks/benchmark_rays.h"
 #include "experiments/statistics.h"
 #include "renderer/base/error.h"
-#include "renderer/bvh/builder.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/tests/bvh_tree.h"
 
 namespace rtrays::benchmarks {
 namespace {
@@ -41,8 +43,7 @@ Seconds time_of(const Work &work) {
 }
 
 DeviceContext &device() {
-    static DeviceContext context;
-    return context;
+    return test::test_device();
 }
 
 class EmbreeTracer {
@@ -83,38 +84,36 @@ class EmbreeTracer {
     size_t threads_;
 };
 
+/// A layout of the hierarchy on the device.
 class DeviceTracer {
   public:
-    explicit DeviceTracer(const test::Mesh &mesh)
-        : bvh_(BvhBuilder(device()).build(mesh.positions, mesh.triangles)),
-          trace_(device(), "kernels/traversal/trace_rays.cl"),
-          count_(device(), "kernels/traversal/trace_rays.cl", {{"TRAVERSAL_COUNTS", "1"}}) {}
+    DeviceTracer(const test::Mesh &mesh, BvhLayout layout)
+        : bvh_(test::build_on_device(mesh, layout)),
+          trace_(device(), "kernels/traversal/trace_rays.cl", defines(layout, false)),
+          count_(device(), "kernels/traversal/trace_rays.cl", defines(layout, true)) {}
 
     const BvhReport &report() const { return bvh_.report(); }
 
     void load(const std::vector<RayRecord> &rays, Query query) {
-        count_of_rays_ = static_cast<uint32_t>(rays.size());
+        query_ = query;
+        ray_count_ = static_cast<uint32_t>(rays.size());
         rays_ = Buffer<RayRecord>(device(), "rays", rays);
-        if (query == Query::nearest) {
-            hits_ = Buffer<Hit>(device(), "hits", rays.size());
-            kernel_ = Kernel(trace_, "trace_nearest_rays", group_size);
-            kernel_.bind({bvh_.nodes(), bvh_.triangles(), rays_, count_of_rays_, hits_});
-        } else {
-            occluded_ = Buffer<uint32_t>(device(), "occlusion", rays.size());
-            kernel_ = Kernel(trace_, "trace_any_rays", group_size);
-            kernel_.bind({bvh_.nodes(), bvh_.triangles(), rays_, count_of_rays_, occluded_});
-        }
+        hits_ = Buffer<Hit>(device(), "hits", rays.size());
+        occluded_ = Buffer<uint32_t>(device(), "occlusion", rays.size());
+        kernel_ = query == Query::nearest ? kernel(trace_, "trace_nearest_rays", hits_)
+                                          : kernel(trace_, "trace_any_rays", occluded_);
         trace();  // the first launch compiles
     }
 
     void trace() {
-        kernel_.enqueue(count_of_rays_);
+        kernel_.enqueue(ray_count_);
         device().finish();
     }
 
-    size_t hits(Query query) const {
+    /// Number of rays that hit something.
+    size_t hits() const {
         size_t found = 0;
-        if (query == Query::nearest) {
+        if (query_ == Query::nearest) {
             for (const Hit &hit : hits_.read()) {
                 found += hit.triangle != NO_HIT ? 1 : 0;
             }
@@ -127,47 +126,65 @@ class DeviceTracer {
     }
 
     /// Means over the rays: {nodes, triangles}.
-    std::pair<double, double> work_per_ray(Query query) {
-        const Buffer<RayWork> work(device(), "work of rays", count_of_rays_);
-        Kernel count(count_, query == Query::nearest ? "count_nearest_rays" : "count_any_rays", group_size);
-        count.bind({bvh_.nodes(), bvh_.triangles(), rays_, count_of_rays_, work});
-        count.enqueue(count_of_rays_);
+    std::pair<double, double> work_per_ray() {
+        const Buffer<RayWork> work(device(), "work of rays", ray_count_);
+        kernel(count_, query_ == Query::nearest ? "count_nearest_rays" : "count_any_rays", work)
+            .enqueue(ray_count_);
         device().finish();
         double nodes = 0, triangles = 0;
         for (const RayWork &ray : work.read()) {
             nodes += ray.nodes;
             triangles += ray.triangles;
         }
-        return {nodes / count_of_rays_, triangles / count_of_rays_};
+        return {nodes / ray_count_, triangles / ray_count_};
     }
 
   private:
-    static constexpr uint32_t group_size = 64;
+    static Defines defines(BvhLayout layout, bool counts) {
+        return {{"BVH_LAYOUT", std::to_string(static_cast<uint32_t>(layout))},
+                {"TRAVERSAL_COUNTS", counts ? "1" : "0"}};
+    }
+
+    template <typename T>
+    Kernel kernel(const Program &program, const std::string &name, const Buffer<T> &results) const {
+        Kernel kernel(program, name, 64);
+        bvh_.visit([&](const auto &nodes, const auto &triangles) {
+            kernel.bind({nodes, triangles, rays_, ray_count_, results});
+        });
+        return kernel;
+    }
 
     Bvh bvh_;
     Program trace_, count_;
     Kernel kernel_;
-    uint32_t count_of_rays_ = 0;
+    Query query_ = Query::nearest;
+    uint32_t ray_count_ = 0;
     Buffer<RayRecord> rays_;
     Buffer<Hit> hits_;
     Buffer<uint32_t> occluded_;
 };
 
-/// One scene by Embree, with every instruction set, and by the device. Benchmarks run scene by scene: the last is kept.
+/// One scene by Embree, with every instruction set, and by the device, with every layout. Benchmarks run
+/// scene by scene: the last is kept.
 struct LoadedScene {
     explicit LoadedScene(const BenchmarkScene &scene)
-        : name(scene.name), view(scene.view), mesh(load_benchmark_mesh(scene.name)), ours(mesh) {
-        const uint32_t threads = device().info().compute_units;
-        for (const auto &[isa, width] : {std::pair("sse4.2", 128), std::pair("avx2", 256), std::pair("avx512", 512)}) {
-            embree.emplace_back(isa, std::make_unique<EmbreeTracer>(mesh, fmt::format("threads={},isa={},frequency_level=simd{}",
-                                                                                      threads, isa, width)));
+        : name(scene.name), view(scene.view), mesh(load_benchmark_mesh(scene.name)) {
+        for (const auto &[isa, width] :
+             {std::pair("sse4.2", 128), std::pair("avx2", 256), std::pair("avx512", 512)}) {
+            const uint32_t threads = device().info().compute_units;
+            embree.emplace_back(
+                isa, std::make_unique<EmbreeTracer>(
+                         mesh, fmt::format("threads={},isa={},frequency_level=simd{}", threads, isa, width)));
+        }
+        for (const NamedBvhLayout &named : bvh_layouts) {
+            ours.try_emplace(named.layout, mesh, named.layout);
         }
     }
 
     std::string name;
     View view;
     test::Mesh mesh;
-    DeviceTracer ours;
+    std::map<BvhLayout, DeviceTracer> ours;
     std::vector<std::pair<std::string, std::unique_ptr<EmbreeTracer>>> embree;
 };
 
@@ -196,15 +213,18 @@ size_t fastest_embree(const LoadedScene &scene, const std::vector<RayRecord> &ra
     return fastest;
 }
 
-void trace_rays(benchmark::State &state, const BenchmarkScene &description, const RayKind &kind) {
+void trace_rays(benchmark::State &state, const BenchmarkScene &description, const RayKind &kind,
+                BvhLayout layout) {
     LoadedScene &scene = loaded(description);
     const std::vector<RayRecord> rays =
         make_rays(kind.name, scene.mesh, scene.view, scene.embree.front().second->scene(), ray_count);
     const auto &[isa, embree] = scene.embree[fastest_embree(scene, rays, kind.query)];
-    scene.ours.load(rays, kind.query);
-    const size_t embree_hits = embree->trace(rays, kind.query), hits = scene.ours.hits(kind.query);
+    DeviceTracer &device_tracer = scene.ours.at(layout);
+    device_tracer.load(rays, kind.query);
+    const size_t embree_hits = embree->trace(rays, kind.query), hits = device_tracer.hits();
     if (std::max(hits, embree_hits) - std::min(hits, embree_hits) > rays.size() / 10000) {
-        state.SkipWithError(fmt::format("{} of {} rays hit, {} by Embree", hits, rays.size(), embree_hits).c_str());
+        state.SkipWithError(
+            fmt::format("{} of {} rays hit, {} by Embree", hits, rays.size(), embree_hits).c_str());
         return;
     }
 
@@ -213,11 +233,11 @@ void trace_rays(benchmark::State &state, const BenchmarkScene &description, cons
         Seconds ours{}, theirs{};
         const bool ours_first = wall_seconds.size() % 2 == 0;
         if (ours_first) {
-            ours = time_of([&] { scene.ours.trace(); });
+            ours = time_of([&] { device_tracer.trace(); });
         }
         theirs = time_of([&] { benchmark::DoNotOptimize(embree->trace(rays, kind.query)); });
         if (!ours_first) {
-            ours = time_of([&] { scene.ours.trace(); });
+            ours = time_of([&] { device_tracer.trace(); });
         }
         wall_seconds.push_back(ours.wall);
         embree_wall_seconds.push_back(theirs.wall);
@@ -227,7 +247,7 @@ void trace_rays(benchmark::State &state, const BenchmarkScene &description, cons
     }
     const double millions = 1e-6 * static_cast<double>(rays.size());
     const Interval ratio = median_interval(ratios);
-    const auto [nodes, triangles] = scene.ours.work_per_ray(kind.query);
+    const auto [nodes, triangles] = device_tracer.work_per_ray();
     state.SetLabel("Embree by " + isa);
     state.counters["Mrays_s"] = millions / median(wall_seconds);
     state.counters["embree_Mrays_s"] = millions / median(embree_wall_seconds);
@@ -237,17 +257,22 @@ void trace_rays(benchmark::State &state, const BenchmarkScene &description, cons
     state.counters["wall_ratio"] = median(wall_ratios);
     state.counters["nodes"] = nodes;
     state.counters["triangles"] = triangles;
-    state.counters["MB"] = 1e-6 * static_cast<double>(scene.ours.report().bytes);
+    state.counters["MB"] = 1e-6 * static_cast<double>(device_tracer.report().bytes);
 }
 
 void register_all() {
     for (const BenchmarkScene &scene : benchmark_scenes()) {
         for (const RayKind &kind : ray_kinds()) {
-            benchmark::RegisterBenchmark(fmt::format("rays/{}/{}", scene.name, kind.name).c_str(),
-                                         [scene, kind](benchmark::State &state) { trace_rays(state, scene, kind); })
-                ->Iterations(iterations)
-                ->UseManualTime()
-                ->Unit(benchmark::kMillisecond);
+            for (const NamedBvhLayout &named : bvh_layouts) {
+                const auto run = [scene, kind, named](benchmark::State &state) {
+                    trace_rays(state, scene, kind, named.layout);
+                };
+                benchmark::RegisterBenchmark(
+                    fmt::format("{}/{}/{}", scene.name, kind.name, named.name).c_str(), run)
+                    ->Iterations(iterations)
+                    ->UseManualTime()
+                    ->Unit(benchmark::kMillisecond);
+            }
         }
     }
 }

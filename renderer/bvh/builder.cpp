@@ -39,7 +39,9 @@ struct Capacities {
 BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
     // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU wants many short
     // ones.
-    return device.is_cpu ? BvhBuildParameters{1, 1024, 1024} : BvhBuildParameters{64, 256, 64};
+    // Layouts by measurement: `make bench`.
+    return device.is_cpu ? BvhBuildParameters{1, 1024, 1024, BvhLayout::wide8}
+                         : BvhBuildParameters{64, 256, 64, BvhLayout::bvh2};
 }
 
 struct BvhBuilder::Workspace {
@@ -107,6 +109,9 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
     place_subtrees_ = Kernel(place, "place_subtrees", 1);
     copy_top_nodes_ = Kernel(place, "copy_top_nodes", group);
     copy_subtrees_ = Kernel(place, "copy_subtrees", group);
+    if (parameters.layout == BvhLayout::wide8) {
+        collapser_.emplace(device, group);
+    }
 }
 
 void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uint64_t input_bytes) {
@@ -167,6 +172,14 @@ void BvhBuilder::split_levels(Workspace &work) {
 }
 
 Bvh BvhBuilder::build(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
+    Bvh bvh = build_bvh2(positions, indices);
+    if (collapser_) {
+        return collapser_->collapse(bvh);
+    }
+    return bvh;
+}
+
+Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
     if (positions.size() % 3 != 0 || indices.size() % 3 != 0) {
         throw input_error(fmt::format("{} coordinates and {} vertex indices do not come in threes",
                                       positions.size(), indices.size()));

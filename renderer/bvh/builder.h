@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "renderer/bvh/bvh.h"
+#include "renderer/bvh/collapse.h"
 #include "renderer/device/kernel.h"
 
 namespace rtrays {
@@ -17,6 +19,7 @@ struct BvhBuildParameters {
     uint32_t group_size;    ///< work-items per work-group
     uint32_t chunk_size;    ///< primitives per work-item while a node is split by many
     uint32_t subtree_size;  ///< a node of at most this many primitives is finished by one work-item
+    BvhLayout layout = BvhLayout::bvh2;  ///< of the result
 
     static BvhBuildParameters for_device(const DeviceInfo &device);
 };
@@ -51,6 +54,7 @@ class BvhBuilder {
   private:
     struct Workspace;
 
+    Bvh build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
     void gather(Workspace &work, const Buffer<float> &positions, const Buffer<uint32_t> &indices);
     void split_levels(Workspace &work);
 
@@ -60,6 +64,7 @@ class BvhBuilder {
     Kernel bin_primitives_, choose_splits_, partition_primitives_, emit_children_;
     Kernel build_subtrees_;
     Kernel place_subtrees_, copy_top_nodes_, copy_subtrees_;
+    std::optional<BvhCollapser> collapser_;
 };
 
 }  // namespace rtrays

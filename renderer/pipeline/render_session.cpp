@@ -45,11 +45,15 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 /// On a CPU the path states should stay in cache and a work-item should do enough to be worth its call; a GPU needs
 /// enough paths to hide latency, and neighbouring work-items that read neighbouring words.
 StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &info) {
-    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true} : StreamLayout{128, 1u << 20, 1, false};
+    const BvhLayout bvh = BvhBuildParameters::for_device(info).layout;
+    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh} : StreamLayout{128, 1u << 20, 1, false, bvh};
     layout.group_size = settings.group_size > 0 ? settings.group_size : layout.group_size;
     layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
     layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
     layout.interleaved = settings.path_layout == "auto" ? layout.interleaved : settings.path_layout == "interleaved";
+    for (const NamedBvhLayout &named : bvh_layouts) {
+        layout.bvh = settings.bvh_layout == named.name ? named.layout : layout.bvh;
+    }
     if (layout.group_size > info.max_group_size) {
         throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}", layout.group_size, info.name,
                                       info.max_group_size));
@@ -182,7 +186,9 @@ struct RenderSession::State {
     uint64_t pixels() const { return static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height); }
 
     void build_bvh(const MeshArrays &meshes) {
-        BvhBuilder builder(device);
+        BvhBuildParameters parameters = BvhBuildParameters::for_device(device.info());
+        parameters.layout = layout.bvh;
+        BvhBuilder builder(device, parameters);
         const auto start = Clock::now();
         bvh = builder.build(meshes.position, meshes.triangle);
         device.finish();
@@ -220,7 +226,7 @@ struct RenderSession::State {
 
     void bind() {
         using In = StageInput;
-        StageArguments arguments = scene_buffers.arguments(bvh.nodes(), bvh.triangles());
+        StageArguments arguments = scene_buffers.arguments(bvh);
         arguments[In::camera] = {compiled.camera};
         arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
         arguments[In::first_sample] = {uint64_t{0}};
@@ -667,15 +673,17 @@ nlohmann::json RenderSession::report() const {
         report["bvh"]["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
     const BvhReport &bvh = s.bvh.report();
-    report["bvh"].update({{"nodes", bvh.nodes}, {"leaves", bvh.leaves}, {"depth", bvh.depth}, {"sah_cost", bvh.sah_cost},
-                          {"rejected", bvh.rejected()}, {"bytes", bvh.bytes}, {"bytes_peak", bvh.bytes_peak}});
+    report["bvh"].update({{"layout", to_string(s.layout.bvh)}, {"nodes", bvh.nodes}, {"leaves", bvh.leaves}, {"depth", bvh.depth}, {"sah_cost", bvh.sah_cost},
+                          {"wide_nodes", bvh.wide_nodes}, {"wide_leaves", bvh.wide_leaves}, {"rejected", bvh.rejected()}, {"bytes", bvh.bytes}, {"bytes_peak", bvh.bytes_peak}});
     const auto add_buffer = [&](const auto &buffer) {
         if (buffer.size() > 0) {
             report["buffers"].push_back({{"name", buffer.name()}, {"bytes", buffer.bytes()}});
         }
     };
-    add_buffer(s.bvh.nodes());
-    add_buffer(s.bvh.triangles());
+    s.bvh.visit([&](const auto &nodes, const auto &triangles) {
+        add_buffer(nodes);
+        add_buffer(triangles);
+    });
     s.scene_buffers.visit(add_buffer);
     add_buffer(s.path_words);
     add_buffer(s.vertex_words);

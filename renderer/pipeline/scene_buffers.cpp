@@ -19,8 +19,7 @@ SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled,
 #undef ROW
 }
 
-StageArguments SceneBuffers::arguments(const Buffer<BvhNode> &bvh_nodes_,
-                                       const Buffer<LeafTriangle> &bvh_triangles_) const {
+StageArguments SceneBuffers::arguments(const Bvh &bvh) const {
     const FeatureMask features = features_;
     RTRAYS_FEATURES(FEATURE_VARIABLE)
     StageArguments arguments;
@@ -29,7 +28,7 @@ StageArguments SceneBuffers::arguments(const Buffer<BvhNode> &bvh_nodes_,
         list->emplace_back(name##_);    \
     }
     std::vector<KernelArgument> *list = &arguments[StageInput::geometry];
-    GEOMETRY_BUFFERS(ROW)
+    bvh.visit([&](const auto &bvh_nodes_, const auto &bvh_triangles_) { GEOMETRY_BUFFERS(ROW) });
     arguments[StageInput::traversal] = *list;
     ROW(FEATURE_shapes, ShapeRecord, shapes)
     if (FEATURE_shapes) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "renderer/bvh/bvh.h"
 #include "renderer/device/buffer.h"
 #include "renderer/pipeline/compile_scene.h"
 #include "renderer/pipeline/stages.h"
-#include "renderer/shared/bvh_node.h"
 #include "renderer/shared/scene_buffers.h"
-#include "renderer/shared/triangle.h"
 
 namespace rtrays {
 
@@ -16,9 +15,9 @@ class SceneBuffers {
     SceneBuffers() = default;
     SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
 
-    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry and traversal, given the hierarchy's buffers
-    /// (where there are triangles).
-    StageArguments arguments(const Buffer<BvhNode> &bvh_nodes, const Buffer<LeafTriangle> &bvh_triangles) const;
+    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry and traversal, given the hierarchy (which is
+    /// read where there are triangles).
+    StageArguments arguments(const Bvh &bvh) const;
 
     /// Calls visit(buffer) for every buffer.
     template <typename Visit>

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "renderer/base/error.h"
+#include "renderer/bvh/bvh.h"
 #include "renderer/shared/film_layout.h"
 
 namespace rtrays {
@@ -39,6 +40,14 @@ struct Setting {
 };
 
 constexpr uint32_t largest_count = 0x7fffffff;
+
+std::vector<std::string> bvh_layout_values() {
+    std::vector<std::string> values = {"auto"};
+    for (const NamedBvhLayout &named : bvh_layouts) {
+        values.emplace_back(named.name);
+    }
+    return values;
+}
 
 const std::vector<Setting> &setting_table() {
     using S = RenderSettings;
@@ -76,6 +85,7 @@ const std::vector<Setting> &setting_table() {
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
         {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}}, "path states in memory"},
+        {"device.bvh_layout", TextSetting{&S::bvh_layout, bvh_layout_values()}, "nodes of two children or of eight; auto: by device"},
         {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
          "a kernel for every block, or one that traces whole paths, of path_tracing"},
         {"device.count_rays", TextSetting{&S::count_rays, {"in_all", "by_depth"}},

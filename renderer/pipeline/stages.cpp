@@ -64,6 +64,7 @@ StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names,
     Defines defines = features.defines();
     defines["STREAM_CHUNK"] = std::to_string(layout.chunk);
     defines["PATH_STATE_INTERLEAVED"] = layout.interleaved ? "1" : "0";
+    defines["BVH_LAYOUT"] = std::to_string(static_cast<uint32_t>(layout.bvh));
     for (const std::string &name : names) {
         const StageDescription &description = stage_description(name);
         const auto program =

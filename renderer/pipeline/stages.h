@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/bvh/bvh.h"
 #include "renderer/device/kernel.h"
 #include "renderer/shared/features.h"
 
@@ -34,12 +35,14 @@ const StageDescription &stage_description(const std::string &name);
 /// The kernel arguments that stand for each input.
 using StageArguments = std::map<StageInput, std::vector<KernelArgument>>;
 
-/// How streams are laid out on a device. None of it changes a bit of the image.
+/// How streams and the hierarchy are laid out on a device. None of it changes a bit of the image, but for the layout of the
+/// hierarchy where a ray hits two triangles at the same distance.
 struct StreamLayout {
     uint32_t group_size;  ///< work-items per group
     uint32_t capacity;    ///< paths in flight
     uint32_t chunk;       ///< entries of a queue per work-item
     bool interleaved;     ///< the words of a path lie together
+    BvhLayout bvh = BvhLayout::bvh2;
 };
 
 /// The compiled programs and kernels of some stages under one feature mask.

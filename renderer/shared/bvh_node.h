@@ -31,7 +31,7 @@
 typedef struct BvhNode {
     float bounds[2][2][3];  ///< [left, right][lower, upper][x, y, z], scene units; lower > upper: empty
     uint child[2];          ///< links of left and right
-    uint padding[2];
+    uint count[2];          ///< triangles below them
 } BvhNode;
 
 DEVICE uint bvh_leaf(uint first, uint count) {

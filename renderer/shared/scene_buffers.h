@@ -3,13 +3,14 @@
 // from these tables.
 #pragma once
 
+#include "bvh_layout.h"
 #include "compat.h"
 #include "declare.h"
 
 // X(feature, type, name)
-#define GEOMETRY_BUFFERS(X)                               \
-    X(FEATURE_triangles, BvhNode, bvh_nodes)              \
-    X(FEATURE_triangles, LeafTriangle, bvh_triangles)
+#define GEOMETRY_BUFFERS(X)                      \
+    X(FEATURE_triangles, BVH_NODE, bvh_nodes)    \
+    X(FEATURE_triangles, BVH_TRIANGLES, bvh_triangles)
 
 #define SURFACE_BUFFERS(X)                                    \
     X(FEATURE_triangles, SurfaceTriangle, surface_triangles)  \

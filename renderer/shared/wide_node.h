@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The eight-wide hierarchy as traversal reads it: boxes and triangles in eights, lane by lane, for devices whose
-// work-items compute on vectors (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", RT 2008).
+// The eight-wide hierarchy as traversal reads it: boxes and triangles in eights, lane by lane, for devices
+// whose work-items compute on vectors (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", RT 2008).
 //
 // Node 0 is not part of the tree: its lane 0 holds the scene's box and the link to the root.
 #pragma once
@@ -9,8 +9,8 @@
 
 #define WIDE_LANES 8u
 
-/// A link is the index of a node or, with BVH_LEAF_BIT, a block of triangles: bits 28 to 30 hold its number of
-/// triangles less one, bits 0 to 27 its index.
+/// A link is the index of a node or, with BVH_LEAF_BIT, a block of triangles: bits 28 to 30 hold its number
+/// of triangles less one, bits 0 to 27 its index.
 typedef struct WideNode {
     float bounds[2][3][WIDE_LANES];  ///< [lower, upper][x, y, z][child], scene units; lower > upper: no child
     uint child[WIDE_LANES];
@@ -25,9 +25,15 @@ typedef struct TriangleBlock {
 /// Every level of the two-wide tree, at most 62 (bvh_node.h), postpones up to seven children.
 #define WIDE_STACK_SIZE (62u * (WIDE_LANES - 1u) + WIDE_LANES)
 
-DEVICE uint wide_leaf(uint block, uint count) { return BVH_LEAF_BIT | ((count - 1u) << BVH_COUNT_SHIFT) | block; }
-DEVICE uint wide_leaf_block(uint link) { return link & BVH_FIRST_MASK; }
-DEVICE uint wide_leaf_count(uint link) { return ((link >> BVH_COUNT_SHIFT) & 7u) + 1u; }
+DEVICE uint wide_leaf(uint block, uint count) {
+    return BVH_LEAF_BIT | ((count - 1u) << BVH_COUNT_SHIFT) | block;
+}
+DEVICE uint wide_leaf_block(uint link) {
+    return link & BVH_FIRST_MASK;
+}
+DEVICE uint wide_leaf_count(uint link) {
+    return ((link >> BVH_COUNT_SHIFT) & 7u) + 1u;
+}
 
 #ifdef __cplusplus
 static_assert(sizeof(WideNode) == 224 && sizeof(TriangleBlock) == 320, "as in OpenCL C");

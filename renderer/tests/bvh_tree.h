@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -17,21 +18,45 @@ inline float3 to_float3(const Eigen::Vector3f &v) {
     return {v.x(), v.y(), v.z()};
 }
 
-/// A tree copied from the device; traced on the host by the device functions.
+/// A tree of any layout copied from the device; traced on the host by the device functions.
 struct HostBvh {
     std::vector<BvhNode> nodes;
     std::vector<LeafTriangle> triangles;
+    std::vector<WideNode> wide_nodes;
+    std::vector<TriangleBlock> blocks;
+    BvhLayout layout;
     BvhReport report;
 
     explicit HostBvh(const Bvh &bvh)
-        : nodes(bvh.nodes().read()), triangles(bvh.triangles().read()), report(bvh.report()) {}
+        : nodes(bvh.nodes().read()),
+          triangles(bvh.triangles().read()),
+          wide_nodes(bvh.wide_nodes().read()),
+          blocks(bvh.blocks().read()),
+          layout(bvh.layout()),
+          report(bvh.report()) {}
+
+    /// trace(nodes, triangles) with those of the layout.
+    template <typename Visit>
+    auto visit(const Visit &trace) const {
+        return layout == BvhLayout::wide8 ? trace(wide_nodes.data(), blocks.data())
+                                          : trace(nodes.data(), triangles.data());
+    }
 
     Hit nearest(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
                 float t_max = INFINITY) const {
-        return trace_nearest(nodes.data(), triangles.data(), to_float3(origin), to_float3(direction), t_max);
+        return visit([&](const auto *n, const auto *t) {
+            return trace_nearest(n, t, to_float3(origin), to_float3(direction), t_max);
+        });
     }
     bool any(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t_max) const {
-        return trace_any(nodes.data(), triangles.data(), to_float3(origin), to_float3(direction), t_max);
+        return visit([&](const auto *n, const auto *t) {
+            return trace_any(n, t, to_float3(origin), to_float3(direction), t_max);
+        });
+    }
+
+    /// Id of the triangle at a slot of `Hit`.
+    uint32_t triangle_at(uint32_t slot) const {
+        return layout == BvhLayout::wide8 ? blocks[slot / WIDE_LANES].id[slot % WIDE_LANES] : triangles[slot].id;
     }
 };
 
@@ -41,9 +66,15 @@ inline DeviceContext &test_device() {
     return device;
 }
 
-inline HostBvh build_bvh(const Mesh &mesh) {
-    static BvhBuilder builder(test_device());
-    return HostBvh(builder.build(mesh.positions, mesh.triangles));
+inline Bvh build_on_device(const Mesh &mesh, BvhLayout layout) {
+    static std::map<BvhLayout, BvhBuilder> builders;
+    BvhBuildParameters parameters = BvhBuildParameters::for_device(test_device().info());
+    parameters.layout = layout;
+    return builders.try_emplace(layout, test_device(), parameters).first->second.build(mesh.positions, mesh.triangles);
+}
+
+inline HostBvh build_bvh(const Mesh &mesh, BvhLayout layout = BvhLayout::bvh2) {
+    return HostBvh(build_on_device(mesh, layout));
 }
 
 inline double half_area(const Eigen::AlignedBox3d &box) {

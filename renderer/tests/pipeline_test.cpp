@@ -103,6 +103,18 @@ TEST(Pipeline, GivesTheSameBitsHoweverTheWorkIsCut) {
     }
 }
 
+TEST(Pipeline, LayoutsOfTheHierarchyDifferInTiesAlone) {
+    const std::vector<int64_t> words = render_words(small({}));
+    for (const NamedBvhLayout &named : bvh_layouts) {
+        const std::vector<int64_t> other = render_words(small({std::string("device.bvh_layout=") + named.name}));
+        size_t different = 0;
+        for (size_t i = 0; i < words.size(); ++i) {
+            different += other[i] != words[i] ? 1 : 0;
+        }
+        EXPECT_LE(different, words.size() / 100) << named.name;
+    }
+}
+
 TEST(Pipeline, EverythingCompiledInChangesNoBit) {
     for (const char *strategies : {"integrator.strategies=implicit", "integrator.strategies=explicit", "integrator.strategies=mis"}) {
         const std::vector<int64_t> words = render_words(small({strategies}));

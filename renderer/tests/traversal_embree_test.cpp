@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Hits against Embree 3 (ROBUST), 1e6 fuzzed rays in all: same hit or miss, |dt| <= 1e-5 of the scale. Where
+// Hits against Embree 3 (ROBUST), 1e6 fuzzed rays for each layout: same hit or miss, |dt| <= 1e-5 of the scale. Where
 // they differ, brute force in double decides whether ours is right.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdio>
 
-#include "renderer/tests/bvh_tree.h"
 #include "renderer/tests/double_intersector.h"
 #include "renderer/tests/embree_scene.h"
+#include "renderer/tests/layout_test.h"
 #include "renderer/tests/ray_sets.h"
 
 namespace rtrays {
@@ -16,12 +16,15 @@ namespace {
 
 using namespace test;
 
+class TraversalEmbree : public LayoutTest {};
+EACH_LAYOUT(TraversalEmbree);
+
 /// Differences by kind of ray: random, grazing, and along an axis through a vertex or an edge (ray_sets.h).
 using Differences = std::array<size_t, 3>;
 
 /// Rays on which ours differs from Embree and double precision does not side with ours.
-size_t count_wrong(const Mesh &mesh, size_t count, Differences *differences) {
-    const HostBvh bvh = build_bvh(mesh);
+size_t count_wrong(const Mesh &mesh, BvhLayout layout, size_t count, Differences *differences) {
+    const HostBvh bvh = build_bvh(mesh, layout);
     const EmbreeScene embree(mesh);
     const float tolerance = 1e-5f * mesh.box().diagonal().norm();
     const std::vector<RayRecord> rays = fuzzed_rays(mesh, count, 13);
@@ -44,13 +47,13 @@ size_t count_wrong(const Mesh &mesh, size_t count, Differences *differences) {
     return wrong;
 }
 
-TEST(TraversalEmbree, FuzzedRaysAgree) {
+TEST_P(TraversalEmbree, FuzzedRaysAgree) {
     constexpr size_t rays_of_each = 250000;
     size_t wrong = 0, rays = 0;
     Differences differences{};
     for (const Mesh &mesh :
          {room(), soup(3000, 1), sphere(100, 200, 1.0f, 0.01f, {0, 0, 0}), terrain(120, 2)}) {
-        wrong += count_wrong(mesh, rays_of_each, &differences);
+        wrong += count_wrong(mesh, GetParam().layout, rays_of_each, &differences);
         rays += rays_of_each;
     }
     std::printf(

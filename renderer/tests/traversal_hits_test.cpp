@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "renderer/device/kernel.h"
-#include "renderer/tests/bvh_tree.h"
 #include "renderer/tests/double_intersector.h"
+#include "renderer/tests/layout_test.h"
 #include "renderer/tests/ray_sets.h"
 
 namespace rtrays {
 namespace {
 
 using namespace test;
+
+class TraversalHits : public LayoutTest {};
+EACH_LAYOUT(TraversalHits);
 
 std::vector<Mesh> small_meshes() {
     return {room(),
@@ -21,9 +24,9 @@ std::vector<Mesh> small_meshes() {
             terrain(6, 1)};
 }
 
-TEST(TraversalHits, AgreeWithBruteForceInDouble) {
+TEST_P(TraversalHits, AgreeWithBruteForceInDouble) {
     for (const Mesh &mesh : small_meshes()) {
-        const HostBvh bvh = build_bvh(mesh);
+        const HostBvh bvh = build_bvh(mesh, GetParam().layout);
         const double tolerance = 1e-5 * static_cast<double>(mesh.box().diagonal().norm());
         int wrong = 0, hits = 0;
         const size_t count = 30000;
@@ -40,10 +43,10 @@ TEST(TraversalHits, AgreeWithBruteForceInDouble) {
     }
 }
 
-TEST(TraversalHits, TheJudgeRejectsWrongHits) {
+TEST_P(TraversalHits, TheJudgeRejectsWrongHits) {
     const Mesh mesh = room();
     const Eigen::Vector3f origin(450, 400, 200), down(0, -1, 0);
-    const Hit hit = build_bvh(mesh).nearest(origin, down);
+    const Hit hit = build_bvh(mesh, GetParam().layout).nearest(origin, down);
     const double tolerance = 1e-2;
     EXPECT_TRUE(hit_is_right(mesh, origin, down, hit.t, hit.triangle, tolerance));
     EXPECT_FALSE(hit_is_right(mesh, origin, down, hit.t, NO_HIT, tolerance));
@@ -51,9 +54,9 @@ TEST(TraversalHits, TheJudgeRejectsWrongHits) {
     EXPECT_FALSE(hit_is_right(mesh, {200, 400, 200}, down, 400, hit.triangle, tolerance)) << "behind a block";
 }
 
-TEST(TraversalHits, AnyHitIsNearestHitBelowTheLimit) {
+TEST_P(TraversalHits, AnyHitIsNearestHitBelowTheLimit) {
     for (const Mesh &mesh : {room(), soup(5000, 8), terrain(40, 2)}) {
-        const HostBvh bvh = build_bvh(mesh);
+        const HostBvh bvh = build_bvh(mesh, GetParam().layout);
         Random random(3);
         const float size = mesh.box().diagonal().norm();
         int occluded = 0;
@@ -69,15 +72,15 @@ TEST(TraversalHits, AnyHitIsNearestHitBelowTheLimit) {
     }
 }
 
-TEST(TraversalHits, BarycentricsGiveTheHitPoint) {
+TEST_P(TraversalHits, BarycentricsGiveTheHitPoint) {
     const Mesh mesh = soup(5000, 8);
-    const HostBvh bvh = build_bvh(mesh);
+    const HostBvh bvh = build_bvh(mesh, GetParam().layout);
     for (const RayRecord &ray : fuzzed_rays(mesh, 30000, 6)) {
         const Hit hit = bvh.nearest(ray_origin(ray), ray_direction(ray));
         if (hit.triangle == NO_HIT) {
             continue;
         }
-        ASSERT_EQ(bvh.triangles[hit.slot].id, hit.triangle);
+        ASSERT_EQ(bvh.triangle_at(hit.slot), hit.triangle);
         ASSERT_TRUE(hit.u >= 0 && hit.v >= 0 && hit.u + hit.v <= 1.000001f);
         const Eigen::Vector3f a = mesh.vertex(hit.triangle, 0);
         const Eigen::Vector3f p =
@@ -90,11 +93,12 @@ TEST(TraversalHits, BarycentricsGiveTheHitPoint) {
     }
 }
 
-TEST(TraversalHits, DeviceFindsWhatTheHostFinds) {
+TEST_P(TraversalHits, DeviceFindsWhatTheHostFinds) {
     DeviceContext &device = test_device();
-    const Program program(device, "kernels/traversal/trace_rays.cl");
+    const Program program(device, "kernels/traversal/trace_rays.cl",
+                          {{"BVH_LAYOUT", std::to_string(static_cast<uint32_t>(GetParam().layout))}});
     for (const Mesh &mesh : {room(), terrain(100, 4)}) {
-        const Bvh bvh = BvhBuilder(device).build(mesh.positions, mesh.triangles);
+        const Bvh bvh = build_on_device(mesh, GetParam().layout);
         const HostBvh host(bvh);
         std::vector<RayRecord> rays = fuzzed_rays(mesh, 100001, 7);
         Random random(3);
@@ -106,10 +110,14 @@ TEST(TraversalHits, DeviceFindsWhatTheHostFinds) {
         const Buffer<uint32_t> occluded_buffer(device, "test occlusion", rays.size());
         const auto count = static_cast<uint32_t>(rays.size());
         Kernel nearest(program, "trace_nearest_rays", 64);
-        nearest.bind({bvh.nodes(), bvh.triangles(), ray_buffer, count, hit_buffer});
+        bvh.visit([&](const auto &nodes, const auto &triangles) {
+            nearest.bind({nodes, triangles, ray_buffer, count, hit_buffer});
+        });
         nearest.enqueue(count);
         Kernel any(program, "trace_any_rays", 64);
-        any.bind({bvh.nodes(), bvh.triangles(), ray_buffer, count, occluded_buffer});
+        bvh.visit([&](const auto &nodes, const auto &triangles) {
+            any.bind({nodes, triangles, ray_buffer, count, occluded_buffer});
+        });
         any.enqueue(count);
         device.finish();
         const std::vector<Hit> hits = hit_buffer.read();

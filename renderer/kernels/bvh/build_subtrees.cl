@@ -114,8 +114,8 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
         const uint right_count = right.end - right.begin;
         const bool left_is_leaf = left_count <= BVH_LEAF_SIZE;
         const bool right_is_leaf = right_count <= BVH_LEAF_SIZE;
-        write_child(nodes + node, 0, &left.bounds, bvh_leaf(left.begin, left_is_leaf ? left_count : 0u));
-        write_child(nodes + node, 1, &right.bounds, bvh_leaf(right.begin, right_is_leaf ? right_count : 0u));
+        write_child(nodes + node, 0, &left.bounds, left_count, bvh_leaf(left.begin, left_is_leaf ? left_count : 0u));
+        write_child(nodes + node, 1, &right.bounds, right_count, bvh_leaf(right.begin, right_is_leaf ? right_count : 0u));
         leaf_count += (left_is_leaf ? 1u : 0u) + (right_is_leaf ? 1u : 0u);
         cost += half_area_of(&left.bounds, area_scale) * (left_is_leaf ? (float)left_count : 1.0f) +
                 half_area_of(&right.bounds, area_scale) * (right_is_leaf ? (float)right_count : 1.0f);

@@ -23,8 +23,8 @@ __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subt
     if (root_is_leaf) {
         const RangeBounds all = subtrees[0].bounds;
         const RangeBounds nothing = empty_bounds();
-        write_child(top_nodes, 0, &all, bvh_leaf(0, total.primitive_count));
-        write_child(top_nodes, 1, &nothing, BVH_EMPTY_LEAF);
+        write_child(top_nodes, 0, &all, total.primitive_count, bvh_leaf(0, total.primitive_count));
+        write_child(top_nodes, 1, &nothing, 0, BVH_EMPTY_LEAF);
         total.top_node_count = 1;
     }
     total.node_count = total.top_node_count;

@@ -67,12 +67,13 @@ DEVICE float half_area_of(PRIVATE const RangeBounds *bounds, float scale) {
                      bounds->box[1][2] - bounds->box[0][2], scale);
 }
 
-/// Child `side` of a node: the box of its range, and its link (bvh_node.h).
-DEVICE void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds, uint link) {
+/// Child `side` of a node: the box and the size of its range, and its link (bvh_node.h).
+DEVICE void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds, uint count,
+                        uint link) {
     for (uint axis = 0; axis < 3; ++axis) {
         node->bounds[side][0][axis] = bounds->box[0][axis];
         node->bounds[side][1][axis] = bounds->box[1][axis];
     }
     node->child[side] = link;
-    node->padding[side] = 0;
+    node->count[side] = count;
 }

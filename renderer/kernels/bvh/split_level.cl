@@ -118,11 +118,11 @@ __kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *ta
             for (uint chunk = task.first_chunk; chunk < task.first_chunk + task.chunk_count; ++chunk) {
                 merge_bounds(&bounds, &chunks[chunk].bounds[side]);
             }
-            const uint link =
-                emit_range(&next, next_tasks, next_chunks, subtrees, chunk_size, subtree_size,
-                           side == 0 ? task.begin : middle, side == 0 ? middle : task.end, task.depth + 1u,
-                           task.node, side, buffer, &bounds);
-            write_child(nodes + task.node, side, &bounds, link);
+            const uint begin = side == 0 ? task.begin : middle;
+            const uint end = side == 0 ? middle : task.end;
+            const uint link = emit_range(&next, next_tasks, next_chunks, subtrees, chunk_size, subtree_size, begin, end,
+                                         task.depth + 1u, task.node, side, buffer, &bounds);
+            write_child(nodes + task.node, side, &bounds, end - begin, link);
         }
     }
     *state = next;

@@ -2,6 +2,9 @@
 // The queries of a hierarchy, whatever its layout (shared/bvh_layout.h).
 #pragma once
 
+// What layouts share comes first: the include resolver expands a file where it is named first, compiled or not.
+#include "renderer/kernels/traversal/intersect_box.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/bvh_layout.h"
 
 #if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_BVH2

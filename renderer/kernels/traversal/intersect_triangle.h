@@ -5,7 +5,8 @@
 #include "renderer/kernels/traversal/traversal_ray.h"
 #include "renderer/shared/triangle.h"
 
-/// Programs that define this as 1 count what traversal does (trace_rays.cl); for the others counting is nothing.
+/// Programs that define this as 1 count what traversal does (trace_rays.cl); for the others counting is
+/// nothing.
 #ifndef TRAVERSAL_COUNTS
 #define TRAVERSAL_COUNTS 0
 #endif

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/bvh/bvh.h"
+
+#include <algorithm>
+
+namespace rtrays {
+
+const char *to_string(BvhLayout layout) {
+    return std::find_if(std::begin(bvh_layouts), std::end(bvh_layouts),
+                        [&](const NamedBvhLayout &named) { return named.layout == layout; })
+        ->name;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// The two-wide tree collapsed to nodes of eight children, level by level: open_wide_nodes (a work-item per node of the
+// level) -> number_wide_nodes (one work-item) -> link_wide_nodes (per node); in the end fill_blocks (per leaf). Numbering
+// follows the tree alone: nothing depends on scheduling.
+//
+// A wide node opens its largest child (by area, the chance of a ray to enter it) until it has eight, or only leaves: I. Wald,
+// C. Benthin, S. Boulos, RT 2008. A subtree of at most eight triangles, which are tested at once, is a leaf.
+#include "renderer/kernels/bvh/collapse.h"
+#include "renderer/kernels/bvh/range_bounds.h"
+#include "renderer/shared/triangle.h"
+
+/// A child of a node of the two-wide tree.
+typedef struct Candidate {
+    uint node, side;  ///< whose child it is
+    uint begin;       ///< its first triangle
+    uint count;
+    float area;
+} Candidate;
+
+static Candidate make_candidate(GLOBAL const BvhNode *nodes, uint node, uint side, uint begin) {
+    Candidate candidate;
+    candidate.node = node;
+    candidate.side = side;
+    candidate.begin = begin;
+    candidate.count = nodes[node].count[side];
+    GLOBAL const float(*bounds)[3] = nodes[node].bounds[side];
+    candidate.area =
+        half_area(bounds[1][0] - bounds[0][0], bounds[1][1] - bounds[0][1], bounds[1][2] - bounds[0][2], 1.0f);
+    return candidate;
+}
+
+static void write_wide_child(GLOBAL WideNode *wide, uint lane, GLOBAL const float (*bounds)[3]) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        wide->bounds[0][axis][lane] = bounds[0][axis];
+        wide->bounds[1][axis][lane] = bounds[1][axis];
+    }
+}
+
+static void write_no_child(GLOBAL WideNode *wide, uint lane) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        wide->bounds[0][axis][lane] = INFINITY;
+        wide->bounds[1][axis][lane] = -INFINITY;
+    }
+    wide->child[lane] = 0;
+}
+
+/// One work-item: node 0, which holds the scene's box and the link to the root, and the root's task or leaf.
+__kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *state, GLOBAL WideNode *wide_nodes,
+                             GLOBAL WideTask *tasks, GLOBAL WideLeaf *leaves) {
+    if (get_global_id(0) != 0) {
+        return;
+    }
+    const uint count = nodes->count[0] + nodes->count[1];
+    for (uint lane = 0; lane < WIDE_LANES; ++lane) {
+        write_no_child(wide_nodes, lane);
+    }
+    for (uint axis = 0; axis < 3; ++axis) {
+        wide_nodes->bounds[0][axis][0] = lesser(nodes->bounds[0][0][axis], nodes->bounds[1][0][axis]);
+        wide_nodes->bounds[1][axis][0] = greater(nodes->bounds[0][1][axis], nodes->bounds[1][1][axis]);
+    }
+    CollapseState begin;
+    begin.node_count = 1;
+    begin.leaf_count = 0;
+    if (count > WIDE_LANES) {
+        wide_nodes->child[0] = 1;
+        tasks[1].node = 0;
+        tasks[1].begin = 0;
+        begin.node_count = 2;
+    } else if (count > 0) {
+        wide_nodes->child[0] = wide_leaf(0, count);
+        leaves[0].begin = 0;
+        leaves[0].count = count;
+        begin.leaf_count = 1;
+    }
+    *state = begin;
+}
+
+__kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uint level_end, GLOBAL WideNode *wide_nodes,
+                              GLOBAL WideTask *tasks) {
+    const uint index = level_begin + (uint)get_global_id(0);
+    if (index >= level_end) {
+        return;
+    }
+    GLOBAL WideTask *task = tasks + index;
+    Candidate children[WIDE_LANES];
+    children[0] = make_candidate(nodes, task->node, 0, task->begin);
+    children[1] = make_candidate(nodes, task->node, 1, task->begin + children[0].count);
+    uint count = 2;
+    while (count < WIDE_LANES) {
+        uint largest = WIDE_LANES;
+        float area = -1.0f;
+        for (uint i = 0; i < count; ++i) {
+            if (children[i].count > WIDE_LANES && children[i].area > area) {
+                largest = i;
+                area = children[i].area;
+            }
+        }
+        if (largest == WIDE_LANES) {
+            break;
+        }
+        const Candidate opened = children[largest];
+        const uint node = nodes[opened.node].child[opened.side];
+        children[largest] = make_candidate(nodes, node, 0, opened.begin);
+        children[count] = make_candidate(nodes, node, 1, opened.begin + children[largest].count);
+        ++count;
+    }
+    GLOBAL WideNode *wide = wide_nodes + index;
+    uint inner = 0;
+    for (uint lane = 0; lane < WIDE_LANES; ++lane) {
+        if (lane >= count) {
+            write_no_child(wide, lane);
+            continue;
+        }
+        const Candidate child = children[lane];
+        const bool is_leaf = child.count <= WIDE_LANES;
+        write_wide_child(wide, lane, nodes[child.node].bounds[child.side]);
+        // For link_wide_nodes: the two-wide node, or the size of the leaf.
+        wide->child[lane] = is_leaf ? wide_leaf(0, child.count) : nodes[child.node].child[child.side];
+        task->child_begin[lane] = child.begin;
+        inner += is_leaf ? 0u : 1u;
+    }
+    task->inner_count = inner;
+    task->leaf_count = count - inner;
+}
+
+/// One work-item: prefix sums over the level.
+__kernel void number_wide_nodes(uint level_begin, uint level_end, GLOBAL CollapseState *state, GLOBAL WideTask *tasks) {
+    if (get_global_id(0) != 0) {
+        return;
+    }
+    CollapseState next = *state;
+    for (uint index = level_begin; index < level_end; ++index) {
+        tasks[index].first_inner = next.node_count;
+        tasks[index].first_leaf = next.leaf_count;
+        next.node_count += tasks[index].inner_count;
+        next.leaf_count += tasks[index].leaf_count;
+    }
+    *state = next;
+}
+
+__kernel void link_wide_nodes(uint level_begin, uint level_end, GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
+                              GLOBAL WideLeaf *leaves) {
+    const uint index = level_begin + (uint)get_global_id(0);
+    if (index >= level_end) {
+        return;
+    }
+    GLOBAL const WideTask *task = tasks + index;
+    GLOBAL WideNode *wide = wide_nodes + index;
+    uint inner = task->first_inner;
+    uint leaf = task->first_leaf;
+    for (uint lane = 0; lane < task->inner_count + task->leaf_count; ++lane) {
+        const uint link = wide->child[lane];
+        if ((link & BVH_LEAF_BIT) != 0) {
+            leaves[leaf].begin = task->child_begin[lane];
+            leaves[leaf].count = wide_leaf_count(link);
+            wide->child[lane] = link | leaf;
+            ++leaf;
+        } else {
+            tasks[inner].node = link;
+            tasks[inner].begin = task->child_begin[lane];
+            wide->child[lane] = inner;
+            ++inner;
+        }
+    }
+}
+
+__kernel void fill_blocks(GLOBAL const WideLeaf *leaves, uint leaf_count, GLOBAL const LeafTriangle *triangles,
+                          GLOBAL TriangleBlock *blocks) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= leaf_count) {
+        return;
+    }
+    const WideLeaf leaf = leaves[index];
+    GLOBAL TriangleBlock *block = blocks + index;
+    for (uint lane = 0; lane < WIDE_LANES; ++lane) {
+        GLOBAL const LeafTriangle *triangle = triangles + leaf.begin + (lane < leaf.count ? lane : 0u);
+        for (uint axis = 0; axis < 3; ++axis) {
+            for (uint vertex = 0; vertex < 3; ++vertex) {
+                block->coordinate[axis][vertex][lane] = triangle->coordinate[axis][vertex];
+            }
+        }
+        block->id[lane] = triangle->id;
+    }
+}
+
+__kernel void copy_wide_nodes(GLOBAL const WideNode *scratch, uint node_count, GLOBAL WideNode *wide_nodes) {
+    const uint index = (uint)get_global_id(0);
+    if (index < node_count) {
+        wide_nodes[index] = scratch[index];
+    }
+}
