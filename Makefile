@@ -28,6 +28,7 @@ reproduce-chapter4: programs
 	for experiment in $(EXPERIMENTS); do \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
 	done
+	build/bin/rtrays-experiment control experiments/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
 	$(MAKE) --no-print-directory report
 
 # Tables, plots and pages from the run.json files that are there.

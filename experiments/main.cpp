@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/compare.h"
+#include "experiments/convergence_control.h"
 #include "experiments/gate.h"
 #include "experiments/metrics.h"
 #include "experiments/report.h"
@@ -30,6 +31,7 @@ struct Arguments {
     RunOptions run;
     GateOptions gate;
     AgreeOptions agree;
+    ControlOptions control;
     fs::path image, reference;
     bool json = false;
     std::vector<fs::path> runs;
@@ -82,6 +84,15 @@ void declare(CLI::App &app, Arguments &arguments) {
     agree->add_option("--out", arguments.agree.out, "output folder; NAME.PROFILE by default");
     agree->add_option("--device", arguments.agree.device, "OpenCL device, as for rtrays-render");
     agree->add_flag("--quiet", arguments.agree.quiet, "no progress");
+
+    auto *control = app.add_subcommand("control", "what convergence control saves and how it biases, against renders without it");
+    control->add_option("FILE", arguments.control.description, "scenes, algorithms and errors (JSON)")->required();
+    control->add_option("--profile", arguments.control.profile, "quick or full")
+        ->check(CLI::IsMember({"quick", "full"}))
+        ->capture_default_str();
+    control->add_option("--out", arguments.control.out, "output folder; NAME.PROFILE by default");
+    control->add_option("--device", arguments.control.device, "OpenCL device, as for rtrays-render");
+    control->add_flag("--quiet", arguments.control.quiet, "no progress");
 }
 
 ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
@@ -102,6 +113,8 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
         write_exr(average_runs(images), arguments.average);
     } else if (app.got_subcommand("report")) {
         return static_cast<ExitCode>(make_report(arguments.folders));
+    } else if (app.got_subcommand("control")) {
+        fmt::print("{}\n", run_control(arguments.control).string());
     } else if (app.got_subcommand("agree")) {
         return run_agreement(arguments.agree);
     } else {

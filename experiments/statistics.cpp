@@ -65,6 +65,16 @@ std::vector<double> inverse_variances(const std::vector<std::vector<double>> &lo
 
 }  // namespace
 
+Interval mean_interval(const std::vector<double> &values, double confidence) {
+    if (values.size() < 2) {
+        throw run_error(fmt::format("{} values are too few for an interval of their mean", values.size()));
+    }
+    const boost::math::students_t_distribution<double> t(static_cast<double>(values.size() - 1));
+    const double reach = boost::math::quantile(t, 0.5 + confidence / 2) * standard_error(values);
+    const double center = mean(values);
+    return {center, center - reach, center + reach};
+}
+
 double quantile(std::vector<double> values, double p) {
     if (values.empty()) {
         throw run_error("quantile of an empty sample");

@@ -13,6 +13,9 @@ struct Interval {
     double high = 0;
 };
 
+/// The mean of independent values, at least 2, with its interval by Student's t. Throws `Error` (run failed) for fewer.
+Interval mean_interval(const std::vector<double> &values, double confidence);
+
 /// Linear interpolation between order statistics (Hyndman & Fan 1996, type 7); `p` in [0, 1].
 /// Throws `Error` (run failed) on an empty sample.
 double quantile(std::vector<double> values, double p);

@@ -107,6 +107,39 @@ class Program(unittest.TestCase):
     def test_report_of_an_empty_folder(self):
         self.refused(2, "run.json", "report", self.folder)
 
+    def control(self, **changes):
+        """The shipped comparison of convergence control with absolute paths and changes, and a profile of a few seconds."""
+        document = json.loads((EXPERIMENTS / "convergence_control.json").read_text())
+        document["folder"] = str(EXPERIMENTS.parent / "scenes")
+        document["reference"]["folder"] = str(REFERENCES)
+        for curve in document["curves"]:
+            curve["settings"] = {"integrator.convergence.start": 8, "integrator.convergence.interval": 4}
+        document["errors"] = [0.5]
+        document["profiles"]["quick"] = {"size": 16, "spp": 16, "seeds": 8, "scenes": ["cornell_box"]}
+        document.update(changes)
+        path = self.folder / "control.json"
+        path.write_text(json.dumps(document))
+        return path
+
+    def test_control(self):
+        out = self.folder / "out"
+        done = self.call("control", self.control(), "--out", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = out / "convergence_control.md"
+        self.assertEqual(done.stdout.strip(), str(table))
+        self.assertEqual(sorted(path.name for path in out.iterdir()), ["convergence_control.json", table.name])
+        rows = json.loads((out / "convergence_control.json").read_text())["rows"]
+        self.assertEqual([row["algorithm"] for row in rows], ["path_tracing", "truncated_bdpt"])
+        for row in rows:
+            self.assertTrue(0 < row["live"] < 1)
+            self.assertTrue(0.5 < row["paths"] < 1)
+            self.assertIn(f"| cornell_box | {row['algorithm']} | 0.5 |", table.read_text())
+
+    def test_control_is_refused(self):
+        self.refused(4, "rtrays-reference", "control", self.control(reference={"folder": ".", "engine": "embree"}))
+        self.refused(2, "does not stop pixels", "control", self.control(curves=[{"algorithm": "bdpt"}]))
+        self.refused(2, "errors", "control", self.control(errors=[0]))
+
     def test_run_resume_and_report(self):
         """A run stopped by SIGTERM continues with the same command and has every seed once."""
         profiles = json.loads((EXPERIMENTS / "cornell_diffuse.json").read_text())["profiles"]

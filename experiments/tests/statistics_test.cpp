@@ -34,6 +34,14 @@ TEST(MedianInterval, UsesTheTabulatedRanks) {
     EXPECT_THROW(median_interval({1, 2, 3, 4, 5}), Error);
 }
 
+TEST(MeanInterval, IsStudents) {
+    const auto interval = mean_interval({1, 2, 3}, 0.99);  // standard error 1 / sqrt(3), t of 2 degrees 9.924843
+    EXPECT_DOUBLE_EQ(interval.value, 2);
+    EXPECT_NEAR(interval.low, 2 - 9.924843 / std::sqrt(3.0), 1e-5);
+    EXPECT_NEAR(interval.high, 2 + 9.924843 / std::sqrt(3.0), 1e-5);
+    EXPECT_THROW(mean_interval({1}, 0.99), Error);
+}
+
 TEST(WeightedSlope, ExactLineAndWeights) {
     EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {1, 3, 5}, {1, 5, 2}), 2);
     EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {0, 1, 7}, {1, 1, 0}), 1);  // weight 0 leaves a point out

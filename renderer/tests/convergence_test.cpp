@@ -75,7 +75,8 @@ TEST(Convergence, GivesTheSameBitsHoweverTheWorkIsCut) {
         ASSERT_EQ(stops.size(), (end - start) / interval + 2) << "pixels stop at every check, and some not at all";
         std::vector<std::string> assignments = {"device.group_size=16", "device.stream_capacity=3000"};
         if (algorithm == std::string("path_tracing")) {  // the camera pass of both
-            assignments.insert(assignments.end(), {"device.stream_chunk=7", "device.path_layout=arrays", "device.features=all"});
+            assignments.insert(assignments.end(), {"device.stream_chunk=7", "device.path_layout=arrays", "device.features=all",
+                                                   "device.pipeline=megakernel"});
         }
         for (const std::string &assignment : assignments) {
             expect_same(render(controlled({assignment}, algorithm), {{0, end}}), whole, algorithm + (" " + assignment));

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/convergence_control.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "experiments/agreement.h"
+#include "experiments/description.h"
+#include "experiments/document.h"
+#include "experiments/host.h"
+#include "experiments/ladder.h"
+#include "experiments/metrics.h"
+#include "experiments/references.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+#include "renderer/device/context.h"
+#include "renderer/pipeline/render_session.h"
+#include "rtrays_commit.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Description {
+    std::string name;
+    DescriptionFile file;
+    std::vector<fs::path> scenes;
+    std::vector<RenderSettings> curves;  ///< with size
+    std::vector<double> errors;
+    int size = 0;
+    uint64_t spp = 0;
+    uint32_t seeds = 0;
+};
+
+Description load(const fs::path &path, const std::string &profile) {
+    Description description{{}, load_description(path, "control.schema.json"), {}, {}, {}, 0, 0, 0};
+    const Json &json = description.file.json, &chosen = json.at("profiles").at(profile);
+    json.at("name").get_to(description.name);
+    json.at("errors").get_to(description.errors);
+    chosen.at("size").get_to(description.size);
+    chosen.at("spp").get_to(description.spp);
+    chosen.at("seeds").get_to(description.seeds);
+    for (const Json &scene : chosen.at("scenes")) {
+        description.scenes.push_back(description.file.resolve(json.at("folder")) / scene.get<std::string>() /
+                                     "scene.json");
+    }
+    for (const Json &curve : json.at("curves")) {
+        RenderSettings settings = parse_render_settings(curve);
+        settings.width = settings.height = description.size;
+        settings.variance = false;
+        description.curves.push_back(settings);
+    }
+    return description;
+}
+
+RenderSettings with_error(RenderSettings settings, double error) {
+    apply_setting(settings, fmt::format("integrator.convergence.error={}", error));
+    return settings;
+}
+
+double sum_of(const Image &image) {
+    double sum = 0;
+    for (const std::string &channel : rgb_names()) {
+        for (const float value : image.channel(channel)) {
+            sum += static_cast<double>(value);
+        }
+    }
+    return sum;
+}
+
+/// The mean of the images, as one that is known exactly.
+Image mean_of(const std::vector<ControlledRender> &renders) {
+    Image mean = Image::rgb(renders.front().image.width(), renders.front().image.height());
+    for (const std::string &name : rgb_names("variance")) {
+        mean.add_channel(name);
+    }
+    for (const std::string &name : rgb_names()) {
+        std::vector<float> &values = mean.channel(name);
+        for (size_t i = 0; i < values.size(); ++i) {
+            double sum = 0;
+            for (const ControlledRender &render : renders) {
+                sum += static_cast<double>(render.image.channel(name)[i]);
+            }
+            values[i] = static_cast<float>(sum / static_cast<double>(renders.size()));
+        }
+    }
+    return mean;
+}
+
+/// `base` + with - without.
+Image shifted(const Image &base, const Image &with, const Image &without) {
+    Image image = Image::rgb(base.width(), base.height());
+    for (const std::string &name : rgb_names()) {
+        std::vector<float> &values = image.channel(name);
+        for (size_t i = 0; i < values.size(); ++i) {
+            values[i] = base.channel(name)[i] + (with.channel(name)[i] - without.channel(name)[i]);
+        }
+    }
+    return image;
+}
+
+ControlledRender render(RenderSession &session, const RenderSettings &settings, uint32_t seed, uint64_t spp) {
+    session.restart(seed);
+    render_whole(session, 0, spp);
+    ControlledRender result;
+    result.image = session.develop();
+    result.seconds = session.stats().device_seconds;
+    result.paths = static_cast<double>(session.stats().samples);
+    if (has_light_pass(settings)) {
+        result.paths += static_cast<double>(spp) * light_paths_per_sample(settings);
+    }
+    const nlohmann::json report = session.report();
+    if (report.contains("convergence") && !report.at("convergence").at("checks").empty()) {
+        result.live = report.at("convergence").at("checks").back().at("live");
+    }
+    return result;
+}
+
+/// The rows of one scene and curve, one for each error.
+Json measure(const Description &description, const Scene &scene, const RenderSettings &curve,
+             const Image &reference, DeviceContext &device, const std::function<void()> &advance) {
+    std::vector<RenderSettings> settings = {curve};
+    for (const double error : description.errors) {
+        settings.push_back(with_error(curve, error));
+    }
+    std::vector<RenderSession> sessions;
+    for (const RenderSettings &s : settings) {
+        sessions.emplace_back(scene, s, device);
+    }
+    std::vector<std::vector<ControlledRender>> renders(sessions.size());
+    for (uint32_t seed = 1; seed <= description.seeds; ++seed) {
+        // There and back, so that what else the machine does falls on all alike.
+        for (size_t turn = 0; turn < sessions.size(); ++turn) {
+            const size_t i = seed % 2 == 0 ? sessions.size() - 1 - turn : turn;
+            renders[i].push_back(render(sessions[i], settings[i], seed, description.spp));
+            advance();
+        }
+    }
+    Json rows = Json::array();
+    for (size_t i = 0; i < description.errors.size(); ++i) {
+        Json row = compare_control(renders[i + 1], renders.front(), reference);
+        row["scene"] = scene.name();
+        row["algorithm"] = curve.algorithm;
+        row["error"] = description.errors[i];
+        row["settings"] = image_settings(settings[i + 1]);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::string table_of(const Json &document) {
+    std::string table = fmt::format(
+        "Convergence control (thesis 3.3.7) against the same renders without it: {0} x {0} pixels, at most "
+        "{1} samples each, "
+        "{2} seeds. A pixel that stops by its own estimate is biased: *bias* is the difference of the mean, "
+        "%, with its 99 % "
+        "interval; *blocks* how many of the tests by blocks of 16 x 16 pixels and channel see it (Holm, "
+        "0.01). *live*: pixels "
+        "that went on to the end. *paths*, *time*: with over without, %. *gain*: how many times fewer paths "
+        "than samples spread "
+        "evenly need for the RMSE that is reached, with its 99 % interval; below 1 is a loss.\n\n"
+        "| scene | algorithm | error | live, % | paths, % | time, % | RMSE | without | gain | from | to | "
+        "bias, % | from | to | "
+        "blocks |\n"
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | "
+        "---: |\n",
+        document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
+        document.at("seeds").get<uint32_t>());
+    const auto number = [](const Json &json, const char *key) { return json.at(key).get<double>(); };
+    for (const Json &row : document.at("rows")) {
+        const Json &gain = row.at("efficiency"), &bias = row.at("bias"), &mean = bias.at("mean");
+        table += fmt::format(
+            "| {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.3g} | {:.3g} | {:.2f} | {:.2f} | {:.2f} | "
+            "{:+.3f} | {:+.3f} | {:+.3f} | {} of {} |\n",
+            row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(), number(row, "error"),
+            100 * number(row, "live"), 100 * number(row, "paths"), 100 * number(row.at("seconds"), "value"),
+            number(row, "rmse"), number(row, "rmse_without"), number(gain, "value"), number(gain, "low"),
+            number(gain, "high"), 100 * number(mean, "value"), 100 * number(mean, "low"),
+            100 * number(mean, "high"), bias.at("rejected").get<size_t>(), bias.at("tests").get<size_t>());
+    }
+    return table;
+}
+
+}  // namespace
+
+nlohmann::json compare_control(const std::vector<ControlledRender> &with,
+                               const std::vector<ControlledRender> &without, const Image &reference) {
+    if (with.size() != without.size() || with.size() < 8) {
+        throw run_error(fmt::format("a bias is told from at least 8 pairs of renders; there are {} and {}",
+                                    with.size(), without.size()));
+    }
+    const auto n = static_cast<double>(with.size());
+    const Image base = mean_of(without);
+    const double scale = sum_of(base);
+    std::vector<Image> batches;
+    std::vector<double> seconds, bias, cost_with, cost_without;
+    double paths = 0, paths_without = 0, live = 0, mse = 0, mse_without = 0;
+    for (size_t i = 0; i < with.size(); ++i) {
+        const double own = compute_metrics(with[i].image, reference).mse,
+                     other = compute_metrics(without[i].image, reference).mse;
+        mse += own / n;
+        mse_without += other / n;
+        cost_with.push_back(own * with[i].paths);
+        cost_without.push_back(other * without[i].paths);
+        paths += with[i].paths;
+        paths_without += without[i].paths;
+        live += with[i].live / n;
+        seconds.push_back(with[i].seconds / without[i].seconds);
+        bias.push_back((sum_of(with[i].image) - sum_of(without[i].image)) / scale);
+        batches.push_back(shifted(base, with[i].image, without[i].image));
+    }
+    const Agreement blocks = test_agreement(batches, base);
+    const Interval change = paired_error_ratio(cost_without, cost_with, 0.995);  // both ends together: 99 %
+    return {{"paths", paths / paths_without},
+            {"live", live},
+            {"seconds", to_json(median_interval(seconds))},
+            {"rmse", std::sqrt(mse)},
+            {"rmse_without", std::sqrt(mse_without)},
+            {"efficiency", to_json(Interval{1 + change.value, 1 + change.low, 1 + change.high})},
+            {"bias",
+             {{"mean", to_json(mean_interval(bias, 0.99))},
+              {"tests", blocks.tests},
+              {"rejected", blocks.rejected},
+              {"largest_z", blocks.largest_z},
+              {"largest_z_at", blocks.largest_z_at}}}};
+}
+
+fs::path run_control(const ControlOptions &options) {
+    const Description description = load(options.description, options.profile);
+    const fs::path out =
+        options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
+    const fs::path partial = out / "partial";
+    fs::create_directories(partial);
+    const Json &wanted = description.file.json.at("reference");
+    std::vector<Scene> scenes;
+    std::vector<Image> references;
+    for (const fs::path &path : description.scenes) {
+        scenes.push_back(load_scene(path.string()));
+        references.push_back(load_reference({description.file.resolve(wanted.at("folder")),
+                                             scenes.back().name(), scenes.back().hash(), wanted.at("engine"),
+                                             description.size, description.size, path.string()})
+                                 .reference.image);
+    }
+    DeviceContext device(options.device);
+    Json document = {
+        {"schema_version", 1},          {"commit", RTRAYS_COMMIT},    {"dirty", RTRAYS_DIRTY},
+        {"device", device.info().name}, {"profile", options.profile}, {"size", description.size},
+        {"spp", description.spp},       {"seeds", description.seeds}, {"load_average_start", load_average()},
+        {"rows", Json::array()}};
+    const uint64_t renders_of_row = description.seeds * (description.errors.size() + 1);
+    Progress progress(description.name, renders_of_row * scenes.size() * description.curves.size(), "renders",
+                      options.quiet);
+    uint64_t finished = 0;
+    progress.update(finished);
+    for (size_t scene = 0; scene < scenes.size(); ++scene) {
+        for (const RenderSettings &curve : description.curves) {
+            const uint64_t before = finished;
+            const fs::path done = partial / fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm);
+            const Json key = {scenes[scene].hash(), image_settings(curve), description.errors,
+                              description.size,     description.spp,       description.seeds,
+                              device.info().name,   RTRAYS_VERSION};
+            Json result = fs::exists(done) ? load_json(done) : Json::object();
+            if (result.value("key", Json()) != key) {
+                result = {{"key", key},
+                          {"rows", measure(description, scenes[scene], curve, references[scene], device,
+                                           [&] { progress.update(++finished); })}};
+                write_file(done, result.dump(1) + "\n");
+            }
+            document["rows"].insert(document["rows"].end(), result.at("rows").begin(),
+                                    result.at("rows").end());
+            progress.update(finished = before + renders_of_row);
+        }
+    }
+    document["load_average_end"] = load_average();
+    const fs::path table = out / (description.name + ".md");
+    write_file(out / (description.name + ".json"), document.dump(1) + "\n");
+    write_file(table, table_of(document));
+    fs::remove_all(partial);
+    return table;
+}
+
+}  // namespace rtrays

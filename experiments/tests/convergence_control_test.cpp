@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The comparison of renders with and without convergence control on images whose bias and cost are known.
+#include "experiments/convergence_control.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "renderer/base/error.h"
+
+namespace rtrays {
+namespace {
+
+constexpr int size = 48;
+constexpr int seeds = 10;
+
+Image grey(float value) {
+    Image image = Image::rgb(size, size);
+    for (const std::string &name : rgb_names()) {
+        image.channel(name).assign(image.pixel_count(), value);
+    }
+    return image;
+}
+
+/// Adds independent normal noise to every pixel.
+Image with_noise(Image image, float deviation, uint32_t seed) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<float> noise(0.0f, deviation);
+    for (const std::string &name : rgb_names()) {
+        for (float &value : image.channel(name)) {
+            value += noise(generator);
+        }
+    }
+    return image;
+}
+
+/// Scales channel G in the block of 16 x 16 pixels at (16, 32).
+Image with_biased_block(Image image, float factor) {
+    for (int y = 32; y < 48; ++y) {
+        for (int x = 16; x < 32; ++x) {
+            image.channel("G")[static_cast<size_t>(y * size + x)] *= factor;
+        }
+    }
+    return image;
+}
+
+std::vector<ControlledRender> without() {
+    std::vector<ControlledRender> renders;
+    for (uint32_t seed = 0; seed < seeds; ++seed) {
+        renders.push_back({with_noise(grey(2.0f), 0.2f, seed), 1000, 1.0 + 0.1 * seed, 1});
+    }
+    return renders;
+}
+
+/// The same with less work, and some noise of its own where pixels have stopped.
+std::vector<ControlledRender> stopped(float own_noise) {
+    std::vector<ControlledRender> renders = without();
+    for (uint32_t seed = 0; seed < seeds; ++seed) {
+        ControlledRender &render = renders[seed];
+        render = {with_noise(render.image, own_noise, 100 + seed), 250, render.seconds / 3, 0.25};
+    }
+    return renders;
+}
+
+TEST(ConvergenceControl, FindsNoBiasWhereThereIsNone) {
+    const nlohmann::json row = compare_control(stopped(0.05f), without(), grey(2.0f));
+    EXPECT_EQ(row["bias"]["rejected"], 0);
+    EXPECT_EQ(row["bias"]["tests"], 3 * (9 + 1));
+    const nlohmann::json mean = row["bias"]["mean"];
+    EXPECT_LT(mean["low"], 0);
+    EXPECT_GT(mean["high"], 0);
+    // Noise that both share does not widen it: 0.05 / 2 over sqrt(10 x 48 x 48 x 3) values, times t of 9
+    // degrees.
+    EXPECT_LT(mean["high"].get<double>() - mean["low"].get<double>(),
+              2 * 3.25 * 0.025 / std::sqrt(10.0 * 48 * 48 * 3) * 2);
+    EXPECT_DOUBLE_EQ(row["paths"], 0.25);
+    EXPECT_DOUBLE_EQ(row["live"], 0.25);
+    EXPECT_NEAR(row["seconds"]["value"], 1.0 / 3, 1e-12);
+}
+
+TEST(ConvergenceControl, FindsABiasWhereItIs) {
+    std::vector<ControlledRender> with = stopped(0.05f);
+    for (ControlledRender &render : with) {
+        render.image = with_biased_block(render.image, 0.99f);
+    }
+    const nlohmann::json row = compare_control(with, without(), grey(2.0f));
+    EXPECT_EQ(row["bias"]["rejected"], 2) << "the block and the whole of its channel";
+    EXPECT_EQ(row["bias"]["largest_z_at"], "G (16, 32)");
+    const nlohmann::json mean = row["bias"]["mean"];
+    const double bias = -0.01 / 27;  // one of nine blocks, one of three channels
+    EXPECT_LT(mean["low"], bias);
+    EXPECT_GT(mean["high"], bias);
+    EXPECT_LT(mean["high"], 0);
+}
+
+TEST(ConvergenceControl, ComparesErrorsAtEqualPaths) {
+    // The same error for a quarter of the paths; and one that samples spread evenly have at a quarter.
+    const nlohmann::json same = compare_control(stopped(0.0f), without(), grey(2.0f));
+    for (const char *end : {"value", "low", "high"}) {
+        EXPECT_NEAR(same["efficiency"][end], 4, 1e-9);
+    }
+    EXPECT_EQ(same["rmse"], same["rmse_without"]);
+    const nlohmann::json even = compare_control(stopped(0.2f * std::sqrt(3.0f)), without(), grey(2.0f));
+    EXPECT_LT(even["efficiency"]["low"], 1);
+    EXPECT_GT(even["efficiency"]["high"], 1);
+    EXPECT_NEAR(even["efficiency"]["value"], 1, 0.03);
+}
+
+TEST(ConvergenceControl, NeedsEightPairs) {
+    std::vector<ControlledRender> renders = without();
+    renders.resize(7);
+    EXPECT_THROW(compare_control(renders, renders, grey(2.0f)), Error);
+}
+
+}  // namespace
+}  // namespace rtrays
