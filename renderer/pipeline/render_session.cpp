@@ -16,6 +16,7 @@
 #include "renderer/integrators/count_rays.h"
 #include "renderer/integrators/megakernel.h"
 #include "renderer/pipeline/convergence_control.h"
+#include "renderer/pipeline/pilot.h"
 #include "renderer/pipeline/scene_buffers.h"
 #include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
@@ -81,6 +82,16 @@ RenderSettings complete(RenderSettings settings, const Scene &scene) {
         throw input_error(fmt::format("{} x {} pixels are more than 2^30", settings.width, settings.height));
     }
     return settings;
+}
+
+/// Replaces LIGHT_PATHS_AUTO by what a pilot chooses.
+Pilot settle_light_paths(RenderSettings &settings, const Scene &scene, DeviceContext &device) {
+    if (settings.light_paths != LIGHT_PATHS_AUTO) {
+        return {};
+    }
+    Pilot pilot = choose_light_paths(scene, settings, device);
+    settings.light_paths = pilot.light_paths;
+    return pilot;
 }
 
 /// A pass of the algorithm, compiled, with the film it adds to.
@@ -149,11 +160,12 @@ struct RenderSession::State {
     State(const Scene &scene, const RenderSettings &requested, DeviceContext &device_context)
         : device(device_context),
           settings(complete(requested, scene)),
+          pilot(settle_light_paths(settings, scene, device_context)),
           layout(stream_layout(settings, device_context.info())),
           numbers(integrator_settings(settings)),
           compiled(compile_scene(scene, compile_settings(settings))) {
         std::vector<Pass> all_passes =
-            algorithm_passes(settings.algorithm, select_features(compiled, settings, device.info()),
+            algorithm_passes(scheduled_algorithm(settings), select_features(compiled, settings, device.info()),
                              compiled.lighting.light_count, numbers.light_vertices, settings.strategies_apart);
         if (settings.pipeline == "megakernel") {
             all_passes = megakernel_passes(std::move(all_passes));
@@ -454,7 +466,7 @@ struct RenderSession::State {
     }
 
     double device_seconds() const {
-        double seconds = 0;
+        double seconds = pilot.seconds;
         for (const CompiledPass &pass : passes) {
             seconds += total_seconds(pass.profile);
         }
@@ -479,6 +491,7 @@ struct RenderSession::State {
 
     DeviceContext &device;
     RenderSettings settings;
+    Pilot pilot;  ///< by which the number of light paths was chosen, if one was
     StreamLayout layout;
     IntegratorSettings numbers;
     CompiledScene compiled;
@@ -596,6 +609,8 @@ RenderStats RenderSession::stats() const {
     stats.device_seconds = state_->device_seconds();
     stats.wall_seconds = state_->wall_seconds;
     stats.samples = state_->samples;
+    const StreamCounters counters = state_->counters.read().front();
+    stats.rays = counters.nearest_rays + counters.shadow_rays;
     return stats;
 }
 
@@ -627,6 +642,13 @@ nlohmann::json RenderSession::report() const {
         {"rays", {{"nearest", counters.nearest_rays}, {"shadow", counters.shadow_rays}}},
         {"rounds", counters.iterations},
     };
+    for (const PilotTrial &trial : s.pilot.trials) {
+        report["pilot"]["trials"].push_back(
+            {{"light_paths_per_pixel", trial.per_pixel}, {"variance", trial.variance}, {"rays_per_pixel", trial.rays}});
+    }
+    if (!s.pilot.trials.empty()) {
+        report["pilot"].update({{"light_paths", s.pilot.light_paths}, {"seconds", s.pilot.seconds}});
+    }
     uint32_t largest_path = 0;
     for (const CompiledPass &pass : s.passes) {
         const auto add_programs = [&](const std::map<std::string, Program> &programs) {

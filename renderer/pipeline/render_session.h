@@ -19,9 +19,10 @@ class DeviceContext;
 struct RenderStats {
     double compile_seconds = 0;  ///< programs built or loaded, and the first enqueue of every kernel
     double bvh_seconds = 0;      ///< device time of the BVH build
-    double device_seconds = 0;   ///< device time of all stages of `render` so far
+    double device_seconds = 0;   ///< device time of all stages of `render` so far, and of the pilot, if there was one
     double wall_seconds = 0;     ///< wall time of `render` so far; compilation and BVH build come before it
     uint64_t samples = 0;        ///< camera paths; where pixels are stopped: that were traced
+    uint64_t rays = 0;           ///< closest-hit and shadow rays of `render` so far
 };
 
 /// One scene on one device: compiles the scene and the kernels it needs, accumulates sample ranges in a film and

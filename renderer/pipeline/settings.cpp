@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <variant>
 
@@ -25,6 +26,7 @@ struct TextSetting {
 struct CountSetting {
     uint32_t RenderSettings::*field;
     uint32_t largest;
+    std::map<std::string, uint32_t> names = {};  // of special values
 };
 struct NumberSetting {
     float RenderSettings::*field;
@@ -58,7 +60,8 @@ const std::vector<Setting> &setting_table() {
          "every pixel, the first in its centre, for ray_casting and whitted, which take no others"},
         {"integrator.seen_emitters", TextSetting{&S::seen_emitters, {"mis", "camera"}},
          "bdpt, truncated_bdpt: emitters seen directly by both passes, or by camera paths alone"},
-        {"integrator.light_paths", CountSetting{&S::light_paths, 1u << 30}, "per sample of the image, 0: as many as pixels"},
+        {"integrator.light_paths", CountSetting{&S::light_paths, 1u << 30, {{"pixels", LIGHT_PATHS_LIKE_PIXELS}, {"auto", LIGHT_PATHS_AUTO}}},
+         "per sample of the image; pixels: as many as those; auto, of truncated_bdpt: as many as pay, or none, by a pilot"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
          "of bdpt: vertices kept of each light path; paths of more scattering events than that and one have the strategies "
          "of truncated_bdpt"},
@@ -100,6 +103,11 @@ std::string value_text(const RenderSettings &settings, const Setting &setting) {
         return settings.*text->field;
     }
     if (const auto *count = std::get_if<CountSetting>(&setting.kind)) {
+        for (const auto &[name, value] : count->names) {
+            if (settings.*count->field == value) {
+                return name;
+            }
+        }
         return fmt::format("{}", settings.*count->field);
     }
     return fmt::format("{}", settings.*std::get<NumberSetting>(setting.kind).field);
@@ -204,7 +212,10 @@ void apply_setting(RenderSettings &settings, const std::string &assignment) {
         require_value(*found, *text, value);
         settings.*text->field = value;
     } else if (const auto *count = std::get_if<CountSetting>(&found->kind)) {
-        settings.*count->field = parse_number<uint32_t>(assignment, value, 0, count->largest, false);
+        const auto named = count->names.find(value);
+        settings.*count->field = named != count->names.end()
+                                     ? named->second
+                                     : parse_number<uint32_t>(assignment, value, 0, count->largest, false);
     } else {
         const auto &number = std::get<NumberSetting>(found->kind);
         settings.*number.field = parse_number<float>(assignment, value, number.above, number.below, true, number.or_zero);
@@ -232,9 +243,14 @@ void require_consistent(const RenderSettings &settings) {
         throw input_error(fmt::format("integrator.light_selection={}: {} draws no light, it joins every point to all of them",
                                       settings.light_selection, settings.algorithm));
     }
-    if (settings.algorithm == "bdpt" && settings.light_paths != 0) {
-        throw input_error(fmt::format("integrator.light_paths={}: bdpt joins every camera path to a light path of its own",
-                                      settings.light_paths));
+    if (settings.algorithm == "bdpt" && settings.light_paths != LIGHT_PATHS_LIKE_PIXELS) {
+        throw input_error("integrator.light_paths: bdpt joins every camera path to a light path of its own");
+    }
+    if (settings.light_paths == LIGHT_PATHS_AUTO && settings.algorithm != "truncated_bdpt") {
+        throw input_error(fmt::format("integrator.light_paths=auto: {} has no choice; truncated_bdpt has", settings.algorithm));
+    }
+    if (settings.light_paths == 0 && settings.algorithm == "light_tracing") {
+        throw input_error("integrator.light_paths=0: light_tracing has nothing else");
     }
     if (settings.algorithm == "bdpt" && settings.passes != "all") {
         throw input_error(fmt::format("the passes of bdpt share their light paths and are not rendered apart: '{}'",
@@ -298,13 +314,20 @@ std::string describe_settings() {
     return description;
 }
 
-bool has_light_pass(const RenderSettings &settings) { return algorithm_of(settings).from_light; }
+std::string scheduled_algorithm(const RenderSettings &settings) {
+    return settings.algorithm == "truncated_bdpt" && settings.light_paths == 0 ? "path_tracing" : settings.algorithm;
+}
+
+bool has_light_pass(const RenderSettings &settings) {
+    return algorithm_of(settings).from_light && settings.light_paths != 0;
+}
 
 bool has_convergence_control(const RenderSettings &settings) { return settings.convergence_error > 0; }
 
 uint32_t light_paths_per_sample(const RenderSettings &settings) {
-    return settings.light_paths > 0 ? settings.light_paths
-                                    : static_cast<uint32_t>(settings.width) * static_cast<uint32_t>(settings.height);
+    return settings.light_paths != LIGHT_PATHS_LIKE_PIXELS
+               ? settings.light_paths
+               : static_cast<uint32_t>(settings.width) * static_cast<uint32_t>(settings.height);
 }
 
 IntegratorSettings integrator_settings(const RenderSettings &settings) {
@@ -343,7 +366,7 @@ CompileSettings compile_settings(const RenderSettings &settings) {
 
 FeatureMask settings_features(const RenderSettings &settings) {
     const Algorithm &algorithm = algorithm_of(settings);
-    const bool both_ways = algorithm.from_camera && algorithm.from_light;
+    const bool both_ways = algorithm.from_camera && has_light_pass(settings);
     return FeatureMask()
         .with(Feature::implicit_light, algorithm.from_camera && settings.strategies != "explicit")
         .with(Feature::explicit_light, algorithm.from_camera && settings.strategies != "implicit")

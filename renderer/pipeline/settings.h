@@ -12,6 +12,10 @@
 
 namespace rtrays {
 
+/// Values of RenderSettings::light_paths: as many as pixels; of truncated_bdpt, as many as pay (pipeline/pilot.h).
+constexpr uint32_t LIGHT_PATHS_LIKE_PIXELS = 0xffffffffu;
+constexpr uint32_t LIGHT_PATHS_AUTO = 0xfffffffeu;
+
 /// Everything a render depends on besides the scene and the device. `integrator.*` and `device.*` settings have
 /// the names of their fields.
 struct RenderSettings {
@@ -27,7 +31,7 @@ struct RenderSettings {
     std::string strategies = "mis";         ///< implicit | explicit | mis; of path_tracing
     std::string sampler = "independent";    ///< independent | sobol | regular
     std::string seen_emitters = "mis";      ///< mis | camera; of bdpt and truncated_bdpt
-    uint32_t light_paths = 0;               ///< per sample of the image, 0: as many as pixels
+    uint32_t light_paths = LIGHT_PATHS_LIKE_PIXELS;  ///< per sample of the image; also LIGHT_PATHS_AUTO
     uint32_t bdpt_vertices = 8;             ///< of bdpt: vertices kept of each light path; paths of one scattering event more
                                             ///< are the longest that all strategies find
     float beta = 2.0f;                      ///< exponent of the power heuristic, > 0
@@ -76,13 +80,16 @@ const std::vector<std::string> &algorithm_names();
 
 // Of consistent settings:
 
+/// The algorithm that is run: truncated_bdpt without light paths is path_tracing.
+std::string scheduled_algorithm(const RenderSettings &settings);
+
 /// Whether the algorithm traces paths from the lights: its image has splats.
 bool has_light_pass(const RenderSettings &settings);
 
 /// Whether pixels are stopped as they converge, which biases the image.
 bool has_convergence_control(const RenderSettings &settings);
 
-/// Light paths per sample of the image, in algorithms that trace some.
+/// Light paths per sample of the image, in algorithms that trace some. LIGHT_PATHS_AUTO must have been replaced.
 uint32_t light_paths_per_sample(const RenderSettings &settings);
 
 /// The numbers as the stages take them.

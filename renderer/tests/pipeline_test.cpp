@@ -155,7 +155,7 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
     settings.passes = "all";
     settings.light_paths = 7;
     expect_input_error("a light path of its own", [&] { render("all"); });
-    settings.light_paths = 0;
+    settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
     settings.algorithm = "light_tracing";
     expect_input_error("light_tracing has no pass 'camera'", [&] { render("camera"); });
 }
