@@ -111,6 +111,8 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
     copy_subtrees_ = Kernel(place, "copy_subtrees", group);
     if (parameters.layout == BvhLayout::wide8) {
         collapser_.emplace(device, group);
+    } else if (parameters.layout == BvhLayout::bvh2_stackless) {
+        linearizer_.emplace(device, group);
     }
 }
 
@@ -176,7 +178,7 @@ Bvh BvhBuilder::build(const Buffer<float> &positions, const Buffer<uint32_t> &in
     if (collapser_) {
         return collapser_->collapse(bvh);
     }
-    return bvh;
+    return linearizer_ ? linearizer_->linearize(std::move(bvh)) : std::move(bvh);
 }
 
 Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {

@@ -9,6 +9,7 @@
 
 #include "renderer/bvh/bvh.h"
 #include "renderer/bvh/collapse.h"
+#include "renderer/bvh/linearize.h"
 #include "renderer/device/kernel.h"
 
 namespace rtrays {
@@ -65,6 +66,7 @@ class BvhBuilder {
     Kernel build_subtrees_;
     Kernel place_subtrees_, copy_top_nodes_, copy_subtrees_;
     std::optional<BvhCollapser> collapser_;
+    std::optional<BvhLinearizer> linearizer_;
 };
 
 }  // namespace rtrays

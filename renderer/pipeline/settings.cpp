@@ -88,7 +88,7 @@ const std::vector<Setting> &setting_table() {
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
         {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}}, "path states in memory"},
-        {"device.bvh_layout", TextSetting{&S::bvh_layout, bvh_layout_values()}, "nodes of two children or of eight; auto: by device"},
+        {"device.bvh_layout", TextSetting{&S::bvh_layout, bvh_layout_values()}, "nodes of two children, traversed with a stack or without, or of eight; auto: by device"},
         {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
          "a kernel for every block, or one that traces whole paths, of path_tracing"},
         {"device.count_rays", TextSetting{&S::count_rays, {"in_all", "by_depth"}},

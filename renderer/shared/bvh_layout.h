@@ -3,11 +3,13 @@
 #pragma once
 
 #include "renderer/shared/bvh_node.h"
+#include "renderer/shared/stackless_node.h"
 #include "renderer/shared/triangle.h"
 #include "renderer/shared/wide_node.h"
 
 #define BVH_LAYOUT_BVH2 0
-#define BVH_LAYOUT_WIDE8 1
+#define BVH_LAYOUT_STACKLESS 1
+#define BVH_LAYOUT_WIDE8 2
 
 #ifndef BVH_LAYOUT
 #define BVH_LAYOUT BVH_LAYOUT_BVH2
@@ -18,6 +20,10 @@
 #define BVH_NODE WideNode
 #define BVH_TRIANGLES TriangleBlock
 #define TRAVERSE_BVH traverse_wide
+#elif BVH_LAYOUT == BVH_LAYOUT_STACKLESS
+#define BVH_NODE StacklessNode
+#define BVH_TRIANGLES LeafTriangle
+#define TRAVERSE_BVH traverse_stackless
 #else
 #define BVH_NODE BvhNode
 #define BVH_TRIANGLES LeafTriangle

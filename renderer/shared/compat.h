@@ -134,6 +134,7 @@ DEVICE float as_float(uint bits) {
 }
 
 DEVICE float8 splat_float8(float x) { return float8{x, x, x, x, x, x, x, x}; }
+DEVICE float3 vload3(size_t, const float *p) { return {p[0], p[1], p[2]}; }
 DEVICE float8 vload8(size_t, const float *p) {
     float8 v;
     memcpy(&v, p, sizeof v);

@@ -22,6 +22,7 @@ inline float3 to_float3(const Eigen::Vector3f &v) {
 struct HostBvh {
     std::vector<BvhNode> nodes;
     std::vector<LeafTriangle> triangles;
+    std::vector<StacklessNode> stackless_nodes;
     std::vector<WideNode> wide_nodes;
     std::vector<TriangleBlock> blocks;
     BvhLayout layout;
@@ -30,6 +31,7 @@ struct HostBvh {
     explicit HostBvh(const Bvh &bvh)
         : nodes(bvh.nodes().read()),
           triangles(bvh.triangles().read()),
+          stackless_nodes(bvh.stackless_nodes().read()),
           wide_nodes(bvh.wide_nodes().read()),
           blocks(bvh.blocks().read()),
           layout(bvh.layout()),
@@ -38,8 +40,14 @@ struct HostBvh {
     /// trace(nodes, triangles) with those of the layout.
     template <typename Visit>
     auto visit(const Visit &trace) const {
-        return layout == BvhLayout::wide8 ? trace(wide_nodes.data(), blocks.data())
-                                          : trace(nodes.data(), triangles.data());
+        switch (layout) {
+        case BvhLayout::bvh2_stackless:
+            return trace(stackless_nodes.data(), triangles.data());
+        case BvhLayout::wide8:
+            return trace(wide_nodes.data(), blocks.data());
+        default:
+            return trace(nodes.data(), triangles.data());
+        }
     }
 
     Hit nearest(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,

@@ -2,20 +2,17 @@
 #pragma once
 
 #include "renderer/kernels/traversal/traversal_ray.h"
-#include "renderer/shared/bvh_node.h"
 
-/// Distance at which the ray enters a child's box, or INFINITY when it misses the box within [0, t_max].
+/// Distance at which the ray enters the box [lower, upper][x, y, z], or INFINITY when it misses the box within [0, t_max].
 /// Conservative (traversal_ray.h). Where 0 x infinity makes a slab distance NaN, the origin lies on a plane
 /// the ray runs along: the comparison is false, the other operand is kept, and the box counts as hit.
-DEVICE float intersect_box(GLOBAL const BvhNode *node, uint child, PRIVATE const TraversalRay *ray,
-                           float t_max) {
+DEVICE float intersect_box(GLOBAL const float (*bounds)[3], PRIVATE const TraversalRay *ray, float t_max) {
     float entry = 0.0f;
     float exit = t_max;
     for (uint axis = 0; axis < 3; ++axis) {
         const uint side = ray->entry_side[axis];
-        const float in = (node->bounds[child][side][axis] - ray->entry_origin[axis]) * ray->inverse[axis];
-        const float out =
-            (node->bounds[child][1u - side][axis] - ray->exit_origin[axis]) * ray->inverse[axis];
+        const float in = (bounds[side][axis] - ray->entry_origin[axis]) * ray->inverse[axis];
+        const float out = (bounds[1u - side][axis] - ray->exit_origin[axis]) * ray->inverse[axis];
         entry = in > entry ? in : entry;
         exit = out < exit ? out : exit;
     }

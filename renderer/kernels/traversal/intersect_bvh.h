@@ -10,6 +10,9 @@
 #if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_BVH2
 #include "renderer/kernels/traversal/traverse_bvh2.h"
 #endif
+#if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_STACKLESS
+#include "renderer/kernels/traversal/traverse_stackless.h"
+#endif
 #if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_WIDE8
 #include "renderer/kernels/traversal/traverse_wide.h"
 #endif
@@ -28,6 +31,7 @@
 
 #ifdef __cplusplus
 BVH_QUERIES(BvhNode, LeafTriangle, traverse_bvh2)
+BVH_QUERIES(StacklessNode, LeafTriangle, traverse_stackless)
 BVH_QUERIES(WideNode, TriangleBlock, traverse_wide)
 #else
 BVH_QUERIES(BVH_NODE, BVH_TRIANGLES, TRAVERSE_BVH)

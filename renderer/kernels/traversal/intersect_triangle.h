@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/kernels/traversal/traversal_ray.h"
+#include "renderer/shared/bvh_node.h"
 #include "renderer/shared/triangle.h"
 
 /// Programs that define this as 1 count what traversal does (trace_rays.cl); for the others counting is
@@ -76,4 +77,17 @@ DEVICE bool intersect_triangle(GLOBAL const LeafTriangle *triangle, PRIVATE cons
     hit->u = u;
     hit->v = v;
     return true;
+}
+
+/// The nearest hit at 0 < t < hit->t with the triangles of a leaf (bvh_node.h), if there is one, becomes the hit.
+DEVICE void intersect_leaf(GLOBAL const LeafTriangle *triangles, uint link, PRIVATE const TraversalRay *ray,
+                           PRIVATE Hit *hit) {
+    const uint first = bvh_leaf_first(link);
+    const uint end = first + bvh_leaf_count(link);
+    COUNT(*hit, triangles, end - first);
+    for (uint slot = first; slot < end; ++slot) {
+        if (intersect_triangle(triangles + slot, ray, hit->t, hit)) {
+            hit->slot = slot;
+        }
+    }
 }

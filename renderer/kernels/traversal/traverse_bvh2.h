@@ -31,8 +31,8 @@ DEVICE Hit traverse_bvh2(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle 
         if ((link & BVH_LEAF_BIT) == 0) {
             GLOBAL const BvhNode *node = nodes + link;
             COUNT(hit, nodes, 1u);
-            const float left = intersect_box(node, 0, &ray, hit.t);
-            const float right = intersect_box(node, 1, &ray, hit.t);
+            const float left = intersect_box(node->bounds[0], &ray, hit.t);
+            const float right = intersect_box(node->bounds[1], &ray, hit.t);
             const uint nearer = right < left ? 1u : 0u;
             const float near_entry = nearer ? right : left;
             const float far_entry = nearer ? left : right;
@@ -46,14 +46,7 @@ DEVICE Hit traverse_bvh2(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle 
                 continue;
             }
         } else {
-            const uint first = bvh_leaf_first(link);
-            const uint end = first + bvh_leaf_count(link);
-            COUNT(hit, triangles, end - first);
-            for (uint slot = first; slot < end; ++slot) {
-                if (intersect_triangle(triangles + slot, &ray, hit.t, &hit)) {
-                    hit.slot = slot;
-                }
-            }
+            intersect_leaf(triangles, link, &ray, &hit);
             if (any && hit.slot != NO_HIT) {
                 return hit;
             }
