@@ -189,6 +189,15 @@ TEST(Convergence, ATinyErrorStopsNothing) {
     }
 }
 
+TEST(Convergence, StopsTheSamePixelsWithoutSecondMoments) {
+    RenderSettings settings = controlled();
+    const FilmState film = render(settings, {{0, end}});
+    settings.variance = false;
+    const FilmState lean = render(settings, {{0, end}});
+    EXPECT_EQ(lean.convergence->stopped_at, film.convergence->stopped_at);
+    EXPECT_EQ(develop_film(lean).channel("G"), develop_film(film).channel("G"));
+}
+
 TEST(Convergence, WorksOnSobolSamples) {
     const FilmState film = render(controlled({"integrator.sampler=sobol"}), {{0, end}});
     expect_same(render(controlled({"integrator.sampler=sobol", "device.group_size=16"}), {{0, 50}, {50, end}}), film, "sobol");

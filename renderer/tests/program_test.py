@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
@@ -155,6 +156,18 @@ class Program(unittest.TestCase):
         stats.unlink()
         self.expect_error(2, ["from 0 on"], CORNELL, "-o", self.output(), "--samples", "8:16", *SMALL, *control)
         self.expect_error(2, ["bdpt does not stop"], CORNELL, "-o", self.output(), "--algorithm", "bdpt", *SMALL, *control)
+
+    def test_a_converged_image_ends_before_its_time(self):
+        stats = self.path / "stats.json"
+        furnace = SCENES / "analytic" / "furnace_050.json"  # no pixel of which is black
+        start = time.monotonic()
+        result = self.run_program(furnace, "-o", self.output(), "--time", 200, "-q", "--stats", stats, *SMALL,
+                                  "--set", "integrator.convergence.error=0.5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLess(time.monotonic() - start, 150)
+        convergence = json.loads(stats.read_text())["convergence"]
+        self.assertEqual(convergence["checks"][-1]["live"], 0)
+        self.assertGreaterEqual(convergence["camera_paths"], 200 * 16 * 16)
 
     def film(self, name, *arguments, **options):
         state = self.path / name
