@@ -14,7 +14,8 @@ namespace rtrays {
 /// What one render cost and came to.
 struct ControlledRender {
     Image image;
-    double paths = 0;    ///< camera and light paths
+    double paths = 0;    ///< camera paths
+    double rays = 0;     ///< of camera and light paths
     double seconds = 0;  ///< of the device
     double live = 1;     ///< share of the pixels that were not stopped
 };
@@ -23,12 +24,13 @@ struct ControlledRender {
 /// intervals. `with[i]` and `without[i]` have the same seed, and so the same samples as far as `with[i]`
 /// goes: their differences hold the bias and little noise.
 ///
-/// "paths" and "seconds" are ratios with over without, the latter a median with its 95 % interval.
-/// "efficiency" is how many times fewer paths control needs for the error it ends with than samples spread
-/// evenly, whose mean squared error falls as 1 / paths: (MSE x paths) without over with, geometric mean with
+/// "paths", "rays" and "seconds" are ratios with over without, the last a median with its 95 % interval.
+/// "efficiency" is how many times fewer rays control needs for the error it ends with than samples spread
+/// evenly, whose mean squared error falls as 1 / rays: (MSE x rays) without over with, geometric mean with
 /// its 99 % interval. "bias": "mean", the mean over pixels and channels of with - without, over that of
 /// `without`, with its 99 % interval (Student's t over the seeds); and of the blocks of 16 x 16 pixels and
-/// the whole, by channel, "tests", "rejected" (Holm, 0.01), "largest_z", "largest_z_at".
+/// the whole, by channel, "tests", "rejected" (Holm, 0.01), "undecided" (too skewed to be tested),
+/// "largest_z", "largest_z_at".
 ///
 /// Throws `Error` (run failed) for less than 8 seeds.
 nlohmann::json compare_control(const std::vector<ControlledRender> &with,

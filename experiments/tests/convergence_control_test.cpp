@@ -49,7 +49,7 @@ Image with_biased_block(Image image, float factor) {
 std::vector<ControlledRender> without() {
     std::vector<ControlledRender> renders;
     for (uint32_t seed = 0; seed < seeds; ++seed) {
-        renders.push_back({with_noise(grey(2.0f), 0.2f, seed), 1000, 1.0 + 0.1 * seed, 1});
+        renders.push_back({with_noise(grey(2.0f), 0.2f, seed), 1000, 8000, 1.0 + 0.1 * seed, 1});
     }
     return renders;
 }
@@ -59,7 +59,7 @@ std::vector<ControlledRender> stopped(float own_noise) {
     std::vector<ControlledRender> renders = without();
     for (uint32_t seed = 0; seed < seeds; ++seed) {
         ControlledRender &render = renders[seed];
-        render = {with_noise(render.image, own_noise, 100 + seed), 250, render.seconds / 3, 0.25};
+        render = {with_noise(render.image, own_noise, 100 + seed), 250, 1600, render.seconds / 3, 0.25};
     }
     return renders;
 }
@@ -76,6 +76,7 @@ TEST(ConvergenceControl, FindsNoBiasWhereThereIsNone) {
     EXPECT_LT(mean["high"].get<double>() - mean["low"].get<double>(),
               2 * 3.25 * 0.025 / std::sqrt(10.0 * 48 * 48 * 3) * 2);
     EXPECT_DOUBLE_EQ(row["paths"], 0.25);
+    EXPECT_DOUBLE_EQ(row["rays"], 0.2);
     EXPECT_DOUBLE_EQ(row["live"], 0.25);
     EXPECT_NEAR(row["seconds"]["value"], 1.0 / 3, 1e-12);
 }
@@ -95,14 +96,14 @@ TEST(ConvergenceControl, FindsABiasWhereItIs) {
     EXPECT_LT(mean["high"], 0);
 }
 
-TEST(ConvergenceControl, ComparesErrorsAtEqualPaths) {
-    // The same error for a quarter of the paths; and one that samples spread evenly have at a quarter.
+TEST(ConvergenceControl, ComparesErrorsAtEqualRays) {
+    // The same error for a fifth of the rays; and one that samples spread evenly have at a fifth.
     const nlohmann::json same = compare_control(stopped(0.0f), without(), grey(2.0f));
     for (const char *end : {"value", "low", "high"}) {
-        EXPECT_NEAR(same["efficiency"][end], 4, 1e-9);
+        EXPECT_NEAR(same["efficiency"][end], 5, 1e-9);
     }
     EXPECT_EQ(same["rmse"], same["rmse_without"]);
-    const nlohmann::json even = compare_control(stopped(0.2f * std::sqrt(3.0f)), without(), grey(2.0f));
+    const nlohmann::json even = compare_control(stopped(0.2f * std::sqrt(4.0f)), without(), grey(2.0f));
     EXPECT_LT(even["efficiency"]["low"], 1);
     EXPECT_GT(even["efficiency"]["high"], 1);
     EXPECT_NEAR(even["efficiency"]["value"], 1, 0.03);
