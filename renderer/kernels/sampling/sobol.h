@@ -46,10 +46,9 @@ DEVICE uint scramble(uint x, uint seed) {
     return reverse_bits(x);
 }
 
-/// Point `index` of a sequence whose order and scramblings are those of `order` and `seeds`.
-DEVICE uint4 sobol_point(uint index, uint order, uint4 seeds) {
+/// The point of the sequence as published whose index has these bits.
+DEVICE uint4 plain_sobol_point(uint bits) {
     uint4 point = make_uint4(0u, 0u, 0u, 0u);
-    uint bits = scramble(index, order);
     for (uint i = 0u; bits != 0u; ++i, bits >>= 1) {
         if ((bits & 1u) != 0u) {
             point.x ^= SOBOL_DIRECTIONS[0][i];
@@ -58,15 +57,22 @@ DEVICE uint4 sobol_point(uint index, uint order, uint4 seeds) {
             point.w ^= SOBOL_DIRECTIONS[3][i];
         }
     }
+    return point;
+}
+
+/// Point `index` of a sequence whose order and scramblings are those of `order` and `seeds`.
+DEVICE uint4 sobol_point(uint index, uint order, uint4 seeds) {
+    const uint4 point = plain_sobol_point(scramble(index, order));
     return make_uint4(scramble(point.x, seeds.x), scramble(point.y, seeds.y), scramble(point.z, seeds.z),
                       scramble(point.w, seeds.w));
 }
 
-/// The same points moved by a digital shift, which keeps their stratification, so that point 0 is (1/2, 1/2, 0, 1/2): the
-/// centre of a pixel and of the lens.
+/// The same with digital shifts of index and point, which keep the stratification, so that point 0 is (1/2, 1/2, 0, 1/2):
+/// the centre of a pixel and of the lens.
 DEVICE uint4 regular_point(uint index, uint order, uint4 seeds) {
-    const uint4 first = sobol_point(0u, order, seeds);
-    const uint4 point = sobol_point(index, order, seeds);
-    return make_uint4(point.x ^ first.x ^ 0x80000000u, point.y ^ first.y ^ 0x80000000u, point.z ^ first.z,
-                      point.w ^ first.w ^ 0x80000000u);
+    const uint4 point = plain_sobol_point(scramble(index, order) ^ scramble(0u, order));
+    return make_uint4(scramble(point.x, seeds.x) ^ scramble(0u, seeds.x) ^ 0x80000000u,
+                      scramble(point.y, seeds.y) ^ scramble(0u, seeds.y) ^ 0x80000000u,
+                      scramble(point.z, seeds.z) ^ scramble(0u, seeds.z),
+                      scramble(point.w, seeds.w) ^ scramble(0u, seeds.w) ^ 0x80000000u);
 }
