@@ -64,13 +64,17 @@ specialisation: programs
 	scripts/specialisation build/bin/rtrays-render scenes/cornell_box/scene.json > results/specialisation.md.new
 	mv results/specialisation.md.new results/specialisation.md
 
-# Rays per second of the hierarchy beside Embree's, by scene and kind of ray, as JSON too; on an idle machine. A part of them:
+# The hierarchy beside Embree's: rays per second by scene and kind of ray, and how long it takes to build; on an idle machine.
+# The table build/ray_rates.md of all of them is kept as results/ray_rates.md. A part of them:
 # BENCH=sphere (a regular expression).
 bench: install
 	cmake --preset release
-	cmake --build --preset release -j $(JOBS) --target benchmark_ray_rates
-	build/bin/benchmark_ray_rates --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
-	    --benchmark_out=build/ray_rates.json --benchmark_out_format=json
+	cmake --build --preset release -j $(JOBS) --target benchmark_ray_rates benchmark_bvh_build
+	for program in ray_rates bvh_build; do \
+	    build/bin/benchmark_$$program --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
+	        --benchmark_out=build/$$program.json --benchmark_out_format=json || exit $$?; \
+	done
+	scripts/ray_rates build/ray_rates.json > build/ray_rates.md
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
 references: programs

@@ -11,12 +11,11 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <chrono>
-#include <ctime>
 #include <map>
 #include <memory>
 #include <thread>
 
+#include "experiments/benchmarks/benchmark_program.h"
 #include "experiments/benchmarks/benchmark_rays.h"
 #include "experiments/statistics.h"
 #include "renderer/base/error.h"
@@ -27,20 +26,6 @@ namespace {
 
 constexpr size_t ray_count = 256 * 256;
 constexpr int iterations = 11;
-
-/// Seconds of one run: by the clock on the wall, and of processor by all threads of this process.
-struct Seconds {
-    double wall, processor;
-};
-
-template <typename Work>
-Seconds time_of(const Work &work) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::clock_t processor = std::clock();
-    work();
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-            static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
-}
 
 DeviceContext &device() {
     return test::test_device();
@@ -260,7 +245,9 @@ void trace_rays(benchmark::State &state, const BenchmarkScene &description, cons
     state.counters["MB"] = 1e-6 * static_cast<double>(device_tracer.report().bytes);
 }
 
-void register_all() {
+}  // namespace
+
+void register_benchmarks() {
     for (const BenchmarkScene &scene : benchmark_scenes()) {
         for (const RayKind &kind : ray_kinds()) {
             for (const NamedBvhLayout &named : bvh_layouts) {
@@ -277,16 +264,4 @@ void register_all() {
     }
 }
 
-}  // namespace
 }  // namespace rtrays::benchmarks
-
-int main(int argc, char **argv) {
-    rtrays::benchmarks::register_all();
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-        return 2;
-    }
-    benchmark::AddCustomContext("device", rtrays::benchmarks::device().info().name);
-    benchmark::RunSpecifiedBenchmarks();
-    return 0;
-}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh in Embree 3, with its ROBUST flag: what our traversal is compared with.
+// A mesh in Embree 3, with its ROBUST flag unless told otherwise: what our traversal is compared with.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -22,8 +22,16 @@ class EmbreeScene {
   public:
     /// `configuration`: as rtcNewDevice takes it.
     explicit EmbreeScene(const Mesh &mesh, const std::string &configuration = "threads=1")
+        : EmbreeScene(mesh, configuration, RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_ROBUST) {
+        commit();
+    }
+
+    /// Without a hierarchy: to be committed once before rays are traced.
+    EmbreeScene(const Mesh &mesh, const std::string &configuration, RTCBuildQuality quality,
+                RTCSceneFlags flags)
         : device_(rtcNewDevice(configuration.c_str())), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene_, flags);
+        rtcSetSceneBuildQuality(scene_, quality);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto *positions = static_cast<float *>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                        RTC_FORMAT_FLOAT3, 3 * sizeof(float),
@@ -37,10 +45,10 @@ class EmbreeScene {
         for (size_t i = 0; i < mesh.triangles.size(); ++i) {
             std::copy_n(mesh.triangles[i].data(), 3, indices + 3 * i);
         }
+        rtcSetGeometryBuildQuality(geometry, quality);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
         rtcReleaseGeometry(geometry);
-        rtcCommitScene(scene_);
     }
     ~EmbreeScene() {
         rtcReleaseScene(scene_);
@@ -48,6 +56,9 @@ class EmbreeScene {
     }
     EmbreeScene(const EmbreeScene &) = delete;
     EmbreeScene &operator=(const EmbreeScene &) = delete;
+
+    /// Builds the hierarchy.
+    void commit() { rtcCommitScene(scene_); }
 
     EmbreeHit nearest_hit(const RayRecord &ray) const {
         RTCIntersectContext context;
