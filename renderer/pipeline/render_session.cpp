@@ -309,9 +309,9 @@ struct RenderSession::State {
     }
 
     /// Where convergence control stops a pixel depends on all samples before.
-    void require_next(uint64_t begin) const {
+    void require_next(uint64_t begin, uint64_t end) const {
         const uint64_t done = ranges.samples();
-        if (convergence != nullptr && begin != done) {
+        if (convergence != nullptr && begin < end && begin != done) {
             throw input_error(fmt::format("convergence control decides by all samples from 0 on, of which there are {}: the next is {}, not {}",
                                           done, done, begin));
         }
@@ -524,7 +524,7 @@ RenderSession::RenderSession(RenderSession &&) noexcept = default;
 
 uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function<void(uint64_t)> &on_batch) {
     State &s = *state_;
-    s.require_next(begin);
+    s.require_next(begin, end);
     while (begin < end && !interrupted()) {
         const uint64_t count = s.batch_size(begin, end);
         const uint64_t camera_paths = count * (s.convergence != nullptr ? s.convergence->live_count() : s.pixels());

@@ -285,6 +285,7 @@ TEST(Convergence, RefusesWhatItCannotDo) {
     expect_input_error("from 0 on, of which there are 0: the next is 0, not 4", [&] { session.render(4, 8); });
     session.render(0, 8);
     expect_input_error("the next is 8, not 16", [&] { session.render(16, 24); });
+    EXPECT_EQ(session.render(4, 4), 4u) << "nothing is asked for";
     FilmState film = session.film();
     film.convergence.reset();
     expect_input_error("belongs to another scene, other settings", [&] { session.restore(film); });
