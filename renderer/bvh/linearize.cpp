@@ -7,6 +7,7 @@ BvhLinearizer::BvhLinearizer(DeviceContext &device, uint32_t group_size) : devic
     const Program program(device, "kernels/bvh/linearize.cl");
     count_subtrees_ = Kernel(program, "count_subtrees", 1);
     write_stackless_nodes_ = Kernel(program, "write_stackless_nodes", group_size);
+    link_stackless_nodes_ = Kernel(program, "link_stackless_nodes", 1);
 }
 
 Bvh BvhLinearizer::linearize(Bvh bvh) {
@@ -21,6 +22,8 @@ Bvh BvhLinearizer::linearize(Bvh bvh) {
     count_subtrees_.enqueue(1);
     write_stackless_nodes_.bind({bvh.nodes(), node_count, sizes, places, nodes});
     write_stackless_nodes_.enqueue(node_count);
+    link_stackless_nodes_.bind({sizes, nodes});
+    link_stackless_nodes_.enqueue(1);
     device_->finish();
 
     report.seconds_device += total_seconds(device_->profiler().stages()) - seconds_before;

@@ -16,7 +16,7 @@ class BvhLinearizer {
 
   private:
     DeviceContext *device_;
-    Kernel count_subtrees_, write_stackless_nodes_;
+    Kernel count_subtrees_, write_stackless_nodes_, link_stackless_nodes_;
 };
 
 }  // namespace rtrays

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The two-wide tree in depth-first order (shared/stackless_node.h): count_subtrees (one work-item) -> write_stackless_nodes (a
-// work-item per node). The builder numbers parents before their children, which makes both sums single passes.
+// work-item per node) -> link_stackless_nodes (one). The builder numbers parents before their children, which makes both sums single passes.
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/stackless_node.h"
 
@@ -30,7 +30,30 @@ __kernel void count_subtrees(GLOBAL const BvhNode *nodes, uint node_count, GLOBA
     }
 }
 
-/// Writes the children of a node; the root's work-item writes the root, too.
+static void write_box(GLOBAL StacklessNode *stackless, GLOBAL const float (*bounds)[3]) {
+    for (uint axis = 0; axis < 3; ++axis) {
+        stackless->bounds[0][axis] = bounds[0][axis];
+        stackless->bounds[1][axis] = bounds[1][axis];
+    }
+}
+
+/// The octants, as bits, in which the right child is the nearer: by the axis along which the middles of both are farthest apart.
+static uint octants_right_first(GLOBAL const BvhNode *node) {
+    uint widest = 0;
+    float distance = 0.0f;
+    for (uint axis = 0; axis < 3; ++axis) {
+        const float apart = (node->bounds[1][0][axis] + node->bounds[1][1][axis]) -
+                            (node->bounds[0][0][axis] + node->bounds[0][1][axis]);
+        if (fabs(apart) > fabs(distance)) {
+            widest = axis;
+            distance = apart;
+        }
+    }
+    const uint towards_lower[3] = {0xaau, 0xccu, 0xf0u};  // octants whose bit of that axis is set (traverse_stackless.h)
+    return distance >= 0.0f ? towards_lower[widest] : ~towards_lower[widest] & 0xffu;
+}
+
+/// Writes the boxes and leaves of the children of a node, and what it knows of them; the root's work-item writes the root, too.
 __kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const uint *sizes,
                                     GLOBAL const uint *places, GLOBAL StacklessNode *stackless_nodes) {
     const uint index = (uint)get_global_id(0);
@@ -38,27 +61,53 @@ __kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count
         return;
     }
     GLOBAL const BvhNode *node = nodes + index;
+    GLOBAL StacklessNode *stackless = stackless_nodes + places[index];
     if (index == 0) {
         for (uint axis = 0; axis < 3; ++axis) {
-            stackless_nodes->bounds[0][axis] = lesser(node->bounds[0][0][axis], node->bounds[1][0][axis]);
-            stackless_nodes->bounds[1][axis] = greater(node->bounds[0][1][axis], node->bounds[1][1][axis]);
+            stackless->bounds[0][axis] = lesser(node->bounds[0][0][axis], node->bounds[1][0][axis]);
+            stackless->bounds[1][axis] = greater(node->bounds[0][1][axis], node->bounds[1][1][axis]);
         }
-        stackless_nodes->escape = sizes[0];
-        stackless_nodes->leaf = 0;
     }
+    const bool has_right = node->count[1] > 0;
     uint place = places[index] + 1u;
+    stackless->link = has_right ? place + child_size(node, 0, sizes) : sizes[0];
+    stackless->right_first = has_right ? octants_right_first(node) : 0u;
     for (uint side = 0; side < 2; ++side) {
         const uint size = child_size(node, side, sizes);
-        if (size == 0) {
-            continue;
-        }
-        GLOBAL StacklessNode *child = stackless_nodes + place;
-        for (uint axis = 0; axis < 3; ++axis) {
-            child->bounds[0][axis] = node->bounds[side][0][axis];
-            child->bounds[1][axis] = node->bounds[side][1][axis];
+        if (size > 0) {
+            write_box(stackless_nodes + place, node->bounds[side]);
+            if ((node->child[side] & BVH_LEAF_BIT) != 0) {
+                stackless_nodes[place].link = node->child[side];
+                stackless_nodes[place].right_first = 0;
+            }
         }
         place += size;
-        child->escape = place;
-        child->leaf = (node->child[side] & BVH_LEAF_BIT) != 0 ? node->child[side] : 0u;
+    }
+}
+
+/// One work-item, parents first: from the child that comes first the way goes on to the other, and from there where it goes on
+/// from their parent.
+__kernel void link_stackless_nodes(GLOBAL const uint *sizes, GLOBAL StacklessNode *nodes) {
+    if (get_global_id(0) != 0) {
+        return;
+    }
+    const uint count = sizes[0];
+    for (uint octant = 0; octant < 8; ++octant) {
+        nodes->escape[octant] = count;
+    }
+    for (uint place = 0; place < count; ++place) {
+        const uint left = place + 1u;
+        const uint right = nodes[place].link;
+        if ((right & BVH_LEAF_BIT) != 0 || left == count) {
+            continue;
+        }
+        for (uint octant = 0; octant < 8; ++octant) {
+            const bool right_first = (nodes[place].right_first >> octant & 1u) != 0;
+            const uint after = nodes[place].escape[octant];
+            nodes[left].escape[octant] = right_first ? after : right;
+            if (right < count) {
+                nodes[right].escape[octant] = right_first ? left : after;
+            }
+        }
     }
 }

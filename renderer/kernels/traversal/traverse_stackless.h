@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the two-wide hierarchy without a stack (thesis 3.1): nodes in depth-first order, from each of which the way
-// goes on to the next one or, where the ray misses its box, past all below it. Departure from the thesis: boxes beyond the
-// nearest hit so far count as missed. The order is that of the nodes, whatever the ray's direction.
+// Traversal of the two-wide hierarchy without a stack (thesis 3.1): from each node the way goes on to the nearer of its
+// children or, where the ray misses its box, past all below it. Departures from the thesis: boxes beyond the nearest hit so
+// far count as missed, and the order of children depends on the octant of the ray's direction.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_box.h"
@@ -17,17 +17,23 @@ DEVICE Hit traverse_stackless(GLOBAL const StacklessNode *nodes, GLOBAL const Le
                             &ray)) {
         return hit;
     }
-    const uint end = nodes->escape;
-    for (uint index = 1; index < end;) {
+    const uint octant = ray.entry_side[0] | ray.entry_side[1] << 1 | ray.entry_side[2] << 2;
+    const uint end = nodes->escape[octant];
+    uint index = end > 1u ? 1u : end;
+    if ((nodes->right_first >> octant & 1u) != 0) {
+        index = nodes->link;
+    }
+    while (index != end) {
         GLOBAL const StacklessNode *node = nodes + index;
         COUNT(hit, nodes, 1u);
+        const bool is_leaf = (node->link & BVH_LEAF_BIT) != 0;
         if (intersect_box(node->bounds, &ray, hit.t) == INFINITY) {
-            index = node->escape;
-            continue;
-        }
-        ++index;
-        if (node->leaf != 0u) {
-            intersect_leaf(triangles, node->leaf, &ray, &hit);
+            index = node->escape[octant];
+        } else if (!is_leaf) {
+            index = (node->right_first >> octant & 1u) != 0 ? node->link : index + 1u;
+        } else {
+            index = node->escape[octant];
+            intersect_leaf(triangles, node->link, &ray, &hit);
             if (any && hit.slot != NO_HIT) {
                 return hit;
             }
