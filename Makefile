@@ -7,7 +7,7 @@ JOBS ?= $(shell nproc)
 BENCH ?= .
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
-EXPERIMENTS = cornell_diffuse cornell_algorithms
+EXPERIMENTS = cornell_diffuse cornell_algorithms mirror_ring
 
 .PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation bench references format lint clean
 

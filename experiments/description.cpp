@@ -33,7 +33,7 @@ void read_measured_scene(const DescriptionFile &file, const Json &size, Measured
     for (const Json &curve : file.json.at("curves")) {
         scene.curves.push_back({parse_render_settings(curve)});
         if (const std::string id = scene.curves.back().id(); !ids.insert(id).second) {
-            throw input_error(fmt::format("{}: two curves are both {}; algorithm or strategies must differ",
+            throw input_error(fmt::format("{}: two curves are both {}; algorithm or settings must differ",
                                           file.location("/curves"), id));
         }
     }
@@ -45,6 +45,17 @@ void require_increasing(const std::vector<uint64_t> &spp, const std::string &loc
             throw input_error(fmt::format("{}: must increase; {} follows {}", location, spp[i], spp[i - 1]));
         }
     }
+}
+
+std::string CurveDescription::id() const {
+    std::string id = settings.algorithm + "." + settings.strategies;
+    const std::string root = "integrator.";
+    for (const std::string &setting : changed_settings(settings)) {
+        if (setting.rfind(root + "strategies", 0) != 0) {
+            id += "," + setting.substr(root.size());
+        }
+    }
+    return id;
 }
 
 RenderSettings parse_render_settings(const Json &curve) {

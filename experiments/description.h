@@ -17,8 +17,8 @@ namespace rtrays {
 struct CurveDescription {
     RenderSettings settings;  ///< size and seed are set by the runner
 
-    /// "path_tracing.mis": names the curve's files.
-    std::string id() const { return settings.algorithm + "." + settings.strategies; }
+    /// "path_tracing.mis", "truncated_bdpt.mis,light_paths=auto": names the curve's files.
+    std::string id() const;
 };
 
 struct ThroughputDescription {

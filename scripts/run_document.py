@@ -100,7 +100,8 @@ def agreement_verdict(agreement):
 
 def label(curve):
     """How a curve is called in tables and legends."""
-    return f"{value(curve, 'algorithm')} ({value(curve, 'strategies')})".replace("_", " ")
+    algorithm, _, settings = value(curve, "id").partition(".")
+    return f"{algorithm} ({settings})".replace("_", " ").replace(",", ", ").replace("=", " = ")
 
 
 def write_text(path, text):

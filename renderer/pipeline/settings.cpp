@@ -303,6 +303,18 @@ nlohmann::json image_settings(const RenderSettings &requested) {
     return document;
 }
 
+std::vector<std::string> changed_settings(const RenderSettings &settings) {
+    const RenderSettings defaults;
+    std::vector<std::string> changed;
+    for (const Setting &setting : setting_table()) {
+        const std::string value = value_text(settings, setting);
+        if (setting.name.rfind("integrator.", 0) == 0 && value != value_text(defaults, setting)) {
+            changed.push_back(setting.name + "=" + value);
+        }
+    }
+    return changed;
+}
+
 std::string describe_settings() {
     const RenderSettings defaults;
     std::string description;

@@ -72,6 +72,9 @@ RenderSettings with_fixed_choices(RenderSettings settings);
 /// All settings that decide the image ("integrator.*", algorithm), for provenance and for the config hash.
 nlohmann::json image_settings(const RenderSettings &settings);
 
+/// Which of them are not the defaults: "integrator.beta=1".
+std::vector<std::string> changed_settings(const RenderSettings &settings);
+
 /// All names with their values and meanings, a line each, for --help.
 std::string describe_settings();
 

@@ -18,7 +18,7 @@ sys.path.insert(0, str(SCRIPTS))
 import numpy
 
 from run_document import Run, RunError, agreement_verdict, slope_verdict, usable_points, value
-from tables import TABLES, errors_table, latex_escape, repetitions_table, throughput_table
+from tables import TABLES, efficiency_table, errors_table, memory_table, latex_escape, repetitions_table, throughput_table
 
 
 def made_up_curve(strategies):
@@ -33,7 +33,8 @@ def made_up_curve(strategies):
                        "noise_dominates": spp == 8, "repetitions": repetitions})
     slope = {"value": -0.5, "low": -0.51, "high": -0.49, "confidence": 0.95, "spp": [1, 4]}
     return {"id": f"path_tracing.{strategies}", "scene": "box", "algorithm": "path_tracing", "strategies": strategies,
-            "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {}, "points": points,
+            "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {"bytes_per_path": 112, "light_vertex_bytes_per_path": 0},
+            "points": points,
             "slope": slope, "slope_unbiased": slope, "image": "images/ours.exr", "image_spp": 64,
             "agreement": {"block_size": 16, "alpha": 0.01, "tests": 51, "rejected": 0, "agrees": True, "largest_z": 2.5,
                           "smallest_adjusted_p": 0.6, "equivalence": "equivalent",
@@ -141,6 +142,23 @@ class Tables(RunFolder):
         table = repetitions_table(self.run_object())
         self.assertEqual(len(table.rows), 2 * 4 * 8)
         self.assertEqual(float(table.rows[0][6]), self.document["curves"][0]["points"][0]["repetitions"][0]["rmse"])
+
+    def test_efficiency_compares_what_is_beyond_the_reference_noise(self):
+        mis, other = self.document["curves"][1], self.document["curves"][0]
+        # At 4 spp the MSE is 0.25, 0.01 of it the reference's: twice the rest in 1.5 times the time, less a pilot of 0.2 s.
+        for repetition in other["points"][2]["repetitions"]:
+            repetition.update(mse=0.01 + 2 * 0.24, seconds_device=1.5 * 0.4 + 0.2)
+        other["render_report"]["pilot"] = {"seconds": 0.2}
+        rows = {row[0]: row for row in efficiency_table(self.run_object()).rows}
+        self.assertEqual(rows["path tracing (mis)"][5:], ["1 [1, 1]", "1 [1, 1]"])
+        self.assertEqual(rows["path tracing (implicit)"][4:], ["0.2", "0.5 [0.5, 0.5]", "0.3333 [0.3333, 0.3333]"])
+        mis["points"][0]["noise_dominates"] = True
+        with self.assertRaisesRegex(RunError, "path_tracing.mis has no point above"):
+            efficiency_table(self.run_object())
+
+    def test_memory_is_what_the_run_reports(self):
+        self.document["curves"][0]["algorithm"] = "bdpt"
+        self.assertEqual(memory_table(self.run_object()).rows[0][1:], ["112", "0", "3.5 KB, 16 vertices from either end"])
 
     def test_refused_throughput_is_said(self):
         self.document["throughput"] = {"curve": "path_tracing.mis", "accepted": False, "reason": "foreign load",
