@@ -29,28 +29,38 @@ DEVICE uint bin_index(PRIVATE const Binning *binning, uint axis, float lower, fl
     return bin < (int)BVH_BINS ? (uint)bin : BVH_BINS - 1u;
 }
 
+/// The smaller of both, lane by lane: with the upper bounds' signs changed, what encloses two boxes of a BinSet.
+DEVICE float8 enclosing(float8 a, float8 b) {
+    return b < a ? b : a;
+}
+
 DEVICE void clear_bins(PRIVATE BinSet *bins) {
     for (uint axis = 0; axis < 3; ++axis) {
         for (uint bin = 0; bin < BVH_BINS; ++bin) {
-            for (uint i = 0; i < 3; ++i) {
-                bins->lower[axis][bin][i] = INFINITY;
-                bins->upper[axis][bin][i] = -INFINITY;
-            }
+            vstore8(splat_float8(INFINITY), 0, bins->box[axis][bin]);
             bins->count[axis][bin] = 0;
         }
     }
 }
 
+CONSTANT float box_signs[8] = {1.0f, 1.0f, 1.0f, 1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
+
 DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning,
                         PRIVATE const PrimitiveRef *ref) {
+    const float8 box = vload8(0, ref->lower) * vload8(0, box_signs);  // the whole record
     for (uint axis = 0; axis < 3; ++axis) {
         const uint bin = bin_index(binning, axis, ref->lower[axis], ref->upper[axis]);
-        for (uint i = 0; i < 3; ++i) {
-            bins->lower[axis][bin][i] = lesser(bins->lower[axis][bin][i], ref->lower[i]);
-            bins->upper[axis][bin][i] = greater(bins->upper[axis][bin][i], ref->upper[i]);
-        }
+        PRIVATE float *bin_box = bins->box[axis][bin];
+        vstore8(enclosing(vload8(0, bin_box), box), 0, bin_box);
         bins->count[axis][bin] += 1u;
     }
+}
+
+/// Half the area of a box of a BinSet.
+DEVICE float half_area_of_bins(float8 box, float scale) {
+    float b[8];
+    vstore8(box, 0, b);
+    return half_area(-b[4] - b[0], -b[5] - b[1], -b[6] - b[2], scale);
 }
 
 /// Best split of `count` primitives. Ties go to the lower axis, then the lower bin. By count, in the present
@@ -70,32 +80,19 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
             continue;
         }
         float right_cost[BVH_BINS];  // of the bins from this one on
-        float lower[3] = {INFINITY, INFINITY, INFINITY};
-        float upper[3] = {-INFINITY, -INFINITY, -INFINITY};
+        float8 box = splat_float8(INFINITY);
         uint right_count = 0;
         for (uint bin = BVH_BINS - 1u; bin > 0; --bin) {
-            for (uint i = 0; i < 3; ++i) {
-                lower[i] = lesser(lower[i], bins->lower[axis][bin][i]);
-                upper[i] = greater(upper[i], bins->upper[axis][bin][i]);
-            }
+            box = enclosing(box, vload8(0, bins->box[axis][bin]));
             right_count += bins->count[axis][bin];
-            right_cost[bin] = (float)right_count *
-                              half_area(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2], scale);
+            right_cost[bin] = (float)right_count * half_area_of_bins(box, scale);
         }
-        for (uint i = 0; i < 3; ++i) {
-            lower[i] = INFINITY;
-            upper[i] = -INFINITY;
-        }
+        box = splat_float8(INFINITY);
         uint left_count = 0;
         for (uint bin = 0; bin + 1u < BVH_BINS; ++bin) {
-            for (uint i = 0; i < 3; ++i) {
-                lower[i] = lesser(lower[i], bins->lower[axis][bin][i]);
-                upper[i] = greater(upper[i], bins->upper[axis][bin][i]);
-            }
+            box = enclosing(box, vload8(0, bins->box[axis][bin]));
             left_count += bins->count[axis][bin];
-            const float cost = (float)left_count * half_area(upper[0] - lower[0], upper[1] - lower[1],
-                                                             upper[2] - lower[2], scale) +
-                               right_cost[bin + 1u];
+            const float cost = (float)left_count * half_area_of_bins(box, scale) + right_cost[bin + 1u];
             if (left_count > 0 && left_count < count && cost < best_cost) {
                 best_cost = cost;
                 best.axis = axis;

@@ -105,8 +105,7 @@ typedef struct BuildState {
 
 /// Boxes and counts of the bins of one range.
 typedef struct BinSet {
-    float lower[3][BVH_BINS][3];  ///< [axis][bin][x, y, z]
-    float upper[3][BVH_BINS][3];
+    float box[3][BVH_BINS][8];  ///< [axis][bin][lower x, y, z, unused, upper x, y, z with the sign changed, unused]
     uint count[3][BVH_BINS];
 } BinSet;
 
@@ -115,6 +114,6 @@ static_assert(sizeof(PrimitiveRef) == 32 && sizeof(RangeBounds) == 48 && sizeof(
               "as in OpenCL C");
 static_assert(sizeof(BuildTask) == 84 && sizeof(BuildChunk) == 112 && sizeof(BuildSubtree) == 96,
               "as in OpenCL C");
-static_assert(sizeof(InputChunk) == 72 && sizeof(BuildState) == 56 && sizeof(BinSet) == 1344,
+static_assert(sizeof(InputChunk) == 72 && sizeof(BuildState) == 56 && sizeof(BinSet) == 1728,
               "as in OpenCL C");
 #endif

@@ -40,12 +40,8 @@ __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL Bui
     for (uint chunk = task->first_chunk; chunk < task->first_chunk + task->chunk_count; ++chunk) {
         for (uint axis = 0; axis < 3; ++axis) {
             for (uint bin = 0; bin < BVH_BINS; ++bin) {
-                for (uint i = 0; i < 3; ++i) {
-                    bins.lower[axis][bin][i] =
-                        lesser(bins.lower[axis][bin][i], chunk_bins[chunk].lower[axis][bin][i]);
-                    bins.upper[axis][bin][i] =
-                        greater(bins.upper[axis][bin][i], chunk_bins[chunk].upper[axis][bin][i]);
-                }
+                vstore8(enclosing(vload8(0, bins.box[axis][bin]), vload8(0, chunk_bins[chunk].box[axis][bin])), 0,
+                        bins.box[axis][bin]);
                 bins.count[axis][bin] += chunk_bins[chunk].count[axis][bin];
             }
         }
