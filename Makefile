@@ -74,7 +74,7 @@ bench: install
 	    build/bin/benchmark_$$program --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
 	        --benchmark_out=build/$$program.json --benchmark_out_format=json || exit $$?; \
 	done
-	scripts/ray_rates build/ray_rates.json > build/ray_rates.md
+	$(if $(filter .,$(BENCH)),scripts/ray_rates build/ray_rates.json > build/ray_rates.md)
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
 references: programs
