@@ -91,6 +91,7 @@ enum class Feature : uint32_t {
 #undef RTRAYS_FEATURE
         count
 };
+static_assert(static_cast<uint32_t>(Feature::count) < 64, "a mask has 64 bits");
 
 /// A set of features.
 class FeatureMask {
