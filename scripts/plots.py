@@ -20,8 +20,8 @@ AXES = {
     "seconds_wall": "wall time, s (kernel compilation and BVH construction apart)",
 }
 # Okabe & Ito: told apart with any colour vision.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-MARKERS = ("o", "s", "^", "D", "v", "P")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D1F")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
 def band(curve_points, key):
@@ -38,7 +38,7 @@ def draw_guide(axes, x, y):
 
 def curves_figure(run, x_key):
     """RMSE against `x_key`, log-log. Curves stop where the reference's noise passes 10 % of their MSE."""
-    figure, axes = pyplot.subplots(figsize=(5.6, 4.2), layout="constrained")
+    figure, axes = pyplot.subplots(figsize=(6.4, 5.2), layout="constrained")
     floor = run.get("reference.noise_floor.rmse")
     all_x, first_y = [], []
     for index, curve in enumerate(run.curves):
@@ -58,7 +58,7 @@ def curves_figure(run, x_key):
              title=f"{run.get('experiment.title')}: median and central 95 % over seeds", ylim=(0.5 * floor, None))
     if x_key == "spp":
         axes.set_xscale("log", base=2)
-    axes.legend(fontsize=8, loc="lower left", bbox_to_anchor=(0, 0.16))
+    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2)
     return figure
 
 
