@@ -98,6 +98,13 @@ struct BlockTest {
     std::string where;
 };
 
+/// Degrees of freedom of Welch's test; infinity where both variances are known.
+double welch_freedom(const NoisySum &a, const NoisySum &b) {
+    const auto share = [](const NoisySum &sum) { return sum.variance * sum.variance / sum.freedom; };
+    const double variance = a.variance + b.variance, shares = share(a) + share(b);
+    return shares > 0 ? variance * variance / shares : std::numeric_limits<double>::infinity();
+}
+
 BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pixels) {
     BlockTest test;
     test.difference = (image.value - reference.value) / pixels;
@@ -109,9 +116,8 @@ BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pi
     // Black in both images: no difference and nothing to divide by.
     test.z = test.standard_error > 0 ? test.difference / test.standard_error : 0;
     test.p_value = normal_p_value(test.z);
-    if (std::isfinite(image.freedom) && image.variance > 0) {
-        // Welch's test; the reference's variance counts as known.
-        const double freedom = image.freedom * std::pow(variance / image.variance, 2);
+    const double freedom = welch_freedom(image, reference);
+    if (std::isfinite(freedom)) {
         const boost::math::students_t student(freedom);
         test.p_value = 2 * boost::math::cdf(boost::math::complement(student, std::abs(test.z)));
         const boost::math::normal normal;
@@ -158,7 +164,7 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
                 mean_difference += test.difference / 3;
                 mean_error += test.standard_error / 3;
             }
-            if (std::abs(image[i].skewness) > policy.largest_skewness) {
+            if (std::max(std::abs(image[i].skewness), std::abs(reference[i].skewness)) > policy.largest_skewness) {
                 ++result.undecided;
             } else {
                 tests.push_back(test);
@@ -217,6 +223,19 @@ Agreement test_agreement(const std::vector<Image> &batches, const Image &referen
     }
     return test_sums([&](size_t channel) { return sums_by_batch(batches, channel, policy.block_size); },
                      [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, reference, policy);
+}
+
+Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others, const AgreementPolicy &policy) {
+    if (batches.size() < 2 || others.size() < 2) {
+        throw input_error("two batches of either side at least are needed for a test");
+    }
+    for (const std::vector<Image> &side : {batches, others}) {
+        for (const Image &batch : side) {
+            require_same_size(batch, batches.front());
+        }
+    }
+    return test_sums([&](size_t channel) { return sums_by_batch(batches, channel, policy.block_size); },
+                     [&](size_t channel) { return sums_by_batch(others, channel, policy.block_size); }, batches.front(), policy);
 }
 
 }  // namespace rtrays

@@ -50,5 +50,7 @@ struct AgreementPolicy {
 /// black.
 Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy = {});
 Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy = {});
+Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others,
+                         const AgreementPolicy &policy = {});
 
 }  // namespace rtrays

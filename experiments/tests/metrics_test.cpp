@@ -197,6 +197,8 @@ TEST(Agreement, OfBatchesFindsABiasAndNothingElse) {
     EXPECT_EQ(clean.tests + clean.undecided, 51u);
     EXPECT_EQ(clean.undecided, 0u);
     EXPECT_FALSE(test_agreement(noisy_batches(0.02, 0.05, 200), reference).agrees());
+    EXPECT_TRUE(test_agreement(noisy_batches(0, 0.05, 100), noisy_batches(0, 0.05, 300)).agrees());
+    EXPECT_FALSE(test_agreement(noisy_batches(0, 0.05, 100), noisy_batches(0.02, 0.05, 400)).agrees());
 }
 
 // Log-normal batches of mean 1 whose median is a quarter of that: most estimates are too low, and too sure of it.
