@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reference/geometry.h"
@@ -49,7 +50,7 @@ class PathIntegrator {
   public:
     /// `joinable_only`: see ReferenceSettings.
     PathIntegrator(const World<BsdfModel, Lights> &world, Strategies strategies, uint32_t max_depth,
-                   bool joinable_only = false)
+                   const std::optional<JoinableLight> &joinable_only = {})
         : world_(world),
           samples_lights_(strategies != Strategies::implicit_only && !world.lights.empty()),
           counts_hits_(strategies != Strategies::explicit_only),
@@ -74,7 +75,7 @@ class PathIntegrator {
                                            hit)) {
                 if (world_.lights.reach_to_infinity() && !(joinable_only_ && depth == 0)) {
                     result +=
-                        throughput * escaped_radiance(ray.direction, light_sampled_too, pdf_of_direction);
+                        throughput * escaped_radiance(previous, ray.direction, light_sampled_too, pdf_of_direction);
                 }
                 return result;
             }
@@ -139,9 +140,12 @@ class PathIntegrator {
         return counts_hits_ ? power_heuristic(pdf_of_direction, pdf_of_light) : 0.0;
     }
 
-    /// Weighted radiance from infinity. Out of line: the path that meets surfaces is the fast one.
-    [[gnu::noinline]] Spectrum escaped_radiance(const Vec3 &direction, bool light_sampled_too,
+    /// Weighted radiance from infinity, seen from a vertex. Out of line: the path that meets surfaces is the fast one.
+    [[gnu::noinline]] Spectrum escaped_radiance(const Vec3 &from, const Vec3 &direction, bool light_sampled_too,
                                                 double pdf_of_direction) const {
+        if (joinable_only_ && !joinable_only_->reaches(from, direction)) {
+            return Spectrum::Zero();
+        }
         return world_.lights.from_infinity(direction, [&](double pdf_w) {
             return implicit_weight(light_sampled_too, pdf_of_direction, pdf_w);
         });
@@ -152,7 +156,7 @@ class PathIntegrator {
                                                         const Vec3 &wo_local, const SurfacePoint &point,
                                                         Rng &rng, RayCounts &counts) const {
         const auto light = world_.lights.sample(world_.geometry, point.position, rng);
-        if (!light) {
+        if (!light || (joinable_only_ && light->infinite && !joinable_only_->reaches(point.position, light->wi))) {
             return Spectrum::Zero();
         }
         const Vec3 wi_local = shading.frame.to_local(light->wi);
@@ -179,7 +183,7 @@ class PathIntegrator {
     bool samples_lights_;
     bool counts_hits_;
     uint32_t max_depth_;
-    bool joinable_only_;
+    std::optional<JoinableLight> joinable_only_;
 };
 
 }  // namespace rtrays::reference

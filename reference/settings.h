@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -25,6 +28,18 @@ std::string name_of(Strategies strategies);
 /// Throws `Error` (bad input) listing the alternatives.
 Strategies strategies_from_name(const std::string &name);
 
+/// The light that light tracing sees: without light at infinity that the camera looks at, without what the camera sees in
+/// mirrors and smooth glass, and of light from infinity only what comes through a ball.
+struct JoinableLight {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double radius = std::numeric_limits<double>::infinity();
+
+    /// Whether parallel light of direction `d` (unit) that falls on `point` comes through the ball.
+    bool reaches(const Eigen::Vector3d &point, const Eigen::Vector3d &d) const {
+        return (point - centre).cross(d).squaredNorm() < radius * radius;
+    }
+};
+
 /// What a reference image depends on besides the scene (`threads` apart, which changes no bit).
 struct ReferenceSettings {
     int width = 0;
@@ -33,9 +48,7 @@ struct ReferenceSettings {
     uint64_t seed = 1;
     Strategies strategies = Strategies::mis;
     uint32_t max_depth = 0;  ///< scattering events, 1 is direct light; 0: no limit
-    /// Only what light tracing sees: without light at infinity that the camera looks at, and without what it sees in
-    /// mirrors and smooth glass.
-    bool joinable_only = false;
+    std::optional<JoinableLight> joinable_only;  ///< nothing: all light
     int threads = 0;         ///< 0: all
 };
 

@@ -79,5 +79,30 @@ TEST(Irradiance, the_front_of_a_light_shows_its_radiance) {
     }
 }
 
+// Under a dome, light that comes through a ball reaches a plane at distance s = 1 / sin(a) radii from its centre from
+// two half cones of half-angle a about the line to the centre: E = L (2 a - sin 2 a).
+TEST(Irradiance, of_a_plane_by_light_through_a_ball) {
+    std::vector<Comparison> suite;
+    for (const double distance : {0.5, 1.1, 2.0, 5.0}) {
+        for (const auto &[name, strategies] : strategies_names) {
+            TestScene scene;
+            scene.add_shape(ShapeArrays::Kind::plane, Eigen::Matrix4d::Identity(),
+                            scene.add_material(Rgb::Constant(albedo)));
+            scene.add_light(LightArrays::Kind::dome, Rgb::Constant(radiance));
+            scene.set_camera({0, 3, 4}, {distance, 0, 0}, Vec3::UnitZ(), 2e-4);
+            ReferenceSettings settings = small_settings(4, 34, strategies);
+            settings.joinable_only = JoinableLight{Vec3::Zero(), 1.0};
+            auto renderer = scene.renderer(settings);
+            renderer.render(0, 1 << 14);
+            const BlockMean mean = image_mean(renderer.develop(), "G");
+            const double a = std::asin(std::min(1.0, 1.0 / distance));
+            const double expected = albedo / pi * radiance * (2 * a - std::sin(2 * a));
+            const double error = std::sqrt(mean.variance) + 1e-6 * expected;  // a whole dome has no noise
+            suite.push_back({name, normal_p_value((mean.mean - expected) / error)});
+        }
+    }
+    EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
+}
+
 }  // namespace
 }  // namespace rtrays::reference
