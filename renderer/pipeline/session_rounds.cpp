@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Batches of samples, passes over them, and rounds of stages until no path is in flight.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/base/error.h"
+#include "renderer/pipeline/session_state.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Samples of one batch: about this many paths, so that progress shows and an interrupt is heeded within seconds. The
+/// work counter has 32 bits.
+constexpr uint64_t batch_paths = 1u << 21;
+
+/// Rounds enqueued between two looks at the counters.
+constexpr int rounds_per_check = 8;
+
+/// Stages share what is chosen: it is bound where the next to take it asks for another.
+void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
+    const auto &inputs = stage_description(stage.name).inputs;
+    if (stage.chosen != pass.chosen && std::find(inputs.begin(), inputs.end(), StageInput::chosen) != inputs.end()) {
+        pass.stages.bind({{StageInput::chosen, {stage.chosen}}});
+        pass.chosen = stage.chosen;
+    }
+}
+
+}  // namespace
+
+uint64_t RenderSession::State::batch_size(uint64_t begin, uint64_t end) const {
+    const uint64_t batch = batch_paths / std::max<uint64_t>(1, live_paths_per_sample());
+    uint64_t count = std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_BETWEEN_CARRIES), end - begin);
+    if (convergence != nullptr && convergence->live_count() > 0) {
+        count = std::min(count, convergence->rule().next_check(begin) - begin);
+    }
+    return count;
+}
+
+void RenderSession::State::require_next(uint64_t begin, uint64_t end) const {
+    const uint64_t done = ranges.samples();
+    if (convergence != nullptr && begin < end && begin != done) {
+        throw input_error(fmt::format("convergence control decides by all samples from 0 on, of which there are {}: the next is {}, not {}",
+                                      done, done, begin));
+    }
+}
+
+void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, uint64_t paths) {
+    using Items = StageDescription::Items;
+    switch (stage_description(name).items) {
+    case Items::entries:
+        return pass.stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
+    case Items::paths:
+        return pass.stages.enqueue(name, (paths + layout.chunk - 1) / layout.chunk);
+    case Items::slots:
+        return pass.stages.enqueue(name, layout.capacity);
+    case Items::film_sums:
+        return pass.stages.enqueue(name, film_sums());
+    case Items::one:
+        return pass.stages.enqueue(name, 1);
+    }
+}
+
+void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
+    if (features.has(Feature::vertex_joins)) {
+        // One path of each pass for every pixel: chunk by chunk, so that both find the same light vertices.
+        const auto work = static_cast<uint32_t>(count * pixels());
+        for (uint32_t begin = 0; begin == 0 || begin < work; begin += layout.capacity) {
+            for (CompiledPass &pass : passes) {
+                run_pass(pass, first, begin, std::min(begin + layout.capacity, work));
+            }
+        }
+    } else {
+        for (CompiledPass &pass : passes) {
+            const auto work = static_cast<uint32_t>(count * live_paths_per_sample(pass));
+            if (work > 0 || count == 0) {
+                run_pass(pass, first, 0, work);
+            }
+        }
+    }
+    for (CompiledPass &pass : passes) {
+        carry_film(pass);
+        if (pass.features.has(Feature::convergence) && (count == 0 || convergence->rule().is_check(first + count))) {
+            convergence->check(pass.film, first + count);
+            pass.stages.bind(convergence->arguments());
+        }
+        collect_profile(pass);
+    }
+}
+
+void RenderSession::State::carry_film(CompiledPass &pass) {
+    enqueue(pass, "carry_film");
+    pass.additions = 0;
+}
+
+void RenderSession::State::collect_profile(CompiledPass &pass) {
+    device.finish();
+    for (const auto &[name, stage] : device.profiler().take()) {
+        pass.profile[name].seconds += stage.seconds;
+        pass.profile[name].launches += stage.launches;
+    }
+}
+
+void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end) {
+    pass.stages.bind(
+        {{StageInput::first_sample, {first}}, {StageInput::first_work, {begin}}, {StageInput::work, {end}}});
+    if (!pass.streams) {
+        enqueue(pass, pass.round.front().name, std::max<uint64_t>(end - begin, 1));  // 1: the first enqueue compiles
+        return collect_profile(pass);
+    }
+    enqueue(pass, "reset_streams");
+    const auto splat_stages = std::count_if(pass.round.begin(), pass.round.end(),
+                                            [](const RoundStage &stage) { return stage.name == "splat_unblocked"; });
+    uint64_t in_flight = layout.capacity;
+    // The counters are read one check behind, so that the device is never idle while the host looks.
+    std::array<StreamCounters, 2> seen{};
+    std::array<ClEvent, 2> read;
+    for (int check = 0;; ++check) {
+        for (int i = 0; i < rounds_per_check; ++i) {
+            for (const RoundStage &stage : pass.round) {
+                if (stage.rounds > 0 && static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
+                    continue;
+                }
+                bind_chosen(pass, stage);
+                enqueue(pass, stage.name);
+            }
+        }
+        // A camera path ends with one addition to its pixel, of which there are few in a batch; splats of all light
+        // paths may go to one.
+        pass.additions += static_cast<uint64_t>(splat_stages * rounds_per_check) * in_flight;
+        if (pass.additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
+            carry_film(pass);
+        }
+        const int now = check % 2;
+        cl_event event = nullptr;
+        check_cl(clEnqueueReadBuffer(device.queue(), counters.get(), CL_FALSE, 0, sizeof(StreamCounters), &seen[now], 0,
+                                     nullptr, &event),
+                 "reading the stream counters");
+        read[now] = ClEvent(event);
+        check_cl(clFlush(device.queue()), "submitting work to the device");
+        if (check > 0) {
+            const int before = 1 - now;
+            const cl_event wanted = read[before].get();
+            check_cl(clWaitForEvents(1, &wanted), "waiting for the device");
+            const StreamCounters &c = seen[before];
+            if (c.overflow > 0) {
+                throw run_error(fmt::format("a stream overflowed {} times", c.overflow));
+            }
+            if (c.next_work >= end) {
+                in_flight = c.active[c.parity];
+            }
+            if (in_flight == 0) {
+                break;
+            }
+        }
+    }
+    collect_profile(pass);
+}
+
+}  // namespace rtrays
