@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "renderer/base/error.h"
 #include "renderer/kernels/bvh/build_records.h"
@@ -44,41 +45,54 @@ BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
                          : BvhBuildParameters{64, 256, 64, BvhLayout::bvh2};
 }
 
-struct BvhBuilder::Workspace {
-    Workspace(DeviceContext &device, uint32_t triangle_count, const BvhBuildParameters &parameters)
-        : input_chunk_count(divide_up(triangle_count, parameters.chunk_size)),
-          capacities(triangle_count, parameters),
+/// The primitives of the input, and the first task or subtree: the range of all of them.
+struct BvhBuilder::Gathered {
+    Gathered(DeviceContext &device, uint32_t triangles, uint32_t chunk_size, const Capacities &capacities)
+        : triangle_count(triangles),
+          input_chunk_count(divide_up(triangles, chunk_size)),
           input_chunks(device, "bvh input chunks", input_chunk_count),
           state(device, "bvh build state", 1),
-          primitives{Buffer<PrimitiveRef>(device, "bvh primitives 0", triangle_count),
-                     Buffer<PrimitiveRef>(device, "bvh primitives 1", triangle_count)},
-          tasks{Buffer<BuildTask>(device, "bvh tasks 0", capacities.tasks),
-                Buffer<BuildTask>(device, "bvh tasks 1", capacities.tasks)},
-          chunks{Buffer<BuildChunk>(device, "bvh chunks 0", capacities.chunks),
-                 Buffer<BuildChunk>(device, "bvh chunks 1", capacities.chunks)},
+          primitives(device, "bvh primitives 0", triangles),
+          tasks(device, "bvh tasks 0", capacities.tasks),
+          chunks(device, "bvh chunks 0", capacities.chunks),
+          subtrees(device, "bvh subtrees", capacities.subtrees) {}
+
+    uint32_t triangle_count, input_chunk_count;
+    Buffer<InputChunk> input_chunks;
+    Buffer<BuildState> state;
+    Buffer<PrimitiveRef> primitives;
+    Buffer<BuildTask> tasks;
+    Buffer<BuildChunk> chunks;
+    Buffer<BuildSubtree> subtrees;
+};
+
+/// What binning takes besides; levels go back and forth between two of the buffers each.
+struct BvhBuilder::Workspace {
+    Workspace(DeviceContext &device, Gathered &gathered, const Capacities &capacities)
+        : state(gathered.state),
+          primitives{std::move(gathered.primitives),
+                     Buffer<PrimitiveRef>(device, "bvh primitives 1", gathered.triangle_count)},
+          tasks{std::move(gathered.tasks), Buffer<BuildTask>(device, "bvh tasks 1", capacities.tasks)},
+          chunks{std::move(gathered.chunks), Buffer<BuildChunk>(device, "bvh chunks 1", capacities.chunks)},
           bins(device, "bvh chunk bins", capacities.chunks),
           top_nodes(device, "bvh top nodes", capacities.top_nodes),
-          subtrees(device, "bvh subtrees", capacities.subtrees),
-          scratch_nodes(device, "bvh scratch nodes", triangle_count) {}
+          subtrees(gathered.subtrees),
+          scratch_nodes(device, "bvh scratch nodes", gathered.triangle_count) {}
 
     uint64_t bytes() const {
-        return input_chunks.bytes() + state.bytes() +
-               2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) + bins.bytes() +
+        return state.bytes() + 2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) + bins.bytes() +
                top_nodes.bytes() + subtrees.bytes() + scratch_nodes.bytes();
     }
 
     BuildState read_state() const { return state.read().front(); }
 
-    uint32_t input_chunk_count;
-    Capacities capacities;
-    Buffer<InputChunk> input_chunks;
-    Buffer<BuildState> state;
+    const Buffer<BuildState> &state;
     Buffer<PrimitiveRef> primitives[2];
     Buffer<BuildTask> tasks[2];
     Buffer<BuildChunk> chunks[2];
     Buffer<BinSet> bins;
     Buffer<BvhNode> top_nodes;
-    Buffer<BuildSubtree> subtrees;
+    const Buffer<BuildSubtree> &subtrees;
     Buffer<BvhNode> scratch_nodes;
 };
 
@@ -109,10 +123,13 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
     place_subtrees_ = Kernel(place, "place_subtrees", 1);
     copy_top_nodes_ = Kernel(place, "copy_top_nodes", group);
     copy_subtrees_ = Kernel(place, "copy_subtrees", group);
+    if (parameters.method == BvhMethod::hploc) {
+        hploc_.emplace(device, group, parameters.subtree_size);
+    }
     if (parameters.layout == BvhLayout::wide8) {
         collapser_.emplace(device, group);
     } else if (parameters.layout == BvhLayout::bvh2_stackless) {
-        linearizer_.emplace(device, group);
+        linearizer_.emplace(device, parameters.subtree_size);
     }
 }
 
@@ -138,18 +155,25 @@ void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uin
     }
 }
 
-void BvhBuilder::gather(Workspace &work, const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
+BuildState BvhBuilder::gather(Gathered &gathered, uint32_t subtree_size, const Buffer<float> &positions,
+                              const Buffer<uint32_t> &indices) {
     const auto vertex_count = static_cast<uint32_t>(positions.size() / 3);
-    const auto triangle_count = static_cast<uint32_t>(indices.size() / 3);
     const uint32_t chunk_size = parameters_.chunk_size;
-    check_triangles_.bind({positions, vertex_count, indices, triangle_count, chunk_size, work.input_chunks});
-    check_triangles_.enqueue(work.input_chunk_count);
-    begin_build_.bind({work.input_chunks, work.input_chunk_count, chunk_size, parameters_.subtree_size,
-                       work.state, work.tasks[0], work.chunks[0], work.subtrees});
+    const uint32_t count = gathered.triangle_count, chunks = gathered.input_chunk_count;
+    check_triangles_.bind({positions, vertex_count, indices, count, chunk_size, gathered.input_chunks});
+    check_triangles_.enqueue(chunks);
+    begin_build_.bind({gathered.input_chunks, chunks, chunk_size, subtree_size, gathered.state, gathered.tasks,
+                       gathered.chunks, gathered.subtrees});
     begin_build_.enqueue(1);
-    gather_primitives_.bind({positions, vertex_count, indices, triangle_count, chunk_size, work.input_chunks,
-                             work.primitives[0]});
-    gather_primitives_.enqueue(work.input_chunk_count);
+    gather_primitives_.bind({positions, vertex_count, indices, count, chunk_size, gathered.input_chunks,
+                             gathered.primitives});
+    gather_primitives_.enqueue(chunks);
+    const BuildState state = gathered.state.read().front();
+    if (state.bad_index > 0) {
+        throw input_error(fmt::format("{} triangles name a vertex that does not exist (there are {})", state.bad_index,
+                                      vertex_count));
+    }
+    return state;
 }
 
 void BvhBuilder::split_levels(Workspace &work) {
@@ -189,16 +213,49 @@ Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t
     require_build_memory(device_->info(), indices.size() / 3, positions.bytes() + indices.bytes());
     device_->finish();
     const double seconds_before = total_seconds(device_->profiler().stages());
+    std::optional<Bvh> clustered = hploc_ ? build_by_clustering(positions, indices) : std::nullopt;
+    Bvh bvh = clustered ? std::move(*clustered) : build_by_binning(positions, indices);
+    device_->finish();
+    BvhReport report = bvh.report();
+    report.seconds_device = total_seconds(device_->profiler().stages()) - seconds_before;
+    report.bytes_peak += positions.bytes() + indices.bytes();
+    bvh.set_report(report);
+    return bvh;
+}
 
-    Workspace work(*device_, static_cast<uint32_t>(indices.size() / 3), parameters_);
-    gather(work, positions, indices);
-    BuildState state = work.read_state();
-    if (state.bad_index > 0) {
-        throw input_error(fmt::format("{} triangles name a vertex that does not exist (there are {})",
-                                      state.bad_index, positions.size() / 3));
+std::optional<Bvh> BvhBuilder::build_by_clustering(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
+    BvhBuildParameters undivided = parameters_;
+    undivided.subtree_size = BVH_MAX_TRIANGLES;
+    const auto triangle_count = static_cast<uint32_t>(indices.size() / 3);
+    Gathered gathered(*device_, triangle_count, parameters_.chunk_size, Capacities(triangle_count, undivided));
+    const BuildState state = gather(gathered, undivided.subtree_size, positions, indices);
+    if (state.primitive_count <= BVH_LEAF_SIZE) {
+        return std::nullopt;
     }
+    std::optional<Bvh> bvh =
+        hploc_->build({std::move(gathered.state), std::move(gathered.primitives), std::move(gathered.subtrees),
+                       state.primitive_count},
+                      positions, indices);
+    if (bvh) {
+        BvhReport report = bvh->report();
+        report.method = BvhMethod::hploc;
+        report.triangles = state.primitive_count;
+        report.not_finite = state.not_finite;
+        report.degenerate = state.degenerate;
+        report.bytes_peak += gathered.input_chunks.bytes() + gathered.tasks.bytes() + gathered.chunks.bytes();
+        bvh->set_report(report);
+    }
+    return bvh;
+}
+
+Bvh BvhBuilder::build_by_binning(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
+    const auto triangle_count = static_cast<uint32_t>(indices.size() / 3);
+    const Capacities capacities(triangle_count, parameters_);
+    Gathered gathered(*device_, triangle_count, parameters_.chunk_size, capacities);
+    gather(gathered, parameters_.subtree_size, positions, indices);
+    Workspace work(*device_, gathered, capacities);
     split_levels(work);
-    state = work.read_state();
+    BuildState state = work.read_state();
     build_subtrees_.bind({work.subtrees, state.subtree_count, work.primitives[0], work.primitives[1],
                           work.state, work.scratch_nodes});
     build_subtrees_.enqueue(state.subtree_count);
@@ -213,10 +270,8 @@ Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t
     copy_subtrees_.bind({work.subtrees, state.subtree_count, work.scratch_nodes, work.primitives[0],
                          work.primitives[1], positions, indices, nodes, triangles});
     copy_subtrees_.enqueue(state.subtree_count);
-    device_->finish();
 
     BvhReport report;
-    report.seconds_device = total_seconds(device_->profiler().stages()) - seconds_before;
     report.triangles = state.primitive_count;
     report.not_finite = state.not_finite;
     report.degenerate = state.degenerate;
@@ -225,7 +280,8 @@ Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t
     report.depth = state.depth;
     report.sah_cost = static_cast<double>(state.cost);
     report.bytes = nodes.bytes() + triangles.bytes();
-    report.bytes_peak = report.bytes + work.bytes() + positions.bytes() + indices.bytes();
+    report.bytes_peak = report.bytes + gathered.input_chunks.bytes() + work.bytes();
+    device_->finish();  // before the workspace goes
     return {std::move(nodes), std::move(triangles), report};
 }
 

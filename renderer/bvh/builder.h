@@ -9,6 +9,7 @@
 
 #include "renderer/bvh/bvh.h"
 #include "renderer/bvh/collapse.h"
+#include "renderer/bvh/hploc.h"
 #include "renderer/bvh/linearize.h"
 #include "renderer/device/kernel.h"
 
@@ -21,6 +22,7 @@ struct BvhBuildParameters {
     uint32_t chunk_size;    ///< primitives per work-item while a node is split by many
     uint32_t subtree_size;  ///< a node of at most this many primitives is finished by one work-item
     BvhLayout layout = BvhLayout::bvh2;  ///< of the result
+    BvhMethod method = BvhMethod::binned_sah;
 
     static BvhBuildParameters for_device(const DeviceInfo &device);
 };
@@ -29,9 +31,11 @@ struct BvhBuildParameters {
 /// takes `input_bytes`, exceeds what the layout can number (2^26) or what the device can hold.
 void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uint64_t input_bytes);
 
-/// Builds hierarchies on a device: breadth-first binned SAH (thesis 3.1) in a large phase, level by level
-/// with all work-items on each node, and a small phase with a subtree per work-item. Deterministic:
-/// partitions are stable, numbering follows the order of the input, nothing depends on scheduling.
+/// Builds hierarchies on a device, by one of two methods. binned_sah: breadth-first binned SAH (thesis 3.1) in a large
+/// phase, level by level with all work-items on each node, and a small phase with a subtree per work-item.
+/// hploc: clustering (bvh/hploc.h); a tree deeper than traversal allows is made anew by binned_sah, and so is one of a
+/// single leaf. Deterministic: partitions are stable, numbering follows the order of the input, nothing depends on
+/// scheduling.
 ///
 /// Keeps its compiled kernels: one builder serves any number of builds.
 class BvhBuilder {
@@ -53,10 +57,14 @@ class BvhBuilder {
               const std::vector<std::array<uint32_t, 3>> &triangles);
 
   private:
+    struct Gathered;
     struct Workspace;
 
     Bvh build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
-    void gather(Workspace &work, const Buffer<float> &positions, const Buffer<uint32_t> &indices);
+    std::optional<Bvh> build_by_clustering(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
+    Bvh build_by_binning(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
+    BuildState gather(Gathered &gathered, uint32_t subtree_size, const Buffer<float> &positions,
+                      const Buffer<uint32_t> &indices);
     void split_levels(Workspace &work);
 
     DeviceContext *device_;
@@ -65,6 +73,7 @@ class BvhBuilder {
     Kernel bin_primitives_, choose_splits_, partition_primitives_, emit_children_;
     Kernel build_subtrees_;
     Kernel place_subtrees_, copy_top_nodes_, copy_subtrees_;
+    std::optional<HplocBuilder> hploc_;
     std::optional<BvhCollapser> collapser_;
     std::optional<BvhLinearizer> linearizer_;
 };

@@ -8,8 +8,24 @@
 
 namespace rtrays {
 
+/// How a hierarchy is built.
+enum class BvhMethod : uint32_t {
+    binned_sah,  ///< top down, by the surface area heuristic over bins
+    hploc,       ///< bottom up, by clustering along a space-filling curve: faster to build, slower to trace
+};
+
+/// All methods by the names that settings give them.
+struct NamedBvhMethod {
+    BvhMethod method;
+    const char *name;
+};
+inline constexpr NamedBvhMethod bvh_methods[] = {{BvhMethod::binned_sah, "binned_sah"}, {BvhMethod::hploc, "hploc"}};
+
+const char *to_string(BvhMethod method);
+
 /// Facts of one build, all but the seconds deterministic.
 struct BvhReport {
+    BvhMethod method = BvhMethod::binned_sah;  ///< that made it: binned_sah where clustering became too deep, or for one leaf
     double seconds_device = 0;  ///< device time of all stages of the build
     uint32_t triangles = 0;     ///< in the tree
     uint32_t not_finite = 0;    ///< rejected: a coordinate is NaN, infinite or beyond 1e12
@@ -67,6 +83,7 @@ class Bvh {
 
     BvhLayout layout() const { return layout_; }
     const BvhReport &report() const { return report_; }
+    void set_report(const BvhReport &report) { report_ = report; }
 
     const Buffer<BvhNode> &nodes() const { return nodes_; }
     const Buffer<LeafTriangle> &triangles() const { return triangles_; }  ///< in leaf order

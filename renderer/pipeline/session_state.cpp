@@ -113,6 +113,9 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
 void RenderSession::State::build_bvh(const MeshArrays &meshes) {
     BvhBuildParameters parameters = BvhBuildParameters::for_device(device.info());
     parameters.layout = layout.bvh;
+    for (const NamedBvhMethod &named : bvh_methods) {
+        parameters.method = settings.bvh_builder == named.name ? named.method : parameters.method;
+    }
     BvhBuilder builder(device, parameters);
     const auto start = Clock::now();
     bvh = builder.build(meshes.position, meshes.triangle);

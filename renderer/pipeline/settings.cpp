@@ -43,12 +43,13 @@ struct Setting {
 
 constexpr uint32_t largest_count = 0x7fffffff;
 
-std::vector<std::string> bvh_layout_values() {
-    std::vector<std::string> values = {"auto"};
-    for (const NamedBvhLayout &named : bvh_layouts) {
-        values.emplace_back(named.name);
+/// The names of a table, after those given.
+template <typename Table>
+std::vector<std::string> names_of(const Table &table, std::vector<std::string> names = {}) {
+    for (const auto &row : table) {
+        names.emplace_back(row.name);
     }
-    return values;
+    return names;
 }
 
 const std::vector<Setting> &setting_table() {
@@ -88,7 +89,10 @@ const std::vector<Setting> &setting_table() {
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
         {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}}, "path states in memory"},
-        {"device.bvh_layout", TextSetting{&S::bvh_layout, bvh_layout_values()}, "nodes of two children, traversed with a stack or without, or of eight; auto: by device"},
+        {"device.bvh_layout", TextSetting{&S::bvh_layout, names_of(bvh_layouts, {"auto"})},
+         "nodes of two children, traversed with a stack or without, or of eight; auto: by device"},
+        {"device.bvh_builder", TextSetting{&S::bvh_builder, names_of(bvh_methods)},
+         "binned_sah: top down, the better tree; hploc: by clustering, several times as fast to build"},
         {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
          "a kernel for every block, or one that traces whole paths, of path_tracing"},
         {"device.count_rays", TextSetting{&S::count_rays, {"in_all", "by_depth"}},

@@ -13,6 +13,22 @@ using namespace test;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+/// Each way to build.
+class BvhBuild : public testing::TestWithParam<NamedBvhMethod> {
+  protected:
+    static HostBvh build(const Mesh &mesh) { return build_bvh(mesh, {BvhLayout::bvh2, GetParam().method}); }
+
+    /// With stated group, chunk and subtree sizes.
+    static HostBvh build(const Mesh &mesh, BvhBuildParameters parameters) {
+        parameters.method = GetParam().method;
+        return HostBvh(BvhBuilder(test_device(), parameters).build(mesh.positions, mesh.triangles));
+    }
+
+    static bool is_binned() { return GetParam().method == BvhMethod::binned_sah; }
+};
+INSTANTIATE_TEST_SUITE_P(Methods, BvhBuild, testing::ValuesIn(bvh_methods),
+                         [](const auto &test) { return std::string(test.param.name); });
+
 TreeFacts expect_valid(const HostBvh &bvh, const Mesh &mesh) {
     TreeFacts facts = inspect_tree(bvh, mesh);
     EXPECT_EQ(facts.fault, "") << mesh.name;
@@ -25,59 +41,60 @@ TreeFacts expect_valid(const HostBvh &bvh, const Mesh &mesh) {
     return facts;
 }
 
-TEST(BvhBuild, TreeIsValidOfEverySize) {
+TEST_P(BvhBuild, TreeIsValidOfEverySize) {
     for (uint32_t count = 1; count < 40; ++count) {
         const Mesh mesh = soup(count, count);
-        expect_valid(build_bvh(mesh), mesh);
+        expect_valid(build(mesh), mesh);
     }
     for (const uint32_t count : {1023u, 1024u, 1025u, 4097u, 30000u}) {
         const Mesh mesh = soup(count, count);
-        expect_valid(build_bvh(mesh), mesh);
+        expect_valid(build(mesh), mesh);
     }
 }
 
-TEST(BvhBuild, CostIsNearFullSweep) {
+TEST_P(BvhBuild, CostIsNearFullSweep) {
     const std::vector<Mesh> meshes = {soup(20000, 1), terrain(100, 2), sphere(80, 160, 1.0f, 0.05f, {0, 0, 0}),
                                       room()};
     double mean = 0;
     for (const Mesh &mesh : meshes) {
-        const TreeFacts facts = expect_valid(build_bvh(mesh), mesh);
+        const TreeFacts facts = expect_valid(build(mesh), mesh);
         const double ratio = facts.sah_cost / full_sweep_cost(mesh);
         RecordProperty("sah_over_sweep_" + mesh.name, std::to_string(ratio));
-        EXPECT_LT(ratio, 1.08) << mesh.name;
+        EXPECT_LT(ratio, is_binned() ? 1.08 : 1.25) << mesh.name;
         mean += ratio / static_cast<double>(meshes.size());
     }
-    EXPECT_LT(mean, 1.02);
+    EXPECT_LT(mean, is_binned() ? 1.02 : 1.2);
 }
 
-TEST(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
+TEST_P(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
     const Mesh mesh = terrain(80, 5);
-    const HostBvh expected(BvhBuilder(test_device(), {1, 1024, 256}).build(mesh.positions, mesh.triangles));
+    const HostBvh expected = build(mesh, {1, 1024, 256});
     const auto same_bytes = [](const auto &a, const auto &b) {
         return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
     };
     for (const BvhBuildParameters &parameters :
          {BvhBuildParameters{8, 1024, 256}, {64, 1024, 256}, {1, 100, 256}, {7, 333, 256}}) {
-        const HostBvh bvh(BvhBuilder(test_device(), parameters).build(mesh.positions, mesh.triangles));
+        const HostBvh bvh = build(mesh, parameters);
         EXPECT_TRUE(same_bytes(bvh.nodes, expected.nodes))
             << parameters.group_size << ' ' << parameters.chunk_size;
         EXPECT_TRUE(same_bytes(bvh.triangles, expected.triangles))
             << parameters.group_size << ' ' << parameters.chunk_size;
+        EXPECT_EQ(bvh.report.sah_cost, expected.report.sah_cost);
     }
-    // The subtree size moves nodes in memory, but the tree is the same.
+    // The subtree size moves the nodes of binned_sah in memory, but the tree is the same.
     const TreeFacts tree = inspect_tree(expected, mesh);
     for (const uint32_t subtree_size : {4u, 50u, 5000u, 100000u}) {
-        const HostBvh bvh(
-            BvhBuilder(test_device(), {2, 512, subtree_size}).build(mesh.positions, mesh.triangles));
+        const HostBvh bvh = build(mesh, {2, 512, subtree_size});
         const TreeFacts other = expect_valid(bvh, mesh);
         EXPECT_EQ(other.boxes, tree.boxes) << subtree_size;
         EXPECT_EQ(other.leaf_ids, tree.leaf_ids) << subtree_size;
+        EXPECT_TRUE(is_binned() || same_bytes(bvh.nodes, expected.nodes)) << subtree_size;
     }
 }
 
-TEST(BvhBuild, NothingToHit) {
+TEST_P(BvhBuild, NothingToHit) {
     const Mesh mesh{"empty", {}, {}};
-    const HostBvh bvh = build_bvh(mesh);
+    const HostBvh bvh = build(mesh);
     expect_valid(bvh, mesh);
     EXPECT_EQ(bvh.nodes.size(), 1u);
     Random random(1);
@@ -87,10 +104,10 @@ TEST(BvhBuild, NothingToHit) {
     EXPECT_EQ(bvh.nearest({0, 0, 0}, {0, 0, -1}).triangle, NO_HIT);
 }
 
-TEST(BvhBuild, OneTriangle) {
+TEST_P(BvhBuild, OneTriangle) {
     Mesh mesh{"one triangle", {}, {}};
     mesh.add_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    const HostBvh bvh = build_bvh(mesh);
+    const HostBvh bvh = build(mesh);
     expect_valid(bvh, mesh);
     const Hit hit = bvh.nearest({0.25f, 0.5f, 2.0f}, {0, 0, -1});
     EXPECT_EQ(hit.triangle, 0u);
@@ -102,7 +119,7 @@ TEST(BvhBuild, OneTriangle) {
     EXPECT_EQ(bvh.nearest({0.75f, 0.5f, 2.0f}, {0, 0, -1}).triangle, NO_HIT);
 }
 
-TEST(BvhBuild, FaultyTrianglesAreLeftOutAndCounted) {
+TEST_P(BvhBuild, FaultyTrianglesAreLeftOutAndCounted) {
     Mesh mesh = soup(3000, 3);
     mesh.positions[3 * 7] = {nan, 0, 0};
     mesh.positions[3 * 500 + 1] = {0, infinity, 0};
@@ -111,7 +128,7 @@ TEST(BvhBuild, FaultyTrianglesAreLeftOutAndCounted) {
     mesh.positions[3 * 100] = mesh.positions[3 * 100 + 1];         // two vertices coincide
     mesh.add_triangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3});            // a point
     mesh.add_triangle({0, 0, 0}, {0.25f, 0.5f, 1}, {0.5f, 1, 2});  // a line
-    const HostBvh bvh = build_bvh(mesh);
+    const HostBvh bvh = build(mesh);
     expect_valid(bvh, mesh);
     EXPECT_EQ(bvh.report.not_finite, 4u);
     EXPECT_EQ(bvh.report.degenerate, 3u);
@@ -120,31 +137,31 @@ TEST(BvhBuild, FaultyTrianglesAreLeftOutAndCounted) {
     for (int i = 0; i < 5000; ++i) {
         hopeless.add_triangle({nan, nan, nan}, {1, 0, 0}, {0, 1, 0});
     }
-    const HostBvh none = build_bvh(hopeless);
+    const HostBvh none = build(hopeless);
     expect_valid(none, hopeless);
     EXPECT_EQ(none.report.not_finite, 5000u);
     EXPECT_EQ(none.nearest({0.1f, 0.1f, 1}, {0, 0, -1}).triangle, NO_HIT);
 }
 
-TEST(BvhBuild, CoincidentTrianglesEnd) {
+TEST_P(BvhBuild, CoincidentTrianglesEnd) {
     Mesh mesh{"coincident", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
     mesh.triangles.assign(1000000, {0, 1, 2});
-    const HostBvh bvh = build_bvh(mesh);
+    const HostBvh bvh = build(mesh);
     const TreeFacts facts = expect_valid(bvh, mesh);
-    EXPECT_EQ(facts.depth, 18u) << "halves: 10^6 / 2^18 < 4";
+    EXPECT_LE(facts.depth, is_binned() ? 18u : 30u) << "halves: 10^6 / 2^18 < 4";
     EXPECT_FLOAT_EQ(bvh.nearest({0.2f, 0.2f, 1}, {0, 0, -1}).t, 1.0f);
 }
 
-TEST(BvhBuild, EqualCentroidsEnd) {
+TEST_P(BvhBuild, EqualCentroidsEnd) {
     Mesh mesh{"equal centroids", {}, {}};
     for (int i = 1; i <= 3000; ++i) {
         const auto r = static_cast<float>(i);
         mesh.add_triangle({-r, -r, 0}, {r, -r, 0}, {0, r, 0});
     }
-    expect_valid(build_bvh(mesh), mesh);
+    expect_valid(build(mesh), mesh);
 }
 
-TEST(BvhBuild, DepthIsBoundedWhereSahPeelsOffOneByOne) {
+TEST_P(BvhBuild, DepthIsBoundedWhereSahPeelsOffOneByOne) {
     // Along each axis, distances from the corner shrink by 20 from one triangle to the next: 16 bins see one
     // triangle far out and all others in the first bin.
     Mesh mesh{"exponential", {}, {}};
@@ -156,29 +173,31 @@ TEST(BvhBuild, DepthIsBoundedWhereSahPeelsOffOneByOne) {
             mesh.add_triangle(p, p + size * Eigen::Vector3f(1, 2, 3), p + size * Eigen::Vector3f(3, 1, 2));
         }
     }
-    const HostBvh bvh = build_bvh(mesh);
+    const HostBvh bvh = build(mesh);
     expect_valid(bvh, mesh);
-    EXPECT_GT(bvh.report.depth, BVH_AREA_DEPTH) << "the case must reach the bound";
+    if (is_binned()) {
+        EXPECT_GT(bvh.report.depth, BVH_AREA_DEPTH) << "the case must reach the bound";
+    }
     EXPECT_LE(bvh.report.depth, 62u);
 }
 
-TEST(BvhBuild, ScalesAreAlike) {
+TEST_P(BvhBuild, ScalesAreAlike) {
     const Mesh mesh = soup(2000, 9);
-    const HostBvh reference = build_bvh(mesh);
+    const HostBvh reference = build(mesh);
     for (const float scale : {0x1p-20f, 0x1p20f}) {
         Mesh scaled = mesh;
         for (Eigen::Vector3f &p : scaled.positions) {
             p *= scale;
         }
-        const HostBvh bvh = build_bvh(scaled);
+        const HostBvh bvh = build(scaled);
         const TreeFacts facts = expect_valid(bvh, scaled);
         EXPECT_EQ(facts.leaf_ids, inspect_tree(reference, mesh).leaf_ids)
             << "powers of two change no decision";
     }
 }
 
-TEST(BvhBuild, WrongInputIsAnError) {
-    BvhBuilder builder(test_device());
+TEST(BvhBuildInput, WrongInputIsAnError) {
+    BvhBuilder &builder = builder_of(BvhLayout::bvh2);
     const std::vector<Eigen::Vector3f> three(3, Eigen::Vector3f::Zero());
     expect_input_error("1 triangles name a vertex that does not exist (there are 3)",
                        [&] { builder.build(three, {{0, 1, 3}}); });
@@ -191,7 +210,7 @@ TEST(BvhBuild, WrongInputIsAnError) {
     }
 }
 
-TEST(BvhBuild, TooManyTrianglesAreRefusedBeforeAllocation) {
+TEST(BvhBuildInput, TooManyTrianglesAreRefusedBeforeAllocation) {
     const DeviceInfo &device = test_device().info();
     EXPECT_NO_THROW(require_build_memory(device, 1000, 24000));
     const std::string message = error_of(

@@ -100,40 +100,65 @@ WideFacts inspect_wide(const HostBvh &bvh, const Mesh &mesh) {
     return facts;
 }
 
+/// Nodes and leaves are numbered as they are met from node to node, lane by lane, the root being 1.
+bool is_numbered_by_level(const HostBvh &bvh) {
+    uint32_t node = 1, leaf = 0;
+    for (const WideNode &wide : bvh.wide_nodes) {
+        for (uint32_t lane = 0; lane < WIDE_LANES && wide.bounds[0][0][lane] <= wide.bounds[1][0][lane]; ++lane) {
+            const uint32_t link = wide.child[lane];
+            const bool is_leaf = (link & BVH_LEAF_BIT) != 0;
+            if (is_leaf ? wide_leaf_block(link) != leaf++ : link != node++) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 WideFacts expect_valid(const HostBvh &bvh, const Mesh &mesh) {
     const WideFacts facts = inspect_wide(bvh, mesh);
     EXPECT_EQ(facts.fault, "") << mesh.name << ' ' << mesh.triangles.size();
+    EXPECT_TRUE(is_numbered_by_level(bvh)) << mesh.name << ' ' << mesh.triangles.size();
     EXPECT_EQ(facts.nodes, bvh.report.wide_nodes);
     EXPECT_EQ(facts.leaves, bvh.report.wide_leaves);
     EXPECT_EQ(bvh.report.bytes, facts.nodes * sizeof(WideNode) + facts.leaves * sizeof(TriangleBlock));
     return facts;
 }
 
-TEST(BvhCollapse, TreeIsValidOfEverySize) {
-    expect_valid(build_bvh({"empty", {}, {}}, BvhLayout::wide8), {"empty", {}, {}});
+class BvhCollapse : public testing::TestWithParam<NamedBvhMethod> {
+  protected:
+    static TreeKind kind() { return {BvhLayout::wide8, GetParam().method}; }
+};
+INSTANTIATE_TEST_SUITE_P(Methods, BvhCollapse, testing::ValuesIn(bvh_methods),
+                         [](const auto &test) { return std::string(test.param.name); });
+
+TEST_P(BvhCollapse, TreeIsValidOfEverySize) {
+    expect_valid(build_bvh({"empty", {}, {}}, kind()), {"empty", {}, {}});
     for (uint32_t count = 1; count < 40; ++count) {
         const Mesh mesh = soup(count, count);
-        expect_valid(build_bvh(mesh, BvhLayout::wide8), mesh);
+        expect_valid(build_bvh(mesh, kind()), mesh);
     }
     for (const Mesh &mesh :
          {room(), soup(30000, 1), terrain(100, 2), sphere(80, 160, 1.0f, 0.05f, {0, 0, 0})}) {
-        const HostBvh bvh = build_bvh(mesh, BvhLayout::wide8);
+        const HostBvh bvh = build_bvh(mesh, kind());
         const WideFacts facts = expect_valid(bvh, mesh);
         const double fill = static_cast<double>(bvh.report.triangles) / static_cast<double>(facts.leaves);
         RecordProperty("triangles_per_leaf_" + mesh.name, std::to_string(fill));
-        EXPECT_GT(fill, 4) << mesh.name << ": more than half of the lanes";
+        if (mesh.triangles.size() > 1000) {  // fewer say nothing
+            EXPECT_GT(fill, 4) << mesh.name << ": more than half of the lanes";
+        }
     }
 }
 
-TEST(BvhCollapse, DegenerateInputEnds) {
+TEST_P(BvhCollapse, DegenerateInputEnds) {
     Mesh coincident{"coincident", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
     coincident.triangles.assign(100000, {0, 1, 2});
-    expect_valid(build_bvh(coincident, BvhLayout::wide8), coincident);
+    expect_valid(build_bvh(coincident, kind()), coincident);
 
     Mesh faulty = soup(3000, 3);
     faulty.positions[3 * 7].x() = NAN;
     faulty.positions[3 * 100] = faulty.positions[3 * 100 + 1];
-    const HostBvh bvh = build_bvh(faulty, BvhLayout::wide8);
+    const HostBvh bvh = build_bvh(faulty, kind());
     EXPECT_EQ(bvh.report.rejected(), 2u);
     expect_valid(bvh, faulty);
 
@@ -147,16 +172,16 @@ TEST(BvhCollapse, DegenerateInputEnds) {
             peeled.add_triangle(p, p + size * Eigen::Vector3f(1, 2, 3), p + size * Eigen::Vector3f(3, 1, 2));
         }
     }
-    const HostBvh deep = build_bvh(peeled, BvhLayout::wide8);
+    const HostBvh deep = build_bvh(peeled, kind());
     const WideFacts facts = expect_valid(deep, peeled);
     EXPECT_LT(facts.depth * (WIDE_LANES - 1), WIDE_STACK_SIZE);
     EXPECT_NE(deep.nearest(peeled.vertex(40, 0) - Eigen::Vector3f(0, 0, 1), {0, 0, 1}).triangle, NO_HIT);
 }
 
-TEST(BvhCollapse, BitsDoNotDependOnTheDistributionOfWork) {
+TEST_P(BvhCollapse, BitsDoNotDependOnTheDistributionOfWork) {
     const Mesh mesh = terrain(80, 5);
     const auto build = [&](uint32_t group_size) {
-        return HostBvh(BvhBuilder(test_device(), {group_size, 1024, 256, BvhLayout::wide8})
+        return HostBvh(BvhBuilder(test_device(), {group_size, 1024, 256, BvhLayout::wide8, GetParam().method})
                            .build(mesh.positions, mesh.triangles));
     };
     const HostBvh expected = build(1), other = build(64);

@@ -60,13 +60,18 @@ void follow(const std::vector<StacklessNode> &nodes, uint32_t place, uint32_t oc
     }
 }
 
-TEST(BvhLinearize, HoldsTheTreeInDepthFirstOrder) {
+class BvhLinearize : public testing::TestWithParam<NamedBvhMethod> {};
+INSTANTIATE_TEST_SUITE_P(Methods, BvhLinearize, testing::ValuesIn(bvh_methods),
+                         [](const auto &test) { return std::string(test.param.name); });
+
+TEST_P(BvhLinearize, HoldsTheTreeInDepthFirstOrder) {
     std::vector<Mesh> meshes = {{"empty", {}, {}}, room(), soup(30000, 1), terrain(100, 2)};
     for (uint32_t count = 1; count < 12; ++count) {
         meshes.push_back(soup(count, count));
     }
     for (const Mesh &mesh : meshes) {
-        const HostBvh tree = build_bvh(mesh), stackless = build_bvh(mesh, BvhLayout::bvh2_stackless);
+        const HostBvh tree = build_bvh(mesh, {BvhLayout::bvh2, GetParam().method});
+        const HostBvh stackless = build_bvh(mesh, {BvhLayout::bvh2_stackless, GetParam().method});
         std::string fault;
         const uint32_t end = compare_subtree(tree, 0, stackless, 0, &fault);
         EXPECT_EQ(fault, "") << mesh.name << ' ' << mesh.triangles.size();

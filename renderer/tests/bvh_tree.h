@@ -74,15 +74,40 @@ inline DeviceContext &test_device() {
     return device;
 }
 
-inline Bvh build_on_device(const Mesh &mesh, BvhLayout layout) {
-    static std::map<BvhLayout, BvhBuilder> builders;
-    BvhBuildParameters parameters = BvhBuildParameters::for_device(test_device().info());
-    parameters.layout = layout;
-    return builders.try_emplace(layout, test_device(), parameters).first->second.build(mesh.positions, mesh.triangles);
+/// How a tree is built and laid out.
+struct TreeKind {
+    BvhLayout layout;
+    BvhMethod method;
+
+    TreeKind(BvhLayout of_layout, BvhMethod by_method = BvhMethod::binned_sah) : layout(of_layout), method(by_method) {}
+
+    std::string name() const { return std::string(to_string(method)) + "_" + to_string(layout); }
+};
+
+inline std::vector<TreeKind> all_tree_kinds() {
+    std::vector<TreeKind> kinds;
+    for (const NamedBvhMethod &method : bvh_methods) {
+        for (const NamedBvhLayout &layout : bvh_layouts) {
+            kinds.emplace_back(layout.layout, method.method);
+        }
+    }
+    return kinds;
 }
 
-inline HostBvh build_bvh(const Mesh &mesh, BvhLayout layout = BvhLayout::bvh2) {
-    return HostBvh(build_on_device(mesh, layout));
+inline BvhBuilder &builder_of(TreeKind kind) {
+    static std::map<std::string, BvhBuilder> builders;
+    BvhBuildParameters parameters = BvhBuildParameters::for_device(test_device().info());
+    parameters.layout = kind.layout;
+    parameters.method = kind.method;
+    return builders.try_emplace(kind.name(), test_device(), parameters).first->second;
+}
+
+inline Bvh build_on_device(const Mesh &mesh, TreeKind kind) {
+    return builder_of(kind).build(mesh.positions, mesh.triangles);
+}
+
+inline HostBvh build_bvh(const Mesh &mesh, TreeKind kind = BvhLayout::bvh2) {
+    return HostBvh(build_on_device(mesh, kind));
 }
 
 inline double half_area(const Eigen::AlignedBox3d &box) {

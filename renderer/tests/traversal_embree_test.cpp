@@ -8,7 +8,7 @@
 
 #include "renderer/tests/double_intersector.h"
 #include "renderer/tests/embree_scene.h"
-#include "renderer/tests/layout_test.h"
+#include "renderer/tests/tree_test.h"
 #include "renderer/tests/ray_sets.h"
 
 namespace rtrays {
@@ -16,15 +16,15 @@ namespace {
 
 using namespace test;
 
-class TraversalEmbree : public LayoutTest {};
-EACH_LAYOUT(TraversalEmbree);
+class TraversalEmbree : public TreeTest {};
+EACH_TREE(TraversalEmbree);
 
 /// Differences by kind of ray: random, grazing, and along an axis through a vertex or an edge (ray_sets.h).
 using Differences = std::array<size_t, 3>;
 
 /// Rays on which ours differs from Embree and double precision does not side with ours.
-size_t count_wrong(const Mesh &mesh, BvhLayout layout, size_t count, Differences *differences) {
-    const HostBvh bvh = build_bvh(mesh, layout);
+size_t count_wrong(const Mesh &mesh, TreeKind kind, size_t count, Differences *differences) {
+    const HostBvh bvh = build_bvh(mesh, kind);
     const EmbreeScene embree(mesh);
     const float tolerance = 1e-5f * mesh.box().diagonal().norm();
     const std::vector<RayRecord> rays = fuzzed_rays(mesh, count, 13);
@@ -53,7 +53,7 @@ TEST_P(TraversalEmbree, FuzzedRaysAgree) {
     Differences differences{};
     for (const Mesh &mesh :
          {room(), soup(3000, 1), sphere(100, 200, 1.0f, 0.01f, {0, 0, 0}), terrain(120, 2)}) {
-        wrong += count_wrong(mesh, GetParam().layout, rays_of_each, &differences);
+        wrong += count_wrong(mesh, GetParam(), rays_of_each, &differences);
         rays += rays_of_each;
     }
     std::printf(

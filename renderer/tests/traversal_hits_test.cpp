@@ -4,7 +4,7 @@
 
 #include "renderer/device/kernel.h"
 #include "renderer/tests/double_intersector.h"
-#include "renderer/tests/layout_test.h"
+#include "renderer/tests/tree_test.h"
 #include "renderer/tests/ray_sets.h"
 
 namespace rtrays {
@@ -12,8 +12,8 @@ namespace {
 
 using namespace test;
 
-class TraversalHits : public LayoutTest {};
-EACH_LAYOUT(TraversalHits);
+class TraversalHits : public TreeTest {};
+EACH_TREE(TraversalHits);
 
 std::vector<Mesh> small_meshes() {
     return {room(),
@@ -26,7 +26,7 @@ std::vector<Mesh> small_meshes() {
 
 TEST_P(TraversalHits, AgreeWithBruteForceInDouble) {
     for (const Mesh &mesh : small_meshes()) {
-        const HostBvh bvh = build_bvh(mesh, GetParam().layout);
+        const HostBvh bvh = build_bvh(mesh, GetParam());
         const double tolerance = 1e-5 * static_cast<double>(mesh.box().diagonal().norm());
         int wrong = 0, hits = 0;
         const size_t count = 30000;
@@ -46,7 +46,7 @@ TEST_P(TraversalHits, AgreeWithBruteForceInDouble) {
 TEST_P(TraversalHits, TheJudgeRejectsWrongHits) {
     const Mesh mesh = room();
     const Eigen::Vector3f origin(450, 400, 200), down(0, -1, 0);
-    const Hit hit = build_bvh(mesh, GetParam().layout).nearest(origin, down);
+    const Hit hit = build_bvh(mesh, GetParam()).nearest(origin, down);
     const double tolerance = 1e-2;
     EXPECT_TRUE(hit_is_right(mesh, origin, down, hit.t, hit.triangle, tolerance));
     EXPECT_FALSE(hit_is_right(mesh, origin, down, hit.t, NO_HIT, tolerance));
@@ -56,7 +56,7 @@ TEST_P(TraversalHits, TheJudgeRejectsWrongHits) {
 
 TEST_P(TraversalHits, AnyHitIsNearestHitBelowTheLimit) {
     for (const Mesh &mesh : {room(), soup(5000, 8), terrain(40, 2)}) {
-        const HostBvh bvh = build_bvh(mesh, GetParam().layout);
+        const HostBvh bvh = build_bvh(mesh, GetParam());
         Random random(3);
         const float size = mesh.box().diagonal().norm();
         int occluded = 0;
@@ -74,7 +74,7 @@ TEST_P(TraversalHits, AnyHitIsNearestHitBelowTheLimit) {
 
 TEST_P(TraversalHits, BarycentricsGiveTheHitPoint) {
     const Mesh mesh = soup(5000, 8);
-    const HostBvh bvh = build_bvh(mesh, GetParam().layout);
+    const HostBvh bvh = build_bvh(mesh, GetParam());
     for (const RayRecord &ray : fuzzed_rays(mesh, 30000, 6)) {
         const Hit hit = bvh.nearest(ray_origin(ray), ray_direction(ray));
         if (hit.triangle == NO_HIT) {
@@ -98,7 +98,7 @@ TEST_P(TraversalHits, DeviceFindsWhatTheHostFinds) {
     const Program program(device, "kernels/traversal/trace_rays.cl",
                           {{"BVH_LAYOUT", std::to_string(static_cast<uint32_t>(GetParam().layout))}});
     for (const Mesh &mesh : {room(), terrain(100, 4)}) {
-        const Bvh bvh = build_on_device(mesh, GetParam().layout);
+        const Bvh bvh = build_on_device(mesh, GetParam());
         const HostBvh host(bvh);
         std::vector<RayRecord> rays = fuzzed_rays(mesh, 100001, 7);
         Random random(3);

@@ -8,19 +8,19 @@
 
 #include "renderer/kernels/geometry/surface_point.h"
 #include "renderer/tests/double_intersector.h"
-#include "renderer/tests/layout_test.h"
+#include "renderer/tests/tree_test.h"
 
 namespace rtrays {
 namespace {
 
 using namespace test;
 
-class Watertight : public LayoutTest {};
-EACH_LAYOUT(Watertight);
-class Secondary : public LayoutTest {};
-EACH_LAYOUT(Secondary);
-class BadRays : public LayoutTest {};
-EACH_LAYOUT(BadRays);
+class Watertight : public TreeTest {};
+EACH_TREE(Watertight);
+class Secondary : public TreeTest {};
+EACH_TREE(Secondary);
+class BadRays : public TreeTest {};
+EACH_TREE(BadRays);
 
 constexpr int million = 1000000;
 
@@ -37,8 +37,8 @@ Eigen::Vector3f aim(const Mesh &mesh, int turn, Random &random) {
 }
 
 /// Rays from inside a closed mesh that hit nothing.
-int count_misses(const Mesh &mesh, BvhLayout layout, const Eigen::Vector3f &centre, float spread, int rays) {
-    const HostBvh bvh = build_bvh(mesh, layout);
+int count_misses(const Mesh &mesh, TreeKind kind, const Eigen::Vector3f &centre, float spread, int rays) {
+    const HostBvh bvh = build_bvh(mesh, kind);
     Random random(11);
     int misses = 0;
     for (int i = 0; i < rays; ++i) {
@@ -51,12 +51,12 @@ int count_misses(const Mesh &mesh, BvhLayout layout, const Eigen::Vector3f &cent
 }
 
 TEST_P(Watertight, ClosedSphereFromInside) {
-    EXPECT_EQ(count_misses(sphere(64, 128, 1.0f, 0.05f, {0, 0, 0}), GetParam().layout, {0, 0, 0}, 0.5f, million / 2), 0);
+    EXPECT_EQ(count_misses(sphere(64, 128, 1.0f, 0.05f, {0, 0, 0}), GetParam(), {0, 0, 0}, 0.5f, million / 2), 0);
 }
 
 TEST_P(Watertight, ClosedRoomOnAxesAndEdges) {
-    EXPECT_EQ(count_misses(room(), GetParam().layout, {450.0f, 400.0f, 200.0f}, 60.0f, million / 2), 0);
-    const HostBvh bvh = build_bvh(room(), GetParam().layout);
+    EXPECT_EQ(count_misses(room(), GetParam(), {450.0f, 400.0f, 200.0f}, 60.0f, million / 2), 0);
+    const HostBvh bvh = build_bvh(room(), GetParam());
     Random random(5);
     for (int i = 0; i < 10000; ++i) {  // along the planes of the blocks, on their edges' coordinates
         const Eigen::Vector3f origin(i % 2 ? 130.0f : 423.0f, uniform(random, 331.0f, 540.0f),
@@ -69,13 +69,13 @@ TEST_P(Watertight, ClosedRoomOnAxesAndEdges) {
 
 TEST_P(Watertight, FarFromTheCoordinateOrigin) {
     const Eigen::Vector3f offset(148376.0f, 1234.0f, -223423.0f);  // Embree's own test
-    EXPECT_LE(count_misses(sphere(64, 128, 10.0f, 0.05f, offset), GetParam().layout, offset, 5.0f, million), 20);
+    EXPECT_LE(count_misses(sphere(64, 128, 10.0f, 0.05f, offset), GetParam(), offset, 5.0f, million), 20);
 }
 
 /// The open grid is watertight inside its outline too.
 TEST_P(Watertight, GridFromAbove) {
     const Mesh mesh = terrain(60, 3);
-    const HostBvh bvh = build_bvh(mesh, GetParam().layout);
+    const HostBvh bvh = build_bvh(mesh, GetParam());
     Random random(7);
     int misses = 0;
     for (int i = 0; i < 200000; ++i) {
@@ -208,8 +208,8 @@ struct SecondaryRays {
 };
 
 /// Diffuse secondary rays on one side of the surface: `side` +1 along the normals, -1 against them.
-SecondaryRays trace_secondary(const Mesh &mesh, BvhLayout layout, float side, int rays, bool near_edges) {
-    const HostBvh bvh = build_bvh(mesh, layout);
+SecondaryRays trace_secondary(const Mesh &mesh, TreeKind kind, float side, int rays, bool near_edges) {
+    const HostBvh bvh = build_bvh(mesh, kind);
     const std::vector<double> sums = area_sums(mesh);
     Random random(21);
     SecondaryRays result;
@@ -231,10 +231,10 @@ TEST_P(Secondary, NoSelfHitAndNoLeakInAClosedRoom) {
     Mesh box{"box", {}, {}};
     box.add_box({0, 0, 0}, {552.8f, 548.8f, 559.2f});
     for (const bool near_edges : {false, true}) {
-        const SecondaryRays inside = trace_secondary(box, GetParam().layout, -1.0f, million / 2, near_edges);
+        const SecondaryRays inside = trace_secondary(box, GetParam(), -1.0f, million / 2, near_edges);
         EXPECT_EQ(inside.self_hits, 0);
         EXPECT_EQ(inside.escapes.size(), 0u);
-        const SecondaryRays outside = trace_secondary(box, GetParam().layout, 1.0f, million / 4, near_edges);
+        const SecondaryRays outside = trace_secondary(box, GetParam(), 1.0f, million / 4, near_edges);
         EXPECT_EQ(outside.escapes.size(), size_t{million / 4}) << "a convex body does not shadow itself";
     }
 }
@@ -242,7 +242,7 @@ TEST_P(Secondary, NoSelfHitAndNoLeakInAClosedRoom) {
 TEST_P(Secondary, NoSelfHitAndNoLeakInAClosedSphere) {
     for (const float radius : {1e-6f, 1.0f, 1e6f}) {
         const SecondaryRays rays =
-            trace_secondary(sphere(40, 80, radius, 0.02f, {0, 0, 0}), GetParam().layout, -1.0f, million / 3, false);
+            trace_secondary(sphere(40, 80, radius, 0.02f, {0, 0, 0}), GetParam(), -1.0f, million / 3, false);
         EXPECT_EQ(rays.self_hits, 0) << radius;
         EXPECT_EQ(rays.escapes.size(), 0u) << radius;
     }
@@ -278,7 +278,7 @@ bool leads_through_a_fold(const Mesh &mesh, const Escape &escape) {
 /// 1 and triangles of 0.1, gamma(7) + 16 u 0.1 = 5.2e-7 along each axis (surface_point.h), sqrt(3) times that in all.
 TEST_P(Secondary, OnlyFoldsThinnerThanTheOffsetLeak) {
     const Mesh mesh = sphere(40, 80, 1.0f, 0.02f, {0, 0, 0});
-    const SecondaryRays rays = trace_secondary(mesh, GetParam().layout, -1.0f, million, true);
+    const SecondaryRays rays = trace_secondary(mesh, GetParam(), -1.0f, million, true);
     EXPECT_EQ(rays.self_hits, 0);
     RecordProperty("leaks_of_1e6", static_cast<int>(rays.escapes.size()));
     for (const Escape &escape : rays.escapes) {
@@ -295,7 +295,7 @@ TEST_P(Secondary, OnlyFoldsThinnerThanTheOffsetLeak) {
 }
 
 TEST_P(BadRays, HitNothing) {
-    const HostBvh bvh = build_bvh(room(), GetParam().layout);
+    const HostBvh bvh = build_bvh(room(), GetParam());
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
     const Eigen::Vector3f inside(450, 400, 200), down(0, -1, 0);
