@@ -16,11 +16,11 @@ uint32_t node_capacity(uint32_t triangles) {
 
 }  // namespace
 
-BvhCollapser::BvhCollapser(DeviceContext &device, uint32_t group_size) : device_(&device) {
+BvhCollapser::BvhCollapser(DeviceContext &device, uint32_t group_size)
+    : device_(&device), sums_(PrefixSums::for_device(device, group_size)) {
     const Program program(device, "kernels/bvh/collapse.cl");
     begin_collapse_ = Kernel(program, "begin_collapse", 1);
     open_wide_nodes_ = Kernel(program, "open_wide_nodes", group_size);
-    number_wide_nodes_ = Kernel(program, "number_wide_nodes", 1);
     link_wide_nodes_ = Kernel(program, "link_wide_nodes", group_size);
     fill_blocks_ = Kernel(program, "fill_blocks", group_size);
     copy_wide_nodes_ = Kernel(program, "copy_wide_nodes", group_size);
@@ -33,6 +33,7 @@ Bvh BvhCollapser::collapse(const Bvh &bvh) {
     const Buffer<WideNode> scratch(*device_, "bvh scratch nodes", capacity);
     const Buffer<WideTask> tasks(*device_, "bvh wide tasks", capacity);
     const Buffer<WideLeaf> leaves(*device_, "bvh wide leaves", bvh.report().triangles);
+    const Buffer<uint32_t> child_counts(*device_, "bvh wide child counts", 2 * capacity + 1);
     const Buffer<CollapseState> state(*device_, "bvh collapse state", 1);
 
     begin_collapse_.bind({bvh.nodes(), state, scratch, tasks, leaves});
@@ -40,11 +41,10 @@ Bvh BvhCollapser::collapse(const Bvh &bvh) {
     CollapseState counts = state.read().front();
     for (uint32_t begin = 1; begin < counts.node_count;) {
         const uint32_t end = counts.node_count;
-        open_wide_nodes_.bind({bvh.nodes(), begin, end, scratch, tasks});
+        open_wide_nodes_.bind({bvh.nodes(), begin, end, scratch, tasks, child_counts});
         open_wide_nodes_.enqueue(end - begin);
-        number_wide_nodes_.bind({begin, end, state, tasks});
-        number_wide_nodes_.enqueue(1);
-        link_wide_nodes_.bind({begin, end, scratch, tasks, leaves});
+        sums_.scan(child_counts, 2 * (end - begin) + 1);
+        link_wide_nodes_.bind({begin, end, counts.leaf_count, child_counts, state, scratch, tasks, leaves});
         link_wide_nodes_.enqueue(end - begin);
         counts = state.read().front();
         begin = end;
@@ -64,7 +64,8 @@ Bvh BvhCollapser::collapse(const Bvh &bvh) {
     report.wide_leaves = counts.leaf_count;
     report.bytes = nodes.bytes() + blocks.bytes();
     report.bytes_peak = std::max(report.bytes_peak, bvh.report().bytes + report.bytes + scratch.bytes() +
-                                                        tasks.bytes() + leaves.bytes() + state.bytes());
+                                                        tasks.bytes() + leaves.bytes() + child_counts.bytes() +
+                                                        sums_.bytes() + state.bytes());
     return {std::move(nodes), std::move(blocks), report};
 }
 

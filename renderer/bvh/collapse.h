@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/bvh/bvh.h"
+#include "renderer/bvh/prefix_sums.h"
 #include "renderer/device/kernel.h"
 
 namespace rtrays {
@@ -19,8 +20,8 @@ class BvhCollapser {
 
   private:
     DeviceContext *device_;
-    Kernel begin_collapse_, open_wide_nodes_, number_wide_nodes_, link_wide_nodes_, fill_blocks_,
-        copy_wide_nodes_;
+    PrefixSums sums_;
+    Kernel begin_collapse_, open_wide_nodes_, link_wide_nodes_, fill_blocks_, copy_wide_nodes_;
 };
 
 }  // namespace rtrays

@@ -9,14 +9,16 @@ namespace rtrays {
 /// Brings the nodes of two-wide hierarchies into depth-first order on a device (shared/stackless_node.h).
 class BvhLinearizer {
   public:
-    BvhLinearizer(DeviceContext &device, uint32_t group_size);
+    /// `subtree_size`: a subtree of at most so many triangles is numbered by one work-item; changes no bit of the result.
+    BvhLinearizer(DeviceContext &device, uint32_t subtree_size);
 
     /// `bvh` has the layout bvh2; its triangles become those of the result.
     Bvh linearize(Bvh bvh);
 
   private:
     DeviceContext *device_;
-    Kernel count_subtrees_, write_stackless_nodes_, link_stackless_nodes_;
+    uint32_t subtree_size_;
+    Kernel link_parents_, count_subtrees_, place_subtree_nodes_, write_stackless_nodes_, link_stackless_nodes_;
 };
 
 }  // namespace rtrays

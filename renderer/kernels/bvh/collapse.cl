@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two-wide tree collapsed to nodes of eight children, level by level: open_wide_nodes (a work-item per node of the
-// level) -> number_wide_nodes (one work-item) -> link_wide_nodes (per node); in the end fill_blocks (per leaf). Numbering
-// follows the tree alone: nothing depends on scheduling.
+// level) -> prefix sums of how many children of each are nodes, then leaves -> link_wide_nodes (per node); in the end
+// fill_blocks (per leaf). Numbering follows the tree alone: nothing depends on scheduling.
 //
 // A wide node opens its largest child (by area, the chance of a ray to enter it) until it has eight, or only leaves: I. Wald,
 // C. Benthin, S. Boulos, RT 2008. A subtree of at most eight triangles, which are tested at once, is a leaf.
@@ -75,8 +75,9 @@ __kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *
     *state = begin;
 }
 
+/// `counts`: of the nodes of this level, how many of their children are nodes; then how many are leaves; then 0.
 __kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uint level_end, GLOBAL WideNode *wide_nodes,
-                              GLOBAL WideTask *tasks) {
+                              GLOBAL WideTask *tasks, GLOBAL uint *counts) {
     const uint index = level_begin + (uint)get_global_id(0);
     if (index >= level_end) {
         return;
@@ -119,36 +120,36 @@ __kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uin
         task->child_begin[lane] = child.begin;
         inner += is_leaf ? 0u : 1u;
     }
-    task->inner_count = inner;
-    task->leaf_count = count - inner;
+    task->child_count = count;
+    const uint place = index - level_begin;
+    const uint level_size = level_end - level_begin;
+    counts[place] = inner;
+    counts[level_size + place] = count - inner;
+    if (place == 0) {
+        counts[2u * level_size] = 0;
+    }
 }
 
-/// One work-item: prefix sums over the level.
-__kernel void number_wide_nodes(uint level_begin, uint level_end, GLOBAL CollapseState *state, GLOBAL WideTask *tasks) {
-    if (get_global_id(0) != 0) {
-        return;
-    }
-    CollapseState next = *state;
-    for (uint index = level_begin; index < level_end; ++index) {
-        tasks[index].first_inner = next.node_count;
-        tasks[index].first_leaf = next.leaf_count;
-        next.node_count += tasks[index].inner_count;
-        next.leaf_count += tasks[index].leaf_count;
-    }
-    *state = next;
-}
-
-__kernel void link_wide_nodes(uint level_begin, uint level_end, GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
+/// `sums`: of the counts, exclusive. The first work-item books what the level has added.
+__kernel void link_wide_nodes(uint level_begin, uint level_end, uint first_leaf, GLOBAL const uint *sums,
+                              GLOBAL CollapseState *state, GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
                               GLOBAL WideLeaf *leaves) {
     const uint index = level_begin + (uint)get_global_id(0);
     if (index >= level_end) {
         return;
     }
+    const uint place = index - level_begin;
+    const uint level_size = level_end - level_begin;
+    const uint all_inner = sums[level_size];
+    if (place == 0) {
+        state->node_count = level_end + all_inner;
+        state->leaf_count = first_leaf + sums[2u * level_size] - all_inner;
+    }
     GLOBAL const WideTask *task = tasks + index;
     GLOBAL WideNode *wide = wide_nodes + index;
-    uint inner = task->first_inner;
-    uint leaf = task->first_leaf;
-    for (uint lane = 0; lane < task->inner_count + task->leaf_count; ++lane) {
+    uint inner = level_end + sums[place];
+    uint leaf = first_leaf + sums[level_size + place] - all_inner;
+    for (uint lane = 0; lane < task->child_count; ++lane) {
         const uint link = wide->child[lane];
         if ((link & BVH_LEAF_BIT) != 0) {
             leaves[leaf].begin = task->child_begin[lane];

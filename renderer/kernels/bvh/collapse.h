@@ -9,10 +9,7 @@
 typedef struct WideTask {
     uint node;         ///< of the two-wide tree
     uint begin;        ///< its first triangle, in leaf order
-    uint inner_count;  ///< children that are nodes, and leaves (set by open_wide_nodes)
-    uint leaf_count;
-    uint first_inner;  ///< numbers of the first of them (set by number_wide_nodes)
-    uint first_leaf;
+    uint child_count;              ///< set by open_wide_nodes
     uint child_begin[WIDE_LANES];  ///< first triangle of each child
 } WideTask;
 
@@ -28,6 +25,6 @@ typedef struct CollapseState {
 } CollapseState;
 
 #ifdef __cplusplus
-static_assert(sizeof(WideTask) == 56 && sizeof(WideLeaf) == 8 && sizeof(CollapseState) == 8,
+static_assert(sizeof(WideTask) == 44 && sizeof(WideLeaf) == 8 && sizeof(CollapseState) == 8,
               "as in OpenCL C");
 #endif

@@ -1,32 +1,113 @@
 // SPDX-License-Identifier: MIT
-// The two-wide tree in depth-first order (shared/stackless_node.h): count_subtrees (one work-item) -> write_stackless_nodes (a
-// work-item per node) -> link_stackless_nodes (one). The builder numbers parents before their children, which makes both sums single passes.
+// The two-wide tree in depth-first order (shared/stackless_node.h), a work-item per node in each stage: link_parents ->
+// count_subtrees -> place_subtree_nodes -> write_stackless_nodes -> link_stackless_nodes. Nodes that hold more than the subtree
+// size of triangles are on their own, the highest below them answer for all of their subtree.
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/stackless_node.h"
 
-/// Nodes in depth-first order below and including child `side`.
-static uint child_size(GLOBAL const BvhNode *node, uint side, GLOBAL const uint *sizes) {
-    const uint link = node->child[side];
-    return node->count[side] == 0 ? 0u : (link & BVH_LEAF_BIT) != 0 ? 1u : sizes[link];
+static bool has_node(GLOBAL const BvhNode *node, uint side) { return (node->child[side] & BVH_LEAF_BIT) == 0; }
+
+static bool is_large(GLOBAL const BvhNode *node, uint subtree_size) {
+    return node->count[0] + node->count[1] > subtree_size;
 }
 
-/// One work-item: the size of every subtree, children first, then the place of every node, parents first.
-__kernel void count_subtrees(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL uint *sizes, GLOBAL uint *places) {
-    if (get_global_id(0) != 0) {
+/// Whether a work-item has something to do: of the subtree size or below, nodes whose parent is above.
+static bool is_first(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, uint index, uint subtree_size) {
+    return is_large(nodes + index, subtree_size) || parents[index] == BVH_NO_PARENT ||
+           is_large(nodes + (parents[index] >> 1), subtree_size);
+}
+
+/// How many nodes in depth-first order a node is: itself and the leaves that are its children.
+static uint own_size(GLOBAL const BvhNode *node) {
+    uint size = 1;
+    for (uint side = 0; side < 2; ++side) {
+        size += !has_node(node, side) && node->count[side] > 0 ? 1u : 0u;
+    }
+    return size;
+}
+
+/// Nodes in depth-first order below and including child `side`.
+static uint child_size(GLOBAL const BvhNode *node, uint side, GLOBAL const uint *sizes) {
+    return has_node(node, side) ? sizes[node->child[side]] : node->count[side] > 0 ? 1u : 0u;
+}
+
+/// `parents`: 2 x number + side. `sizes`: of the node alone; count_subtrees adds what is below.
+__kernel void link_parents(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL uint *parents, GLOBAL uint *sizes) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= node_count) {
         return;
     }
-    for (uint i = node_count; i-- > 0;) {
-        sizes[i] = 1u + child_size(nodes + i, 0, sizes) + child_size(nodes + i, 1, sizes);
-    }
-    places[0] = 0;
-    for (uint i = 0; i < node_count; ++i) {
-        uint place = places[i] + 1u;
-        for (uint side = 0; side < 2; ++side) {
-            if ((nodes[i].child[side] & BVH_LEAF_BIT) == 0) {
-                places[nodes[i].child[side]] = place;
-            }
-            place += child_size(nodes + i, side, sizes);
+    for (uint side = 0; side < 2; ++side) {
+        if (has_node(nodes + index, side)) {
+            parents[nodes[index].child[side]] = 2u * index + side;
         }
+    }
+    if (index == 0) {
+        parents[0] = BVH_NO_PARENT;
+    }
+    sizes[index] = own_size(nodes + index);
+}
+
+/// The node after `node` in depth-first order without leaves, below `root`; BVH_NO_PARENT after the last one.
+static uint next_node(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, uint root, uint node) {
+    for (uint side = 0; side < 2; ++side) {
+        if (has_node(nodes + node, side)) {
+            return nodes[node].child[side];
+        }
+    }
+    while (node != root) {
+        const uint up = parents[node];
+        node = up >> 1;
+        if ((up & 1u) == 0 && has_node(nodes + node, 1)) {
+            return nodes[node].child[1];
+        }
+    }
+    return BVH_NO_PARENT;
+}
+
+/// Adds every node's own size to those above it, up to the first of its subtree, and that of the whole subtree further up.
+__kernel void count_subtrees(GLOBAL const BvhNode *nodes, uint node_count, uint subtree_size, GLOBAL const uint *parents,
+                             GLOBAL uint *sizes) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= node_count || !is_first(nodes, parents, index, subtree_size)) {
+        return;
+    }
+    uint size = own_size(nodes + index);
+    if (!is_large(nodes + index, subtree_size)) {
+        for (uint node = next_node(nodes, parents, index, index); node != BVH_NO_PARENT;
+             node = next_node(nodes, parents, index, node)) {
+            const uint own = own_size(nodes + node);
+            size += own;
+            for (uint up = parents[node] >> 1; up != index; up = parents[up] >> 1) {
+                sizes[up] += own;
+            }
+        }
+        sizes[index] = size;
+    }
+    for (uint up = parents[index]; up != BVH_NO_PARENT; up = parents[up >> 1]) {
+        atomic_add(sizes + (up >> 1), size);
+    }
+}
+
+/// The place of every node among those of the subtree below it, and of leaves.
+__kernel void place_subtree_nodes(GLOBAL const BvhNode *nodes, uint node_count, uint subtree_size, GLOBAL const uint *parents,
+                                  GLOBAL const uint *sizes, GLOBAL uint *places) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= node_count || !is_first(nodes, parents, index, subtree_size)) {
+        return;
+    }
+    uint place = 0;
+    for (uint up = parents[index]; up != BVH_NO_PARENT; up = parents[up >> 1]) {
+        place += 1u + ((up & 1u) != 0 ? child_size(nodes + (up >> 1), 0, sizes) : 0u);
+    }
+    places[index] = place;
+    if (is_large(nodes + index, subtree_size)) {
+        return;
+    }
+    for (uint node = next_node(nodes, parents, index, index); node != BVH_NO_PARENT;
+         node = next_node(nodes, parents, index, node)) {
+        const uint up = parents[node] >> 1;
+        places[node] = places[up] + 1u + ((parents[node] & 1u) != 0 ? child_size(nodes + up, 0, sizes) : 0u);
     }
 }
 
@@ -85,29 +166,44 @@ __kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count
     }
 }
 
-/// One work-item, parents first: from the child that comes first the way goes on to the other, and from there where it goes on
-/// from their parent.
-__kernel void link_stackless_nodes(GLOBAL const uint *sizes, GLOBAL StacklessNode *nodes) {
-    if (get_global_id(0) != 0) {
+/// From the child that comes first the way goes on to the other, and from there where it goes on from their parent; that is the
+/// other child of the first one above, on the way up, that comes first itself.
+__kernel void link_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const uint *parents,
+                                   GLOBAL const uint *sizes, GLOBAL const uint *places, GLOBAL StacklessNode *stackless_nodes) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= node_count) {
         return;
     }
     const uint count = sizes[0];
+    uint after[8];
     for (uint octant = 0; octant < 8; ++octant) {
-        nodes->escape[octant] = count;
+        after[octant] = count;
     }
-    for (uint place = 0; place < count; ++place) {
-        const uint left = place + 1u;
-        const uint right = nodes[place].link;
-        if ((right & BVH_LEAF_BIT) != 0 || left == count) {
-            continue;
-        }
+    uint open = 0xffu;  // octants for which it is not known yet
+    for (uint up = parents[index]; up != BVH_NO_PARENT && open != 0; up = parents[up >> 1]) {
+        const uint place = places[up >> 1];
+        const uint right_first = stackless_nodes[place].right_first;
+        const bool is_right = (up & 1u) != 0;
+        const uint found = open & (is_right ? right_first : ~right_first);
+        const uint other = is_right ? place + 1u : stackless_nodes[place].link;
         for (uint octant = 0; octant < 8; ++octant) {
-            const bool right_first = (nodes[place].right_first >> octant & 1u) != 0;
-            const uint after = nodes[place].escape[octant];
-            nodes[left].escape[octant] = right_first ? after : right;
-            if (right < count) {
-                nodes[right].escape[octant] = right_first ? left : after;
-            }
+            after[octant] = (found >> octant & 1u) != 0 ? other : after[octant];
+        }
+        open &= ~found;
+    }
+    const uint place = places[index];
+    const uint left = place + 1u;
+    const uint right = stackless_nodes[place].link;
+    for (uint octant = 0; octant < 8; ++octant) {
+        const bool right_first = (stackless_nodes[place].right_first >> octant & 1u) != 0;
+        if (index == 0) {
+            stackless_nodes[place].escape[octant] = count;
+        }
+        if (left < count) {
+            stackless_nodes[left].escape[octant] = right_first ? after[octant] : right;
+        }
+        if (right < count) {
+            stackless_nodes[right].escape[octant] = right_first ? left : after[octant];
         }
     }
 }
