@@ -8,8 +8,9 @@ BENCH ?= .
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms mirror_ring
+MEASUREMENTS = bvh_build ray_rates
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation bench references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation bench measurements references format lint clean
 
 all: build
 
@@ -25,7 +26,7 @@ build: install
 	cmake --build --preset release -j $(JOBS)
 
 reproduce-chapter4: programs
-	for experiment in $(EXPERIMENTS); do \
+	for experiment in $(MEASUREMENTS) $(EXPERIMENTS); do \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
 	done
 	build/bin/rtrays-experiment control experiments/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
@@ -33,6 +34,7 @@ reproduce-chapter4: programs
 
 # Tables, plots and pages from the run.json files that are there.
 report:
+	scripts/measurements $(addprefix $(CHAPTER4)/,$(MEASUREMENTS))
 	build/bin/rtrays-experiment report $(addprefix $(CHAPTER4)/,$(EXPERIMENTS))
 
 # The renderer's host code under address and undefined-behaviour sanitizers, then everything; the last lines are ctest's summary.
@@ -44,9 +46,12 @@ test-asan: install
 	cmake --build --preset asan -j $(JOBS) --target host_tests
 	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L host
 
-# The heavy versions, hours, resumable: all feature scenes by renderer and reference, with a contact sheet, and by every
-# algorithm. What they print is evidence and is kept in results/.
+# The heavy versions, hours, resumable: 1e7 rays on every mesh and layout beside Embree's and 1e8 out of closed shapes; all
+# feature scenes by renderer and reference, with a contact sheet, and by every algorithm. What they print is evidence and
+# is kept in results/.
 test-full: programs
+	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/traversal
+	scripts/measurements results/traversal
 	for agreement in feature_scenes algorithms; do \
 	    build/bin/rtrays-experiment agree experiments/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
 	    mkdir -p results/$$agreement; \
@@ -64,9 +69,8 @@ specialisation: programs
 	scripts/specialisation build/bin/rtrays-render scenes/cornell_box/scene.json > results/specialisation.md.new
 	mv results/specialisation.md.new results/specialisation.md
 
-# The hierarchy beside Embree's: rays per second by scene and kind of ray, and how long it takes to build; on an idle machine.
-# The table build/ray_rates.md of all of them is kept as results/ray_rates.md. A part of them:
-# BENCH=sphere (a regular expression).
+# The hierarchy beside Embree's: rays per second by mesh and kind of ray, and how long it takes to build; on an idle machine.
+# A part of them: BENCH=sphere (a regular expression). `make measurements` makes tables of the same turns.
 bench: install
 	cmake --preset release
 	cmake --build --preset release -j $(JOBS) --target benchmark_ray_rates benchmark_bvh_build
@@ -74,7 +78,13 @@ bench: install
 	    build/bin/benchmark_$$program --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
 	        --benchmark_out=build/$$program.json --benchmark_out_format=json || exit $$?; \
 	done
-	$(if $(filter .,$(BENCH)),scripts/ray_rates build/ray_rates.json > build/ray_rates.md)
+
+# The full profiles of the experiments on the hierarchy, resumable, with tables and plots; on an idle machine.
+measurements: programs
+	for experiment in $(MEASUREMENTS); do \
+	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile full --out results/$$experiment || exit $$?; \
+	done
+	scripts/measurements $(addprefix results/,$(MEASUREMENTS))
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
 references: programs

@@ -13,6 +13,8 @@
 #include <thread>
 
 #include "renderer/base/error.h"
+#include "renderer/device/program.h"
+#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -88,6 +90,30 @@ CpuUse CpuMeter::use() const {
     // The process' own time is finer than ticks: of an idle machine a fraction of one may be left below zero.
     return {own / total, std::max(0.0, now.busy - start_.busy - own) / total,
             (now.steal - start_.steal) / total};
+}
+
+Json describe_device(const DeviceInfo &device) {
+    return {{"name", device.name},
+            {"platform", device.platform_name},
+            {"driver", device.driver},
+            {"c_version", device.c_version},
+            {"compute_units", device.compute_units}};
+}
+
+RunContext::RunContext() : started_at_(utc_now()), load_average_(load_average()) {}
+
+Json RunContext::finish(const DeviceInfo &device) const {
+    const CpuUse use = meter_.use();
+    return {{"commit", RTRAYS_COMMIT},
+            {"dirty", RTRAYS_DIRTY},
+            {"started_at", started_at_},
+            {"finished_at", utc_now()},
+            {"host", describe_host()},
+            {"device", describe_device(device)},
+            {"kernel_options", program_options},
+            {"load_average_start", load_average_},
+            {"load_average_end", load_average()},
+            {"cpu_use", {{"own", use.own}, {"foreign", use.foreign}, {"steal", use.steal}}}};
 }
 
 }  // namespace rtrays

@@ -2,9 +2,11 @@
 // What the machine is, and how much of it others use while we measure.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "renderer/base/json.h"
+#include "renderer/device/context.h"
 
 namespace rtrays {
 
@@ -38,6 +40,21 @@ class CpuMeter {
     static Ticks read();
 
     Ticks start_;
+};
+
+/// {"name", "platform", "driver", "c_version", "compute_units"}.
+Json describe_device(const DeviceInfo &device);
+
+/// "context" of run.json: what ran where, when and beside what else, from construction to `finish`.
+class RunContext {
+  public:
+    RunContext();
+    Json finish(const DeviceInfo &device) const;
+
+  private:
+    std::string started_at_;
+    Json load_average_;
+    CpuMeter meter_;
 };
 
 }  // namespace rtrays

@@ -11,6 +11,7 @@
 #include "experiments/compare.h"
 #include "experiments/convergence_control.h"
 #include "experiments/gate.h"
+#include "experiments/hierarchy/measurement.h"
 #include "experiments/metrics.h"
 #include "experiments/report.h"
 #include "experiments/runner.h"
@@ -97,10 +98,13 @@ void declare(CLI::App &app, Arguments &arguments) {
 
 ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
     if (app.got_subcommand("run")) {
-        const fs::path out = run_experiment(arguments.run);
+        ExitCode exit_code = ExitCode::ok;
+        const fs::path out = is_measurement(arguments.run.experiment) ? run_measurement(arguments.run, exit_code)
+                                                                      : run_experiment(arguments.run);
         if (!out.empty()) {
             fmt::print("{}\n", (out / "run.json").string());
         }
+        return exit_code;
     } else if (app.got_subcommand("compare")) {
         const auto comparison = compare_images(arguments.image, arguments.reference);
         fmt::print("{}", arguments.json ? comparison.dump(2) + "\n" : comparison_text(comparison));

@@ -17,23 +17,13 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
-#include "renderer/device/program.h"
 #include "renderer/scene/scene.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-Json describe_device(const DeviceInfo &info) {
-    return {{"name", info.name},
-            {"platform", info.platform_name},
-            {"driver", info.driver},
-            {"c_version", info.c_version},
-            {"compute_units", info.compute_units}};
-}
 
 Json describe_experiment(const ExperimentDescription &experiment) {
     return {
@@ -181,15 +171,8 @@ fs::path run_experiment(const RunOptions &options) {
     create_folder(out / "images");
     require_writable(out / "run.json");
 
-    Json context = {{"commit", RTRAYS_COMMIT},
-                    {"dirty", RTRAYS_DIRTY},
-                    {"started_at", utc_now()},
-                    {"host", describe_host()},
-                    {"load_average_start", load_average()},
-                    {"kernel_options", program_options}};
-    const CpuMeter meter;
+    const RunContext context;
     DeviceContext device(options.device);
-    context["device"] = describe_device(device.info());
     const fs::path partial = out / ".partial" / partial_key(experiment, reference, device.info());
     create_folder(partial);
 
@@ -219,11 +202,7 @@ fs::path run_experiment(const RunOptions &options) {
     reference.description["image"] = "images/reference.exr";
     write_exr(reference.reference.image, out / "images/reference.exr");
     run["reference"] = reference.description;
-    const CpuUse use = meter.use();
-    context["cpu_use"] = {{"own", use.own}, {"foreign", use.foreign}, {"steal", use.steal}};
-    context["load_average_end"] = load_average();
-    context["finished_at"] = utc_now();
-    run["context"] = context;
+    run["context"] = context.finish(device.info());
     write_run(run, out / "run.json");
     fs::remove_all(out / ".partial");
     return out;

@@ -128,6 +128,32 @@ double weighted_slope(const std::vector<double> &x, const std::vector<double> &y
     return covariance / spread;
 }
 
+Interval power_law_exponent(const std::vector<double> &x, const std::vector<double> &y, double confidence) {
+    const size_t n = x.size();
+    if (n < 3 || y.size() != n) {
+        throw run_error(fmt::format("an exponent with its interval takes at least 3 points; there are {} and {}", n, y.size()));
+    }
+    std::vector<double> log_x, log_y;
+    for (size_t i = 0; i < n; ++i) {
+        if (!(x[i] > 0 && y[i] > 0)) {
+            throw run_error(fmt::format("({}, {}) lies on no power law", x[i], y[i]));
+        }
+        log_x.push_back(std::log(x[i]));
+        log_y.push_back(std::log(y[i]));
+    }
+    const double exponent = weighted_slope(log_x, log_y, std::vector<double>(n, 1.0));
+    double residuals = 0;
+    for (size_t i = 0; i < n; ++i) {
+        const double residual = log_y[i] - mean(log_y) - exponent * (log_x[i] - mean(log_x));
+        residuals += residual * residual;
+    }
+    const auto freedom = static_cast<double>(n - 2);
+    const double error = std::sqrt(residuals / freedom / (variance(log_x) * static_cast<double>(n - 1)));
+    const double reach =
+        error * boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
+    return {exponent, exponent - reach, exponent + reach};
+}
+
 Interval convergence_slope(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors,
                            double confidence, int resamples) {
     const size_t seeds = errors.size(), points = spp.size();

@@ -30,6 +30,11 @@ Interval median_interval(std::vector<double> values, double confidence = 0.95);
 double weighted_slope(const std::vector<double> &x, const std::vector<double> &y,
                       const std::vector<double> &w);
 
+/// The exponent k of y = c x^k by least squares on logarithms, with its interval by Student's t over the residuals: for
+/// points that do not depend on each other. Needs at least 3 points, all positive; throws `Error` (run failed)
+/// otherwise.
+Interval power_law_exponent(const std::vector<double> &x, const std::vector<double> &y, double confidence = 0.95);
+
 /// Slope of log error against log spp with its interval.
 ///
 /// `errors[seed][point]` are the errors (> 0) of independent seeds, each at all of `spp[point]`. Points of

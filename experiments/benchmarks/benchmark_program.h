@@ -2,26 +2,33 @@
 // What the benchmark programs share: main.cpp runs what each of them registers.
 #pragma once
 
-#include <chrono>
-#include <ctime>
+#include <benchmark/benchmark.h>
+
+#include "experiments/hierarchy/contest.h"
+#include "experiments/hierarchy/meshes.h"
+#include "renderer/device/context.h"
 
 namespace rtrays::benchmarks {
 
-/// Registers the benchmarks of this program.
-void register_benchmarks();
+/// Registers the benchmarks of this program. `device` outlives them.
+void register_benchmarks(DeviceContext &device);
 
-/// Seconds of one run: by the clock on the wall, and of processor by all threads of this process.
-struct Seconds {
-    double wall, processor;
-};
+constexpr int turns = 9;
 
-template <typename Work>
-Seconds time_of(const Work &work) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::clock_t processor = std::clock();
-    work();
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-            static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
+/// All but the largest, which take minutes (the full profiles of the experiments measure them).
+inline std::vector<std::string> benchmark_meshes() {
+    std::vector<std::string> meshes = measured_meshes();
+    meshes.erase(std::remove_if(meshes.begin(), meshes.end(),
+                                [](const std::string &name) { return name.rfind("san_miguel", 0) == 0; }),
+                 meshes.end());
+    return meshes;
+}
+
+/// An iteration is a turn of the contest.
+inline void take_turns(benchmark::State &state, Contest &contest) {
+    for (auto _ : state) {
+        state.SetIterationTime(time_of([&] { contest.turn(); }).wall);
+    }
 }
 
 }  // namespace rtrays::benchmarks

@@ -2,15 +2,24 @@
 #include <benchmark/benchmark.h>
 
 #include "experiments/benchmarks/benchmark_program.h"
-#include "renderer/tests/bvh_tree.h"
+#include "renderer/base/error.h"
 
-int main(int argc, char **argv) {
-    rtrays::benchmarks::register_benchmarks();
+namespace {
+
+rtrays::ExitCode run(int argc, char **argv) {
+    rtrays::DeviceContext device;
+    rtrays::benchmarks::register_benchmarks(device);
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-        return 2;
+        return rtrays::ExitCode::bad_input;
     }
-    benchmark::AddCustomContext("device", rtrays::test::test_device().info().name);
+    benchmark::AddCustomContext("device", device.info().name);
     benchmark::RunSpecifiedBenchmarks();
-    return 0;
+    return rtrays::ExitCode::ok;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+    return rtrays::run_main("benchmark", [&] { return run(argc, argv); });
 }

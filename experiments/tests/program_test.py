@@ -140,6 +140,64 @@ class Program(unittest.TestCase):
         self.refused(2, "does not stop pixels", "control", self.control(curves=[{"algorithm": "bdpt"}]))
         self.refused(2, "errors", "control", self.control(errors=[0]))
 
+    def measurement(self, name, **changes):
+        """A shipped measurement of the hierarchy with changes."""
+        document = json.loads((EXPERIMENTS / f"{name}.json").read_text())
+        document.update(changes)
+        path = self.folder / f"{name}.json"
+        path.write_text(json.dumps(document))
+        return path
+
+    def tables(self, out):
+        return subprocess.run([sys.executable, EXPERIMENTS.parent / "scripts/measurements", out], capture_output=True,
+                              text=True, check=False)
+
+    def test_measurements(self):
+        """Every contestant has its figures, and tables and plots are made of them."""
+        rows = {"bvh_build": 7, "ray_rates": 6, "traversal": 4}
+        for name, contestants in rows.items():
+            out = self.folder / name
+            done = self.call("run", EXPERIMENTS / f"{name}.json", "--profile", "ci", "--out", out, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.strip(), str(out / "run.json"))
+            self.assertEqual([path.name for path in out.iterdir()], ["run.json"])
+            run = json.loads((out / "run.json").read_text())
+            for row in run["rows"]:
+                for group in row.get("kinds", [row]):
+                    entries = group.get("contestants", group.get("layouts"))
+                    self.assertGreaterEqual(len(entries), contestants)
+            made = self.tables(out)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            table = pathlib.Path(made.stdout.strip()).read_text()
+            for row in run["rows"]:
+                self.assertIn(row["mesh"].replace("_", " "), table)
+        self.assertTrue((self.folder / "bvh_build/build_time.svg").exists())
+        self.assertTrue((self.folder / "ray_rates/speeds.svg").exists())
+        # A missing figure is an error of the tables, never a gap.
+        run = json.loads((self.folder / "bvh_build/run.json").read_text())
+        del run["rows"][1]["contestants"][2]["wall_ms"]
+        (self.folder / "bvh_build/run.json").write_text(json.dumps(run))
+        made = self.tables(self.folder / "bvh_build")
+        self.assertEqual(made.returncode, 2)
+        self.assertIn("wall_ms", made.stderr)
+
+    def test_measurement_is_refused(self):
+        self.refused(2, "ray_rates", "run", self.measurement("bvh_build", measures="colours"))
+        self.refused(2, "unknown key 'colour'", "run", self.measurement("bvh_build", colour="red"))
+        profiles = {name: {"meshes": ["cornell_box"], "rays": 10} for name in ("quick", "full", "ci")}
+        self.refused(2, "repetitions", "run", self.measurement("ray_rates", profiles=profiles))
+        self.refused(2, "watertight_rays", "run", self.measurement("traversal", profiles=profiles))
+
+    def test_absent_meshes_are_replaced_or_listed(self):
+        profiles = {name: {"meshes": ["nowhere", "nothing"], "rays": 64, "repetitions": 6} for name in ("quick", "full", "ci")}
+        path = self.measurement("bvh_build", profiles=profiles, stand_ins={"nowhere": "scattered_100"})
+        done = self.call("run", path, "--profile", "ci", "--out", self.folder / "out", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = json.loads((self.folder / "out/run.json").read_text())
+        self.assertEqual(run["stand_ins"], {"scattered_100": "nowhere"})
+        self.assertEqual(run["absent"], ["nothing"])
+        self.assertEqual([row["triangles"] for row in run["rows"]], [100])
+
     def test_run_resume_and_report(self):
         """A run stopped by SIGTERM continues with the same command and has every seed once."""
         profiles = json.loads((EXPERIMENTS / "cornell_diffuse.json").read_text())["profiles"]

@@ -184,5 +184,41 @@ TEST(Gate, FalsePositiveRateAndPower) {
     EXPECT_LE(boundary[0], 36);  // 0.1 % of 20000 is 20; 36 is its 99.9 % quantile
 }
 
+TEST(Statistics, ExponentOfAPowerLaw) {
+    std::vector<double> x, exact;
+    for (int i = 0; i < 8; ++i) {
+        x.push_back(std::pow(3.0, i));
+        exact.push_back(5 * std::pow(x.back(), 1.25));
+    }
+    const Interval interval = power_law_exponent(x, exact);
+    EXPECT_NEAR(interval.value, 1.25, 1e-12);
+    EXPECT_NEAR(interval.high - interval.low, 0, 1e-6);
+    // Three points of residuals 1, -2, 1 around a slope of 1: t of one degree of freedom times sqrt(6 / 2).
+    const double e = std::exp(1.0);
+    const Interval rough = power_law_exponent({1, e, e * e}, {e, 1 / e, e * e * e});
+    EXPECT_NEAR(rough.value, 1, 1e-12);
+    EXPECT_NEAR(rough.high - 1, 12.7062 * std::sqrt(3.0), 1e-3);
+    EXPECT_NEAR(1 - rough.low, 12.7062 * std::sqrt(3.0), 1e-3);
+    EXPECT_THROW(power_law_exponent({1, 2}, {1, 2}), Error);
+    EXPECT_THROW(power_law_exponent({1, 2, 3}, {1, 0, 3}), Error);
+}
+
+TEST(Statistics, ExponentsCoverTheTruthAsOftenAsTheySay) {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> noise(0, 0.2);
+    int covered = 0;
+    const int trials = 4000;
+    for (int trial = 0; trial < trials; ++trial) {
+        std::vector<double> x, y;
+        for (int i = 0; i < 7; ++i) {
+            x.push_back(std::pow(4.0, i));
+            y.push_back(std::pow(x.back(), 1.1) * std::exp(noise(random)));
+        }
+        const Interval interval = power_law_exponent(x, y);
+        covered += interval.low <= 1.1 && 1.1 <= interval.high ? 1 : 0;
+    }
+    EXPECT_NEAR(covered, 0.95 * trials, 4 * std::sqrt(0.95 * 0.05 * trials));
+}
+
 }  // namespace
 }  // namespace rtrays

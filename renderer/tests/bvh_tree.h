@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A hierarchy on the host: its invariants, its cost, and a full-sweep SAH build to compare with.
+// A hierarchy on the host: its invariants and its cost.
 #pragma once
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "renderer/bvh/builder.h"
 #include "renderer/kernels/traversal/intersect_bvh.h"
 #include "renderer/tests/bvh_meshes.h"
+#include "renderer/tests/full_sweep.h"
 
 namespace rtrays::test {
 
@@ -110,14 +110,6 @@ inline HostBvh build_bvh(const Mesh &mesh, TreeKind kind = BvhLayout::bvh2) {
     return HostBvh(build_on_device(mesh, kind));
 }
 
-inline double half_area(const Eigen::AlignedBox3d &box) {
-    if (box.isEmpty()) {
-        return 0;
-    }
-    const Eigen::Vector3d d = box.sizes();
-    return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
-}
-
 /// What a walk over all nodes finds. `fault` is empty for a valid tree.
 struct TreeFacts {
     std::string fault;
@@ -203,64 +195,6 @@ inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
         fail("unreachable nodes");
     }
     return facts;
-}
-
-/// SAH cost (K_T = K_I = 1) of the tree that tries every split of sorted centroids on each axis, with leaves
-/// by count as the device builder's.
-inline double full_sweep_cost(const Mesh &mesh) {
-    const auto count = static_cast<uint32_t>(mesh.triangles.size());
-    std::vector<Eigen::AlignedBox3d> boxes(count);
-    for (uint32_t i = 0; i < count; ++i) {
-        for (uint32_t corner = 0; corner < 3; ++corner) {
-            boxes[i].extend(mesh.vertex(i, corner).cast<double>());
-        }
-    }
-    std::vector<uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    const auto sort_range = [&](size_t begin, size_t end, int axis) {
-        std::sort(order.begin() + begin, order.begin() + end, [&](uint32_t a, uint32_t b) {
-            return std::make_pair(boxes[a].center()[axis], a) < std::make_pair(boxes[b].center()[axis], b);
-        });
-    };
-    std::vector<double> right_area(count + 1);
-    const auto cost_of = [&](auto &&self, size_t begin, size_t end) -> double {
-        Eigen::AlignedBox3d all;
-        for (size_t i = begin; i < end; ++i) {
-            all.extend(boxes[order[i]]);
-        }
-        const size_t size = end - begin;
-        if (size <= BVH_LEAF_SIZE) {
-            return half_area(all) * static_cast<double>(size);
-        }
-        double best = INFINITY;
-        int best_axis = 0;
-        size_t best_split = begin + size / 2;
-        for (int axis = 0; axis < 3; ++axis) {
-            sort_range(begin, end, axis);
-            Eigen::AlignedBox3d right, left;
-            for (size_t i = end - 1; i > begin; --i) {
-                right.extend(boxes[order[i]]);
-                right_area[i] = half_area(right);
-            }
-            for (size_t i = begin + 1; i < end; ++i) {
-                left.extend(boxes[order[i - 1]]);
-                const double cost = half_area(left) * static_cast<double>(i - begin) +
-                                    right_area[i] * static_cast<double>(end - i);
-                if (cost < best) {
-                    best = cost;
-                    best_axis = axis;
-                    best_split = i;
-                }
-            }
-        }
-        sort_range(begin, end, best_axis);
-        return half_area(all) + self(self, begin, best_split) + self(self, best_split, end);
-    };
-    Eigen::AlignedBox3d all;
-    for (const Eigen::AlignedBox3d &box : boxes) {
-        all.extend(box);
-    }
-    return cost_of(cost_of, 0, count) / half_area(all);
 }
 
 }  // namespace rtrays::test

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/tests/bvh_meshes.h"
@@ -69,8 +71,11 @@ inline double distance_to_triangle(const Mesh &mesh, uint32_t triangle, const Ei
 /// triangle is crossed for certain where the ray keeps farther than `shift` from the edges, and its plane is met up to
 /// shift / cosine from where the given one is. No bound without the cosine can hold for a test in floats: at 1e-5 from
 /// the plane (ray_sets.h) a change of one ulp of a vertex moves the crossing by 1e5 ulps.
-inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
-                         float t, uint32_t triangle, double tolerance) {
+///
+/// `for_each(visit)` calls visit(i) for all triangles that the ray's line may cross.
+template <typename ForEach>
+bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t,
+                  uint32_t triangle, double tolerance, const ForEach &for_each) {
     const Eigen::Vector3d o = origin.cast<double>(), d = direction.cast<double>();
     const auto slack = [&](const DoubleHit &hit) {
         return (tolerance + hit.shift / hit.cosine) / d.norm();
@@ -82,13 +87,103 @@ inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const 
         }
         limit = static_cast<double>(t) - slack(intersect_double(mesh, triangle, o, d));
     }
-    for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    bool nearest = true;
+    for_each([&](uint32_t i) {
         const DoubleHit hit = intersect_double(mesh, i, o, d);
-        if (hit.crosses && hit.clearance > hit.shift && hit.t > slack(hit) && hit.t + slack(hit) < limit) {
-            return false;
-        }
-    }
-    return true;
+        nearest = nearest && !(hit.crosses && hit.clearance > hit.shift && hit.t > slack(hit) &&
+                               hit.t + slack(hit) < limit);
+    });
+    return nearest;
 }
+
+inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
+                         float t, uint32_t triangle, double tolerance) {
+    return hit_is_right(mesh, origin, direction, t, triangle, tolerance, [&](const auto &visit) {
+        for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+            visit(i);
+        }
+    });
+}
+
+/// The same for many rays through a large mesh. What a line misses is told by a tree of boxes in double precision, halves
+/// by count, each box and its line held apart by more than rounding.
+class DoubleJudge {
+  public:
+    explicit DoubleJudge(const Mesh &mesh) : mesh_(&mesh), order_(mesh.triangles.size()) {
+        std::iota(order_.begin(), order_.end(), 0u);
+        add_node(0, order_.size());
+    }
+
+    bool is_right(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t, uint32_t triangle,
+                  double tolerance) const {
+        const Eigen::Vector3d o = origin.cast<double>(), d = direction.cast<double>();
+        return hit_is_right(*mesh_, origin, direction, t, triangle, tolerance, [&](const auto &visit) {
+            std::vector<size_t> pending = {0};
+            while (!pending.empty()) {
+                const Node &node = nodes_[pending.back()];
+                pending.pop_back();
+                if (!may_cross(node.box, o, d)) {
+                    continue;
+                }
+                if (node.second != 0) {
+                    pending.push_back(node.first);
+                    pending.push_back(node.second);
+                }
+                for (size_t i = node.begin; node.second == 0 && i < node.end; ++i) {
+                    visit(order_[i]);
+                }
+            }
+        });
+    }
+
+  private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        size_t begin, end;
+        size_t first, second;  ///< children; 0: a leaf
+    };
+    static constexpr size_t leaf_size = 8;
+
+    /// Separating axes of a line and a box: the products of the line's direction and the box's axes.
+    static bool may_cross(const Eigen::AlignedBox3d &box, const Eigen::Vector3d &o, const Eigen::Vector3d &d) {
+        const Eigen::Vector3d to_centre = box.center() - o;
+        const Eigen::Vector3d half = (0.5 * box.sizes()).array() + 1e-9 * (box.sizes().norm() + to_centre.norm());
+        const Eigen::Vector3d apart = d.cross(to_centre).cwiseAbs(), a = d.cwiseAbs();
+        return apart.x() <= half.y() * a.z() + half.z() * a.y() && apart.y() <= half.x() * a.z() + half.z() * a.x() &&
+               apart.z() <= half.x() * a.y() + half.y() * a.x();
+    }
+
+    Eigen::Vector3d vertex(uint32_t triangle, uint32_t corner) const {
+        return mesh_->vertex(triangle, corner).cast<double>();
+    }
+
+    size_t add_node(size_t begin, size_t end) {
+        const size_t index = nodes_.size();
+        nodes_.push_back({{}, begin, end, 0, 0});
+        Eigen::AlignedBox3d box;
+        for (size_t i = begin; i < end; ++i) {
+            for (uint32_t corner = 0; corner < 3; ++corner) {
+                box.extend(vertex(order_[i], corner));
+            }
+        }
+        nodes_[index].box = box;
+        if (end - begin > leaf_size) {
+            int axis = 0;
+            box.sizes().maxCoeff(&axis);
+            const size_t middle = (begin + end) / 2;
+            const auto at = [&](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+            std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
+                return mesh_->vertex(a, 0)[axis] < mesh_->vertex(b, 0)[axis];
+            });
+            nodes_[index].first = add_node(begin, middle);
+            nodes_[index].second = add_node(middle, end);
+        }
+        return index;
+    }
+
+    const Mesh *mesh_;
+    std::vector<uint32_t> order_;
+    std::vector<Node> nodes_;
+};
 
 }  // namespace rtrays::test

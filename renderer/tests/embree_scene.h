@@ -5,6 +5,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 
 #include "renderer/kernels/traversal/ray_record.h"
@@ -30,6 +31,7 @@ class EmbreeScene {
     EmbreeScene(const Mesh &mesh, const std::string &configuration, RTCBuildQuality quality,
                 RTCSceneFlags flags)
         : device_(rtcNewDevice(configuration.c_str())), scene_(rtcNewScene(device_)) {
+        rtcSetDeviceMemoryMonitorFunction(device_, account, this);
         rtcSetSceneFlags(scene_, flags);
         rtcSetSceneBuildQuality(scene_, quality);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -60,6 +62,13 @@ class EmbreeScene {
     /// Builds the hierarchy.
     void commit() { rtcCommitScene(scene_); }
 
+    RTCDevice device() const { return device_; }
+    RTCScene scene() const { return scene_; }
+
+    /// Bytes that Embree holds for this scene, vertices and indices included: now, and at most so far.
+    int64_t bytes() const { return bytes_; }
+    int64_t bytes_peak() const { return bytes_peak_; }
+
     EmbreeHit nearest_hit(const RayRecord &ray) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
@@ -83,7 +92,6 @@ class EmbreeScene {
         return shadow.tfar < 0;
     }
 
-  private:
     static RTCRay embree_ray(const RayRecord &ray) {
         return {ray.origin[0],
                 ray.origin[1],
@@ -99,6 +107,16 @@ class EmbreeScene {
                 0};
     }
 
+  private:
+    static bool account(void *self, ssize_t bytes, bool) {
+        auto *scene = static_cast<EmbreeScene *>(self);
+        const int64_t now = scene->bytes_ += bytes;
+        for (int64_t peak = scene->bytes_peak_; peak < now && !scene->bytes_peak_.compare_exchange_weak(peak, now);) {
+        }
+        return true;
+    }
+
+    std::atomic<int64_t> bytes_ = 0, bytes_peak_ = 0;
     RTCDevice device_;
     RTCScene scene_;
 };

@@ -18,6 +18,18 @@ inline Eigen::Vector3f ray_direction(const RayRecord &ray) {
     return {ray.direction[0], ray.direction[1], ray.direction[2]};
 }
 
+/// One of the vertices of a random triangle, a point of one of its edges, or one inside it, in turns.
+inline Eigen::Vector3f aim(const Mesh &mesh, size_t turn, Random &random) {
+    const auto triangle =
+        std::uniform_int_distribution<uint32_t>(0, static_cast<uint32_t>(mesh.triangles.size() - 1))(random);
+    const Eigen::Vector3f a = mesh.vertex(triangle, 0), b = mesh.vertex(triangle, 1),
+                          c = mesh.vertex(triangle, 2);
+    const float s = uniform(random), t = uniform(random);
+    return turn % 3 == 0   ? a
+           : turn % 3 == 1 ? Eigen::Vector3f(a + s * (b - a))
+                           : Eigen::Vector3f(a + s * (b - a) + (1 - s) * t * (c - a));
+}
+
 /// `count` rays in equal parts of: random origin in twice the mesh's box and random direction; grazing
 /// (towards a point of a triangle within 1e-1 to 1e-5 of its plane, from outside); axis-aligned through a
 /// vertex or through the middle of an edge.

@@ -30,11 +30,15 @@ TEST_P(TraversalHits, AgreeWithBruteForceInDouble) {
         const double tolerance = 1e-5 * static_cast<double>(mesh.box().diagonal().norm());
         int wrong = 0, hits = 0;
         const size_t count = 30000;
+        const DoubleJudge judge(mesh);
         for (const RayRecord &ray : fuzzed_rays(mesh, count, 5)) {
             const Hit hit = bvh.nearest(ray_origin(ray), ray_direction(ray));
-            wrong += hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance)
-                         ? 0
-                         : 1;
+            const bool right = hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance);
+            wrong += right ? 0 : 1;
+            ASSERT_EQ(judge.is_right(ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance), right);
+            // Of a hit left out both think alike, too.
+            ASSERT_EQ(judge.is_right(ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT, tolerance),
+                      hit_is_right(mesh, ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT, tolerance));
             hits += hit.triangle != NO_HIT ? 1 : 0;
         }
         EXPECT_EQ(wrong, 0) << mesh.name;

@@ -8,6 +8,7 @@
 
 #include "renderer/kernels/geometry/surface_point.h"
 #include "renderer/tests/double_intersector.h"
+#include "renderer/tests/ray_sets.h"
 #include "renderer/tests/tree_test.h"
 
 namespace rtrays {
@@ -24,18 +25,6 @@ EACH_TREE(BadRays);
 
 constexpr int million = 1000000;
 
-/// A point inside the mesh's triangle, on one of its edges, or one of its vertices, in turns.
-Eigen::Vector3f aim(const Mesh &mesh, int turn, Random &random) {
-    const auto triangle =
-        std::uniform_int_distribution<uint32_t>(0, static_cast<uint32_t>(mesh.triangles.size() - 1))(random);
-    const Eigen::Vector3f a = mesh.vertex(triangle, 0), b = mesh.vertex(triangle, 1),
-                          c = mesh.vertex(triangle, 2);
-    const float s = uniform(random), t = uniform(random);
-    return turn % 3 == 0   ? a
-           : turn % 3 == 1 ? Eigen::Vector3f(a + s * (b - a))
-                           : Eigen::Vector3f(a + s * (b - a) + (1 - s) * t * (c - a));
-}
-
 /// Rays from inside a closed mesh that hit nothing.
 int count_misses(const Mesh &mesh, TreeKind kind, const Eigen::Vector3f &centre, float spread, int rays) {
     const HostBvh bvh = build_bvh(mesh, kind);
@@ -44,7 +33,7 @@ int count_misses(const Mesh &mesh, TreeKind kind, const Eigen::Vector3f &centre,
     for (int i = 0; i < rays; ++i) {
         const Eigen::Vector3f origin = centre + spread * uniform(random) * uniform_direction(random);
         const Eigen::Vector3f direction =
-            i % 2 == 0 ? uniform_direction(random) : Eigen::Vector3f(aim(mesh, i / 2, random) - origin);
+            i % 2 == 0 ? uniform_direction(random) : Eigen::Vector3f(aim(mesh, static_cast<size_t>(i / 2), random) - origin);
         misses += bvh.nearest(origin, direction).triangle == NO_HIT ? 1 : 0;
     }
     return misses;
@@ -81,7 +70,7 @@ TEST_P(Watertight, GridFromAbove) {
     for (int i = 0; i < 200000; ++i) {
         const Eigen::Vector3f origin(uniform(random, 2, 8), 5, uniform(random, 2, 8));
         Eigen::Vector3f target =
-            aim(mesh, i, random).cwiseMax(Eigen::Vector3f(2, -10, 2)).cwiseMin(Eigen::Vector3f(8, 10, 8));
+            aim(mesh, static_cast<size_t>(i), random).cwiseMax(Eigen::Vector3f(2, -10, 2)).cwiseMin(Eigen::Vector3f(8, 10, 8));
         misses += bvh.nearest(origin, target - origin).triangle == NO_HIT ? 1 : 0;
     }
     EXPECT_EQ(misses, 0);

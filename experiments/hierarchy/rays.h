@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/benchmarks/benchmark_scenes.h"
+#include "experiments/hierarchy/meshes.h"
 #include "renderer/tests/embree_scene.h"
 
-namespace rtrays::benchmarks {
+namespace rtrays {
 
 enum class Query { nearest, any };
 
@@ -16,6 +16,7 @@ enum class Query { nearest, any };
 struct RayKind {
     std::string name;
     Query query;
+    bool coherent;  ///< neighbours start together and go the same way
 };
 
 /// primary: through random points of the image plane, row by row. The others start where those hit, on the
@@ -28,4 +29,4 @@ const std::vector<RayKind> &ray_kinds();
 std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh, const View &view,
                                  const test::EmbreeScene &embree, size_t count);
 
-}  // namespace rtrays::benchmarks
+}  // namespace rtrays

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "experiments/benchmarks/benchmark_rays.h"
+#include "experiments/hierarchy/rays.h"
 
 #include "renderer/base/error.h"
 #include "renderer/kernels/geometry/surface_point.h"
 
-namespace rtrays::benchmarks {
+namespace rtrays {
 
 namespace {
 
@@ -49,12 +49,12 @@ std::vector<RayRecord> primary_rays(const View &view, size_t count, Random &rand
 }
 
 /// Where a ray meets its triangle, and the normal on its side.
-struct Hit {
+struct Arrival {
     SurfacePoint point;
     Eigen::Vector3f normal;
 };
 
-Hit hit_point(const test::Mesh &mesh, const RayRecord &ray, const test::EmbreeHit &hit) {
+Arrival arrive(const test::Mesh &mesh, const RayRecord &ray, const test::EmbreeHit &hit) {
     const SurfacePoint point =
         surface_point(to_float3(mesh.vertex(hit.triangle, 0)), to_float3(mesh.vertex(hit.triangle, 1)),
                       to_float3(mesh.vertex(hit.triangle, 2)), hit.u, hit.v);
@@ -67,10 +67,10 @@ Hit hit_point(const test::Mesh &mesh, const RayRecord &ray, const test::EmbreeHi
 }  // namespace
 
 const std::vector<RayKind> &ray_kinds() {
-    static const std::vector<RayKind> kinds = {{"primary", Query::nearest},
-                                               {"shadow", Query::any},
-                                               {"ambient_occlusion", Query::any},
-                                               {"diffuse", Query::nearest}};
+    static const std::vector<RayKind> kinds = {{"primary", Query::nearest, true},
+                                               {"shadow", Query::any, true},
+                                               {"ambient_occlusion", Query::any, false},
+                                               {"diffuse", Query::nearest, false}};
     return kinds;
 }
 
@@ -90,7 +90,7 @@ std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh
             if (found.t == INFINITY) {
                 continue;
             }
-            const Hit hit = hit_point(mesh, primary, found);
+            const Arrival hit = arrive(mesh, primary, found);
             if (kind == "shadow") {
                 const Eigen::Vector3f at(uniform(random, -0.05f, 0.05f), 0, uniform(random, -0.05f, 0.05f));
                 const Eigen::Vector3f end = lamp + at.cwiseProduct(box.sizes());
@@ -111,4 +111,4 @@ std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh
     return rays;
 }
 
-}  // namespace rtrays::benchmarks
+}  // namespace rtrays

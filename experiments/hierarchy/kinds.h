@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The kinds of measurement, by the names that "measures" gives them.
+#pragma once
+
+#include "experiments/hierarchy/contest.h"
+#include "experiments/hierarchy/measurement.h"
+
+namespace rtrays {
+
+/// Building by every builder and layout, and by Embree's low, medium and high quality (thesis table 4.1).
+///
+/// A turn builds from buffers that are on the device to a hierarchy that can be traced; Embree's from a scene
+/// that holds the buffers (rtcCommitScene, not ROBUST); on as many threads as the device has compute units.
+/// Rows hold milliseconds, SAH cost (K_T = K_I = 1) also over that of a full sweep on the host, the work of a
+/// diffuse ray, bytes, and device milliseconds by stage of one build. The summary holds the exponents of time
+/// over triangles.
+MeasurementPlan plan_bvh_build(const MeasurementSettings &settings, DeviceContext &device);
+
+/// Rays per second by kind of ray and layout, beside Embree (ROBUST, the instruction set that is fastest on
+/// these rays) called ray by ray and by sixteens.
+MeasurementPlan plan_ray_rates(const MeasurementSettings &settings, DeviceContext &device);
+
+/// Hits of fuzzed rays against Embree's (ROBUST), differences judged in double precision, and rays that find
+/// a way out of closed shapes; by layout.
+MeasurementPlan plan_traversal(const MeasurementSettings &settings, DeviceContext &device);
+
+/// {"value", "low", "high"} times a factor.
+Json scaled(const Interval &interval, double factor);
+
+/// Calls contest.turn() `repetitions` times; throws `Error` (interrupted) in between when asked to stop.
+void run_turns(Contest &contest, int repetitions);
+
+}  // namespace rtrays
