@@ -218,6 +218,7 @@ Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t
     device_->finish();
     BvhReport report = bvh.report();
     report.seconds_device = total_seconds(device_->profiler().stages()) - seconds_before;
+    report.left_out = report.rejected();
     report.bytes_peak += positions.bytes() + indices.bytes();
     bvh.set_report(report);
     return bvh;

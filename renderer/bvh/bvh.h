@@ -28,6 +28,7 @@ struct BvhReport {
     BvhMethod method = BvhMethod::binned_sah;  ///< that made it: binned_sah where clustering became too deep, or for one leaf
     double seconds_device = 0;  ///< device time of all stages of the build
     uint32_t triangles = 0;     ///< in the tree
+    uint32_t left_out = 0;      ///< of the input, not in the tree: rejected when it was built
     uint32_t not_finite = 0;    ///< rejected: a coordinate is NaN, infinite or beyond 1e12
     uint32_t degenerate = 0;    ///< rejected: the vertices lie on a line (cross product of the edges is 0)
     uint32_t nodes = 0;
