@@ -198,7 +198,15 @@ ExitCode run(Options &options) {
     }
 
     DeviceContext device(options.device);
+    const bool refits = options.settings.bvh_update == "refit";
+    if (refits) {
+        scene.update(0);
+    }
     RenderSession session(scene, options.settings, device);
+    if (refits) {
+        scene.update(options.scene_time);
+        session.update(scene);
+    }
     if (options.dry_run) {
         fmt::print("{}\n", session.report().dump(2));
         return ExitCode::ok;

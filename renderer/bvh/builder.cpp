@@ -286,19 +286,25 @@ Bvh BvhBuilder::build_by_binning(const Buffer<float> &positions, const Buffer<ui
     return {std::move(nodes), std::move(triangles), report};
 }
 
+BvhInput::BvhInput(DeviceContext &device, const std::vector<Eigen::Vector3f> &vertices,
+                   const std::vector<std::array<uint32_t, 3>> &triangles) {
+    std::vector<float> coordinates(vertices.size() * 3);
+    std::vector<uint32_t> corners(triangles.size() * 3);
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        std::copy_n(vertices[i].data(), 3, coordinates.data() + 3 * i);
+    }
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        std::copy_n(triangles[i].data(), 3, corners.data() + 3 * i);
+    }
+    positions = Buffer<float>(device, "bvh positions", coordinates);
+    indices = Buffer<uint32_t>(device, "bvh indices", corners);
+}
+
 Bvh BvhBuilder::build(const std::vector<Eigen::Vector3f> &positions,
                       const std::vector<std::array<uint32_t, 3>> &triangles) {
     require_build_memory(device_->info(), triangles.size(), positions.size() * 12 + triangles.size() * 12);
-    std::vector<float> coordinates(positions.size() * 3);
-    std::vector<uint32_t> indices(triangles.size() * 3);
-    for (size_t i = 0; i < positions.size(); ++i) {
-        std::copy_n(positions[i].data(), 3, coordinates.data() + 3 * i);
-    }
-    for (size_t i = 0; i < triangles.size(); ++i) {
-        std::copy_n(triangles[i].data(), 3, indices.data() + 3 * i);
-    }
-    return build(Buffer<float>(*device_, "bvh positions", coordinates),
-                 Buffer<uint32_t>(*device_, "bvh indices", indices));
+    const BvhInput input(*device_, positions, triangles);
+    return build(input.positions, input.indices);
 }
 
 }  // namespace rtrays

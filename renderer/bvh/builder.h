@@ -27,9 +27,24 @@ struct BvhBuildParameters {
     static BvhBuildParameters for_device(const DeviceInfo &device);
 };
 
+/// Device memory of a build at its peak, whatever the method, the layout and the triangles: at most so much for each of
+/// them and so much besides, the input apart. Reached only where leaves hold one triangle each, in blocks of eight;
+/// ordinary meshes take less than half.
+constexpr uint64_t bvh_peak_bytes_per_triangle = 640;
+constexpr uint64_t bvh_peak_bytes = 1 << 20;
+
 /// Throws `Error` (bad input), stating the bytes, when a build over `triangle_count` triangles, whose input
 /// takes `input_bytes`, exceeds what the layout can number (2^26) or what the device can hold.
 void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uint64_t input_bytes);
+
+/// Vertices and triangles in device memory, as builds and refits take them.
+struct BvhInput {
+    BvhInput(DeviceContext &device, const std::vector<Eigen::Vector3f> &vertices,
+             const std::vector<std::array<uint32_t, 3>> &triangles);
+
+    Buffer<float> positions;   ///< 3 per vertex
+    Buffer<uint32_t> indices;  ///< 3 per triangle
+};
 
 /// Builds hierarchies on a device, by one of two methods. binned_sah: breadth-first binned SAH (thesis 3.1) in a large
 /// phase, level by level with all work-items on each node, and a small phase with a subtree per work-item.

@@ -9,6 +9,7 @@
 #include "renderer/import/model_file.h"
 #include "renderer/import/triangulate.h"
 #include "renderer/scene/cores/mesh.h"
+#include "renderer/scene/cores/morphed_mesh.h"
 #include "renderer/scene/cores/shape.h"
 
 namespace rtrays {
@@ -63,6 +64,25 @@ std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name, cons
     return std::make_shared<MeshCore>(name, std::move(geometry));
 }
 
+std::shared_ptr<Core> read_morph(const Json &value, const std::string &name, const SceneSource &source,
+                                 const std::string &path) {
+    check_keys(value, "morph", {"keyframes"}, {});
+    std::vector<MorphedMesh::Key> keys;
+    const Json &keyframes = value.at("keyframes");
+    for (size_t i = 0; i < keyframes.size(); ++i) {
+        const std::string at = fmt::format("{}/keyframes/{}/geometry", path, i);
+        const std::shared_ptr<Core> core = read_geometry(keyframes[i].at("geometry"), name, source, at);
+        const auto *mesh = dynamic_cast<const MeshCore *>(core.get());
+        if (mesh == nullptr || mesh->is_animated()) {
+            source.located(at, [&]() -> void {
+                throw input_error(fmt::format("mesh '{}': keyframe {} is no mesh, file, rectangle or box", name, i));
+            });
+        }
+        keys.push_back({keyframes[i].at("time"), {mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()}});
+    }
+    return std::make_shared<MorphedMesh>(name, std::move(keys));
+}
+
 }  // namespace
 
 std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, const SceneSource &source,
@@ -71,6 +91,9 @@ std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, 
         const std::string type = value.at("type");
         if (type == "mesh") {
             return read_mesh(value, name, source, path);
+        }
+        if (type == "morph") {
+            return read_morph(value, name, source, path);
         }
         if (type == "file") {
             check_keys(value, type, {"file"}, {"shading_normals"});

@@ -46,6 +46,12 @@ void RenderSession::restart(uint32_t seed) {
     state_->reset_film();
 }
 
+void RenderSession::update(const Scene &scene) {
+    if (!state_->update(scene)) {
+        state_ = std::make_unique<State>(scene, RenderSettings(state_->settings), state_->device);
+    }
+}
+
 FilmState RenderSession::film() const {
     FilmState film = state_->film_header();
     for (const CompiledPass &pass : state_->passes) {

@@ -18,7 +18,7 @@ class DeviceContext;
 /// Seconds and counts of one session.
 struct RenderStats {
     double compile_seconds = 0;  ///< programs built or loaded, and the first enqueue of every kernel
-    double bvh_seconds = 0;      ///< device time of the BVH build
+    double bvh_seconds = 0;      ///< device time of the BVH build, or its last update
     double device_seconds = 0;   ///< device time of all stages of `render` so far, and of the pilot, if there was one
     double wall_seconds = 0;     ///< wall time of `render` so far; compilation and BVH build come before it
     uint64_t samples = 0;        ///< camera paths; where pixels are stopped: that were traced
@@ -46,6 +46,10 @@ class RenderSession {
 
     /// Empties the film and the stats of rendering, and sets another seed; kernels, buffers and BVH are kept.
     void restart(uint32_t seed);
+
+    /// Goes on with `scene` as it is now, on an empty film. Kernels are kept; the hierarchy is built anew or refitted
+    /// (device.bvh_update). A scene that needs other kernels, or to be refitted has other numbers of triangles, begins anew.
+    void update(const Scene &scene);
 
     /// The film so far; and its replacement by one that was saved. `restore` throws `Error` (bad input) when it
     /// belongs to another scene, other settings, seed or size.

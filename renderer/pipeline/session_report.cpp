@@ -88,7 +88,7 @@ nlohmann::json RenderSession::report() const {
         report["bvh"]["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
     const BvhReport &bvh = s.bvh.report();
-    report["bvh"].update({{"layout", to_string(s.layout.bvh)}, {"builder", to_string(bvh.method)}, {"nodes", bvh.nodes}, {"leaves", bvh.leaves}, {"depth", bvh.depth}, {"sah_cost", bvh.sah_cost},
+    report["bvh"].update({{"layout", to_string(s.layout.bvh)}, {"builder", to_string(bvh.method)}, {"refitted", s.bvh_refitter != nullptr}, {"nodes", bvh.nodes}, {"leaves", bvh.leaves}, {"depth", bvh.depth}, {"sah_cost", bvh.sah_cost},
                           {"wide_nodes", bvh.wide_nodes}, {"wide_leaves", bvh.wide_leaves}, {"rejected", bvh.rejected()}, {"bytes", bvh.bytes}, {"bytes_peak", bvh.bytes_peak}});
     const auto add_buffer = [&](const auto &buffer) {
         if (buffer.size() > 0) {

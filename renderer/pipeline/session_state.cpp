@@ -8,7 +8,6 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
-#include "renderer/bvh/builder.h"
 #include "renderer/integrators/count_rays.h"
 #include "renderer/integrators/megakernel.h"
 #include "renderer/scene/scene.h"
@@ -110,15 +109,52 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
     warm_up();
 }
 
+bool RenderSession::State::update(const Scene &scene) {
+    CompiledScene next = compile_scene(scene, compile_settings(settings));
+    if (next.features.bits() != compiled.features.bits() || next.lighting.light_count != compiled.lighting.light_count) {
+        return false;
+    }
+    compiled = std::move(next);
+    scene_hash = scene.hash();
+    config = content_hash(scene_hash + image_settings(settings).dump());
+    if (features.has(Feature::triangles)) {
+        update_bvh(scene.meshes());
+    }
+    scene_buffers = SceneBuffers(device, compiled, features);
+    bind();
+    reset_film();
+    return true;
+}
+
+void RenderSession::State::update_bvh(const MeshArrays &meshes) {
+    if (settings.bvh_update != "refit" || meshes.triangle.size() != bvh.report().triangles + bvh.report().left_out) {
+        return build_bvh(meshes);
+    }
+    const auto start = Clock::now();
+    const BvhInput input(device, meshes.position, meshes.triangle);
+    if (bvh_refitter == nullptr) {
+        bvh_refitter = std::make_unique<BvhRefitter>(device, bvh);
+    }
+    const bool fits = bvh_refitter->refit(bvh, input.positions, input.indices);
+    bvh_wall_seconds = seconds_since(start);
+    bvh_stages = device.profiler().take();
+    if (!fits) {
+        build_bvh(meshes);
+    }
+}
+
 void RenderSession::State::build_bvh(const MeshArrays &meshes) {
     BvhBuildParameters parameters = BvhBuildParameters::for_device(device.info());
     parameters.layout = layout.bvh;
     for (const NamedBvhMethod &named : bvh_methods) {
         parameters.method = settings.bvh_builder == named.name ? named.method : parameters.method;
     }
-    BvhBuilder builder(device, parameters);
+    if (bvh_builder == nullptr) {
+        bvh_builder = std::make_unique<BvhBuilder>(device, parameters);
+    }
+    bvh_refitter.reset();
     const auto start = Clock::now();
-    bvh = builder.build(meshes.position, meshes.triangle);
+    bvh = bvh_builder->build(meshes.position, meshes.triangle);
     device.finish();
     bvh_wall_seconds = seconds_since(start);
     bvh_stages = device.profiler().take();

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bvh/bvh.h"
+#include "renderer/bvh/builder.h"
+#include "renderer/bvh/refit.h"
 #include "renderer/device/buffer.h"
 #include "renderer/device/profiler.h"
 #include "renderer/integrators/algorithm.h"
@@ -98,7 +99,13 @@ struct RenderSession::State {
 
     // session_state.cpp
 
+    /// Takes over what has moved; false where the scene needs other kernels.
+    bool update(const Scene &scene);
+
     void build_bvh(const MeshArrays &meshes);
+
+    /// By device.bvh_update.
+    void update_bvh(const MeshArrays &meshes);
     void allocate();
     void bind();
 
@@ -170,6 +177,8 @@ struct RenderSession::State {
     std::string scene_hash;
     std::string config;
 
+    std::unique_ptr<BvhBuilder> bvh_builder;
+    std::unique_ptr<BvhRefitter> bvh_refitter;  ///< since the hierarchy was last refitted
     Bvh bvh;
     std::map<std::string, Profiler::Stage> bvh_stages;
     SceneBuffers scene_buffers;

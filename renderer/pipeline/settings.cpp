@@ -93,6 +93,8 @@ const std::vector<Setting> &setting_table() {
          "nodes of two children, traversed with a stack or without, or of eight; auto: by device"},
         {"device.bvh_builder", TextSetting{&S::bvh_builder, names_of(bvh_methods)},
          "binned_sah: top down, the better tree; hploc: by clustering, several times as fast to build"},
+        {"device.bvh_update", TextSetting{&S::bvh_update, {"rebuild", "refit"}},
+         "what a scene that has moved does to its hierarchy; refit: that of time 0 is fitted to the time of --at"},
         {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
          "a kernel for every block, or one that traces whole paths, of path_tracing"},
         {"device.count_rays", TextSetting{&S::count_rays, {"in_all", "by_depth"}},

@@ -52,6 +52,7 @@ struct RenderSettings {
     std::string path_layout = "auto";       ///< auto | interleaved | arrays: words of a path together, or word by word
     std::string bvh_layout = "auto";        ///< auto | bvh2 | bvh2_stackless | wide8: of the hierarchy
     std::string bvh_builder = "binned_sah";  ///< binned_sah | hploc
+    std::string bvh_update = "rebuild";      ///< rebuild | refit: when the scene has moved
     std::string pipeline = "wavefront";     ///< wavefront | megakernel: a kernel for every block, or one for all
     std::string count_rays = "in_all";      ///< in_all | by_depth: what `--stats` says of rays
     std::string features = "scene";         ///< scene | all: what is compiled in

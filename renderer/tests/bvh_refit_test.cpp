@@ -30,19 +30,10 @@ Mesh twisted(Mesh mesh, float turns) {
     return mesh;
 }
 
-template <typename Number, typename Three>
-Buffer<Number> upload(const std::vector<Three> &all) {
-    std::vector<Number> numbers;
-    for (const Three &three : all) {
-        numbers.insert(numbers.end(), three.data(), three.data() + 3);
-    }
-    return {test_device(), "numbers", numbers};
-}
-
 /// Refits `bvh`, built over a mesh of the same triangles, to this one.
 bool refit(Bvh &bvh, const Mesh &mesh) {
-    return BvhRefitter(test_device(), bvh)
-        .refit(bvh, upload<float>(mesh.positions), upload<uint32_t>(mesh.triangles));
+    const BvhInput input(test_device(), mesh.positions, mesh.triangles);
+    return BvhRefitter(test_device(), bvh).refit(bvh, input.positions, input.indices);
 }
 
 template <typename Record>
@@ -125,7 +116,8 @@ TEST_P(BvhRefit, BitsDoNotDependOnTheDistributionOfWork) {
     const auto refitted = [&](uint32_t group_size) {
         Bvh bvh = BvhBuilder(test_device(), {group_size, 1024, 256, GetParam().layout, GetParam().method})
                       .build(mesh.positions, mesh.triangles);
-        BvhRefitter(test_device(), bvh, group_size).refit(bvh, upload<float>(moved.positions), upload<uint32_t>(moved.triangles));
+        const BvhInput input(test_device(), moved.positions, moved.triangles);
+        BvhRefitter(test_device(), bvh, group_size).refit(bvh, input.positions, input.indices);
         return HostBvh(bvh);
     };
     EXPECT_TRUE(same_tree(refitted(1), refitted(64)));

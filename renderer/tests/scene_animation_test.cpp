@@ -7,6 +7,7 @@
 
 #include "renderer/import/scene_json.h"
 #include "renderer/scene/cores/animated_transform.h"
+#include "renderer/scene/cores/morphed_mesh.h"
 #include "renderer/tests/scene_builder.h"
 
 namespace rtrays {
@@ -122,6 +123,79 @@ TEST(Animation, MovesGeometryLightsAndCamerasWithTheirNodes) {
     EXPECT_EQ(scene.graph().visited_nodes(), 0u) << "the last keyframe holds";
     scene.update(0);
     EXPECT_EQ(scene.hash(), hash);
+}
+
+/// A triangle with its second corner, and the normal there, at a time.
+MorphedMesh::Key corner_at(double time, const Vector3d &corner, const Vector3d &normal) {
+    return {time, {{{0, 0, 0}, corner, {0, 1, 0}}, {{0, 1, 2}}, {{0, 0, 1}, normal, {0, 0, 1}}, {}}};
+}
+
+TEST(Morph, VerticesFollowTheKeyframes) {
+    MorphedMesh mesh("m", {corner_at(1, {1, 0, 0}, {0, 0, 1}), corner_at(2, {1, 0, 1}, {1, 0, 0}),
+                           corner_at(4, {2, 0, 0}, {-1, 0, 0})});
+    const auto corner_of = [&](double time) {
+        mesh.update(time);
+        EXPECT_EQ(mesh.vertices()[0], Vector3d(0, 0, 0));
+        return mesh.vertices()[1];
+    };
+    for (const double time : {-5.0, 0.0, 1.0}) {
+        EXPECT_EQ(corner_of(time), Vector3d(1, 0, 0)) << time;
+    }
+    EXPECT_EQ(corner_of(1.25), Vector3d(1, 0, 0.25));
+    EXPECT_EQ(corner_of(2), Vector3d(1, 0, 1));
+    EXPECT_EQ(mesh.normals()[1], Vector3d(1, 0, 0));
+    EXPECT_EQ(corner_of(3), Vector3d(1.5, 0, 0.5));
+    EXPECT_EQ(mesh.normals()[1], Vector3d(-1, 0, 0)) << "half-way between opposite ones: of the next keyframe";
+    EXPECT_EQ(corner_of(4), Vector3d(2, 0, 0));
+    EXPECT_EQ(corner_of(1e300), Vector3d(2, 0, 0));
+    EXPECT_EQ(corner_of(1), Vector3d(1, 0, 0));
+    mesh.update(1.5);
+    EXPECT_TRUE(mesh.normals()[1].isApprox(Vector3d(1, 0, 1).normalized(), 1e-15)) << "unit";
+}
+
+TEST(Morph, ComesToTheTimeOfItsScene) {
+    Scene scene = load_scene(RTRAYS_SCENES "/cloth/scene.json");
+    const std::string hash = scene.hash();
+    const std::vector<Triangle> triangles = scene.meshes().triangle;
+    scene.update(1.5);
+    EXPECT_NE(scene.hash(), hash);
+    EXPECT_EQ(scene.meshes().triangle, triangles);
+    EXPECT_EQ(scene.graph().visited_nodes(), 1u) << "nothing else moves";
+    scene.update(7);
+    const std::string last = scene.hash();
+    scene.update(2);
+    EXPECT_EQ(scene.hash(), last);
+    scene.update(0);
+    EXPECT_EQ(scene.hash(), hash);
+}
+
+TEST(Morph, ErrorsNameTheKeyframe) {
+    const auto scene = [](const std::string &keyframes) {
+        return parse_scene_json(R"({"version": 1, "film": {"width": 1, "height": 1}, "nodes": [
+            {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+            {"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]},
+             "geometry": {"type": "morph", "keyframes": [)" +
+                                    keyframes + "]}}]}",
+                                "in.json", "in");
+    };
+    struct Case {
+        const char *keyframes;
+        const char *message;
+    };
+    for (const Case &c : {
+             Case{"", "/nodes/1/geometry/keyframes (in 'a')"},
+             Case{R"({"time": 0, "geometry": {"type": "sphere"}})", "keyframe 0 is no mesh, file, rectangle or box"},
+             Case{R"({"time": 1, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "box"}})",
+                  "mesh 'a': keyframe 1 is at 1 s, not after the one before it, at 1 s"},
+             Case{R"({"time": 0, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "rectangle"}})",
+                  "mesh 'a': keyframe 1 has 4 vertices and 0 normals, the first one 24 and 0"},
+             Case{R"({"time": 0, "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]]}},
+                     {"time": 1, "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,2,1]]}})",
+                  "mesh 'a': keyframe 1 has other triangles than the first one"},
+         }) {
+        SCOPED_TRACE(c.keyframes);
+        expect_input_error(c.message, [&] { scene(c.keyframes); });
+    }
 }
 
 std::shared_ptr<AnimatedTransform> sliding(double x_after_10_seconds) {

@@ -129,7 +129,7 @@ TEST_F(SceneReadme, ExamplesSchemaAndTablesNameTheSameTypes) {
     const Names materials = names_of(material_types(), {"composite"});
     EXPECT_EQ(schema_enum("material", "type"), materials);
     EXPECT_EQ(used({"materials", "material"}, "type"), materials);
-    const Names geometries = names_of(shape_types(), {"mesh", "file", "rectangle", "box"});
+    const Names geometries = names_of(shape_types(), {"mesh", "morph", "file", "rectangle", "box"});
     EXPECT_EQ(schema_enum("geometry", "type"), geometries);
     EXPECT_EQ(used({"geometries", "geometry"}, "type"), geometries);
     EXPECT_EQ(schema_enum("light", "type"), names_of(light_types()));
@@ -177,7 +177,7 @@ Names parameters_of(const Types &types) {
 
 TEST(SceneSchema, HasTheKeysOfTheTables) {
     EXPECT_EQ(schema_keys("material", {"type", "components"}), parameters_of(material_types()));
-    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs", "file", "shading_normals"}),
+    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs", "keyframes", "file", "shading_normals"}),
               parameters_of(shape_types()));
     EXPECT_EQ(schema_keys("light", {"type", "file"}), parameters_of(light_types()));
     EXPECT_EQ(schema_keys("camera", {"type"}), parameters_of(camera_types()));

@@ -76,6 +76,12 @@ void MeshCore::set_geometry(Geometry geometry) {
     changed(Dirty::object);
 }
 
+void MeshCore::set_vertices(std::vector<Eigen::Vector3d> vertices, std::vector<Eigen::Vector3d> normals) {
+    geometry_.vertices = std::move(vertices);
+    geometry_.normals = std::move(normals);
+    changed(Dirty::object);
+}
+
 std::vector<Property> MeshCore::properties() {
     return {make_property<double>("vertices", "number of vertices",
                                   [this] { return static_cast<double>(vertices().size()); }),

@@ -36,6 +36,10 @@ class MeshCore : public Core {
     const std::vector<Eigen::Vector2d> &uvs() const { return geometry_.uvs; }
     void set_geometry(Geometry geometry);
 
+  protected:
+    /// Moves the vertices: as many as there are, finite, with as many unit normals as there are.
+    void set_vertices(std::vector<Eigen::Vector3d> vertices, std::vector<Eigen::Vector3d> normals);
+
   private:
     Geometry geometry_;
 };

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Scenes that move under a session: the film of every time, whether the hierarchy is built anew or refitted.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/device/context.h"
+#include "renderer/pipeline/render_session.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays {
+namespace {
+
+DeviceContext &device() {
+    static DeviceContext context;
+    return context;
+}
+
+RenderSettings small(const std::vector<std::string> &assignments) {
+    RenderSettings settings;
+    settings.width = settings.height = 32;
+    for (const std::string &assignment : assignments) {
+        apply_setting(settings, assignment);
+    }
+    return settings;
+}
+
+std::vector<int64_t> render(RenderSession &session) {
+    session.render(0, 2);
+    const FilmState film = session.film();
+    require_valid(film);
+    return film.words;
+}
+
+/// Words of a film that differ: those of paths that met two triangles at the same distance.
+size_t count_different(const std::vector<int64_t> &a, const std::vector<int64_t> &b) {
+    EXPECT_EQ(a.size(), b.size());
+    size_t different = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        different += a[i] != b[i] ? 1 : 0;
+    }
+    return different;
+}
+
+Scene cloth(double time) {
+    Scene scene = load_scene(RTRAYS_SCENES "/cloth/scene.json");
+    scene.update(time);
+    return scene;
+}
+
+TEST(Animation, EveryTimeHasItsOwnFilm) {
+    for (const char *layout : {"bvh2", "bvh2_stackless", "wide8"}) {
+        for (const bool refits : {false, true}) {
+            const std::string of_layout = std::string("device.bvh_layout=") + layout;
+            RenderSession session(cloth(0), small({of_layout, refits ? "device.bvh_update=refit" : "device.bvh_update=rebuild"}),
+                                  device());
+            std::vector<std::vector<int64_t>> films;
+            for (const double time : {0.5, 2.0, 0.0}) {
+                session.update(cloth(time));
+                EXPECT_EQ(session.report().at("bvh").at("refitted"), refits);
+                films.push_back(render(session));
+                RenderSession fresh(cloth(time), small({of_layout}), device());
+                EXPECT_LE(count_different(films.back(), render(fresh)), films.back().size() / 100) << layout << ' ' << time;
+            }
+            EXPECT_GT(count_different(films[0], films[1]), films[0].size() / 10) << "the cloth has moved";
+        }
+    }
+}
+
+TEST(Animation, AnotherSceneBeginsAnew) {
+    const Scene box = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+    for (const char *update : {"device.bvh_update=rebuild", "device.bvh_update=refit"}) {
+        RenderSession session(cloth(0), small({update}), device());
+        session.update(box);
+        EXPECT_FALSE(session.report().at("bvh").at("refitted"));
+        RenderSession fresh(box, small({}), device());
+        EXPECT_EQ(render(session), render(fresh));
+    }
+}
+
+}  // namespace
+}  // namespace rtrays
