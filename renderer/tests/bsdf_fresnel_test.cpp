@@ -19,6 +19,10 @@ double fresnel_double(double cosine, double eta, double k) {
     return 0.5 * (perpendicular + parallel);
 }
 
+float dielectric(float cosine, float eta) {
+    return fresnel_dielectric(cosine, squared_sine_of(cosine), eta);
+}
+
 std::vector<float> cosines() {
     std::vector<float> values = {0.0f,    1e-10f, 1e-7f, 1e-5f,
                                  1.7e-5f, 1e-3f,  1.0f,  std::nextafter(1.0f, 0.0f)};
@@ -29,22 +33,22 @@ std::vector<float> cosines() {
 }
 
 TEST(Fresnel, DielectricHasItsClosedValues) {
-    EXPECT_NEAR(fresnel_dielectric(1.0f, 1.5f), 0.04f, 1e-7f);
-    EXPECT_NEAR(fresnel_dielectric(1.0f, 1.0f / 1.5f), 0.04f, 1e-7f);
-    EXPECT_EQ(fresnel_dielectric(0.0f, 1.5f), 1.0f);
+    EXPECT_NEAR(dielectric(1.0f, 1.5f), 0.04f, 1e-7f);
+    EXPECT_NEAR(dielectric(1.0f, 1.0f / 1.5f), 0.04f, 1e-7f);
+    EXPECT_EQ(dielectric(0.0f, 1.5f), 1.0f);
     // Brewster's angle, tan = eta: nothing of the parallel part, ((1 - eta^2) / (1 + eta^2))^2 of the other.
     const double eta = 1.5, brewster = 1 / std::sqrt(1 + eta * eta), r = (1 - eta * eta) / (1 + eta * eta);
-    EXPECT_NEAR(fresnel_dielectric(static_cast<float>(brewster), 1.5f), 0.5 * r * r, 1e-7);
+    EXPECT_NEAR(dielectric(static_cast<float>(brewster), 1.5f), 0.5 * r * r, 1e-7);
     // No boundary reflects nothing, at whatever angle.
     for (const float c : cosines()) {
-        EXPECT_EQ(fresnel_dielectric(c, 1.0f), c > 0.0f ? 0.0f : 1.0f);
+        EXPECT_EQ(dielectric(c, 1.0f), c > 0.0f ? 0.0f : 1.0f);
     }
 }
 
 TEST(Fresnel, AgreesWithDoublePrecision) {
     for (const float c : cosines()) {
         for (const float eta : {1.0001f, 1.3f, 1.5f, 1.9f, 2.4f, 10.0f}) {
-            EXPECT_NEAR(fresnel_dielectric(c, eta),
+            EXPECT_NEAR(dielectric(c, eta),
                         fresnel_double(static_cast<double>(c), static_cast<double>(eta), 0), 2e-6)
                 << c << ' ' << eta;
         }
@@ -67,8 +71,8 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
 // Refraction and its way back see the same boundary.
 TEST(Fresnel, DielectricIsReciprocal) {
     for (const float c : cosines()) {
-        const float cos_t = refracted_cosine(c, 1.5f);
-        EXPECT_NEAR(fresnel_dielectric(c, 1.5f), fresnel_dielectric(cos_t, 1.0f / 1.5f),
+        const float cos_t = refracted_cosine(c, squared_sine_of(c), 1.5f);
+        EXPECT_NEAR(dielectric(c, 1.5f), dielectric(cos_t, 1.0f / 1.5f),
                     c < 1e-3f ? 5e-3f : 2e-4f)
             << c;
     }
@@ -83,13 +87,32 @@ TEST(Fresnel, StaysInRangeNextToTheCriticalAngle) {
             above = std::nextafter(above, 1.0f);
         }
         for (float c = below; c <= above; c = std::nextafter(c, 1.0f)) {
-            const float f = fresnel_dielectric(c, eta);
+            const float f = dielectric(c, eta);
             EXPECT_GE(f, 0.0f);
             EXPECT_LE(f, 1.0f);
             EXPECT_GT(f, 0.95f);
         }
-        EXPECT_EQ(fresnel_dielectric(below, eta), 1.0f);
-        EXPECT_LT(fresnel_dielectric(above, eta), 1.0f);
+        EXPECT_EQ(dielectric(below, eta), 1.0f);
+        EXPECT_LT(dielectric(above, eta), 1.0f);
+    }
+}
+
+// Out of a high index at a grazing angle: the direction inside, as floats hold it, decides.
+TEST(Fresnel, KeepsTheDigitsOfADirectionWithinAHighIndex) {
+    for (const double eta : {1.5, 3.0, 100.0}) {
+        for (const double degrees : {0.0, 60.0, 85.0, 89.0, 89.9}) {
+            const double sine = std::sin(degrees * pi / 180) / eta;
+            const float3 wo = make_float3(static_cast<float>(0.6 * sine), static_cast<float>(0.8 * sine),
+                                          static_cast<float>(std::sqrt((1 - sine) * (1 + sine))));
+            const double x = static_cast<double>(wo.x), y = static_cast<double>(wo.y);
+            const double index = static_cast<double>(static_cast<float>(1 / eta));
+            const double s2 = x * x + y * y, outside = std::sqrt(1 - s2 / (index * index));
+            EXPECT_NEAR(refracted_cosine(wo.z, squared_sine(wo), static_cast<float>(index)), outside, 4e-7 / outside)
+                << eta << ' ' << degrees;
+            EXPECT_NEAR(fresnel_dielectric(wo.z, squared_sine(wo), static_cast<float>(index)),
+                        fresnel_double(outside, 1 / index, 0), 4e-6 / outside)
+                << eta << ' ' << degrees;
+        }
     }
 }
 
@@ -126,13 +149,13 @@ TEST(Fresnel, IsMetAtTheHalfVectorOrTheNormal) {
          {blinn(20), rough(BXDF_WARD, 0.5f, 0.3f), rough(BXDF_WARD_ORIGINAL, 0.5f, 0.3f),
           rough(BXDF_MICROFACET_REFLECTION, 0.5f, 0.3f),
           rough(BXDF_MICROFACET_REFLECTION, 0.5f, 0.3f, BXDF_FLAG_BECKMANN)}) {
-        EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC), fresnel_dielectric(half_cosine, 1.5f), 1e-6f)
+        EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC), dielectric(half_cosine, 1.5f), 1e-6f)
             << record.kind;
         EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT),
-                    1.0f - fresnel_dielectric(half_cosine, 1.5f), 1e-6f);
+                    1.0f - dielectric(half_cosine, 1.5f), 1e-6f);
     }
-    const float f_i = fresnel_dielectric(dot(wi, frame.ns), 1.5f),
-                f_o = fresnel_dielectric(dot(frame.wo, frame.ns), 1.5f);
+    const float f_i = dielectric(dot(wi, frame.ns), 1.5f),
+                f_o = dielectric(dot(frame.wo, frame.ns), 1.5f);
     for (const BxdfRecord &record : {component(BXDF_LAMBERT), oren_nayar(0.7f)}) {
         EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT), (1 - f_i) * (1 - f_o), 1e-6f);
         EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | BXDF_FLAG_FRESNEL_OF_WO),

@@ -93,7 +93,7 @@ TEST(BsdfSampling, FollowsItsDensity) {
             float3 local = reflect_about(wo, make_float3(0, 0, 1));
             if (c.refracting) {
                 const float eta = c.front ? 1.5f : 1.0f / 1.5f;
-                const float cosine = std::max(refracted_cosine(wo.z, eta), 0.0f);
+                const float cosine = std::max(refracted_cosine(wo.z, squared_sine(wo), eta), 0.0f);
                 local = normalize(make_float3(-wo.x / eta, -wo.y / eta, -cosine));
             }
             const float3 centre = frame.x * local.x + frame.y * local.y + frame.ns * local.z;

@@ -81,7 +81,8 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
     const float3 colour = component_colour(MATERIAL_ARGUMENTS component, frame.uv);
     const Lobe lobe = component_evaluate(component, eta, wo, wi);
     value.pdf_w = lobe.pdf_w;
-    value.f_cos = colour * component_fresnel(component, eta, lobe.cosine, wi) * lobe.f_cos;
+    value.f_cos = colour * component_fresnel(component, eta, lobe.cosine, squared_sine_of(lobe.cosine), wi) *
+                  lobe.f_cos;
 #if FEATURE_composite
     // A material of one component, of which nothing is drawn, ends here with the bits it has in a scene
     // without others.
@@ -97,7 +98,9 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
             shares += share;
             value.pdf_w += share * other_lobe.pdf_w;
             value.f_cos +=
-                other_colour * component_fresnel(other, other_eta, other_lobe.cosine, wi) * other_lobe.f_cos;
+                other_colour *
+                component_fresnel(other, other_eta, other_lobe.cosine, squared_sine_of(other_lobe.cosine), wi) *
+                other_lobe.f_cos;
         }
         value.pdf_w = shares > 0.0f ? value.pdf_w / shares : 0.0f;
     }
@@ -199,7 +202,7 @@ DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, Su
 #if FEATURE_delta
     if (is_delta(component->kind)) {
         sample.weight = component_colour(MATERIAL_ARGUMENTS component, frame.uv) *
-                        component_fresnel(component, eta, wo.z, wi) / sample.probability;
+                        component_fresnel(component, eta, wo.z, squared_sine(wo), wi) / sample.probability;
         sample.weight *= sample.scale;
         sample.pdf_w = INFINITY;
         return sample;

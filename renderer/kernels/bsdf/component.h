@@ -138,17 +138,18 @@ DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta,
     }
 }
 
-/// The Fresnel term of the component's weight for wo and wi. `cosine`: Lobe's.
+/// The Fresnel term of the component's weight for wo and wi. `cosine`: Lobe's; `sine2`: the square of its sine.
 ///
 /// Diffuse kinds take the product of the terms of both directions, so that they stay reciprocal, unless the
 /// material asks for that of wo alone: thesis (3.55).
-DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine, float3 wi) {
+DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine, float sine2,
+                                float3 wi) {
 #if FEATURE_fresnel
-    float3 f = fresnel_term(component, eta, cosine);
+    float3 f = fresnel_term(component, eta, cosine, sine2);
 #if FEATURE_lambert || FEATURE_oren_nayar
     if ((component->kind == BXDF_LAMBERT || component->kind == BXDF_OREN_NAYAR) &&
         (component->flags & BXDF_FLAG_FRESNEL_OF_WO) == 0u) {
-        f *= fresnel_term(component, eta, wi.z);
+        f *= fresnel_term(component, eta, wi.z, squared_sine(wi));
     }
 #else
     (void)wi;
@@ -158,6 +159,7 @@ DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, f
     (void)component;
     (void)eta;
     (void)cosine;
+    (void)sine2;
     (void)wi;
     return make_float3(1.0f, 1.0f, 1.0f);
 #endif
@@ -172,7 +174,7 @@ DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, f
 /// reflection. So no direction is chosen far too seldom, and the contributions keep bounded.
 DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, float3 wo, float3 colour) {
 #if FEATURE_fresnel
-    float3 f = fresnel_term(component, eta, wo.z);
+    float3 f = fresnel_term(component, eta, wo.z, squared_sine(wo));
 #if FEATURE_blinn || FEATURE_ward || FEATURE_ward_original || FEATURE_microfacet_reflection || \
     FEATURE_microfacet_refraction
     if ((component->flags & FRESNEL_MASK) != FRESNEL_IDEAL && component->kind >= BXDF_BLINN) {
@@ -187,7 +189,7 @@ DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, floa
     colour *= f;
 #endif
 #if FEATURE_ideal_refraction
-    if (component->kind == BXDF_IDEAL_REFRACTION && refracted_cosine(wo.z, eta) <= 0.0f) {
+    if (component->kind == BXDF_IDEAL_REFRACTION && refracted_cosine(wo.z, squared_sine(wo), eta) <= 0.0f) {
         return 0.0f;
     }
 #endif

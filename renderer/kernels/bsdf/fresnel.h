@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fresnel terms: the reflected share of unpolarized light. `cosine` is that of the angle of incidence, in [0,
-// 1].
+// 1], `sine2` the square of its sine.
 //
 // Sources: thesis (3.26-3.30); the exact conductor is Born and Wolf 1999, 14.2 (the derivation in S. Lagarde,
 // "Memo on Fresnel equations", 2013). Numerators of the form (x - y)^2 are written so, not expanded: they
@@ -10,21 +10,31 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
+/// Of a local direction, and of a cosine where that is all there is.
+DEVICE float squared_sine(float3 w) {
+    return w.x * w.x + w.y * w.y;
+}
+DEVICE float squared_sine_of(float cosine) {
+    return (1.0f - cosine) * (1.0f + cosine);
+}
+
 /// Cosine on the other side of a smooth boundary, -1 at total internal reflection; `eta` is the index of
-/// refraction there over that on the side of `cosine`.
+/// refraction there over that on the side of `cosine` and `sine2`, the square of its sine.
 ///
-/// cos_t^2 = 1 - (1 - c^2) / eta^2 = ((eta - 1) (eta + 1) + c^2) / eta^2: no cancellation where eta is close
-/// to 1 or c to 0, and next to the critical angle the rounding of c^2 alone decides, here for all who ask.
-DEVICE float refracted_cosine(float cosine, float eta) {
-    const float scaled = (eta - 1.0f) * (eta + 1.0f) + cosine * cosine;
+/// cos_t^2 = (eta^2 - s^2) / eta^2 = ((eta - 1) (eta + 1) + c^2) / eta^2. Where the critical angle is below 45 degrees,
+/// s has more digits next to it than c: from within a high index an ulp of c is many of the grazing angle outside.
+/// Elsewhere the last form does not cancel, be eta close to 1 or c to 0. Next to the critical angle the rounding of
+/// the input alone decides, here for all who ask.
+DEVICE float refracted_cosine(float cosine, float sine2, float eta) {
+    const float scaled = eta * eta < 0.5f ? eta * eta - sine2 : (eta - 1.0f) * (eta + 1.0f) + cosine * cosine;
     return scaled > 0.0f ? min(sqrt(scaled) / eta, 1.0f) : -1.0f;
 }
 
 #if FEATURE_fresnel_dielectric
 
 /// Thesis (3.26, 3.27); 1 at total internal reflection. Denominators are positive: one of the cosines is.
-DEVICE float fresnel_dielectric(float cosine, float eta) {
-    const float cos_t = refracted_cosine(cosine, eta);
+DEVICE float fresnel_dielectric(float cosine, float sine2, float eta) {
+    const float cos_t = refracted_cosine(cosine, sine2, eta);
     if (cos_t < 0.0f) {
         return 1.0f;
     }
@@ -94,14 +104,15 @@ DEVICE float fresnel_schlick(float cosine, float r0) {
 
 /// F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a dielectric: see
 /// component_eta. Dielectrics are reciprocal: a ray and its refraction give the same F to either side.
-DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float cosine) {
+DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float cosine, float sine2) {
     float3 f = make_float3(1.0f, 1.0f, 1.0f);
     const float c = min(fabs(cosine), 1.0f);
+    (void)sine2;
     const uint flags = component->flags;
     switch (flags & FRESNEL_MASK) {
 #if FEATURE_fresnel_dielectric
         case FRESNEL_DIELECTRIC: {
-            const float value = fresnel_dielectric(c, eta);
+            const float value = fresnel_dielectric(c, sine2, eta);
             f = make_float3(value, value, value);
             break;
         }

@@ -27,7 +27,7 @@ DEVICE float3 ideal_reflection_direction(float3 wo) {
 
 /// Thesis (3.41); z is 0 at total internal reflection.
 DEVICE float3 ideal_refraction_direction(float3 wo, float eta) {
-    const float cosine = refracted_cosine(wo.z, eta);
+    const float cosine = refracted_cosine(wo.z, squared_sine(wo), eta);
     return cosine > 0.0f ? make_float3(-wo.x / eta, -wo.y / eta, -cosine) : make_float3(0.0f, 0.0f, 0.0f);
 }
 

@@ -58,7 +58,7 @@ DEVICE Lobe microfacet_refraction_evaluate(float3 wo, float3 wi, Roughness r, fl
 DEVICE float3 microfacet_refraction_direction(float3 wo, Roughness r, float eta, float u, float v) {
     const float3 m = visible_normal(wo, r, u, v);
     const float wo_m = dot(wo, m);
-    const float cosine = refracted_cosine(wo_m, eta);
+    const float cosine = refracted_cosine(wo_m, squared_sine_of(wo_m), eta);
     if (!(wo_m > 0.0f && cosine > 0.0f)) {
         return make_float3(0.0f, 0.0f, 0.0f);
     }
