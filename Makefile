@@ -10,7 +10,7 @@ CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms mirror_ring
 MEASUREMENTS = bvh_build ray_rates
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation bench measurements references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability bench measurements references format lint clean
 
 all: build
 
@@ -68,6 +68,10 @@ peers: programs
 specialisation: programs
 	scripts/specialisation build/bin/rtrays-render scenes/cornell_box/scene.json > results/specialisation.md.new
 	mv results/specialisation.md.new results/specialisation.md
+
+# Stiff and extreme cases by every algorithm that can render them: a table, and exit code 3 if one fails.
+stability: programs
+	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out build/stability.$(PROFILE)
 
 # The hierarchy beside Embree's: rays per second by mesh and kind of ray, and how long it takes to build; on an idle machine.
 # A part of them: BENCH=sphere (a regular expression). `make measurements` makes tables of the same turns.

@@ -16,6 +16,7 @@
 #include "experiments/report.h"
 #include "experiments/runner.h"
 #include "experiments/scene_agreement.h"
+#include "experiments/stability.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
@@ -44,7 +45,7 @@ void declare(CLI::App &app, Arguments &arguments) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "rtrays-experiment " RTRAYS_VERSION);
 
-    auto *run = app.add_subcommand("run", "measure an experiment and write OUT/run.json");
+    auto *run = app.add_subcommand("run", "measure an experiment and write OUT/run.json; a stability suite: exit 3 if a case fails");
     run->add_option("FILE", arguments.run.experiment, "experiment (JSON)")->required();
     run->add_option("--profile", arguments.run.profile, "quick, full or ci")
         ->check(CLI::IsMember({"quick", "full", "ci"}))
@@ -97,6 +98,9 @@ void declare(CLI::App &app, Arguments &arguments) {
 }
 
 ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
+    if (app.got_subcommand("run") && is_stability(arguments.run.experiment)) {
+        return run_stability(arguments.run);
+    }
     if (app.got_subcommand("run")) {
         ExitCode exit_code = ExitCode::ok;
         const fs::path out = is_measurement(arguments.run.experiment) ? run_measurement(arguments.run, exit_code)

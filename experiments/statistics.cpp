@@ -198,6 +198,10 @@ double normal_quantile_two_sided(double confidence) {
     return boost::math::quantile(boost::math::normal_distribution<double>(), 0.5 + confidence / 2);
 }
 
+double student_quantile_two_sided(double confidence, double freedom) {
+    return boost::math::quantile(boost::math::complement(boost::math::students_t_distribution<double>(freedom), (1 - confidence) / 2));
+}
+
 Interval paired_error_ratio(const std::vector<double> &candidate, const std::vector<double> &baseline,
                             double confidence) {
     if (candidate.size() != baseline.size() || candidate.size() < 2) {

@@ -48,6 +48,9 @@ Interval convergence_slope(const std::vector<double> &spp, const std::vector<std
 /// The z for which P(|N(0,1)| <= z) = confidence.
 double normal_quantile_two_sided(double confidence);
 
+/// The t for which P(|T| <= t) = confidence, T being Student's of so many degrees of freedom.
+double student_quantile_two_sided(double confidence, double freedom);
+
 /// Mean of log(candidate[k] / baseline[k]) as a relative change (exp(mean) - 1) with one-sided bounds, each
 /// at `confidence`, from Student's t over the pairs. Both samples are errors > 0, paired by index (same
 /// seed); needs >= 2 pairs, throws `Error` (run failed) otherwise.

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The verdicts of stability cases: what is planted must be found, and what is as expected pass.
+#include "experiments/stability.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+#include "experiments/stability_cases.h"
+
+namespace rtrays {
+namespace {
+
+constexpr int size = 16;
+constexpr double alpha = 1e-5;
+
+Image filled(const std::function<double(int)> &value) {
+    Image image = Image::rgb(size, size);
+    for (const std::string &channel : rgb_names()) {
+        for (int i = 0; i < size * size; ++i) {
+            image.channel(channel)[static_cast<size_t>(i)] = static_cast<float>(value(i));
+        }
+    }
+    return image;
+}
+
+const ExpectedImage one{filled([](int) { return 1.0; }), false};
+
+/// 32 batches of `draw(generator, pixel)`.
+std::vector<Image> batches(const std::function<double(std::mt19937 &, int)> &draw) {
+    std::mt19937 generator(1);
+    std::vector<Image> images;
+    for (int batch = 0; batch < 32; ++batch) {
+        images.push_back(filled([&](int pixel) { return draw(generator, pixel); }));
+    }
+    return images;
+}
+
+/// Noise of 10 % and mean 1.
+double noise(std::mt19937 &generator, int) {
+    return std::normal_distribution<double>(1, 0.1)(generator);
+}
+
+TEST(Stability, PassesWhatIsAsExpected) {
+    const StabilityTest test = test_stability(batches(noise), one, 0, 0.01, alpha);
+    EXPECT_EQ(test.verdict, "ok");
+    EXPECT_EQ(test.tests + test.undecided, 15u);  // four blocks and the whole by three channels
+    EXPECT_LT(test.difference.low, 0);
+    EXPECT_GT(test.difference.high, 0);
+    EXPECT_NEAR(test.mse, 0.01, 0.001);
+}
+
+TEST(Stability, FindsAPlantedBias) {
+    const auto biased = [](std::mt19937 &generator, int pixel) { return 1.01 * noise(generator, pixel); };
+    EXPECT_EQ(test_stability(batches(biased), one, 0, 0.01, alpha).verdict, "off");
+    EXPECT_EQ(test_stability(batches(biased), one, 0.02, 0.01, alpha).verdict, "ok") << "within its bound";
+}
+
+TEST(Stability, FindsABiasThatTheMeanHides) {
+    const auto tilted = [](std::mt19937 &generator, int pixel) { return noise(generator, pixel) * (pixel % size < 8 ? 0.98 : 1.02); };
+    EXPECT_EQ(test_stability(batches(tilted), one, 0, 0.01, alpha).verdict, "off");
+}
+
+TEST(Stability, HasRoundingWithoutNoiseKeepToItsBound) {
+    const auto rounded = [](std::mt19937 &, int) { return 1.000002; };
+    EXPECT_EQ(test_stability(batches(rounded), one, 1e-5, 0.01, alpha).verdict, "ok");
+    EXPECT_EQ(test_stability(batches(rounded), one, 1e-6, 0.01, alpha).verdict, "off");
+}
+
+TEST(Stability, DoesNotPassWhatItCannotTell) {
+    EXPECT_EQ(test_stability(batches(noise), one, 0, 1e-5, alpha).verdict, "imprecise");
+    // All of the light in one batch of 32.
+    int drawn = 0;
+    const auto rare = [&](std::mt19937 &, int) { return drawn++ < 3 * size * size ? 32.0 : 0.0; };
+    EXPECT_EQ(test_stability(batches(rare), one, 0, 1e9, alpha).verdict, "undecided");
+    const auto none = [](std::mt19937 &, int) { return 0.0; };
+    EXPECT_EQ(test_stability(batches(none), one, 0, 1e9, alpha).verdict, "off");
+}
+
+TEST(Stability, CountsTheNoiseOfTheReference) {
+    ExpectedImage noisy{filled([](int) { return 1.01; }), true};
+    for (const std::string &channel : rgb_names("variance")) {
+        noisy.mean.add_channel(channel).assign(size * size, 0.01f);
+    }
+    EXPECT_EQ(test_stability(batches(noise), noisy, 0, 0.1, alpha).verdict, "ok");
+}
+
+TEST(StabilityCases, AreReadWithTheirSweepsAndFormulas) {
+    const StabilitySuite suite = load_stability(RTRAYS_EXPERIMENTS "/stability.json", "quick");
+    EXPECT_GT(suite.cases.size(), 100u);
+    const auto found = std::find_if(suite.cases.begin(), suite.cases.end(), [](const StabilityCase &c) { return c.name == "furnace rho=0.5"; });
+    ASSERT_NE(found, suite.cases.end());
+    EXPECT_EQ(found->expected, (std::array<double, 3>{2, 1, 0.5}));
+    for (const char *profile : {"ci", "full"}) {
+        for (const StabilityCase &tested : load_stability(RTRAYS_EXPERIMENTS "/stability.json", profile).cases) {
+            EXPECT_NO_THROW(tested.scene.load()) << tested.name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rtrays
