@@ -55,6 +55,7 @@ struct StabilitySuite {
     std::string name;
     std::string profile;
     double bound = 0;  ///< of cases without one of their own
+    bool survey = false;  ///< only values that are not finite or out of range are failures
     std::vector<StabilityCase> cases;
 };
 
