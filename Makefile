@@ -8,7 +8,7 @@ BENCH ?= .
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms mirror_ring
-MEASUREMENTS = bvh_build ray_rates
+MEASUREMENTS = bvh_build bvh_animation ray_rates
 
 .PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability bench measurements references format lint clean
 
@@ -34,7 +34,7 @@ reproduce-chapter4: programs
 
 # Tables, plots and pages from the run.json files that are there.
 report:
-	scripts/measurements $(addprefix $(CHAPTER4)/,$(MEASUREMENTS))
+	/usr/bin/python3 scripts/measurements $(addprefix $(CHAPTER4)/,$(MEASUREMENTS))
 	build/bin/rtrays-experiment report $(addprefix $(CHAPTER4)/,$(EXPERIMENTS))
 
 # The renderer's host code under address and undefined-behaviour sanitizers, then everything; the last lines are ctest's summary.
@@ -51,7 +51,7 @@ test-asan: install
 # is kept in results/.
 test-full: programs
 	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/traversal
-	scripts/measurements results/traversal
+	/usr/bin/python3 scripts/measurements results/traversal
 	for agreement in feature_scenes algorithms; do \
 	    build/bin/rtrays-experiment agree experiments/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
 	    mkdir -p results/$$agreement; \
@@ -88,7 +88,7 @@ measurements: programs
 	for experiment in $(MEASUREMENTS); do \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile full --out results/$$experiment || exit $$?; \
 	done
-	scripts/measurements $(addprefix results/,$(MEASUREMENTS))
+	/usr/bin/python3 scripts/measurements $(addprefix results/,$(MEASUREMENTS))
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
 references: programs

@@ -59,7 +59,7 @@ def speeds(run):
                            marker=MARKERS[i % len(MARKERS)], markersize=4, linewidth=1.0, label=label)
         panel.axvline(1, color="black", linewidth=0.8, linestyle=":")
         panel.set(title=name(kind), xscale="log", xlabel="speed / Embree ray by ray")
-        ticks = [0.2, 0.5, 1, 2]
+        ticks = [0.2, 0.5, 1, 2, 5]
         panel.set_xticks(ticks, [f"{tick:g}" for tick in ticks], minor=False)
         panel.minorticks_off()
     panels[0].set_yticks(range(len(meshes)), meshes)
@@ -71,4 +71,30 @@ def speeds(run):
                       "intervals."}
 
 
-PLOTS = {"bvh_build": build_time, "ray_rates": speeds}
+def animation(run):
+    """Above the time of an update, below the rays' speed, a column for each mesh."""
+    rows = run.get("rows")
+    figure, panels = pyplot.subplots(2, len(rows), figsize=(1.2 + 3.2 * len(rows), 5.2), sharex="col", squeeze=False,
+                                     layout="constrained")
+    for column, row in zip(panels.T, rows):
+        frames = value(row, "frames")
+        x = [value(frame, "frame") for frame in frames]
+        for panel, what, key in zip(column, ("updates", "rays"), ("processor_ms", "speed_over_build")):
+            for i, entry in enumerate(value(frames[0], what)):
+                found = [value(next(e for e in frame[what] if e["name"] == entry["name"]), key) for frame in frames]
+                middle = numpy.array([value(f, "value") for f in found])
+                reach = [middle - [value(f, "low") for f in found], [value(f, "high") for f in found] - middle]
+                # A way to update has one colour in both.
+                place = [u["name"] for u in value(frames[0], "updates")].index(entry["name"])
+                panel.errorbar(x, middle, yerr=reach, color=COLOURS[place], marker=MARKERS[place], markersize=4, linewidth=1.0,
+                               label=name(entry["name"]))
+        column[0].set(title=f"{name(row['mesh'])}, {value(row, 'triangles')} triangles", yscale="log", ylabel="processor ms of an update")
+        column[1].set(xlabel="frame", ylabel="speed of diffuse rays")
+    handles, labels = panels[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=2)
+    save(figure, run, "animation")
+    return {"animation": "Processor time of an update by frame, and the rate of diffuse rays after it over that of the usual "
+                         "builder's tree, built anew."}
+
+
+PLOTS = {"bvh_animation": animation, "bvh_build": build_time, "ray_rates": speeds}

@@ -66,10 +66,11 @@ def published_table(run):
         cells = [printed["scene"], printed["triangles"]] if printed else [NONE, NONE]
         cells += [number(printed["ms"][c["key"]]) if printed and c["key"] in printed["ms"] else NONE for c in columns]
         cells += [mesh_name(run, row["mesh"]), f"{value(row, 'triangles')}"]
-        cells += [number(value(contestants[c], "wall_ms.value")) for c in shown]
+        cells += [f"{number(value(contestants[c], 'wall_ms.value'))}; {number(value(contestants[c], 'processor_ms.value'))}"
+                  for c in shown]
         rows.append(cells)
     heads = ["scene", "triangles", *(f"{c['title']}, ms" for c in columns), "measured here", "triangles",
-             *(f"{name(c)}, ms" for c in shown)]
+             *(f"{name(c)}, wall ms; processor ms" for c in shown)]
     hardware = "; ".join(f"{c['title']}: {c['hardware']}" for c in columns)
     return Table(f"As printed ({run.get('experiment.published.source')}; {hardware}), and here", heads, rows)
 
@@ -81,17 +82,18 @@ def build_rows(run):
             wall = value(c, "wall_ms.value")
             yield [mesh_name(run, row["mesh"]), f"{triangles}", name(c["name"]), interval(value(c, "wall_ms")),
                    number(value(c, "processor_ms.value")), f"{1e-3 * triangles / wall:.2f}",
+                   f"{1e-3 * triangles / value(c, 'processor_ms.value'):.2f}",
                    interval(value(c, "speed_over_embree")), told(c, "sah", "{:.2f}"),
                    f"{c['sah'] / sweep:.3f}" if "sah" in c else NONE, told(c, "nodes_per_ray", "{:.1f}"),
                    told(c, "triangles_per_ray", "{:.1f}"), f"{value(c, 'bytes') / triangles:.0f}",
-                   f"{value(c, 'bytes_peak') / triangles:.0f}", f"{1e-6 * value(c, 'bytes_peak'):.1f}",
+                   f"{value(c, 'bytes_peak') / triangles:.0f}", f"{1e-6 * value(c, 'bytes_peak'):.1f}", f"{value(row, 'turns')}",
                    f"{100 * value(row, 'foreign_load'):.0f}"]
 
 
 def bvh_build(run, figures):
     full = Table("Each builder and layout", [
-        "mesh", "triangles", "builder", "ms", "processor ms", "Mtris/s", "speed / Embree medium", "SAH", "/ full sweep",
-        "nodes per ray", "triangles per ray", "bytes per triangle", "peak", "peak, MB", "others' load, %"],
+        "mesh", "triangles", "builder", "ms", "processor ms", "Mtris/s (wall)", "Mtris per processor s", "speed / Embree medium", "SAH", "/ full sweep",
+        "nodes per ray", "triangles per ray", "bytes per triangle", "peak", "peak, MB", "turns", "others' load, %"],
         list(build_rows(run)))
     exponents = Table("Time = c · triangles^k (processor time; least squares on logarithms, 95 % intervals over the meshes)",
                       ["builder", "k"],
@@ -119,21 +121,27 @@ def stages(run):
                  ["builder", "stage", "%", "ms", "launches"], rows)
 
 
+CACHED = 4e6  # bytes: what fits the second-level caches of two or more cores
+
+
 def costs(run, ours):
     """What a node and a triangle cost: processor ns per ray = a + b nodes + c triangles, by relative least squares."""
     import numpy
 
     rows = []
-    for layout in ours:
+    for layout, cached in [(layout, cached) for layout in ours for cached in (True, False)]:
         entries = [next(c for c in value(kind, "contestants") if c["name"] == layout)
                    for row in run.get("rows") for kind in value(row, "kinds")]
+        entries = [entry for entry in entries if (value(entry, "bytes") <= CACHED) == cached]
+        if len(entries) < 4:
+            continue
         ns = numpy.array([value(c, "processor_ns.value") for c in entries])
         work = numpy.array([[1, value(c, "nodes_per_ray"), value(c, "triangles_per_ray")] for c in entries])
         fit, *_ = numpy.linalg.lstsq(work / ns[:, None], numpy.ones(len(ns)), rcond=None)
         off = numpy.abs(work @ fit / ns - 1)
-        rows.append([name(layout), *(f"{x:.1f}" for x in fit), f"{100 * numpy.median(off):.0f}", f"{100 * off.max():.0f}"])
-    return Table("What limits it: processor ns per ray = a + b · nodes + c · triangles, over all meshes and kinds of ray",
-                 ["layout", "a, ns", "b, ns per node", "c, ns per triangle", "median residual, %", "largest, %"], rows)
+        rows.append([name(layout), f"{'up to' if cached else 'above'} {1e-6 * CACHED:g} MB", f"{len(entries)}", *(f"{x:.1f}" for x in fit), f"{100 * numpy.median(off):.0f}", f"{100 * off.max():.0f}"])
+    return Table("What limits it: processor ns per ray = a + b · nodes + c · triangles, by size of the hierarchy",
+                 ["layout", "hierarchy", "meshes × kinds", "a, ns", "b, ns per node", "c, ns per triangle", "median residual, %", "largest, %"], rows)
 
 
 def ray_rates(run, figures):
@@ -196,4 +204,28 @@ def traversal(run, _):
     return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables)])
 
 
-TABLES = {"bvh_build": bvh_build, "ray_rates": ray_rates, "traversal": traversal}
+def bvh_animation(run, figures):
+    updates, rays = [], []
+    for row in run.get("rows"):
+        frames = value(row, "frames")
+        for frame in frames:
+            head = [name(row["mesh"]), f"{value(frame, 'frame')}"]
+            updates.append(head + [f"{interval(value(u, 'wall_ms'))}; {number(value(u, 'processor_ms.value'))}"
+                                   for u in value(frame, "updates")] + [f"{100 * value(frame, 'foreign_load'):.0f}"])
+            rays.append(head + [f"{interval(value(r, 'speed_over_build'))}" for r in value(frame, "rays")[1:]]
+                        + [f"{value(r, 'nodes_per_ray'):.1f}, {value(r, 'triangles_per_ray'):.1f}" for r in value(frame, "rays")])
+    first = value(run.get("rows")[0], "frames")[0]
+    traced = [name(r["name"]) for r in value(first, "rays")]
+    tables = (
+        Table("An update: wall ms [95 % interval]; processor ms",
+              ["mesh", "frame", *(name(u["name"]) for u in value(first, "updates")), "others' load, %"], updates),
+        Table(f"Diffuse rays: speed over '{traced[0]}' (processor time), and work",
+              ["mesh", "frame", *traced[1:], *(f"nodes, triangles per ray: {t}" for t in traced)], rays),
+    )
+    motions = "; ".join(f"{name(row['mesh'])} ({value(row, 'triangles')} triangles): {value(row, 'motion')}" for row in run.get("rows"))
+    what = (f"Every frame the hierarchy is built anew, and that of frame 0 is fitted to where its triangles are now (its links stay). "
+            f"{motions}. Medians of turns with 95 % intervals.")
+    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
+
+
+TABLES = {"bvh_animation": bvh_animation, "bvh_build": bvh_build, "ray_rates": ray_rates, "traversal": traversal}

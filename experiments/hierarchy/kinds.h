@@ -24,6 +24,10 @@ MeasurementPlan plan_ray_rates(const MeasurementSettings &settings, DeviceContex
 /// a way out of closed shapes; by layout.
 MeasurementPlan plan_traversal(const MeasurementSettings &settings, DeviceContext &device);
 
+/// An animated mesh frame by frame: milliseconds of building anew by every builder and of fitting the tree of
+/// the first frame, and what diffuse rays take in both.
+MeasurementPlan plan_bvh_animation(const MeasurementSettings &settings, DeviceContext &device);
+
 /// {"value", "low", "high"} times a factor.
 Json scaled(const Interval &interval, double factor);
 

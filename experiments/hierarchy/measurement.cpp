@@ -28,7 +28,8 @@ struct Kind {
     const char *needs;  ///< a key of its profiles that others do not have
     MeasurementPlan (*plan)(const MeasurementSettings &, DeviceContext &);
 };
-constexpr Kind kinds[] = {{"bvh_build", "repetitions", plan_bvh_build},
+constexpr Kind kinds[] = {{"bvh_animation", "frames", plan_bvh_animation},
+                          {"bvh_build", "repetitions", plan_bvh_build},
                           {"ray_rates", "repetitions", plan_ray_rates},
                           {"traversal", "watertight_rays", plan_traversal}};
 
@@ -68,6 +69,7 @@ MeasurementSettings settings_of(const Json &profile, const std::vector<std::stri
     MeasurementSettings settings;
     settings.repetitions = profile.value("repetitions", 0);
     settings.rays = profile.value("rays", size_t{0});
+    settings.frames = profile.value("frames", 0);
     settings.watertight_rays = profile.value("watertight_rays", size_t{0});
     settings.meshes = meshes;
     return settings;

@@ -19,6 +19,7 @@ struct MeasurementSettings {
     int repetitions = 0;         ///< turns of every contest
     size_t rays = 0;             ///< of a kind and mesh
     size_t watertight_rays = 0;  ///< of a closed shape
+    int frames = 0;              ///< of an animation, but for the first
     std::vector<std::string> meshes;
 };
 

@@ -84,6 +84,7 @@ const std::vector<Source> &sources() {
         {"bunny", {-0.02f, 0.12f, 0.3f, 0, 0, -1, 40}, load_first, {"bunny/bunny.ply"}},
         {"sibenik", {-15, -9, 0, 1, -0.05f, 0, 75}, load_first, {"sibenik/sibenik-75k-geometry.ply"}},
         {"cloth_ball", {18, 16, 18, -1, -0.7f, -1, 50}, load_first, {"cloth-ball/cloth_ball92.ply"}},
+        {"cloth_ball_next", {18, 16, 18, -1, -0.7f, -1, 50}, load_first, {"cloth-ball/cloth_ball93.ply"}},
         {"conference",
          {-800, 400, 500, 0.75f, -0.3f, -0.6f, 80},
          load_first,

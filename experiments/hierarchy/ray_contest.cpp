@@ -101,7 +101,8 @@ Json RayContest::row() const {
             {"rays", rays_.size()},
             {"turns", contest_.turns()},
             {"foreign_load", contest_.foreign_load()},
-            {"stackless_over_stack", to_json(contest_.speed_over("binned_sah bvh2_stackless", "binned_sah bvh2"))},
+            {"stackless_over_stack",
+             to_json(contest_.speed_over("binned_sah bvh2_stackless", "binned_sah bvh2"))},
             {"contestants", contestants}};
 }
 

@@ -51,6 +51,7 @@ class DeviceTracer {
     DeviceTracer(DeviceContext &device, Bvh bvh);
 
     const Bvh &bvh() const { return bvh_; }
+    Bvh &bvh() { return bvh_; }  ///< to be fitted anew
 
     /// Traces and waits. The first launch of a kernel compiles it.
     void trace(const DeviceRays &rays) const;

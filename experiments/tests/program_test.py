@@ -154,7 +154,7 @@ class Program(unittest.TestCase):
 
     def test_measurements(self):
         """Every contestant has its figures, and tables and plots are made of them."""
-        rows = {"bvh_build": 7, "ray_rates": 6, "traversal": 4}
+        rows = {"bvh_build": 7, "bvh_animation": 3, "ray_rates": 6, "traversal": 4}
         for name, contestants in rows.items():
             out = self.folder / name
             done = self.call("run", EXPERIMENTS / f"{name}.json", "--profile", "ci", "--out", out, "--quiet")
@@ -164,7 +164,7 @@ class Program(unittest.TestCase):
             run = json.loads((out / "run.json").read_text())
             for row in run["rows"]:
                 for group in row.get("kinds", [row]):
-                    entries = group.get("contestants", group.get("layouts"))
+                    entries = group.get("contestants", group.get("layouts", group.get("frames")))
                     self.assertGreaterEqual(len(entries), contestants)
             made = self.tables(out)
             self.assertEqual(made.returncode, 0, made.stderr)
@@ -172,6 +172,7 @@ class Program(unittest.TestCase):
             for row in run["rows"]:
                 self.assertIn(row["mesh"].replace("_", " "), table)
         self.assertTrue((self.folder / "bvh_build/build_time.svg").exists())
+        self.assertTrue((self.folder / "bvh_animation/animation.svg").exists())
         self.assertTrue((self.folder / "ray_rates/speeds.svg").exists())
         # A missing figure is an error of the tables, never a gap.
         run = json.loads((self.folder / "bvh_build/run.json").read_text())
