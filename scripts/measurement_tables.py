@@ -16,6 +16,15 @@ def interval(entry, digits=3):
     return f"{number(value(entry, 'value'), digits)} [{number(value(entry, 'low'), digits)}, {number(value(entry, 'high'), digits)}]"
 
 
+def builder(entry):
+    """Its name, and what made the tree where it gave up (bvh/builder.h)."""
+    gave_up = "method" in entry and not entry["name"].startswith(entry["method"])
+    return name(entry["name"]) + (f", by {name(entry['method'])}" if gave_up else "")
+
+
+GIVING_UP = "A tree that clustering makes too deep is built by binned SAH instead: its figures are then that one's."
+
+
 def told(entry, key, form="{:.3g}", scale=1.0):
     return form.format(scale * entry[key]) if key in entry else NONE
 
@@ -80,7 +89,7 @@ def build_rows(run):
         triangles, sweep = value(row, "triangles"), value(row, "full_sweep_sah")
         for c in value(row, "contestants"):
             wall = value(c, "wall_ms.value")
-            yield [mesh_name(run, row["mesh"]), f"{triangles}", name(c["name"]), interval(value(c, "wall_ms")),
+            yield [mesh_name(run, row["mesh"]), f"{triangles}", builder(c), interval(value(c, "wall_ms")),
                    number(value(c, "processor_ms.value")), f"{1e-3 * triangles / wall:.2f}",
                    f"{1e-3 * triangles / value(c, 'processor_ms.value'):.2f}",
                    interval(value(c, "speed_over_embree")), told(c, "sah", "{:.2f}"),
@@ -102,7 +111,7 @@ def bvh_build(run, figures):
             "together, of which *speed* is the ratio, turn by turn, and which other load hardly changes. Embree's low, medium "
             "and high quality, not ROBUST. SAH: K_T = K_I = 1, of the two-wide tree below every layout, also over that of a "
             "full sweep on the host; nodes and triangles: of diffuse rays. Peak: all that a build holds, vertices, indices and "
-            "the result included.")
+            f"the result included. {GIVING_UP}")
     return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in (published_table(run), full, exponents, stages(run))),
                  *figure_links(figures)])
 
@@ -176,7 +185,7 @@ def ray_rates(run, figures):
     what = ("Medians of turns with 95 % intervals, the same rays in the same order by all, on as many threads as the device "
             "has compute units. Embree: ROBUST, the instruction set that is fastest on these rays (in brackets); 1: "
             "rtcIntersect1 or, for shadow and ambient occlusion rays, rtcOccluded1; 16: rtcIntersect16, rtcOccluded16, told "
-            "which rays are coherent.")
+            f"which rays are coherent. {GIVING_UP}")
     return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
 
 

@@ -47,10 +47,15 @@ Json device_facts(DeviceContext &device, BvhBuilder &builder, const DeviceMesh &
     }
     const BvhReport report = bvh.report();
     const auto [nodes, triangles] = DeviceTracer(device, std::move(bvh)).work_per_ray(rays);
-    return {{"side", "ours"},         {"sah", report.sah_cost},
-            {"depth", report.depth},  {"rejected", report.rejected()},
-            {"nodes_per_ray", nodes}, {"triangles_per_ray", triangles},
-            {"bytes", report.bytes},  {"bytes_peak", report.bytes_peak},
+    return {{"side", "ours"},
+            {"method", to_string(report.method)},
+            {"sah", report.sah_cost},
+            {"depth", report.depth},
+            {"rejected", report.rejected()},
+            {"nodes_per_ray", nodes},
+            {"triangles_per_ray", triangles},
+            {"bytes", report.bytes},
+            {"bytes_peak", report.bytes_peak},
             {"stages", stages}};
 }
 

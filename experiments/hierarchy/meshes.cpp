@@ -172,7 +172,7 @@ test::Mesh scattered(uint32_t count) {
         append(mesh, test::sphere(rings, 2 * rings, radius, 0.05f, centre, random()));
     }
     mesh.triangles.resize(count);
-    mesh.name = "scattered";
+    mesh.name = fmt::format("scattered_{}", count);
     return mesh;
 }
 

@@ -59,6 +59,7 @@ RayContest::RayContest(const TracedMesh &mesh, const RayKind &kind, size_t count
         require_equal_hits(ours.name, on_device_->hit_count(), expected);
         const auto [nodes, triangles] = ours.tracer.work_per_ray(*on_device_);
         facts_.push_back({{"side", "ours"},
+                          {"method", to_string(ours.tracer.bvh().report().method)},
                           {"nodes_per_ray", nodes},
                           {"triangles_per_ray", triangles},
                           {"bytes", ours.tracer.bvh().report().bytes}});

@@ -197,7 +197,7 @@ class Program(unittest.TestCase):
         run = json.loads((self.folder / "out/run.json").read_text())
         self.assertEqual(run["stand_ins"], {"scattered_100": "nowhere"})
         self.assertEqual(run["absent"], ["nothing"])
-        self.assertEqual([row["triangles"] for row in run["rows"]], [100])
+        self.assertEqual([(row["mesh"], row["triangles"]) for row in run["rows"]], [("scattered_100", 100)])
 
     def test_run_resume_and_report(self):
         """A run stopped by SIGTERM continues with the same command and has every seed once."""
