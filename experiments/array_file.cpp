@@ -10,7 +10,7 @@
 
 namespace rtrays {
 
-void write_array(const Image &image, const std::filesystem::path &path) {
+void write_array(const Image &image, const std::filesystem::path &path, const std::string &layer) {
     std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}",
                                      image.height(), image.width());
     // Magic (6), version (2), length (2) and header end on a multiple of 64 bytes, the last a newline.
@@ -21,7 +21,7 @@ void write_array(const Image &image, const std::filesystem::path &path) {
     bytes += static_cast<char>(header.size() & 0xff);
     bytes += static_cast<char>(header.size() >> 8);
     bytes += header;
-    const auto names = rgb_names();
+    const auto names = rgb_names(layer);
     const std::array<const std::vector<float> *, 3> channels{
         &image.channel(names[0]), &image.channel(names[1]), &image.channel(names[2])};
     for (size_t i = 0; i < image.pixel_count(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "embedded/experiment_schemas.h"
@@ -87,11 +88,19 @@ ExperimentDescription load_experiment(const std::filesystem::path &path, const s
     json.at("claim").get_to(experiment.claim);
     json.at("expected_slope").at("value").get_to(experiment.expected_slope);
     json.at("expected_slope").at("tolerance").get_to(experiment.slope_tolerance);
+    experiment.expected_gain = json.value("expected_gain", Json());
     read_measured_scene(file, chosen.at("size"), experiment);
     experiment.profile = profile;
     chosen.at("spp").get_to(experiment.spp);
     require_increasing(experiment.spp, file.location("/profiles/" + profile + "/spp"));
     chosen.at("seeds").get_to(experiment.seeds);
+    experiment.early_images = chosen.value("early_images", experiment.early_images);
+    for (const uint64_t spp : experiment.early_images) {
+        if (std::find(experiment.spp.begin(), experiment.spp.end(), spp) == experiment.spp.end()) {
+            throw input_error(fmt::format("{}: {} is none of \"spp\"",
+                                          file.location("/profiles/" + profile + "/early_images"), spp));
+        }
+    }
     chosen.at("throughput").at("repetitions").get_to(experiment.throughput.repetitions);
     chosen.at("throughput").at("spp").get_to(experiment.throughput.spp);
     experiment.source = json;

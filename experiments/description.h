@@ -38,10 +38,12 @@ struct MeasuredScene {
 struct ExperimentDescription : MeasuredScene {
     std::string name, title, thesis, claim;
     double expected_slope = 0, slope_tolerance = 0;
+    Json expected_gain;  ///< {"algorithm", "samples", "time"} over path tracing, as the thesis states it, or null
     // of the chosen profile
     std::string profile;
     std::vector<uint64_t> spp;  ///< strictly increasing
     int seeds = 0;              ///< seeds 1 .. seeds
+    std::vector<uint64_t> early_images;  ///< rungs at which the first seed's image is kept
     ThroughputDescription throughput;
     Json source;  ///< the file as written
 };

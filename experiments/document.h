@@ -14,7 +14,7 @@
 
 namespace rtrays {
 
-constexpr int run_schema_version = 1;
+constexpr int run_schema_version = 2;
 
 /// One rung of one seed's ladder; times are cumulative from the seed's first sample.
 struct Measurement {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "renderer/base/files.h"
@@ -14,8 +15,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path partial_file(const LadderTask &task, uint32_t seed, const char *extension) {
+fs::path partial_file(const LadderTask &task, uint32_t seed, const std::string &extension) {
     return task.partial / fmt::format("{}.seed{}.{}", CurveDescription{task.settings}.id(), seed, extension);
+}
+
+constexpr uint32_t first_seed = 1;
+
+fs::path early_file(const LadderTask &task, uint64_t spp) {
+    return partial_file(task, first_seed, fmt::format("{}spp.exr", spp));
 }
 
 /// The session is made when the first seed needs it: a resumed run may need none.
@@ -43,8 +50,13 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
     for (uint64_t spp : task.spp) {
         render_whole(session, done, spp);
         const RenderStats stats = session.stats();
-        repetition.points.push_back({spp, stats.device_seconds, stats.wall_seconds,
-                                     compute_metrics(session.develop(), task.reference)});
+        const Image image = session.develop();
+        repetition.points.push_back(
+            {spp, stats.device_seconds, stats.wall_seconds, compute_metrics(image, task.reference)});
+        if (seed == first_seed &&
+            std::find(task.early_images.begin(), task.early_images.end(), spp) != task.early_images.end()) {
+            write_exr(image, early_file(task, spp));
+        }
         task.advance(spp - done);
         done = spp;
     }
@@ -56,7 +68,7 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
 LadderResult render_ladders(const LadderTask &task) {
     LadderResult result;
     LazySession session(task);
-    for (uint32_t seed = 1; seed <= static_cast<uint32_t>(task.seeds); ++seed) {
+    for (uint32_t seed = first_seed; seed < first_seed + static_cast<uint32_t>(task.seeds); ++seed) {
         const fs::path numbers = partial_file(task, seed, "json"), picture = partial_file(task, seed, "exr");
         // The numbers are written last: where they are, the picture is.
         if (fs::exists(numbers)) {
@@ -76,6 +88,9 @@ LadderResult render_ladders(const LadderTask &task) {
         write_exr(result.images.back(), picture);
         write_file(numbers,
                    Json{{"repetition", to_json(result.repetitions.back())}, {"cost", result.cost}}.dump());
+    }
+    for (const uint64_t spp : task.early_images) {
+        result.early_images.push_back(read_exr(early_file(task, spp)));
     }
     return result;
 }

@@ -24,6 +24,7 @@ struct LadderTask {
     RenderSettings settings;  ///< with size
     std::vector<uint64_t> spp;
     int seeds = 0;
+    std::vector<uint64_t> early_images;  ///< rungs at which the first seed's image is kept
     const Image &reference;
     std::filesystem::path partial;          ///< folder of finished seeds
     std::function<void(uint64_t)> advance;  ///< told the samples per pixel of each finished rung
@@ -32,6 +33,7 @@ struct LadderTask {
 struct LadderResult {
     std::vector<Repetition> repetitions;
     std::vector<Image> images;  ///< of the seeds at the top rung
+    std::vector<Image> early_images;  ///< of the first seed, as the task names them
     nlohmann::json cost;  ///< {"compile_seconds", "bvh_seconds", "render_report"}
 };
 

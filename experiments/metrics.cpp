@@ -12,20 +12,6 @@ namespace rtrays {
 
 namespace {
 
-/// The layers that survive averaging: colour, its variance, the sample count.
-std::vector<std::string> mean_layers(const Image &image) {
-    std::vector<std::string> names = rgb_names();
-    if (has_variance(image)) {
-        for (const auto &name : rgb_names("variance")) {
-            names.push_back(name);
-        }
-    }
-    if (image.has("samples")) {
-        names.push_back("samples");
-    }
-    return names;
-}
-
 /// Makes a layer of a mean from the sums of `count` independent values: counts stay sums, and the variance of
 /// a mean falls with the square.
 void set_mean(Image &image, const std::string &name, const std::vector<double> &sum, double count) {
@@ -96,7 +82,7 @@ Image average_images(const std::vector<Image> &images) {
     const Image &first = images.front();
     Image result = Image::rgb(first.width(), first.height());
     result.attributes() = first.attributes();
-    for (const auto &name : mean_layers(first)) {
+    for (const auto &[name, unused] : first.channels()) {
         std::vector<double> sum(first.pixel_count(), 0.0);
         for (const auto &image : images) {
             require_same_size(first, image);
@@ -151,9 +137,8 @@ Image downsample(const Image &image, int factor) {
     const auto step = static_cast<size_t>(factor);
     const size_t small_width = width / step;
     const double area = static_cast<double>(factor) * factor;
-    for (const auto &name : mean_layers(image)) {
+    for (const auto &[name, values] : image.channels()) {
         std::vector<double> sum(result.pixel_count(), 0.0);
-        const auto &values = image.channel(name);
         for (size_t i = 0; i < values.size(); ++i) {
             sum[(i / width / step) * small_width + (i % width) / step] += values[i];
         }

@@ -28,12 +28,19 @@ void export_images(const fs::path &folder) {
                                       folder.string(), folder.string()));
     }
     const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
-    std::vector<std::string> images{run.at("reference").at("image")};
+    const auto export_image = [&](const std::string &name, const Json &layers) {
+        const Image image = read_exr(folder / name);
+        write_array(image, (folder / name).replace_extension(".npy"));
+        for (const std::string layer : layers) {
+            write_array(image, (folder / name).replace_extension("." + layer + ".npy"), layer);
+        }
+    };
+    export_image(run.at("reference").at("image"), Json::array());
     for (const Json &curve : run.at("curves")) {
-        images.push_back(curve.at("image"));
-    }
-    for (const auto &image : images) {
-        write_array(read_exr(folder / image), (folder / image).replace_extension(".npy"));
+        export_image(curve.at("image"), curve.at("layers"));
+        for (const Json &early : curve.at("early_images")) {
+            export_image(early.at("image"), Json::array());
+        }
     }
 }
 

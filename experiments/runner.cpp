@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 Json describe_experiment(const ExperimentDescription &experiment) {
-    return {
+    Json described = {
         {"name", experiment.name},
         {"title", experiment.title},
         {"thesis", experiment.thesis},
@@ -34,6 +34,10 @@ Json describe_experiment(const ExperimentDescription &experiment) {
         {"expected_slope", {{"value", experiment.expected_slope}, {"tolerance", experiment.slope_tolerance}}},
         {"profile", experiment.profile},
         {"size", {experiment.width, experiment.height}}};
+    if (!experiment.expected_gain.is_null()) {
+        described["expected_gain"] = experiment.expected_gain;
+    }
+    return described;
 }
 
 void print_plan(const ExperimentDescription &experiment, const StoredReference &reference) {
@@ -131,6 +135,18 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     curve["agreement"] = to_json(agreement, policy);
     curve["image"] = image;
     curve["image_spp"] = experiment.spp.back() * static_cast<uint64_t>(experiment.seeds);
+    curve["layers"] = Json::array();
+    for (const char *layer : {"camera", "light"}) {
+        if (mean.has(rgb_names(layer).front())) {
+            curve["layers"].push_back(layer);
+        }
+    }
+    curve["early_images"] = Json::array();
+    for (size_t i = 0; i < task.early_images.size(); ++i) {
+        const std::string early = fmt::format("images/{}.{}spp.exr", description.id(), task.early_images[i]);
+        write_exr(ladder.early_images[i], out / early);
+        curve["early_images"].push_back({{"spp", task.early_images[i]}, {"image", early}});
+    }
     return curve;
 }
 
@@ -189,6 +205,7 @@ fs::path run_experiment(const RunOptions &options) {
                               {},
                               experiment.spp,
                               experiment.seeds,
+                              experiment.early_images,
                               reference.reference.image,
                               partial,
                               [&](uint64_t spp) { progress.update(done += spp); }};

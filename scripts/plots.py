@@ -68,6 +68,20 @@ def to_display(linear):
     return numpy.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
 
 
+def draw_image(axes, title, picture):
+    axes.imshow(to_display(picture), interpolation="nearest")
+    axes.set_title(title, fontsize=9)
+    axes.set_axis_off()
+
+
+def panels_figure(panels):
+    """Pictures side by side; `panels`: (title, linear image)."""
+    figure, grid = pyplot.subplots(1, len(panels), figsize=(3.2 * len(panels), 3.5), layout="constrained")
+    for axes, panel in zip(grid, panels):
+        draw_image(axes, *panel)
+    return figure
+
+
 def images_figure(run, curve):
     """Reference, ours, and ten times their absolute difference."""
     reference = run.image(run.get("reference.image"))
@@ -77,11 +91,26 @@ def images_figure(run, curve):
         (f"{label(curve)}, {value(curve, 'image_spp')} spp", ours),
         ("10 × |difference|", 10 * numpy.abs(ours.astype(float) - reference)),
     )
-    figure, axes = pyplot.subplots(1, 3, figsize=(9.6, 3.5), layout="constrained")
-    for panel, (title, picture) in zip(axes, panels):
-        panel.imshow(to_display(picture), interpolation="nearest")
-        panel.set_title(title, fontsize=9)
-        panel.set_axis_off()
+    return panels_figure(panels)
+
+
+def contributions_figure(run, curve):
+    """What each pass of an algorithm adds to the image, and their sum (figures 4.8, 4.11, 4.14, 4.17)."""
+    image = value(curve, "image")
+    panels = [(f"{layer} paths", run.layer(image, layer)) for layer in value(curve, "layers")]
+    panels.append((f"{label(curve)}, {value(curve, 'image_spp')} spp", run.image(image)))
+    return panels_figure(panels)
+
+
+def early_figure(run):
+    """The first seed's images of every curve after few samples (figures 4.9, 4.12, 4.15, 4.18)."""
+    rows = [[(f"{label(curve)}, {value(early, 'spp')} spp", run.image(value(early, "image")))
+             for early in value(curve, "early_images")] for curve in run.curves]
+    figure, grid = pyplot.subplots(len(rows[0]), len(rows), figsize=(2.6 * len(rows), 2.9 * len(rows[0])),
+                                   layout="constrained", squeeze=False)
+    for column, panels in zip(grid.T, rows):
+        for axes, panel in zip(column, panels):
+            draw_image(axes, *panel)
     return figure
 
 
@@ -106,4 +135,11 @@ def write_plots(run, folder):
         stem = f"images_{value(curve, 'id')}"
         save(images_figure(run, curve), folder / stem)
         figures[stem] = f"Reference, {label(curve)} and ten times their absolute difference (sRGB for display)."
+        if value(curve, "layers"):
+            stem = f"contributions_{value(curve, 'id')}"
+            save(contributions_figure(run, curve), folder / stem)
+            figures[stem] = f"What the passes of {label(curve)} contribute, and their sum."
+    if all(value(curve, "early_images") for curve in run.curves):
+        save(early_figure(run), folder / "early")
+        figures["early"] = "After few samples, first seed."
     return figures

@@ -4,8 +4,10 @@
 import html
 import os
 
-from run_document import agreement_verdict, label, slope_verdict, value
+from efficiency import Cost, base_curve, ratio
+from run_document import agreement_verdict, gain_verdict, label, slope_verdict, value
 from tables import Table, interval
+from viewer import write_viewer
 
 STYLE = """
 body { font: 16px/1.5 Georgia, serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
@@ -14,6 +16,9 @@ table { border-collapse: collapse; font: 13px/1.4 system-ui, sans-serif; border-
 th { border-bottom: 1px solid; text-align: left; }
 th, td { padding: .25rem .8rem .25rem 0; font-variant-numeric: tabular-nums; vertical-align: top; }
 .wide { overflow-x: auto; }
+.controls label { margin-right: 1rem; font: 13px system-ui, sans-serif; white-space: nowrap; }
+.frame { overflow: auto; margin-top: .5rem; } canvas { image-rendering: pixelated; cursor: col-resize; }
+.readout { font: 12px ui-monospace, monospace; min-height: 1.5em; white-space: pre; }
 figure { margin: 1.5rem 0; } img { max-width: 100%; } figcaption, footer { color: #555; font-size: .85rem; }
 footer { border-top: 1px solid #ccc; margin-top: 3rem; }
 """
@@ -30,7 +35,25 @@ def verdict_table(run):
         measured = (f"mean {interval(value(agreement, 'relative_difference'), 100, '{:+.3f}')} %, "
                     f"{value(agreement, 'rejected')} of {value(agreement, 'tests')} block tests reject")
         rows.append([label(curve), "the reference's image", measured, agreement_verdict(agreement)])
+    rows += gain_rows(run)
     return Table("Claim, measurement, verdict", ["curve", "thesis", "measured", "verdict"], rows)
+
+
+def gain_rows(run):
+    """What the thesis says that an algorithm gains over path tracing, in samples and in time."""
+    expected = run.document["experiment"].get("expected_gain")
+    if expected is None:
+        return []
+    noise, base = run.get("reference.noise_floor.mse"), base_curve(run)
+    rows = []
+    for curve in run.curves:
+        if value(curve, "algorithm") == value(expected, "algorithm"):
+            for key, of_run, words in (("samples", "spp", "samples"), ("time", "seconds", "device time")):
+                claimed = value(expected, key)
+                gain = ratio(Cost(base, noise), Cost(curve, noise), of_run)
+                rows.append([label(curve), f"{claimed} times fewer {words}" if key == "samples" else f"{claimed} times less {words}",
+                             interval(gain, form="{:.2f}"), gain_verdict(gain, claimed)])
+    return rows
 
 
 def provenance(run):
@@ -85,6 +108,7 @@ def html_page(run, tables, figures):
         text = html.escape(caption)
         parts.append(f'<figure><img src="plots/{stem}.svg" alt="{text}"><figcaption>{text} '
                      f'<a href="plots/{stem}.png">PNG</a></figcaption></figure>')
+    parts.append(f"<h2>Images</h2>{write_viewer(run)}")
     for name, table in tables.items():
         links = ", ".join(f'<a href="tables/{name}.{form}">{form}</a>' for form in ("csv", "md", "tex"))
         parts.append(f"<h2>{html.escape(table.caption)}</h2>{html_table(table)}<p>{links}</p>")

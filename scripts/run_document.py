@@ -18,7 +18,7 @@ class RunError(Exception):
 class Run:
     """One folder with run.json and images/*.npy (exported by `rtrays-experiment report`)."""
 
-    schema_version = 1
+    schema_version = 2
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -46,9 +46,15 @@ class Run:
 
     def image(self, relative):
         """Linear R, G, B of an image named in run.json, shape (height, width, 3)."""
+        return self._array((self.folder / relative).with_suffix(".npy"))
+
+    def layer(self, relative, name):
+        """The same of one of its layers, which add up to it."""
+        return self._array((self.folder / relative).with_suffix(f".{name}.npy"))
+
+    def _array(self, path):
         import numpy
 
-        path = (self.folder / relative).with_suffix(".npy")
         try:
             return numpy.load(path)
         except OSError as error:
@@ -89,6 +95,13 @@ def slope_verdict(slope, expected, tolerance):
     if measured_high < low or measured_low > high:
         return "not reproduced"
     return "undecided"
+
+
+def gain_verdict(gain, claimed):
+    """Whether an interval reaches the factor claimed, is a gain at all, or a loss."""
+    if value(gain, "low") > 1:
+        return "reproduced" if value(gain, "high") >= claimed else "partly"
+    return "not reproduced" if value(gain, "high") < claimed else "undecided"
 
 
 def agreement_verdict(agreement):

@@ -17,7 +17,7 @@ sys.path.insert(0, str(SCRIPTS))
 
 import numpy
 
-from run_document import Run, RunError, agreement_verdict, slope_verdict, usable_points, value
+from run_document import Run, RunError, agreement_verdict, gain_verdict, slope_verdict, usable_points, value
 from tables import TABLES, efficiency_table, errors_table, memory_table, latex_escape, repetitions_table, throughput_table
 
 
@@ -35,7 +35,8 @@ def made_up_curve(strategies):
     return {"id": f"path_tracing.{strategies}", "scene": "box", "algorithm": "path_tracing", "strategies": strategies,
             "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {"bytes_per_path": 112, "light_vertex_bytes_per_path": 0},
             "points": points,
-            "slope": slope, "slope_unbiased": slope, "image": "images/ours.exr", "image_spp": 64,
+            "slope": slope, "slope_unbiased": slope, "image": "images/ours.exr", "image_spp": 64, "layers": [],
+            "early_images": [{"spp": 2, "image": "images/early.exr"}],
             "agreement": {"block_size": 16, "alpha": 0.01, "tests": 51, "rejected": 0, "agrees": True, "largest_z": 2.5,
                           "smallest_adjusted_p": 0.6, "equivalence": "equivalent",
                           "relative_difference": {"value": 1e-4, "low": -2e-4, "high": 4e-4, "confidence": 0.99,
@@ -44,7 +45,7 @@ def made_up_curve(strategies):
 
 def made_up_run():
     return {
-        "schema_version": 1,
+        "schema_version": 2,
         "experiment": {"name": "box", "title": "A box & more", "thesis": "4.2", "claim": "It converges.", "profile": "ci",
                        "size": [4, 4], "expected_slope": {"value": -0.5, "tolerance": 0.03}},
         "context": {"commit": "abc", "dirty": False, "started_at": "2026-01-01T00:00:00Z",
@@ -70,7 +71,7 @@ class RunFolder(unittest.TestCase):
         (self.folder / "images").mkdir(parents=True)
         self.document = made_up_run()
         generator = numpy.random.default_rng(1)
-        for name in ("reference", "ours"):
+        for name in ("reference", "ours", "early"):
             numpy.save(self.folder / f"images/{name}.npy", generator.random((4, 4, 3), dtype=numpy.float32))
 
     def tearDown(self):
@@ -116,6 +117,9 @@ class Documents(RunFolder):
         self.assertEqual(slope_verdict({"low": -0.52, "high": -0.48}, -0.5, 0.03), "reproduced")
         self.assertEqual(slope_verdict({"low": -0.54, "high": -0.48}, -0.5, 0.03), "undecided")
         self.assertEqual(slope_verdict({"low": -0.40, "high": -0.30}, -0.5, 0.03), "not reproduced")
+        for low, high, verdict in ((1.9, 2.1, "reproduced"), (2.5, 3, "reproduced"), (1.2, 1.9, "partly"),
+                                   (0.8, 1.5, "not reproduced"), (0.8, 2.5, "undecided")):
+            self.assertEqual(gain_verdict({"low": low, "high": high}, 2), verdict)
         agreement = copy.deepcopy(self.document["curves"][0]["agreement"])
         self.assertEqual(agreement_verdict(agreement), "reproduced")
         agreement["equivalence"] = "undecided"
@@ -190,6 +194,36 @@ class Reports(RunFolder):
         first = (self.folder / "plots/rmse_spp.svg").read_bytes()
         self.script("plot", self.folder)
         self.assertEqual((self.folder / "plots/rmse_spp.svg").read_bytes(), first)
+
+    def test_passes_and_gains_have_figures_and_rows(self):
+        curve = self.document["curves"][0]
+        curve.update(algorithm="truncated_bdpt", layers=["camera", "light"])
+        self.document["experiment"]["expected_gain"] = {"algorithm": "truncated_bdpt", "samples": 4, "time": 2}
+        for layer in curve["layers"]:
+            shutil.copy(self.folder / "images/ours.npy", self.folder / f"images/ours.{layer}.npy")
+        self.run_object()
+        done = self.script("report", self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "plots/contributions_path_tracing.implicit.svg").stat().st_size > 0)
+        self.assertTrue((self.folder / "plots/early.svg").stat().st_size > 0)
+        page = (self.folder / "report.md").read_text()
+        self.assertIn("| path tracing (implicit) | 4 times fewer samples | 1.00 [1.00, 1.00] | not reproduced |", page)
+        self.assertIn("| path tracing (implicit) | 2 times less device time | 1.00 [1.00, 1.00] | not reproduced |", page)
+
+    def test_viewer_has_the_images(self):
+        from viewer import to_rgbe
+
+        picture = numpy.array([[[1.0, 0.5, 0.0], [1e4, 1e-4, 3.0]], [[0, 0, 0], [-1, 2e-30, 1e-30]]])
+        bytes_ = to_rgbe(picture).astype(float)
+        decoded = numpy.where(bytes_[..., 3:] > 0, (bytes_[..., :3] + 0.5) * 2.0 ** (bytes_[..., 3:] - 136), 0)
+        largest = numpy.max(picture, axis=-1, keepdims=True)
+        self.assertTrue((abs(decoded - numpy.maximum(picture, 0)) <= largest * 2.0 ** -8).all())
+        self.run_object()
+        self.assertEqual(self.script("report", self.folder).returncode, 0)
+        text = (self.folder / "images.js").read_text()
+        shown = json.loads(text[text.index("["):text.rindex(";")])
+        self.assertEqual([image["name"] for image in shown][:3],
+                         ["reference, 100 spp", "path tracing (mis), 64 spp", "path tracing (mis), 2 spp"])
 
     def test_several_runs_get_an_index(self):
         self.run_object()
