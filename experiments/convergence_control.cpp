@@ -155,7 +155,7 @@ Json measure(const Description &description, const Scene &scene, const RenderSet
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
-        "Convergence control (thesis 3.3.7) against the same renders without it, {0} x {0} pixels, at most "
+        "# Convergence control (thesis 3.3.7)\n\nAgainst the same renders without it, {0} x {0} pixels, at most "
         "{1} "
         "samples each, {2} seeds.\n\n"
         "*live*: pixels that went on to the end, %. *paths*, *rays*, *time*: camera paths, all rays, device "

@@ -5,7 +5,7 @@ import html
 import os
 
 from efficiency import Cost, base_curve, ratio
-from run_document import agreement_verdict, gain_verdict, label, slope_verdict, value
+from run_document import agreement_verdict, gain_verdict, label, slope_verdict, value, write_text
 from tables import Table, interval
 from viewer import write_viewer
 
@@ -117,9 +117,23 @@ def html_page(run, tables, figures):
     return html_document(title(run), "\n".join(parts))
 
 
+def markdown_pages(folder):
+    """Makes index.html of every NAME/NAME.md, which other programs wrote; (title, path) of each."""
+    import markdown
+
+    for source in sorted(folder.glob("*/*.md")):
+        if source.stem == source.parent.name:
+            heading, _, text = source.read_text().partition("\n")
+            page = source.with_name("index.html")
+            write_text(page, html_document(heading.lstrip("# "), markdown.markdown(text, extensions=["tables"])))
+            yield heading.lstrip("# "), page
+
+
 def html_index(folder, runs):
-    """Links to the reports of several runs with their verdicts."""
+    """Links to the reports of several runs with their verdicts, and to the pages of measurements beside them."""
     parts = []
+    for heading, page in markdown_pages(folder):
+        parts.append(f'<h2><a href="{html.escape(os.path.relpath(page, folder))}">{html.escape(heading)}</a></h2>')
     for run in runs:
         link = html.escape(os.path.relpath(run.folder.resolve() / "index.html", folder))
         parts.append(f'<h2><a href="{link}">{html.escape(title(run))}</a></h2>{html_table(verdict_table(run))}')

@@ -63,6 +63,12 @@ class Run:
             ) from error
 
 
+class Measurement(Run):
+    """One folder with the run.json of a measurement of the hierarchy, without images."""
+
+    schema_version = 1
+
+
 def value(document, path):
     """The number, text, list or object at a dotted path. Absent, null and non-finite are errors."""
     current = document
@@ -138,7 +144,7 @@ def run_script(program, description, body):
         print(f"{program}: {error}", file=sys.stderr)
         return 2
     except ImportError as error:
-        print(f"{program}: {error}; install python3-numpy and python3-matplotlib", file=sys.stderr)
+        print(f"{program}: {error}; install python3-numpy, python3-matplotlib and python3-markdown", file=sys.stderr)
         return 1
     except OSError as error:
         print(f"{program}: {error}", file=sys.stderr)

@@ -229,9 +229,15 @@ class Reports(RunFolder):
         self.run_object()
         other = self.folder.parent / "other"
         shutil.copytree(self.folder, other)
+        measured = self.folder.parent / "rates"
+        measured.mkdir()
+        (measured / "rates.md").write_text("# Rates & more\n\n| kind | rate |\n| --- | ---: |\n| primary | 1.5 |\n")
         done = self.script("report", self.folder, other)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("box/index.html", pathlib.Path(done.stdout.strip()).read_text())
+        index = pathlib.Path(done.stdout.strip()).read_text()
+        self.assertIn("box/index.html", index)
+        self.assertIn('<a href="rates/index.html">Rates &amp; more</a>', index)
+        self.assertIn("primary</td>", (measured / "index.html").read_text())
 
     def test_missing_image_is_one_clear_error(self):
         self.run_object()
