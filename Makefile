@@ -29,6 +29,7 @@ reproduce-chapter4: programs
 	for experiment in $(MEASUREMENTS) $(EXPERIMENTS); do \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
 	done
+	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out $(CHAPTER4)/stability || [ $$? -eq 3 ]
 	build/bin/rtrays-experiment control experiments/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
 	$(MAKE) --no-print-directory report
 

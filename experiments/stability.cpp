@@ -319,7 +319,7 @@ std::string cells_of(const Json &row) {
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
-        "Stiff and extreme cases, profile {}, {} batches each, on {}.\n\n"
+        "# Stiff and extreme cases\n\nProfile {}, {} batches each, on {}.\n\n"
         "*expected* and *measured*: mean radiance over pixels and channels; *from*, *to*: the relative difference with its 99 % interval. "
         "A case is *off* where a block of {} x {} pixels or the whole differs in a channel from what is expected by more than its bound ({:.0e} where none is given) at a level of {:.2g} over all tests, "
         "*imprecise* where its interval is wider than it states, *undecided* where its batches are too skewed.\n\n"

@@ -190,6 +190,9 @@ StabilitySuite load_stability(const std::filesystem::path &path, const std::stri
             throw Error(error.exit_code(), fmt::format("{}: case '{}': {}", path.string(), name, error.what()));
         }
     }
+    if (suite.cases.empty()) {
+        throw input_error(fmt::format("{}: profile '{}' has no case", path.string(), profile));
+    }
     return suite;
 }
 
