@@ -202,7 +202,7 @@ class Program(unittest.TestCase):
     def test_run_resume_and_report(self):
         """A run stopped by SIGTERM continues with the same command and has every seed once."""
         profiles = json.loads((EXPERIMENTS / "cornell_diffuse.json").read_text())["profiles"]
-        profiles["ci"].update(spp=[1, 2, 4, 8])
+        profiles["ci"].update(spp=[1, 2, 4, 8], early_images=[4])
         path = self.experiment(profiles=profiles)
         out = self.folder / "out"
         command = ["run", path, "--profile", "ci", "--out", out, "--quiet"]
