@@ -105,7 +105,7 @@ typedef struct BuildState {
 
 /// Boxes and counts of the bins of one range.
 typedef struct BinSet {
-    float box[3][BVH_BINS][8];  ///< [axis][bin][lower x, y, z, unused, upper x, y, z with the sign changed, unused]
+    float box[3][BVH_BINS][8];  ///< [axis][bin][lower x, y, z, 0, upper x, y, z with the sign changed, 0]
     uint count[3][BVH_BINS];
 } BinSet;
 

@@ -3,9 +3,8 @@
 // place_clusters (a work-item per place): above the subtree size a node finds its own number by the way up to the root; the
 // first below it finds that of its subtree, and walks down. Then fill_triangles (a work-item per triangle), and sum_costs and
 // sum_cost.
+#include "renderer/kernels/bvh/finished_tree.h"
 #include "renderer/kernels/bvh/hploc.h"
-#include "renderer/kernels/bvh/range_bounds.h"
-#include "renderer/shared/triangle.h"
 
 /// A node of the clusters, where it goes and where its triangles go.
 typedef struct Placed {
@@ -108,16 +107,7 @@ __kernel void fill_triangles(GLOBAL const uint *order, uint count, GLOBAL const 
     if (slot >= count) {
         return;
     }
-    LeafTriangle triangle;
-    triangle.id = order[slot];
-    for (uint corner = 0; corner < 3; ++corner) {
-        const uint vertex = indices[3 * triangle.id + corner];
-        for (uint axis = 0; axis < 3; ++axis) {
-            triangle.coordinate[axis][corner] = positions[3 * vertex + axis];
-        }
-    }
-    triangle.padding[0] = triangle.padding[1] = 0;
-    triangles[slot] = triangle;
+    triangles[slot] = leaf_triangle(positions, indices, order[slot]);
 }
 
 /// Areas of the children of nodes, those of leaves times their triangles; in (scene extents)^2.
@@ -131,9 +121,7 @@ __kernel void sum_costs(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL con
     float cost = 0.0f;
     for (uint i = begin; i < end; ++i) {
         for (uint side = 0; side < 2; ++side) {
-            GLOBAL const float(*box)[3] = nodes[i].bounds[side];
-            const float area = half_area(box[1][0] - box[0][0], box[1][1] - box[0][1], box[1][2] - box[0][2],
-                                         state->inverse_extent);
+            const float area = node_child_area(nodes + i, side, state->inverse_extent);
             const bool is_leaf = (nodes[i].child[side] & BVH_LEAF_BIT) != 0;
             cost += area * (is_leaf ? (float)nodes[i].count[side] : 1.0f);
         }

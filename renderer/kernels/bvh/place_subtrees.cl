@@ -2,14 +2,7 @@
 // The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-item) numbers them
 // and links them to the top nodes, copy_top_nodes and copy_subtrees (a work-item per subtree) write the
 // compact arrays.
-#include "renderer/kernels/bvh/range_bounds.h"
-#include "renderer/shared/triangle.h"
-
-static float node_child_area(GLOBAL const BvhNode *node, uint side, float scale) {
-    return half_area(node->bounds[side][1][0] - node->bounds[side][0][0],
-                     node->bounds[side][1][1] - node->bounds[side][0][1],
-                     node->bounds[side][1][2] - node->bounds[side][0][2], scale);
-}
+#include "renderer/kernels/bvh/finished_tree.h"
 
 /// Without top nodes the root is a subtree; when that is a single leaf, or nothing at all, it is given a node
 /// here.
@@ -82,15 +75,6 @@ __kernel void copy_subtrees(GLOBAL const BuildSubtree *subtrees, uint subtree_co
     }
     GLOBAL const PrimitiveRef *primitives = subtree->buffer == 0 ? primitives_0 : primitives_1;
     for (uint slot = subtree->begin; slot < subtree->end; ++slot) {
-        LeafTriangle triangle;
-        triangle.id = primitives[slot].triangle;
-        for (uint corner = 0; corner < 3; ++corner) {
-            const uint vertex = indices[3 * triangle.id + corner];
-            for (uint axis = 0; axis < 3; ++axis) {
-                triangle.coordinate[axis][corner] = positions[3 * vertex + axis];
-            }
-        }
-        triangle.padding[0] = triangle.padding[1] = 0;
-        triangles[slot] = triangle;
+        triangles[slot] = leaf_triangle(positions, indices, primitives[slot].triangle);
     }
 }
