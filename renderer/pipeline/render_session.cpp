@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/pipeline/session_state.h"
 #include "rtrays_commit.h"
@@ -44,6 +45,16 @@ void RenderSession::restart(uint32_t seed) {
         pass.stages.bind({{StageInput::settings, {pass.numbers(state_->numbers)}}});
     }
     state_->reset_film();
+}
+
+void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
+    if (state_->settings.max_depth == 0 || max_depth == 0 || state_->features.has(Feature::branches)) {
+        throw input_error(fmt::format("{}: integrator.max_depth={} cannot become {} in a session", state_->settings.algorithm,
+                                      state_->settings.max_depth, max_depth));
+    }
+    state_->numbers.max_depth = state_->settings.max_depth = max_depth;
+    state_->config = content_hash(state_->scene_hash + image_settings(state_->settings).dump());
+    restart(seed);
 }
 
 void RenderSession::update(const Scene &scene) {

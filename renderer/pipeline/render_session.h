@@ -47,6 +47,10 @@ class RenderSession {
     /// Empties the film and the stats of rendering, and sets another seed; kernels, buffers and BVH are kept.
     void restart(uint32_t seed);
 
+    /// Likewise, with another limit of scattering events. Throws `Error` (bad input) unless there is one and is to be
+    /// one, which kernels know, and of whitted, whose memory depends on it.
+    void restart(uint32_t seed, uint32_t max_depth);
+
     /// Goes on with `scene` as it is now, on an empty film. Kernels are kept; the hierarchy is built anew or refitted
     /// (device.bvh_update). A scene that needs other kernels, or to be refitted has other numbers of triangles, begins anew.
     void update(const Scene &scene);

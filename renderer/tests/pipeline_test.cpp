@@ -281,6 +281,21 @@ TEST(Pipeline, ResumesAndMergesToTheSameBits) {
     EXPECT_THROW(other.restore(first), Error) << "film of other settings";
 }
 
+TEST(Pipeline, RestartsWithAnotherDepthToTheSameBits) {
+    RenderSession session(cornell_box(), small({"integrator.max_depth=5"}), device());
+    session.render(0, 2);
+    session.restart(3, 2);
+    session.render(0, 2);
+    RenderSession fresh(cornell_box(), small({"integrator.max_depth=2"}), device());
+    fresh.restart(3);
+    fresh.render(0, 2);
+    EXPECT_EQ(session.film().words, fresh.film().words);
+    EXPECT_EQ(session.film().config, fresh.film().config);
+    expect_input_error("max_depth=2 cannot become 0", [&] { session.restart(1, 0); });
+    RenderSession unlimited(cornell_box(), small(), device());
+    EXPECT_THROW(unlimited.restart(1, 2), Error);
+}
+
 // Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are left out: all walls emit, and
 // cos cos / d^2 has no finite variance where two of them meet; experiments/tests/estimators_test.cpp covers them. 12
 // means and 3 of the emitter below share a family-wise level of 0.01: each may lie 3.5 standard errors off
