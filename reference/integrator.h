@@ -48,14 +48,15 @@ constexpr double roulette_cap = 1.0 - 0x1p-20;
 template <class BsdfModel, class Lights>
 class PathIntegrator {
   public:
-    /// `joinable_only`: see ReferenceSettings.
+    /// `joinable_only`, `roulette`: see ReferenceSettings.
     PathIntegrator(const World<BsdfModel, Lights> &world, Strategies strategies, uint32_t max_depth,
-                   const std::optional<JoinableLight> &joinable_only = {})
+                   const std::optional<JoinableLight> &joinable_only = {}, bool roulette = true)
         : world_(world),
           samples_lights_(strategies != Strategies::implicit_only && !world.lights.empty()),
           counts_hits_(strategies != Strategies::explicit_only),
           max_depth_(max_depth),
-          joinable_only_(joinable_only) {}
+          joinable_only_(joinable_only),
+          roulette_(roulette) {}
 
     /// Estimate of the radiance arriving along a camera ray [W / (sr m^2)]: emitters seen directly
     /// included. Unbiased for every choice of strategies, but that point, spot and directional lights are
@@ -114,15 +115,20 @@ class PathIntegrator {
             if (joinable_only_ && depth == 0 && sample->delta) {
                 return result;
             }
+            light_sampled_too = light_sampled_too && !sample->delta;
+            if (depth + 1 == max_depth_ && light_sampled_too && !counts_hits_) {
+                return result;  // what the last ray would find does not count
+            }
             throughput *= sample->weight;
             expansion *= sample->expansion;
-            const double survival = std::min(throughput.maxCoeff() * expansion, roulette_cap);
-            if (rng.uniform() >= survival) {
-                return result;
+            if (roulette_) {
+                const double survival = std::min(throughput.maxCoeff() * expansion, roulette_cap);
+                if (rng.uniform() >= survival) {
+                    return result;
+                }
+                throughput /= survival;
             }
-            throughput /= survival;
 
-            light_sampled_too = light_sampled_too && !sample->delta;
             pdf_of_direction = sample->pdf_w;
             previous = hit.position;
             ray.origin = world_.geometry.spawn_point(hit, ray.direction);
@@ -184,6 +190,7 @@ class PathIntegrator {
     bool counts_hits_;
     uint32_t max_depth_;
     std::optional<JoinableLight> joinable_only_;
+    bool roulette_;
 };
 
 }  // namespace rtrays::reference

@@ -76,7 +76,8 @@ struct ReferenceRenderer::State {
           geometry(scene.meshes, scene.shapes),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
-          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth, wanted.joinable_only),
+          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth, wanted.joinable_only,
+                     wanted.roulette),
           film(wanted.width, wanted.height, 0),
           threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
           arena(threads) {}
@@ -145,6 +146,9 @@ void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
 
 ReferenceRenderer::ReferenceRenderer(const SceneArrays &scene, const ReferenceSettings &settings) {
     check_indices(scene);
+    if (!settings.roulette && settings.max_depth == 0) {
+        throw input_error("paths without roulette need a limit of scattering events");
+    }
     state_ = std::make_unique<State>(scene, settings);
 }
 

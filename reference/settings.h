@@ -48,6 +48,7 @@ struct ReferenceSettings {
     uint64_t seed = 1;
     Strategies strategies = Strategies::mis;
     uint32_t max_depth = 0;  ///< scattering events, 1 is direct light; 0: no limit
+    bool roulette = true;    ///< false: paths end at max_depth alone, to be timed against others that do
     std::optional<JoinableLight> joinable_only;  ///< nothing: all light
     int threads = 0;         ///< 0: all
 };

@@ -58,6 +58,26 @@ TEST(Strategies, the_comparison_sees_half_a_percent) {
     EXPECT_NE(holm_rejected(suite), std::vector<std::string>{});
 }
 
+TEST(Strategies, agree_without_roulette_and_trace_two_rays_per_event) {
+    constexpr uint32_t depth = 3;
+    ReferenceSettings settings = small_settings(64, 75, Strategies::explicit_only);
+    settings.max_depth = depth;
+    settings.roulette = false;
+    const TestScene scene = cornell_like_box();
+    auto renderer = scene.renderer(settings);
+    renderer.render(0, 256);
+    std::vector<Comparison> suite;
+    compare_images("without = with roulette", renderer.develop(), render(scene, Strategies::mis, 76, 256, depth), suite);
+    EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
+    // Paths end early only where they leave the box, hit the back of something or point away from the light.
+    const ReferenceStats stats = renderer.stats();
+    EXPECT_LE(stats.bounce_rays, (depth - 1) * stats.camera_rays) << "the last event sends no ray on";
+    EXPECT_LE(stats.shadow_rays, depth * stats.camera_rays);
+    EXPECT_GT(stats.bounce_rays, stats.camera_rays);
+    settings.max_depth = 0;
+    EXPECT_THROW(scene.renderer(settings), Error);
+}
+
 TEST(Strategies, names_go_both_ways) {
     for (const auto &[name, value] : strategies_names) {
         EXPECT_EQ(strategies_from_name(name), value);
