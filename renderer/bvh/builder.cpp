@@ -25,6 +25,7 @@ uint32_t divide_up(uint32_t a, uint32_t b) {
 /// traversal stack, which bounds nodes and subtrees of the large phase.
 struct Capacities {
     uint32_t tasks, chunks, top_nodes, subtrees;
+    size_t bin_sets;  ///< a BinSet is one of the usual number of bins and axes
 
     Capacities(uint32_t triangles, const BvhBuildParameters &parameters) {
         tasks = triangles / parameters.subtree_size + 1;
@@ -32,6 +33,8 @@ struct Capacities {
         top_nodes =
             static_cast<uint32_t>(std::min<uint64_t>(uint64_t{BVH_STACK_SIZE} * tasks, triangles + 1u));
         subtrees = top_nodes + 1;
+        const size_t usual = size_t{BVH_BINS} * BVH_BINNED_AXES;
+        bin_sets = (chunks * size_t{parameters.bins} * parameters.axes + usual - 1) / usual;
     }
 };
 
@@ -74,7 +77,7 @@ struct BvhBuilder::Workspace {
                      Buffer<PrimitiveRef>(device, "bvh primitives 1", gathered.triangle_count)},
           tasks{std::move(gathered.tasks), Buffer<BuildTask>(device, "bvh tasks 1", capacities.tasks)},
           chunks{std::move(gathered.chunks), Buffer<BuildChunk>(device, "bvh chunks 1", capacities.chunks)},
-          bins(device, "bvh chunk bins", capacities.chunks),
+          bins(device, "bvh chunk bins", capacities.bin_sets),
           top_nodes(device, "bvh top nodes", capacities.top_nodes),
           subtrees(gathered.subtrees),
           scratch_nodes(device, "bvh scratch nodes", gathered.triangle_count) {}
@@ -108,16 +111,22 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
                         "subtree size {} at least {}",
                         group, parameters.chunk_size, parameters.subtree_size, BVH_LEAF_SIZE));
     }
+    if (parameters.bins < 2 || parameters.bins > 64 || (parameters.axes != 1 && parameters.axes != 3)) {
+        throw input_error(fmt::format("BVH build parameters: {} bins must be 2 to 64, {} axes 1 or 3", parameters.bins,
+                                      parameters.axes));
+    }
+    const Defines binning = {{"BVH_BINS", fmt::format("{}u", parameters.bins)},
+                             {"BVH_BINNED_AXES", fmt::format("{}u", parameters.axes)}};
     const Program gather(device, "kernels/bvh/gather_primitives.cl");
     check_triangles_ = Kernel(gather, "check_triangles", group);
     begin_build_ = Kernel(gather, "begin_build", 1);
     gather_primitives_ = Kernel(gather, "gather_primitives", group);
-    const Program split(device, "kernels/bvh/split_level.cl");
+    const Program split(device, "kernels/bvh/split_level.cl", binning);
     bin_primitives_ = Kernel(split, "bin_primitives", group);
     choose_splits_ = Kernel(split, "choose_splits", group);
     partition_primitives_ = Kernel(split, "partition_primitives", group);
     emit_children_ = Kernel(split, "emit_children", 1);
-    const Program subtrees(device, "kernels/bvh/build_subtrees.cl");
+    const Program subtrees(device, "kernels/bvh/build_subtrees.cl", binning);
     build_subtrees_ = Kernel(subtrees, "build_subtrees", group);
     const Program place(device, "kernels/bvh/place_subtrees.cl");
     place_subtrees_ = Kernel(place, "place_subtrees", 1);

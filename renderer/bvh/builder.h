@@ -15,7 +15,7 @@
 
 namespace rtrays {
 
-/// How the build is spread over a device. Group and chunk size change no bit of the result; the subtree size
+/// How the build is spread over a device, and what it builds. Group and chunk size change no bit of the result; the subtree size
 /// moves nodes in memory, but boxes, links and the order of triangles stay the same.
 struct BvhBuildParameters {
     uint32_t group_size;    ///< work-items per work-group
@@ -23,6 +23,8 @@ struct BvhBuildParameters {
     uint32_t subtree_size;  ///< a node of at most this many primitives is finished by one work-item
     BvhLayout layout = BvhLayout::bvh2;  ///< of the result
     BvhMethod method = BvhMethod::binned_sah;
+    uint32_t bins = 16;  ///< on an axis, from 2 to 64; of binned_sah
+    uint32_t axes = 3;   ///< that are binned: 3, or 1, the one along which centroids lie widest
 
     static BvhBuildParameters for_device(const DeviceInfo &device);
 };

@@ -146,9 +146,7 @@ void RenderSession::State::update_bvh(const MeshArrays &meshes) {
 void RenderSession::State::build_bvh(const MeshArrays &meshes) {
     BvhBuildParameters parameters = BvhBuildParameters::for_device(device.info());
     parameters.layout = layout.bvh;
-    for (const NamedBvhMethod &named : bvh_methods) {
-        parameters.method = settings.bvh_builder == named.name ? named.method : parameters.method;
-    }
+    choose_builder(settings, parameters);
     if (bvh_builder == nullptr) {
         bvh_builder = std::make_unique<BvhBuilder>(device, parameters);
     }

@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "renderer/base/error.h"
-#include "renderer/bvh/bvh.h"
+#include "renderer/bvh/builder.h"
 #include "renderer/shared/film_layout.h"
 
 namespace rtrays {
@@ -93,6 +93,9 @@ const std::vector<Setting> &setting_table() {
          "nodes of two children, traversed with a stack or without, or of eight; auto: by device"},
         {"device.bvh_builder", TextSetting{&S::bvh_builder, names_of(bvh_methods)},
          "binned_sah: top down, the better tree; hploc: by clustering, several times as fast to build"},
+        {"device.bvh_bins", TextSetting{&S::bvh_bins, {"4", "8", "16", "32"}}, "on an axis, of binned_sah"},
+        {"device.bvh_axes", TextSetting{&S::bvh_axes, {"all", "widest"}},
+         "that are binned, of binned_sah; widest: the one along which the triangles of a node lie widest"},
         {"device.bvh_update", TextSetting{&S::bvh_update, {"rebuild", "refit"}},
          "what a scene that has moved does to its hierarchy; refit: that of time 0 is fitted to the time of --at"},
         {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
@@ -380,6 +383,14 @@ CompileSettings compile_settings(const RenderSettings &settings) {
                                                                                  : LightSelection::mixed;
     return {settings.width, settings.height, selection, settings.sphere_sampling == "area",
             settings.features == "all", !algorithm_of(settings).draws};
+}
+
+void choose_builder(const RenderSettings &settings, BvhBuildParameters &parameters) {
+    for (const NamedBvhMethod &named : bvh_methods) {
+        parameters.method = settings.bvh_builder == named.name ? named.method : parameters.method;
+    }
+    parameters.bins = static_cast<uint32_t>(std::stoul(settings.bvh_bins));
+    parameters.axes = settings.bvh_axes == "widest" ? 1 : 3;
 }
 
 FeatureMask settings_features(const RenderSettings &settings) {

@@ -12,6 +12,8 @@
 
 namespace rtrays {
 
+struct BvhBuildParameters;
+
 /// Values of RenderSettings::light_paths: as many as pixels; of truncated_bdpt, as many as pay (pipeline/pilot.h).
 constexpr uint32_t LIGHT_PATHS_LIKE_PIXELS = 0xffffffffu;
 constexpr uint32_t LIGHT_PATHS_AUTO = 0xfffffffeu;
@@ -52,6 +54,8 @@ struct RenderSettings {
     std::string path_layout = "auto";       ///< auto | interleaved | arrays: words of a path together, or word by word
     std::string bvh_layout = "auto";        ///< auto | bvh2 | bvh2_stackless | wide8: of the hierarchy
     std::string bvh_builder = "binned_sah";  ///< binned_sah | hploc
+    std::string bvh_bins = "16";             ///< 4 | 8 | 16 | 32: on an axis, of binned_sah
+    std::string bvh_axes = "all";            ///< all | widest: that are binned, of binned_sah
     std::string bvh_update = "rebuild";      ///< rebuild | refit: when the scene has moved
     std::string pipeline = "wavefront";     ///< wavefront | megakernel: a kernel for every block, or one for all
     std::string count_rays = "in_all";      ///< in_all | by_depth: what `--stats` says of rays
@@ -100,6 +104,9 @@ uint32_t light_paths_per_sample(const RenderSettings &settings);
 /// The numbers as the stages take them.
 IntegratorSettings integrator_settings(const RenderSettings &settings);
 CompileSettings compile_settings(const RenderSettings &settings);
+
+/// Sets what decides the tree: device.bvh_builder, bvh_bins, bvh_axes.
+void choose_builder(const RenderSettings &settings, BvhBuildParameters &parameters);
 
 /// The features that the settings add to those of the scene.
 FeatureMask settings_features(const RenderSettings &settings);

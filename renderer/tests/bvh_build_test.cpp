@@ -196,6 +196,31 @@ TEST_P(BvhBuild, ScalesAreAlike) {
     }
 }
 
+TEST(BvhBinning, OtherBinsAndAxesGiveOtherTrees) {
+    const auto build = [](const Mesh &mesh, uint32_t bins, uint32_t axes) {
+        BvhBuildParameters parameters{1, 1024, 256};
+        parameters.bins = bins;
+        parameters.axes = axes;
+        return HostBvh(BvhBuilder(test_device(), parameters).build(mesh.positions, mesh.triangles));
+    };
+    for (const Mesh &mesh : {soup(20000, 1), terrain(100, 2)}) {
+        const double usual = build(mesh, 16, 3).report.sah_cost;
+        EXPECT_NEAR(usual, build_bvh(mesh).report.sah_cost, 1e-5 * usual);  // summed by other subtrees
+        for (const auto &[bins, axes] : {std::pair(2u, 3u), std::pair(4u, 3u), std::pair(64u, 3u), std::pair(16u, 1u)}) {
+            const double ratio = expect_valid(build(mesh, bins, axes), mesh).sah_cost / usual;
+            EXPECT_NE(ratio, 1) << mesh.name << ' ' << bins << ' ' << axes;
+            EXPECT_NEAR(ratio, 1, 0.15) << mesh.name << ' ' << bins << ' ' << axes;
+        }
+    }
+    // Two rows along x, wide apart along y but not as far as they are long: three axes find the gap at once.
+    Mesh rows{"two rows", {}, {}};
+    for (uint32_t i = 0; i < 2000; ++i) {
+        const Eigen::Vector3f at(1.1f * static_cast<float>(i / 2) / 1000, static_cast<float>(i % 2), 0);
+        rows.add_triangle(at, at + Eigen::Vector3f(1e-4f, 0, 0), at + Eigen::Vector3f(0, 0, 1e-4f));
+    }
+    EXPECT_GT(build(rows, 16, 1).report.sah_cost, 1.01 * build(rows, 16, 3).report.sah_cost);
+}
+
 TEST(BvhBuildInput, WrongInputIsAnError) {
     BvhBuilder &builder = builder_of(BvhLayout::bvh2);
     const std::vector<Eigen::Vector3f> three(3, Eigen::Vector3f::Zero());
@@ -208,6 +233,12 @@ TEST(BvhBuildInput, WrongInputIsAnError) {
     for (const BvhBuildParameters &bad : {BvhBuildParameters{0, 1024, 1024}, {1, 0, 1024}, {1, 1024, 3}}) {
         expect_input_error("BVH build parameters", [&] { BvhBuilder(test_device(), bad); });
     }
+    BvhBuildParameters bad{1, 1024, 1024};
+    bad.bins = 1;
+    expect_input_error("1 bins", [&] { BvhBuilder(test_device(), bad); });
+    bad.bins = 16;
+    bad.axes = 2;
+    expect_input_error("2 axes", [&] { BvhBuilder(test_device(), bad); });
 }
 
 TEST(BvhBuildInput, TooManyTrianglesAreRefusedBeforeAllocation) {

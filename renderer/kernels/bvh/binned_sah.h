@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Binned surface area heuristic: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
-// 2007; thesis 3.1 with (3.4): K = 16 bins on each of the three axes, over centroid bounds. A node's cost of
+// 2007; thesis 3.1 with (3.4): K = BVH_BINS bins on each of the three axes, over centroid bounds. A node's cost of
 // a split is A_left N_left + A_right N_right: with leaves made by count alone, the constants of (3.4) do not
 // matter.
 #pragma once
@@ -11,7 +11,19 @@
 typedef struct Binning {
     float lower[3];
     float scale[3];
+#if BVH_BINNED_AXES == 1u
+    uint widest;
+#endif
 } Binning;
+
+#if BVH_BINNED_AXES == 1u
+/// The axis of a place in a BinSet, and the place of an axis.
+#define BINNED_AXIS(binning, place) ((binning)->widest)
+#define PLACE_OF_AXIS(axis) 0u
+#else
+#define BINNED_AXIS(binning, place) (place)
+#define PLACE_OF_AXIS(axis) (axis)
+#endif
 
 DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
     Binning binning;
@@ -21,6 +33,16 @@ DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
         binning.scale[axis] =
             extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;  // far above where 16 / extent overflows
     }
+#if BVH_BINNED_AXES == 1u
+    float widest = -1.0f;
+    for (uint axis = 0; axis < 3; ++axis) {
+        const float extent = bounds->centroids[1][axis] - bounds->centroids[0][axis];
+        if (extent > widest) {
+            widest = extent;
+            binning.widest = axis;
+        }
+    }
+#endif
     return binning;
 }
 
@@ -35,10 +57,10 @@ DEVICE float8 enclosing(float8 a, float8 b) {
 }
 
 DEVICE void clear_bins(PRIVATE BinSet *bins) {
-    for (uint axis = 0; axis < 3; ++axis) {
+    for (uint place = 0; place < BVH_BINNED_AXES; ++place) {
         for (uint bin = 0; bin < BVH_BINS; ++bin) {
-            vstore8(splat_float8(INFINITY), 0, bins->box[axis][bin]);
-            bins->count[axis][bin] = 0;
+            vstore8(splat_float8(INFINITY), 0, bins->box[place][bin]);
+            bins->count[place][bin] = 0;
         }
     }
 }
@@ -55,11 +77,12 @@ DEVICE float8 signed_box(PRIVATE const PrimitiveRef *ref) {
 DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning,
                         PRIVATE const PrimitiveRef *ref) {
     const float8 box = signed_box(ref);
-    for (uint axis = 0; axis < 3; ++axis) {
+    for (uint place = 0; place < BVH_BINNED_AXES; ++place) {
+        const uint axis = BINNED_AXIS(binning, place);
         const uint bin = bin_index(binning, axis, ref->lower[axis], ref->upper[axis]);
-        PRIVATE float *bin_box = bins->box[axis][bin];
+        PRIVATE float *bin_box = bins->box[place][bin];
         vstore8(enclosing(vload8(0, bin_box), box), 0, bin_box);
-        bins->count[axis][bin] += 1u;
+        bins->count[place][bin] += 1u;
     }
 }
 
@@ -82,7 +105,8 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
         return best;
     }
     float best_cost = INFINITY;
-    for (uint axis = 0; axis < 3; ++axis) {
+    for (uint place = 0; place < BVH_BINNED_AXES; ++place) {
+        const uint axis = BINNED_AXIS(binning, place);
         if (binning->scale[axis] == 0.0f) {
             continue;
         }
@@ -90,15 +114,15 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
         float8 box = splat_float8(INFINITY);
         uint right_count = 0;
         for (uint bin = BVH_BINS - 1u; bin > 0; --bin) {
-            box = enclosing(box, vload8(0, bins->box[axis][bin]));
-            right_count += bins->count[axis][bin];
+            box = enclosing(box, vload8(0, bins->box[place][bin]));
+            right_count += bins->count[place][bin];
             right_cost[bin] = (float)right_count * half_area_of_bins(box, scale);
         }
         box = splat_float8(INFINITY);
         uint left_count = 0;
         for (uint bin = 0; bin + 1u < BVH_BINS; ++bin) {
-            box = enclosing(box, vload8(0, bins->box[axis][bin]));
-            left_count += bins->count[axis][bin];
+            box = enclosing(box, vload8(0, bins->box[place][bin]));
+            left_count += bins->count[place][bin];
             const float cost = (float)left_count * half_area_of_bins(box, scale) + right_cost[bin + 1u];
             if (left_count > 0 && left_count < count && cost < best_cost) {
                 best_cost = cost;

@@ -5,8 +5,14 @@
 
 #include "renderer/shared/bvh_node.h"
 
-/// Bins on each of the three axes (K of the thesis, 3.1).
+/// Bins on an axis (K of the thesis, 3.1), and how many axes are binned: all three, or 1, the one along which the
+/// centroids lie widest. Programs are compiled for others to be compared with these.
+#ifndef BVH_BINS
 #define BVH_BINS 16u
+#endif
+#ifndef BVH_BINNED_AXES
+#define BVH_BINNED_AXES 3u
+#endif
 
 /// Coordinates beyond this count as not finite: sums of two and products of three of them stay in float's
 /// range.
@@ -105,8 +111,9 @@ typedef struct BuildState {
 
 /// Boxes and counts of the bins of one range.
 typedef struct BinSet {
-    float box[3][BVH_BINS][8];  ///< [axis][bin][lower x, y, z, 0, upper x, y, z with the sign changed, 0]
-    uint count[3][BVH_BINS];
+    float box[BVH_BINNED_AXES][BVH_BINS][8];  ///< [axis, or 0 for the widest][bin][lower x, y, z, 0, upper x, y, z with the
+                                              ///< sign changed, 0]
+    uint count[BVH_BINNED_AXES][BVH_BINS];
 } BinSet;
 
 #ifdef __cplusplus

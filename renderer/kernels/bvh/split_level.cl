@@ -38,11 +38,11 @@ __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL Bui
     BinSet bins;
     clear_bins(&bins);
     for (uint chunk = task->first_chunk; chunk < task->first_chunk + task->chunk_count; ++chunk) {
-        for (uint axis = 0; axis < 3; ++axis) {
+        for (uint place = 0; place < BVH_BINNED_AXES; ++place) {
             for (uint bin = 0; bin < BVH_BINS; ++bin) {
-                vstore8(enclosing(vload8(0, bins.box[axis][bin]), vload8(0, chunk_bins[chunk].box[axis][bin])), 0,
-                        bins.box[axis][bin]);
-                bins.count[axis][bin] += chunk_bins[chunk].count[axis][bin];
+                vstore8(enclosing(vload8(0, bins.box[place][bin]), vload8(0, chunk_bins[chunk].box[place][bin])), 0,
+                        bins.box[place][bin]);
+                bins.count[place][bin] += chunk_bins[chunk].count[place][bin];
             }
         }
     }
@@ -57,7 +57,7 @@ __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL Bui
         chunks[chunk].left_before = left;
         if (split.axis != BVH_SPLIT_BY_COUNT) {
             for (uint bin = 0; bin <= split.last_left_bin; ++bin) {
-                left += chunk_bins[chunk].count[split.axis][bin];
+                left += chunk_bins[chunk].count[PLACE_OF_AXIS(split.axis)][bin];
             }
         }
     }
