@@ -8,7 +8,7 @@ BENCH ?= .
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms mirror_ring
-MEASUREMENTS = bvh_build bvh_animation ray_rates
+MEASUREMENTS = bvh_build bvh_animation ray_rates frame_times bounces ablations
 
 .PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability bench measurements references format lint clean
 
@@ -84,7 +84,7 @@ bench: install
 	        --benchmark_out=build/$$program.json --benchmark_out_format=json || exit $$?; \
 	done
 
-# The full profiles of the experiments on the hierarchy, resumable, with tables and plots; on an idle machine.
+# The full profiles of the experiments on speed (thesis 4.4), resumable, with tables and plots; on an idle machine.
 measurements: programs
 	for experiment in $(MEASUREMENTS); do \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile full --out results/$$experiment || exit $$?; \

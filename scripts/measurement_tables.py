@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Tables of the hierarchy's measurements, in Markdown. A figure that a side does not tell is a dash."""
 
+import re
+
 from run_document import value
 from tables import Table
 
@@ -35,7 +37,7 @@ def name(text):
 
 def mesh_name(run, mesh):
     """The mesh and, of one made of nothing, that it is; and what it stands in for."""
-    text = name(mesh) + (" (procedural)" if mesh.startswith("scattered_") else "")
+    text = name(mesh) + (" (procedural)" if re.match(r"(scattered|landscape|hall|court|city)_\d+", mesh) else "")
     stands_for = run.get("stand_ins").get(mesh)
     return f"{text}, for {name(stands_for)}, which is not there" if stands_for else text
 

@@ -28,6 +28,25 @@ MeasurementPlan plan_traversal(const MeasurementSettings &settings, DeviceContex
 /// the first frame, and what diffuse rays take in both.
 MeasurementPlan plan_bvh_animation(const MeasurementSettings &settings, DeviceContext &device);
 
+/// Frames of path tracing, and the rays in them by kind (thesis tables 4.2 and 4.3, figure 4.21).
+///
+/// A turn renders one sample per pixel three times: explicit paths of one scattering event, whose rays are
+/// those from the camera and to lights; of two, what it takes more to find nearest hits being that of the
+/// rays after a bounce; and a whole frame by MIS with roulette from the first bounce. Rows hold milliseconds
+/// on the device of each kind, numbers of rays, milliseconds of a frame, on the wall, of all processors and
+/// of every stage; building the hierarchy and compiling, which the first enqueue of a kernel does, apart.
+MeasurementPlan plan_frame_times(const MeasurementSettings &settings, DeviceContext &device);
+
+/// Samples per second of paths of 1, 4 and 8 bounces on diffuse surfaces, roulette off, one explicit
+/// connection at every hit (thesis figure 4.22): the wavefront, one kernel for whole paths, and the Embree
+/// reference, in turns. Rows hold, by depth, rates on the wall, rays per sample, and by processor time how
+/// many times faster the wavefront is.
+MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext &device);
+
+/// Frames of path tracing (MIS, roulette), one sample per pixel, and builds of the hierarchy, with one
+/// setting changed at a time, in turns with the defaults; speeds over those by processor time.
+MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContext &device);
+
 /// {"value", "low", "high"} times a factor.
 Json scaled(const Interval &interval, double factor);
 

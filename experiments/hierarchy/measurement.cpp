@@ -9,6 +9,7 @@
 
 #include "experiments/description.h"
 #include "experiments/document.h"
+#include "experiments/frames/scenes.h"
 #include "experiments/hierarchy/kinds.h"
 #include "experiments/hierarchy/meshes.h"
 #include "experiments/host.h"
@@ -25,53 +26,70 @@ constexpr int measurement_schema_version = 1;
 
 struct Kind {
     const char *name;
-    const char *needs;  ///< a key of its profiles that others do not have
+    std::vector<const char *> needs;  ///< keys of its profiles
     MeasurementPlan (*plan)(const MeasurementSettings &, DeviceContext &);
 };
-constexpr Kind kinds[] = {{"bvh_animation", "frames", plan_bvh_animation},
-                          {"bvh_build", "repetitions", plan_bvh_build},
-                          {"ray_rates", "repetitions", plan_ray_rates},
-                          {"traversal", "watertight_rays", plan_traversal}};
+const std::vector<Kind> &kinds() {
+    static const std::vector<Kind> all = {
+        {"ablations", {"scenes", "size", "settings", "repetitions"}, plan_ablations},
+        {"bounces", {"scenes", "size", "repetitions"}, plan_bounces},
+        {"bvh_animation", {"meshes", "rays", "frames"}, plan_bvh_animation},
+        {"bvh_build", {"meshes", "rays", "repetitions"}, plan_bvh_build},
+        {"frame_times", {"scenes", "size", "repetitions"}, plan_frame_times},
+        {"ray_rates", {"meshes", "rays", "repetitions"}, plan_ray_rates},
+        {"traversal", {"meshes", "rays", "watertight_rays"}, plan_traversal},
+    };
+    return all;
+}
 
 /// The kind that "measures" names. Throws `Error` (bad input) when the profile lacks what it needs.
 const Kind &kind_of(const DescriptionFile &file, const std::string &profile) {
     const std::string measures = file.json.at("measures");
     const Kind &kind =
-        *std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind &k) { return k.name == measures; });
-    if (!file.json.at("profiles").at(profile).contains(kind.needs)) {
-        throw input_error(fmt::format("{}: missing key '{}': {} needs it",
-                                      file.location("/profiles/" + profile), kind.needs, measures));
+        *std::find_if(kinds().begin(), kinds().end(), [&](const Kind &k) { return k.name == measures; });
+    for (const char *key : kind.needs) {
+        if (!file.json.at("profiles").at(profile).contains(key)) {
+            throw input_error(fmt::format("{}: missing key '{}': {} needs it",
+                                          file.location("/profiles/" + profile), key, measures));
+        }
     }
     return kind;
 }
 
-/// Names of the meshes to measure; stand-ins for those that are not there go to `stand_ins`, those without
-/// one to `absent`.
-std::vector<std::string> present_meshes(const Json &description, const Json &wanted, Json &stand_ins,
-                                        Json &absent) {
-    std::vector<std::string> meshes;
-    const Json replacements = description.value("stand_ins", Json::object());
-    for (const Json &mesh : wanted) {
-        const std::string name = mesh;
-        if (has_measured_mesh(name)) {
-            meshes.push_back(name);
+/// Of the meshes or scenes wanted, those that are there; stand-ins for others go to `stand_ins`, those
+/// without one to `absent`.
+std::vector<std::string> present(const Json &wanted, bool (*has)(const std::string &),
+                                 const Json &replacements, Json &stand_ins, Json &absent) {
+    std::vector<std::string> names;
+    for (const std::string name : wanted) {
+        if (has(name)) {
+            names.push_back(name);
         } else if (replacements.contains(name)) {
-            meshes.push_back(replacements.at(name));
-            stand_ins[meshes.back()] = name;
+            names.push_back(replacements.at(name));
+            stand_ins[names.back()] = name;
         } else {
             absent.push_back(name);
         }
     }
-    return meshes;
+    return names;
 }
 
-MeasurementSettings settings_of(const Json &profile, const std::vector<std::string> &meshes) {
+MeasurementSettings settings_of(const Json &description, const Json &profile, Json &stand_ins, Json &absent) {
+    const Json replacements = description.value("stand_ins", Json::object()), none = Json::array();
     MeasurementSettings settings;
     settings.repetitions = profile.value("repetitions", 0);
     settings.rays = profile.value("rays", size_t{0});
     settings.frames = profile.value("frames", 0);
     settings.watertight_rays = profile.value("watertight_rays", size_t{0});
-    settings.meshes = meshes;
+    settings.meshes =
+        present(profile.value("meshes", none), has_measured_mesh, replacements, stand_ins, absent);
+    settings.scenes =
+        present(profile.value("scenes", none), has_timed_scene, replacements, stand_ins, absent);
+    const Json size = profile.value("size", Json{0, 0});
+    settings.width = size.at(0);
+    settings.height = size.at(1);
+    settings.spp = profile.value("spp", uint64_t{1});
+    settings.settings = profile.value("settings", std::vector<std::string>());
     return settings;
 }
 
@@ -99,10 +117,10 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     const Kind &kind = kind_of(file, options.profile);
     const std::string name = file.json.at("name"), measures = file.json.at("measures");
     Json stand_ins = Json::object(), absent = Json::array();
-    const std::vector<std::string> meshes =
-        present_meshes(file.json, profile.at("meshes"), stand_ins, absent);
+    const MeasurementSettings settings = settings_of(file.json, profile, stand_ins, absent);
     if (options.dry_run) {
-        fmt::print("{}, profile {}: {} on {}\n", name, options.profile, measures, fmt::join(meshes, ", "));
+        fmt::print("{}, profile {}: {} on {}{}\n", name, options.profile, measures,
+                   fmt::join(settings.meshes, ", "), fmt::join(settings.scenes, ", "));
         return {};
     }
     const fs::path out = options.out.empty() ? fs::path(name + "." + options.profile) : options.out;
@@ -118,8 +136,8 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     }
     require_writable(out / "run.json");
 
-    const MeasurementPlan plan = kind.plan(settings_of(profile, meshes), device);
-    Progress progress(name, plan.tasks.size(), "meshes", options.quiet);
+    const MeasurementPlan plan = kind.plan(settings, device);
+    Progress progress(name, plan.tasks.size(), "rows", options.quiet);
     Json rows = Json::array();
     for (const MeasurementTask &task : plan.tasks) {
         progress.update(rows.size());

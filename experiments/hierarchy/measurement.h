@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Experiments on the hierarchy beside Embree's: what they measure is named in their file, mesh by mesh.
+// Experiments on speed, thesis 4.4: what they measure is named in their file, mesh by mesh or scene by scene.
 #pragma once
 
 #include <filesystem>
@@ -21,9 +21,13 @@ struct MeasurementSettings {
     size_t watertight_rays = 0;  ///< of a closed shape
     int frames = 0;              ///< of an animation, but for the first
     std::vector<std::string> meshes;
+    std::vector<std::string> scenes;
+    int width = 0, height = 0;          ///< pixels of a frame
+    uint64_t spp = 0;                   ///< of a frame
+    std::vector<std::string> settings;  ///< NAME=VALUE of the renderer, to be tried one at a time
 };
 
-/// One row of the result: a mesh.
+/// One row of the result: a mesh or a scene.
 struct MeasurementTask {
     std::string id;  ///< names the file of a partial result
     std::function<Json()> measure;
@@ -40,8 +44,8 @@ struct MeasurementPlan {
 bool is_measurement(const std::filesystem::path &experiment);
 
 /// Measures and writes OUT/run.json; returns OUT (empty after a dry run). Rows that an earlier, stopped call
-/// of the same program finished are not measured again. A mesh that is not there is replaced by its stand-in,
-/// or listed as absent. Throws `Error`: bad input, run failed, interrupted. `exit_code` becomes
+/// of the same program finished are not measured again. A mesh or scene that is not there is replaced by its
+/// stand-in, or listed as absent. Throws `Error`: bad input, run failed, interrupted. `exit_code` becomes
 /// `ExitCode::regression` when a check fails.
 std::filesystem::path run_measurement(const RunOptions &options, ExitCode &exit_code);
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "experiments/hierarchy/buildings.h"
 #include "experiments/hierarchy/san_miguel.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/scene.h"
@@ -117,18 +118,10 @@ const std::vector<Source> &sources() {
     return all;
 }
 
-fs::path resolve(const std::string &file) {
-    if (file.rfind("scenes/", 0) == 0) {
-        return fs::path(RTRAYS_SOURCE) / file;
-    }
-    const char *folder = std::getenv("RTRAYS_MESHES");
-    return fs::path(folder == nullptr ? RTRAYS_SOURCE "/../shared/meshes" : folder) / file;
-}
-
 std::vector<fs::path> files_of(const Source &source) {
     std::vector<fs::path> files;
     for (const char *file : source.files) {
-        files.push_back(resolve(file));
+        files.push_back(measured_file(file));
     }
     return files;
 }
@@ -142,27 +135,10 @@ fs::path scene_file(const std::string &name) {
     return fs::path(RTRAYS_SOURCE) / "scenes" / name / "scene.json";
 }
 
-/// N of "scattered_N", 0 for any other name.
-uint32_t scattered_count(const std::string &name) {
-    const std::string head = "scattered_";
-    const bool matches = name.rfind(head, 0) == 0 && name.size() > head.size() &&
-                         name.size() < head.size() + 9 &&
-                         name.find_first_not_of("0123456789", head.size()) == std::string::npos;
-    return matches ? static_cast<uint32_t>(std::stoul(name.substr(head.size()))) : 0;
-}
-
-void append(test::Mesh &mesh, const test::Mesh &part) {
-    const auto first = static_cast<uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
-    for (const auto &[a, b, c] : part.triangles) {
-        mesh.triangles.push_back({first + a, first + b, first + c});
-    }
-}
-
 /// A quarter of the triangles are the floor's, 10 x 10.
 test::Mesh scattered(uint32_t count) {
     test::Random random(count);
-    test::Mesh mesh = test::terrain(static_cast<uint32_t>(std::sqrt(count / 8.0)), 1);
+    test::Mesh mesh = test::terrain(std::max(1u, static_cast<uint32_t>(std::sqrt(count / 8.0))), 1);
     const float spacing = 10 / std::cbrt(static_cast<float>(count) / 1000 + 8);
     while (mesh.triangles.size() < count) {
         const auto rings = std::uniform_int_distribution<uint32_t>(8, 30)(random);
@@ -172,8 +148,35 @@ test::Mesh scattered(uint32_t count) {
         append(mesh, test::sphere(rings, 2 * rings, radius, 0.05f, centre, random()));
     }
     mesh.triangles.resize(count);
-    mesh.name = fmt::format("scattered_{}", count);
     return mesh;
+}
+
+struct Procedure {
+    const char *head;  ///< of "HEAD_N"
+    test::Mesh (*make)(uint32_t count);
+    View view;
+};
+
+const std::vector<Procedure> &procedures() {
+    static const std::vector<Procedure> all = {
+        {"scattered_", scattered, {{-2, 4, -2}, {6, -3, 6}, 60}},
+        {"hall_", hall, {{6, 1.7f, 1}, {0, 0.05f, 1}, 75}},
+        {"court_", court, {{6, 1.7f, 1}, {0, 0.05f, 1}, 75}},
+        {"city_", city, {{15, 75, -20}, {0.6f, -0.5f, 1}, 75}},
+    };
+    return all;
+}
+
+/// The procedure that a name names, and its N; {nullptr, 0} for any other name.
+std::pair<const Procedure *, uint32_t> procedure_of(const std::string &name) {
+    for (const Procedure &procedure : procedures()) {
+        const std::string head = procedure.head;
+        if (name.rfind(head, 0) == 0 && name.size() > head.size() && name.size() < head.size() + 9 &&
+            name.find_first_not_of("0123456789", head.size()) == std::string::npos) {
+            return {&procedure, static_cast<uint32_t>(std::stoul(name.substr(head.size())))};
+        }
+    }
+    return {nullptr, 0};
 }
 
 /// Of meshes that need a view of their own, or that are no scene of this repository.
@@ -197,13 +200,34 @@ std::vector<std::string> measured_meshes() {
 
 bool has_measured_mesh(const std::string &name) {
     const Source *source = find(name);
-    return scattered_count(name) > 0 ||
-           (source == nullptr ? fs::exists(scene_file(name)) : is_present(*source));
+    return is_procedural(name) || (source == nullptr ? fs::exists(scene_file(name)) : is_present(*source));
+}
+
+bool is_procedural(const std::string &name) {
+    return procedure_of(name).second > 0;
+}
+
+fs::path measured_file(const std::string &file) {
+    if (file.rfind("scenes/", 0) == 0) {
+        return fs::path(RTRAYS_SOURCE) / file;
+    }
+    const char *folder = std::getenv("RTRAYS_MESHES");
+    return fs::path(folder == nullptr ? RTRAYS_SOURCE "/../shared/meshes" : folder) / file;
+}
+
+void append(test::Mesh &mesh, const test::Mesh &part) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+    for (const auto &[a, b, c] : part.triangles) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
+    }
 }
 
 MeasuredMesh load_measured_mesh(const std::string &name) {
-    if (const uint32_t count = scattered_count(name); count > 0) {
-        return {scattered(count), {{-2, 4, -2}, {6, -3, 6}, 60}};
+    if (const auto [procedure, count] = procedure_of(name); count > 0) {
+        test::Mesh mesh = procedure->make(count);
+        mesh.name = name;
+        return {std::move(mesh), procedure->view};
     }
     const Source *source = find(name);
     if (source == nullptr && fs::exists(scene_file(name))) {
@@ -215,7 +239,8 @@ MeasuredMesh load_measured_mesh(const std::string &name) {
     }
     if (source == nullptr || !is_present(*source)) {
         throw input_error(
-            fmt::format("there is no mesh '{}' ({}); there are: {}, scattered_N; RTRAYS_MESHES names a "
+            fmt::format("there is no mesh '{}' ({}); there are: {}, scattered_N, hall_N, court_N, city_N; "
+                        "RTRAYS_MESHES names a "
                         "folder of models",
                         name, source == nullptr ? "no such name" : "its files are missing",
                         fmt::join(measured_meshes(), ", ")));

@@ -2,6 +2,7 @@
 // The meshes that hierarchies are measured on, each with a place to look from.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,22 @@ struct MeasuredMesh {
     View view;
 };
 
-/// `name`: one of measured_meshes(), a folder of scenes/ with meshes in its scene.json, or "scattered_N", a
-/// procedural mesh of N triangles: spheres of a few hundred to a few thousand triangles, their sizes over two
-/// decades, on a hilly floor. Throws `Error` (bad input) listing the names when there is no such mesh, and as
-/// the readers do.
+/// `name`: one of measured_meshes(), a folder of scenes/ with meshes in its scene.json, or a procedural mesh
+/// of N triangles: "hall_N", "court_N", "city_N" (buildings.h), or "scattered_N": spheres of a few hundred to
+/// a few thousand triangles, their sizes over two decades, on a hilly floor. Throws `Error` (bad input)
+/// listing the names when there is no such mesh, and as the readers do.
 MeasuredMesh load_measured_mesh(const std::string &name);
 
 /// Whether `load_measured_mesh` knows the name and its file is there.
 bool has_measured_mesh(const std::string &name);
+
+/// Whether the name is that of a procedural mesh.
+bool is_procedural(const std::string &name);
+
+/// The path of a file of the models' folder, or of this repository ("scenes/...").
+std::filesystem::path measured_file(const std::string &file);
+
+/// Adds the triangles of `part` to `mesh`, with vertices of their own.
+void append(test::Mesh &mesh, const test::Mesh &part);
 
 }  // namespace rtrays

@@ -182,12 +182,69 @@ class Program(unittest.TestCase):
         self.assertEqual(made.returncode, 2)
         self.assertIn("wall_ms", made.stderr)
 
+    def frames(self, name, figure):
+        """The run of a ci profile and the page made of it."""
+        out = self.folder / name
+        done = self.call("run", EXPERIMENTS / f"{name}.json", "--profile", "ci", "--out", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = json.loads((out / "run.json").read_text())
+        made = self.tables(out)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertTrue((out / f"{figure}.svg").exists())
+        text = pathlib.Path(made.stdout.strip()).read_text()
+        for row in run["rows"]:
+            self.assertIn(row["mesh"].replace("_", " ") + " (procedural)", text)
+        return run, text
+
+    def test_frame_times(self):
+        """Rays of a kind are no more than pixels, and the share of stages is that of what was launched."""
+        run, text = self.frames("frame_times", "stage_shares")
+        self.assertIn("GTX 580", text)
+        width, height = run["experiment"]["settings"]["size"]
+        for row in run["rows"]:
+            self.assertEqual(row["triangles"] - 1000, 0 if "court" in row["mesh"] else 6)  # two to a lamp
+            self.assertEqual(row["rays"]["primary"], width * height)
+            for kind in ("shadow", "secondary"):
+                self.assertTrue(0 < row["rays"][kind] <= width * height, row["rays"])
+            self.assertGreater(row["rays"]["frame"], row["rays"]["primary"] + row["rays"]["shadow"])
+            self.assertLessEqual({"generate_camera_rays", "intersect_nearest", "intersect_any", "extend_path"},
+                                 {stage["name"] for stage in row["stages"]})
+
+    def test_bounces(self):
+        """Explicit paths of b bounces trace at most 2 (b + 1) rays, in the renderer and in the reference."""
+        run, _ = self.frames("bounces", "samples_per_second")
+        for row in run["rows"]:
+            self.assertEqual([depth["bounces"] for depth in row["depths"]], [1, 4, 8])
+            for depth in row["depths"]:
+                for key in ("rays_per_sample", "reference_rays_per_sample"):
+                    self.assertTrue(1 < depth[key] <= 2 * depth["bounces"] + 2, depth)
+                self.assertAlmostEqual(depth["rays_per_sample"] / depth["reference_rays_per_sample"], 1, delta=0.2)
+                self.assertEqual(len(depth["contestants"]), 3)
+
+    def test_ablations(self):
+        """Every setting has its figures; other bins make another tree, and the same ones the same."""
+        run, text = self.frames("ablations", "speeds_over_defaults")
+        for row in run["rows"]:
+            frames, builds = ({entry["name"]: entry for entry in row[what]} for what in ("frames", "builds"))
+            for name in (*frames, *builds):
+                self.assertIn(f"| {name} |", text)
+            self.assertEqual(list(frames), ["defaults", *run["experiment"]["settings"]["settings"]])
+            self.assertEqual(builds["device.bvh_bins=16"]["sah"], builds["defaults"]["sah"])
+            for other in ("device.bvh_bins=4", "device.bvh_axes=widest"):
+                self.assertGreater(builds[other]["sah"], builds["defaults"]["sah"])
+
     def test_measurement_is_refused(self):
         self.refused(2, "ray_rates", "run", self.measurement("bvh_build", measures="colours"))
         self.refused(2, "unknown key 'colour'", "run", self.measurement("bvh_build", colour="red"))
         profiles = {name: {"meshes": ["cornell_box"], "rays": 10} for name in ("quick", "full", "ci")}
         self.refused(2, "repetitions", "run", self.measurement("ray_rates", profiles=profiles))
         self.refused(2, "watertight_rays", "run", self.measurement("traversal", profiles=profiles))
+        self.refused(2, "scenes", "run", self.measurement("frame_times", profiles=profiles))
+
+    def test_setting_that_is_none(self):
+        profiles = {name: {"scenes": ["hall_100"], "size": [8, 8], "repetitions": 6, "settings": ["device.bvh_bins=5"]}
+                    for name in ("quick", "full", "ci")}
+        self.refused(2, "4, 8, 16, 32", "run", self.measurement("ablations", profiles=profiles), "--profile", "ci")
 
     def test_absent_meshes_are_replaced_or_listed(self):
         profiles = {name: {"meshes": ["nowhere", "nothing"], "rays": 64, "repetitions": 6} for name in ("quick", "full", "ci")}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// What each choice is worth: frames and builds with one setting changed, against the defaults.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "experiments/document.h"
+#include "experiments/frames/scenes.h"
+#include "experiments/hierarchy/kinds.h"
+#include "renderer/bvh/builder.h"
+#include "renderer/pipeline/render_session.h"
+
+namespace rtrays {
+
+namespace {
+
+constexpr const char *defaults = "defaults";
+
+/// Of the settings, those that decide the tree.
+bool is_of_builder(const std::string &setting) {
+    return setting.rfind("device.bvh_builder=", 0) == 0 || setting.rfind("device.bvh_bins=", 0) == 0 ||
+           setting.rfind("device.bvh_axes=", 0) == 0;
+}
+
+/// `setting`: NAME=VALUE, or `defaults`.
+RenderSettings settings_for(const MeasurementSettings &measurement, const std::string &setting) {
+    RenderSettings settings;
+    settings.width = measurement.width;
+    settings.height = measurement.height;
+    settings.variance = false;
+    if (setting != defaults) {
+        apply_setting(settings, setting);
+    }
+    return settings;
+}
+
+BvhBuildParameters build_parameters(const RenderSettings &settings, const DeviceInfo &device) {
+    BvhBuildParameters parameters = BvhBuildParameters::for_device(device);
+    choose_builder(settings, parameters);
+    return parameters;
+}
+
+/// All but times of what a session needs.
+Json facts(const RenderSession &session) {
+    const Json report = session.report();
+    uint64_t binary = 0, launches = 0;
+    for (const Json &program : report.at("programs")) {
+        binary += program.at("binary_bytes").get<uint64_t>();
+    }
+    for (const Json &stage : report.at("stages")) {
+        launches += stage.at("launches").get<uint64_t>();
+    }
+    return {{"features", report.at("features").size()},
+            {"binary_bytes", binary},
+            {"bytes_per_path", report.at("bytes_per_path")},
+            {"launches", launches},
+            {"compile_ms", 1e3 * report.at("seconds").at("compile").get<double>()}};
+}
+
+/// Names and times of a contest, beside what is known of each contestant.
+Json results(const Contest &contest, const std::vector<Json> &known) {
+    Json entries = Json::array();
+    const std::vector<std::string> names = contest.names();
+    for (size_t i = 0; i < names.size(); ++i) {
+        Json entry = known[i];
+        entry["name"] = names[i];
+        entry["wall_ms"] = scaled(contest.wall_seconds(names[i]), 1e3);
+        entry["processor_ms"] = scaled(contest.processor_seconds(names[i]), 1e3);
+        entry["speed_over_defaults"] = to_json(contest.speed_over(names[i], defaults));
+        entries.push_back(entry);
+    }
+    return entries;
+}
+
+class Ablations {
+  public:
+    Ablations(const std::string &scene, const MeasurementSettings &settings, DeviceContext &device)
+        : name_(scene),
+          settings_(settings),
+          device_(&device),
+          timed_(load_timed_scene(scene, Surfaces::own)) {
+        add(defaults);
+        for (const std::string &setting : settings.settings) {
+            add(setting);
+        }
+        input_ = std::make_unique<BvhInput>(device, timed_.scene.meshes().position,
+                                            timed_.scene.meshes().triangle);
+        add_build(defaults);
+        for (const std::string &setting : settings.settings) {
+            if (is_of_builder(setting)) {
+                add_build(setting);
+            }
+        }
+    }
+
+    Json row() {
+        run_turns(frames_, settings_.repetitions);
+        run_turns(builds_, settings_.repetitions);
+        return {{"mesh", name_},
+                {"procedural", timed_.is_procedural},
+                {"surfaces", timed_.description},
+                {"triangles", sessions_.front()->report().at("scene").at("triangles")},
+                {"turns", frames_.turns()},
+                {"foreign_load", std::max(frames_.foreign_load(), builds_.foreign_load())},
+                {"frames", results(frames_, known_frames_)},
+                {"builds", results(builds_, known_builds_)}};
+    }
+
+  private:
+    /// The first frame touches all memory and is not counted.
+    void add(const std::string &setting) {
+        sessions_.push_back(
+            std::make_unique<RenderSession>(timed_.scene, settings_for(settings_, setting), *device_));
+        RenderSession &session = *sessions_.back();
+        const auto render = [this, &session] {
+            session.restart(1);
+            return time_of([&] { session.render(0, settings_.spp); });
+        };
+        render();
+        known_frames_.push_back(facts(session));
+        frames_.add(setting, render);
+    }
+
+    /// The first build compiles.
+    void add_build(const std::string &setting) {
+        builders_.push_back(std::make_unique<BvhBuilder>(
+            *device_, build_parameters(settings_for(settings_, setting), device_->info())));
+        BvhBuilder &builder = *builders_.back();
+        const BvhReport report = builder.build(input_->positions, input_->indices).report();
+        known_builds_.push_back({{"method", to_string(report.method)},
+                                 {"sah", report.sah_cost},
+                                 {"depth", report.depth},
+                                 {"bytes_peak", report.bytes_peak}});
+        builds_.add(setting, [this, &builder] {
+            return time_of([&] { builder.build(input_->positions, input_->indices); });
+        });
+    }
+
+    std::string name_;
+    MeasurementSettings settings_;
+    DeviceContext *device_;
+    TimedScene timed_;
+    std::vector<std::unique_ptr<RenderSession>> sessions_;
+    std::unique_ptr<BvhInput> input_;
+    std::vector<std::unique_ptr<BvhBuilder>> builders_;
+    std::vector<Json> known_frames_, known_builds_;
+    Contest frames_, builds_;
+};
+
+}  // namespace
+
+MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContext &device) {
+    MeasurementPlan plan;
+    for (const std::string &scene : settings.scenes) {
+        plan.tasks.push_back(
+            {scene, [settings, scene, &device] { return Ablations(scene, settings, device).row(); }});
+    }
+    plan.summarise = [](const Json &) { return Json::object(); };
+    return plan;
+}
+
+}  // namespace rtrays
