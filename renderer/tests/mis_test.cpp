@@ -45,7 +45,7 @@ Path random_path(Random &random) {
         path.back[i] = path.delta[i] ? path.forward[i] * spread(0.4) : spread(random() % 3 == 0 ? 6 : 1);
     }
     path.first = spread(4);
-    path.light_paths = std::floor(1 + spread(3) * 1e3);
+    path.light_paths = std::floor(std::pow(10.0, 9 * uniform(random)));
     path.origin = spread(3);
     path.explicit_origin = random() % 2 == 0 ? path.origin : path.origin * spread(2);
     path.direction = spread(1);
@@ -149,6 +149,21 @@ TEST(TruncatedWeights, OfAPathAgreeAndSumToOne) {
             }
         }
         EXPECT_GT(all_three, 30'000);
+    }
+}
+
+TEST(TruncatedWeights, WithoutLightPathsAreThoseOfPathTracing) {
+    Random random(2014);
+    for (int trial = 0; trial < 10'000; ++trial) {
+        Path path = random_path(random);
+        path.light_paths = 0;
+        const Weights a = shipped(path, 2.0f), b = expected(path, 2.0);
+        for (const auto weight : {&Weights::implicit, &Weights::explicit_}) {
+            ASSERT_EQ(std::isnan(a.*weight), std::isnan(b.*weight));
+            if (!std::isnan(a.*weight)) {
+                ASSERT_NEAR(a.*weight, b.*weight, 2e-4);
+            }
+        }
     }
 }
 
