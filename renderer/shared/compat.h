@@ -33,6 +33,9 @@
 /// Index of the lowest bit that is set; x must not be 0.
 DEVICE uint lowest_bit(uint x) { return popcount(~x & (x - 1u)); }
 
+/// The upper four lanes before the lower four.
+DEVICE float8 swap_halves(float8 v) { return (float8)(v.hi, v.lo); }
+
 /// One bit per lane of a comparison's result, lane 0 the lowest.
 DEVICE uint lane_bits(int8 mask) {
 #if defined(__AVX__) && defined(__clang__)
@@ -147,6 +150,7 @@ DEVICE float8 fma(float8 a, float8 b, float8 c) {
     }
     return c;
 }
+DEVICE float8 swap_halves(float8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3); }
 DEVICE uint lowest_bit(uint x) { return static_cast<uint>(__builtin_ctz(x)); }
 DEVICE uint lane_bits(int8 mask) {
     uint bits = 0;

@@ -51,11 +51,6 @@ DEVICE uint bin_index(PRIVATE const Binning *binning, uint axis, float lower, fl
     return bin < (int)BVH_BINS ? (uint)bin : BVH_BINS - 1u;
 }
 
-/// The smaller of both, lane by lane: with the upper bounds' signs changed, what encloses two boxes of a BinSet.
-DEVICE float8 enclosing(float8 a, float8 b) {
-    return b < a ? b : a;
-}
-
 DEVICE void clear_bins(PRIVATE BinSet *bins) {
     for (uint place = 0; place < BVH_BINNED_AXES; ++place) {
         for (uint bin = 0; bin < BVH_BINS; ++bin) {
@@ -63,15 +58,6 @@ DEVICE void clear_bins(PRIVATE BinSet *bins) {
             bins->count[place][bin] = 0;
         }
     }
-}
-
-CONSTANT float box_signs[8] = {1.0f, 1.0f, 1.0f, 0.0f, -1.0f, -1.0f, -1.0f, 0.0f};
-
-/// The box of a record as a BinSet holds it, in one load. Lanes of integers become 0 before any arithmetic: the index of
-/// a triangle, read as a float, is subnormal, and processors take a hundred times as long to multiply those.
-DEVICE float8 signed_box(PRIVATE const PrimitiveRef *ref) {
-    const float8 signs = vload8(0, box_signs);
-    return (signs != splat_float8(0.0f) ? vload8(0, ref->lower) : signs) * signs;
 }
 
 DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning,

@@ -18,8 +18,8 @@ static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef
                             PRIVATE const PendingRange *range, PRIVATE const Split *split,
                             PRIVATE const Binning *binning, PRIVATE RangeBounds *left_bounds,
                             PRIVATE RangeBounds *right_bounds) {
-    *left_bounds = empty_bounds();
-    *right_bounds = empty_bounds();
+    SignedBounds left_grown = empty_signed_bounds();
+    SignedBounds right_grown = empty_signed_bounds();
     const uint begin = range->begin;
     uint left = begin;
     uint right = begin;
@@ -28,16 +28,18 @@ static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef
         if (goes_left(split, binning, &ref, i - begin)) {
             primitives[left] = ref;
             ++left;
-            extend_bounds(left_bounds, &ref);
+            extend_bounds(&left_grown, &ref);
         } else {
             scratch[right] = ref;
             ++right;
-            extend_bounds(right_bounds, &ref);
+            extend_bounds(&right_grown, &ref);
         }
     }
     for (uint i = begin; i < right; ++i) {
         primitives[left + (i - begin)] = scratch[i];
     }
+    *left_bounds = range_bounds(&left_grown);
+    *right_bounds = range_bounds(&right_grown);
 }
 
 static Split split_range(GLOBAL const PrimitiveRef *primitives, PRIVATE const PendingRange *range,

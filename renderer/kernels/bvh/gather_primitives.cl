@@ -15,7 +15,7 @@ __kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, 
     }
     const uint end = min(begin + chunk_size, triangle_count);
     uint faults[4] = {0, 0, 0, 0};
-    RangeBounds bounds = empty_bounds();
+    SignedBounds bounds = empty_signed_bounds();
     for (uint triangle = begin; triangle < end; ++triangle) {
         PrimitiveRef ref;
         const TriangleFault fault = load_primitive(positions, vertex_count, indices, triangle, &ref);
@@ -24,7 +24,7 @@ __kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, 
             extend_bounds(&bounds, &ref);
         }
     }
-    chunks[chunk].bounds = bounds;
+    chunks[chunk].bounds = range_bounds(&bounds);
     chunks[chunk].accepted = faults[TRIANGLE_GOOD];
     chunks[chunk].not_finite = faults[TRIANGLE_NOT_FINITE];
     chunks[chunk].degenerate = faults[TRIANGLE_DEGENERATE];

@@ -24,14 +24,50 @@ DEVICE float greater(float a, float b) {
     return b > a ? b : a;
 }
 
-DEVICE void extend_bounds(PRIVATE RangeBounds *bounds, PRIVATE const PrimitiveRef *ref) {
+/// The smaller of both, lane by lane: with the upper bounds' signs changed, what encloses two boxes.
+DEVICE float8 enclosing(float8 a, float8 b) {
+    return b < a ? b : a;
+}
+
+CONSTANT float box_signs[8] = {1.0f, 1.0f, 1.0f, 0.0f, -1.0f, -1.0f, -1.0f, 0.0f};
+
+/// The box of a record in one load: lower x, y, z, 0, upper x, y, z with the sign changed, 0. Lanes of integers become 0
+/// before any arithmetic: the index of a triangle, read as a float, is subnormal, and processors take a hundred times as
+/// long to multiply those.
+DEVICE float8 signed_box(PRIVATE const PrimitiveRef *ref) {
+    const float8 signs = vload8(0, box_signs);
+    return (signs != splat_float8(0.0f) ? vload8(0, ref->lower) : signs) * signs;
+}
+
+/// RangeBounds as they grow, in the lanes of signed_box.
+typedef struct SignedBounds {
+    float box[8];
+    float centroids[8];
+} SignedBounds;
+
+DEVICE SignedBounds empty_signed_bounds(void) {
+    SignedBounds bounds;
+    vstore8(splat_float8(INFINITY), 0, bounds.box);
+    vstore8(splat_float8(INFINITY), 0, bounds.centroids);
+    return bounds;
+}
+
+DEVICE void extend_bounds(PRIVATE SignedBounds *bounds, PRIVATE const PrimitiveRef *ref) {
+    const float8 box = signed_box(ref);
+    const float8 centroid = box - swap_halves(box);  // lower + upper, and its negative
+    vstore8(enclosing(vload8(0, bounds->box), box), 0, bounds->box);
+    vstore8(enclosing(vload8(0, bounds->centroids), centroid), 0, bounds->centroids);
+}
+
+DEVICE RangeBounds range_bounds(PRIVATE const SignedBounds *bounds) {
+    RangeBounds result;
     for (uint axis = 0; axis < 3; ++axis) {
-        const float centroid = ref->lower[axis] + ref->upper[axis];
-        bounds->box[0][axis] = lesser(bounds->box[0][axis], ref->lower[axis]);
-        bounds->box[1][axis] = greater(bounds->box[1][axis], ref->upper[axis]);
-        bounds->centroids[0][axis] = lesser(bounds->centroids[0][axis], centroid);
-        bounds->centroids[1][axis] = greater(bounds->centroids[1][axis], centroid);
+        result.box[0][axis] = bounds->box[axis];
+        result.box[1][axis] = -bounds->box[4u + axis];
+        result.centroids[0][axis] = bounds->centroids[axis];
+        result.centroids[1][axis] = -bounds->centroids[4u + axis];
     }
+    return result;
 }
 
 DEVICE void merge_bounds(PRIVATE RangeBounds *bounds, GLOBAL const RangeBounds *other) {

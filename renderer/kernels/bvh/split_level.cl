@@ -74,9 +74,9 @@ __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildCh
     const Split split = task->split;
     const RangeBounds task_bounds = task->bounds;
     const Binning binning = make_binning(&task_bounds);
-    RangeBounds bounds[2];
-    bounds[0] = empty_bounds();
-    bounds[1] = empty_bounds();
+    SignedBounds bounds[2];
+    bounds[0] = empty_signed_bounds();
+    bounds[1] = empty_signed_bounds();
     const uint task_begin = task->begin;
     uint next[2];
     next[0] = task_begin + chunk->left_before;
@@ -89,8 +89,8 @@ __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildCh
         next[side] += 1u;
         extend_bounds(&bounds[side], &ref);
     }
-    chunk->bounds[0] = bounds[0];
-    chunk->bounds[1] = bounds[1];
+    chunk->bounds[0] = range_bounds(&bounds[0]);
+    chunk->bounds[1] = range_bounds(&bounds[1]);
 }
 
 /// One work-item: writes this level's nodes and books their children for the next level or the small phase.
