@@ -98,6 +98,18 @@ void print_change(const std::string &id, const std::string &spp, const std::vect
                100 * paired_error_ratio(now, before).value);
 }
 
+/// What a baseline held and the new one does not.
+void print_dropped(const Json &baseline, const Json &previous) {
+    const Json curves = previous.value("curves", Json::object());
+    for (const auto &[id, curve] : curves.items()) {
+        for (const auto &stage : curve.at("first_stage").items()) {
+            if (!baseline.contains(Json::json_pointer("/curves/" + id + "/first_stage/" + stage.key()))) {
+                fmt::print("{} at {} spp: dropped\n", id, stage.key());
+            }
+        }
+    }
+}
+
 void update_baseline(const GateBench &bench, const StoredReference &reference) {
     const auto &gate = bench.gate;
     const Json previous = fs::exists(gate.baseline) ? load_json(gate.baseline) : Json::object();
@@ -120,6 +132,7 @@ void update_baseline(const GateBench &bench, const StoredReference &reference) {
             print_change(curve.id(), std::to_string(spp), errors, previous);
         }
     }
+    print_dropped(baseline, previous);
     write_file(gate.baseline, baseline.dump(1) + "\n");
     fmt::print("wrote {}\n", gate.baseline.string());
 }
@@ -133,6 +146,9 @@ ExitCode run_gate(const GateOptions &options) {
     StoredReference reference;
     if (options.update_baseline || wants("convergence") || wants("planted_errors")) {
         reference = load_reference(gate, scene);  // before anything is rendered
+    }
+    if (options.check == "bitwise" && !gate.bitwise) {
+        throw input_error(fmt::format("{} has no \"bitwise\"", gate.source));
     }
     DeviceContext device(options.device);
     const GateBench bench{gate, scene, device, options.quiet};
@@ -148,7 +164,7 @@ ExitCode run_gate(const GateOptions &options) {
             passed = passed && line.passed;
         }
     };
-    if (wants("bitwise")) {
+    if (gate.bitwise && wants("bitwise")) {
         report(check_bitwise(bench));
     }
     if (wants("convergence")) {

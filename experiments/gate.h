@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct PlantedError {
     std::string name;
     RenderSettings settings;
     std::string file, search, replacement;
+    bool by_slope = false;  ///< seen in how the error falls, not in the image
 };
 
 /// A gate file (schema/gate.schema.json).
@@ -33,10 +35,11 @@ struct GateDescription : MeasuredScene {
     std::string name;
     std::string source;  ///< path of the file, for the remedy in messages
     std::filesystem::path baseline;
-    struct {
+    struct Bitwise {
         uint64_t spp = 0, split = 0;
         std::vector<uint32_t> group_sizes, stream_capacities;
-    } bitwise;
+    };
+    std::optional<Bitwise> bitwise;
     struct {
         std::vector<uint64_t> spp;  ///< strictly increasing
         int renders = 0, second_stage_renders = 0;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "experiments/ladder.h"
@@ -32,11 +33,11 @@ class BitwiseCheck {
     BitwiseCheck(const GateBench &bench, const CurveDescription &curve)
         : bench_(bench),
           curve_(curve),
-          spp_(bench.gate.bitwise.spp),
+          spp_(bench.gate.bitwise->spp),
           original_(render(curve.settings, spp_)) {}
 
     std::vector<CheckLine> run() {
-        const auto &bitwise = bench_.gate.bitwise;
+        const auto &bitwise = *bench_.gate.bitwise;
         compare("second run", render(curve_.settings, spp_));
         for (uint32_t size : bitwise.group_sizes) {
             RenderSettings settings = curve_.settings;
@@ -77,7 +78,7 @@ class BitwiseCheck {
     }
 
     void compare_merges() {
-        const uint64_t split = bench_.gate.bitwise.split;
+        const uint64_t split = bench_.gate.bitwise->split;
         const FilmState head = film(0, split), tail = film(split, spp_);
         FilmState forward = head, backward = tail;
         merge_film(forward, tail);
@@ -110,7 +111,40 @@ const std::vector<double> &stored(const StageErrors &stage, uint64_t spp, int re
     return found->second;
 }
 
+/// By seed and point, less the reference's noise.
+std::vector<std::vector<double>> unbiased_ladders(const StageErrors &stage, const Reference &reference) {
+    std::vector<std::vector<double>> ladders(stage.begin()->second.size());
+    for (const auto &[spp, errors] : stage) {
+        for (size_t k = 0; k < ladders.size(); ++k) {
+            ladders[k].push_back(std::sqrt(unbiased_mse(errors.at(k) * errors.at(k), reference.noise_mse)));
+        }
+    }
+    return ladders;
+}
+
+std::vector<double> ladder_spp(const StageErrors &stage) {
+    std::vector<double> spp;
+    for (const auto &entry : stage) {
+        spp.push_back(static_cast<double>(entry.first));
+    }
+    return spp;
+}
+
 }  // namespace
+
+CheckLine check_slope(const std::string &curve, const StageErrors &errors, const StageErrors &baseline,
+                      const Reference &reference) {
+    const double bias = slope_bias_of_scatter(ladder_spp(baseline), unbiased_ladders(baseline, reference));
+    const Interval slope = convergence_slope(ladder_spp(errors), unbiased_ladders(errors, reference),
+                                             slope_confidence, slope_resamples);
+    const bool judged = std::abs(bias) <= largest_slope_bias,
+               passed = slope.low <= -0.5 && -0.5 <= slope.high;
+    std::string text =
+        fmt::format("{}: slope {:.4f} [{:.4f}, {:.4f}], ", curve, slope.value, slope.low, slope.high);
+    text += judged ? (passed ? "holds -1/2" : "misses -1/2")
+                   : fmt::format("not judged: the scatter of the baseline alone moves it by {:+.2f}", bias);
+    return {text, passed || !judged};
+}
 
 RenderSession GateBench::session(RenderSettings settings) const {
     settings.width = gate.width;
@@ -183,6 +217,7 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
             lines.push_back(describe(pair, change, "second stage", decide_gate(change)));
         }
     }
+    lines.push_back(check_slope(curve.id(), first, baseline.first_stage, reference));
     return lines;
 }
 

@@ -52,7 +52,19 @@ struct CurveBaseline {
     StageErrors first_stage, second_stage;
 };
 
-/// The two-stage rule at every spp (architecture, "The gate").
+/// Error of unbiased algorithms falls with the root of the number of independent samples. Intervals are
+/// bootstrapped over the renders, at about 1 - 0.01 / 12 for a family of twelve pairs.
+constexpr double slope_confidence = 0.999;
+constexpr int slope_resamples = 40000;
+/// Where `slope_bias_of_scatter` passes this, the slope of logarithms tells how errors scatter rather than
+/// how they fall, and is not judged. Decided on the baseline, so that a new error cannot excuse itself.
+constexpr double largest_slope_bias = 0.02;
+
+/// Whether the interval of the slope, reference noise taken off, holds -1/2.
+CheckLine check_slope(const std::string &curve, const StageErrors &errors, const StageErrors &baseline,
+                      const Reference &reference);
+
+/// The two-stage rule at every spp (architecture, "The gate"), and the slope of the first stage.
 std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDescription &curve,
                                          const Reference &reference, const CurveBaseline &baseline);
 
@@ -60,7 +72,8 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
 /// there is none or more than one: a planted error that is not planted proves nothing.
 std::string plant(const PlantedError &error, const std::string &text);
 
-/// The unchanged renderer agrees with the reference, and every planted error is rejected.
+/// The unchanged renderer agrees with the reference, and every planted error is rejected: by that comparison,
+/// Holm's correction over its blocks and Bonferroni's over the curves, or by its slope.
 std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Reference &reference);
 
 }  // namespace rtrays

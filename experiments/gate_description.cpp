@@ -16,16 +16,16 @@ GateDescription load_gate(const std::filesystem::path &path) {
     gate.source = path.string();
     read_measured_scene(file, json.at("size"), gate);
     gate.baseline = file.resolve(json.at("baseline"));
-    const Json &bitwise = json.at("bitwise"), &convergence = json.at("convergence"),
-               &planted = json.at("planted_errors");
-    bitwise.at("spp").get_to(gate.bitwise.spp);
-    bitwise.at("split").get_to(gate.bitwise.split);
-    if (gate.bitwise.split >= gate.bitwise.spp) {
-        throw input_error(fmt::format("{}: {} is not below spp {}", file.location("/bitwise/split"),
-                                      gate.bitwise.split, gate.bitwise.spp));
+    const Json &convergence = json.at("convergence"), &planted = json.at("planted_errors");
+    if (json.contains("bitwise")) {
+        const Json &bitwise = json.at("bitwise");
+        gate.bitwise = {bitwise.at("spp"), bitwise.at("split"), bitwise.at("group_sizes"),
+                        bitwise.at("stream_capacities")};
+        if (gate.bitwise->split >= gate.bitwise->spp) {
+            throw input_error(fmt::format("{}: {} is not below spp {}", file.location("/bitwise/split"),
+                                          gate.bitwise->split, gate.bitwise->spp));
+        }
     }
-    bitwise.at("group_sizes").get_to(gate.bitwise.group_sizes);
-    bitwise.at("stream_capacities").get_to(gate.bitwise.stream_capacities);
     convergence.at("spp").get_to(gate.convergence.spp);
     require_increasing(gate.convergence.spp, file.location("/convergence/spp"));
     convergence.at("renders").get_to(gate.convergence.renders);
@@ -33,7 +33,8 @@ GateDescription load_gate(const std::filesystem::path &path) {
     planted.at("spp").get_to(gate.planted.spp);
     for (const Json &error : planted.at("errors")) {
         gate.planted.errors.push_back({error.at("name"), parse_render_settings(error), error.at("file"),
-                                       error.at("search"), error.at("replacement")});
+                                       error.at("search"), error.at("replacement"),
+                                       error.value("caught_by", "agreement") == "slope"});
     }
     return gate;
 }

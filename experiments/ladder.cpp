@@ -95,4 +95,14 @@ LadderResult render_ladders(const LadderTask &task) {
     return result;
 }
 
+std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp, uint64_t batches) {
+    std::vector<Image> images;
+    for (uint64_t batch = 0; batch < batches; ++batch) {
+        session.restart(seed);
+        render_whole(session, batch * spp / batches, (batch + 1) * spp / batches);
+        images.push_back(session.develop());
+    }
+    return images;
+}
+
 }  // namespace rtrays

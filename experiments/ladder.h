@@ -51,4 +51,9 @@ void render_whole(Renderer &renderer, uint64_t begin, uint64_t end) {
     }
 }
 
+/// Images of independent samples, [0, spp) in `batches` equal parts, by whose scatter variances are told:
+/// splats of a path fall on several pixels, and rare bright paths show only so. The session ends with the
+/// last of them. Throws as above.
+std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp, uint64_t batches);
+
 }  // namespace rtrays

@@ -46,8 +46,7 @@ struct Description {
     AgreementPolicy policy;
 };
 
-/// Images by whose scatter variances are told: splats of a path fall on several pixels, and rare bright paths show only so.
-constexpr uint64_t batches = 32;
+constexpr uint64_t batches = 32;  ///< of either renderer, see `render_batches`
 
 Description load(const fs::path &path, const std::string &profile) {
     const DescriptionFile file = load_description(path, "agreement.schema.json");
@@ -182,13 +181,7 @@ std::vector<Image> render(const Scene &scene, const Description &description, co
     settings.seed = seed;
     settings.features = description.features;
     RenderSession session(scene, settings, device);
-    std::vector<Image> images;
-    for (uint64_t batch = 0; batch < batches; ++batch) {
-        session.restart(seed);
-        render_whole(session, batch * description.spp / batches, (batch + 1) * description.spp / batches);
-        images.push_back(session.develop());
-    }
-    return images;
+    return render_batches(session, seed, description.spp, batches);
 }
 
 /// Their mean.

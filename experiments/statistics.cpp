@@ -194,6 +194,18 @@ Interval convergence_slope(const std::vector<double> &spp, const std::vector<std
     return {center, center - quantile(t_values, 1 - tail) * error, center - quantile(t_values, tail) * error};
 }
 
+double slope_bias_of_scatter(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors) {
+    const auto relative_variance = [&](size_t point) {
+        std::vector<double> squares;
+        for (const auto &row : errors) {
+            squares.push_back(row.at(point) * row.at(point));
+        }
+        return variance(squares) / (mean(squares) * mean(squares));
+    };
+    return (relative_variance(0) - relative_variance(spp.size() - 1)) / 4 /
+           std::log(spp.back() / spp.front());
+}
+
 double normal_quantile_two_sided(double confidence) {
     return boost::math::quantile(boost::math::normal_distribution<double>(), 0.5 + confidence / 2);
 }

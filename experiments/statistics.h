@@ -45,6 +45,12 @@ Interval power_law_exponent(const std::vector<double> &x, const std::vector<doub
 Interval convergence_slope(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors,
                            double confidence = 0.95, int resamples = 4000);
 
+/// How far the slope of mean log RMSE lies above half that of the log of the mean MSE, which alone is that of
+/// the estimator, because seeds scatter: of a variable X of mean m and relative variance c, E[log X] = log m
+/// - c / 2 + ... Where many pixels share the error, c of squared errors is small; where rare bright paths
+/// make it, c is large and falls along the ladder. Taken from its ends; arguments as of `convergence_slope`.
+double slope_bias_of_scatter(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors);
+
 /// The z for which P(|N(0,1)| <= z) = confidence.
 double normal_quantile_two_sided(double confidence);
 

@@ -78,22 +78,22 @@ TEST(Description, UnknownProfileListsTheProfiles) {
 }
 
 TEST(Description, ErrorsOfGatesNameTheKey) {
-    const std::string good = read_file(shipped / "gate_path_tracing.json");
+    const std::string good = read_file(shipped / "gate_cornell_box.json");
     EXPECT_NE(
         error_of(replaced(good, "\"split\": 3", "\"split\": 8"), true).find("/bitwise/split: 8 is not below"),
         std::string::npos);
     EXPECT_NE(
-        error_of(replaced(good, "[4, 16, 64]", "[4, 64, 16]"), true).find("/convergence/spp: must increase"),
+        error_of(replaced(good, "[2, 8, 32]", "[2, 32, 8]"), true).find("/convergence/spp: must increase"),
         std::string::npos);
     EXPECT_NE(error_of(replaced(good, "\"explicit\"", "\"implicit\""), true).find("two curves"),
               std::string::npos);
 }
 
 TEST(Description, ShippedGateLoads) {
-    const auto gate = load_gate(shipped / "gate_path_tracing.json");
+    const auto gate = load_gate(shipped / "gate_cornell_box.json");
     EXPECT_EQ(gate.width, 64);
     EXPECT_GE(gate.convergence.renders, 16);
-    EXPECT_EQ(gate.planted.errors.size(), 4u);
+    EXPECT_EQ(gate.planted.errors.size(), 10u);
 }
 
 }  // namespace

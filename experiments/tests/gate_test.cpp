@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Planting errors, without a device: every planted error of the shipped gates still finds its place.
+// Planting errors, without a device: every planted error of the shipped gates still finds its place. The rule
+// of slopes.
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 #include "experiments/gate_checks.h"
 #include "renderer/base/error.h"
@@ -24,10 +28,60 @@ TEST(Plant, RefusesWhatWouldProveNothing) {
 }
 
 TEST(Plant, ShippedErrorsFitTheShippedKernels) {
-    const auto gate = load_gate(std::string(RTRAYS_EXPERIMENTS) + "/gate_path_tracing.json");
-    for (const auto &error : gate.planted.errors) {
-        EXPECT_NO_THROW(plant(error, device_source(error.file))) << error.name;
+    for (const char *name : {"/gate_cornell_box.json", "/gate_mirror_ring.json"}) {
+        const auto gate = load_gate(RTRAYS_EXPERIMENTS + std::string(name));
+        for (const auto &error : gate.planted.errors) {
+            EXPECT_NO_THROW(plant(error, device_source(error.file))) << error.name;
+        }
     }
+}
+
+/// Errors of 16 renders at 4, 16 and 64 spp: e (spp / 4)^slope, squares scattered with this relative
+/// deviation at 4 spp, half of it at 16 and a quarter at 64.
+StageErrors made_up_errors(double slope, double scatter, uint64_t random_seed) {
+    std::mt19937_64 engine(random_seed);
+    std::normal_distribution<double> noise;
+    StageErrors errors;
+    for (int k = 0; k < 16; ++k) {
+        const double deviation = noise(engine);
+        for (const uint64_t spp : {4u, 16u, 64u}) {
+            const double steps = std::log2(static_cast<double>(spp) / 4) / 2;
+            const double spread = scatter * std::pow(0.5, steps);
+            // Log-normal: of mean 1.
+            const double square =
+                std::exp(spread * (deviation + 0.3 * noise(engine)) - 0.5 * spread * spread * 1.09);
+            errors[spp].push_back(0.1 * std::pow(4.0, slope * steps) * std::sqrt(square));
+        }
+    }
+    return errors;
+}
+
+TEST(SlopeOfTheGate, MissesWhatDoesNotFallAsItShould) {
+    const StageErrors good = made_up_errors(-0.5, 0.02, 1);
+    EXPECT_TRUE(check_slope("good", good, good, {}).passed);
+    EXPECT_FALSE(check_slope("shallow", made_up_errors(-0.48, 0.02, 2), good, {}).passed);
+    EXPECT_FALSE(check_slope("steep", made_up_errors(-0.52, 0.02, 3), good, {}).passed);
+}
+
+TEST(SlopeOfTheGate, TakesOffTheNoiseOfTheReference) {
+    StageErrors noisy = made_up_errors(-0.5, 0.02, 1);
+    Reference reference;
+    reference.noise_mse = 1e-5;
+    for (auto &entry : noisy) {
+        for (double &error : entry.second) {
+            error = std::hypot(error, std::sqrt(reference.noise_mse));
+        }
+    }
+    EXPECT_FALSE(check_slope("noisy", noisy, noisy, {}).passed);
+    EXPECT_TRUE(check_slope("noisy", noisy, noisy, reference).passed);
+}
+
+TEST(SlopeOfTheGate, IsNotJudgedWhereTheBaselineScattersTooMuch) {
+    const StageErrors heavy = made_up_errors(-0.5, 1.5, 4), shallow = made_up_errors(-0.3, 0.02, 5);
+    const CheckLine excused = check_slope("heavy", shallow, heavy, {});
+    EXPECT_TRUE(excused.passed);
+    EXPECT_NE(excused.text.find("not judged"), std::string::npos) << excused.text;
+    EXPECT_FALSE(check_slope("light", shallow, made_up_errors(-0.5, 0.02, 6), {}).passed);
 }
 
 }  // namespace

@@ -133,6 +133,25 @@ TEST(ConvergenceSlope, NeedsEightSeedsAndPositiveErrors) {
     EXPECT_THROW(convergence_slope({1, 2}, std::vector<std::vector<double>>(8, {2, 0})), Error);
 }
 
+TEST(ConvergenceSlope, ScatterMovesLogarithms) {
+    // Log-normal squares of sigma 0.6 at the first point, 0.1 at the last: of mean 1, their logarithm's is
+    // -sigma^2 / 2.
+    std::mt19937_64 engine(4);
+    std::normal_distribution<double> noise;
+    std::vector<std::vector<double>> errors;
+    for (int seed = 0; seed < 20000; ++seed) {
+        errors.emplace_back();
+        for (const double sigma : {0.6, 0.1}) {
+            errors.back().push_back(std::exp(0.5 * (sigma * noise(engine) - 0.5 * sigma * sigma)));
+        }
+    }
+    const double slope = convergence_slope({1, 16}, errors, 0.95, 100).value;  // of a mean that does not fall
+    EXPECT_NEAR(slope, (0.36 - 0.01) / 4 / std::log(16.0), 0.003);
+    // To first order in the variance, exp(0.36) - 1 of log-normal squares.
+    EXPECT_NEAR(slope_bias_of_scatter({1, 16}, errors),
+                (std::expm1(0.36) - std::expm1(0.01)) / 4 / std::log(16.0), 0.003);
+}
+
 TEST(PairedErrorRatio, KnownAnswer) {
     // log ratios 0, 0.2: mean 0.1, standard error 0.1; t(0.975, 1) = 12.706.
     const auto change = paired_error_ratio({1, std::exp(0.2)}, {1, 1}, 0.975);
