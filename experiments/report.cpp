@@ -12,6 +12,7 @@
 #include <string>
 
 #include "experiments/array_file.h"
+#include "experiments/description.h"
 #include "experiments/document.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
@@ -69,6 +70,8 @@ int run_program(const std::vector<std::string> &command) {
 }  // namespace
 
 int make_report(const std::vector<fs::path> &runs) {
+    load_description(RTRAYS_SOURCE "/experiments/claims.json",
+                     "claims.schema.json");  // refused here or not at all
     std::vector<std::string> command{RTRAYS_PYTHON, RTRAYS_SCRIPTS "/report"};
     for (const auto &run : runs) {
         export_images(run);

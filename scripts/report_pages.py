@@ -118,10 +118,10 @@ def html_page(run, tables, figures):
 
 
 def markdown_pages(folder):
-    """Makes index.html of every NAME/NAME.md, which other programs wrote; (title, path) of each."""
+    """Makes index.html of every NAME/NAME.md, which other programs wrote; (title, path) of each, the claims first."""
     import markdown
 
-    for source in sorted(folder.glob("*/*.md")):
+    for source in sorted(folder.glob("*/*.md"), key=lambda path: (path.stem != "claims", path)):
         if source.stem == source.parent.name:
             heading, _, text = source.read_text().partition("\n")
             page = source.with_name("index.html")

@@ -89,6 +89,10 @@ TEST(Description, ErrorsOfGatesNameTheKey) {
               std::string::npos);
 }
 
+TEST(Description, ShippedClaimsFitTheirSchema) {
+    EXPECT_FALSE(load_description(shipped / "claims.json", "claims.schema.json").json.at("sections").empty());
+}
+
 TEST(Description, ShippedGateLoads) {
     const auto gate = load_gate(shipped / "gate_cornell_box.json");
     EXPECT_EQ(gate.width, 64);

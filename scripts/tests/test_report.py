@@ -238,6 +238,8 @@ class Reports(RunFolder):
         self.assertIn("box/index.html", index)
         self.assertIn('<a href="rates/index.html">Rates &amp; more</a>', index)
         self.assertIn("primary</td>", (measured / "index.html").read_text())
+        self.assertLess(index.index('<a href="claims/index.html">'), index.index('<a href="rates/index.html">'))
+        self.assertIn("not measured</td>", (self.folder.parent / "claims/index.html").read_text())
 
     def test_missing_image_is_one_clear_error(self):
         self.run_object()

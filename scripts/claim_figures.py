@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: MIT
+"""What the claims of chapter 4 are judged by: readers of finished runs, by the name that experiments/claims.json gives them.
+
+Each takes a run's folder and yields (name, {"value", "low", "high"}); agreements as run.json has them. Yielding nothing says
+that the run does not hold the figure.
+"""
+
+import json
+
+import numpy
+
+from efficiency import DRAWS, Cost, base_curve, ratio
+from run_document import Measurement, Run, RunError, label, usable_points, value
+
+
+def exact(number):
+    return {"value": number, "low": number, "high": number}
+
+
+def inverse(interval):
+    return {"value": 1 / value(interval, "value"), "low": 1 / value(interval, "high"), "high": 1 / value(interval, "low")}
+
+
+def curve_of(run, name):
+    for curve in run.curves:
+        if value(curve, "id") == name:
+            return curve
+    raise RunError(f"{run.folder / 'run.json'}: there is no curve {name}")
+
+
+def slopes(folder):
+    """Of log RMSE against log spp, every curve."""
+    for curve in Run(folder).curves:
+        yield label(curve), value(curve, "slope")
+
+
+def agreements(folder):
+    """With the reference, every curve."""
+    for curve in Run(folder).curves:
+        yield label(curve), value(curve, "agreement")
+
+
+def gain(folder, of, curve="truncated_bdpt.mis", over="path_tracing.mis"):
+    """How many times fewer samples ("spp") or less device time ("seconds") a curve needs for the error of another."""
+    run = Run(folder)
+    noise = run.get("reference.noise_floor.mse")
+    yield (f"{label(curve_of(run, curve))} over {label(curve_of(run, over))}",
+           ratio(Cost(curve_of(run, over), noise), Cost(curve_of(run, curve), noise), of))
+
+
+def sample_cost(folder, curve="truncated_bdpt.mis", over="path_tracing.mis"):
+    """Device time of a sample of a curve over that of another, medians over seeds with a bootstrap's interval."""
+    run, generator = Run(folder), numpy.random.default_rng(1)
+
+    def medians(name):
+        point = usable_points(curve_of(run, name))[-1]
+        seconds = numpy.array([value(r, "seconds_device") for r in value(point, "repetitions")]) / value(point, "spp")
+        draws = seconds[generator.integers(0, len(seconds), (DRAWS, len(seconds)))]
+        return numpy.median(seconds), numpy.median(draws, axis=1)
+
+    (own, own_draws), (other, other_draws) = medians(curve), medians(over)
+    low, high = numpy.quantile(own_draws / other_draws, [0.025, 0.975])
+    yield "a sample of one over one of the other", {"value": own / other, "low": low, "high": high}
+
+
+# An edge: where the brightest channel of the reference changes by this share of the larger value to the next pixel.
+EDGE = 0.2
+
+
+def edge_errors(folder, curve="path_tracing.mis"):
+    """Mean squared error at edges over that elsewhere, of the mean image; bootstrap over pixels."""
+    run, generator = Run(folder), numpy.random.default_rng(1)
+    reference = run.image(run.get("reference.image")).max(axis=2)
+    squares = ((run.image(value(curve_of(run, curve), "image")) - run.image(run.get("reference.image"))) ** 2).mean(axis=2)
+    edge = numpy.zeros(reference.shape, dtype=bool)
+    for axis in (0, 1):
+        ahead = numpy.roll(reference, -1, axis)
+        jump = numpy.abs(ahead - reference) > EDGE * numpy.maximum(ahead, reference)
+        jump[(-1,) if axis == 0 else (slice(None), -1)] = False  # the last row's next is the first
+        edge |= jump | numpy.roll(jump, 1, axis)
+    if not edge.any() or edge.all():
+        return
+    draws = [sample[generator.integers(0, len(sample), (DRAWS // 4, len(sample)))].mean(axis=1) for sample in (squares[edge], squares[~edge])]
+    low, high = numpy.quantile(draws[0] / draws[1], [0.025, 0.975])
+    yield "squared error at edges over elsewhere", {"value": squares[edge].mean() / squares[~edge].mean(), "low": low, "high": high}
+
+
+def memory(folder, curve, form):
+    """Bytes per path of a curve: "more" than path tracing's, or how many "times" those."""
+    run = Run(folder)
+    own = value(curve_of(run, curve), "render_report.bytes_per_path")
+    base = value(base_curve(run), "render_report.bytes_per_path")
+    yield ("bytes per path beyond path tracing", exact(own - base)) if form == "more" else ("bytes per path over path tracing", exact(own / base))
+
+
+def control_gain(folder, scene):
+    """Device time without convergence control over that with it, at the error where it saves most."""
+    path = folder / "convergence_control.json"
+    rows = [row for row in value(json.loads(path.read_text()), "rows") if row["scene"] == scene]
+    for algorithm in sorted({row["algorithm"] for row in rows}):
+        best = min((row for row in rows if row["algorithm"] == algorithm), key=lambda row: value(row, "seconds.value"))
+        yield f"{algorithm.replace('_', ' ')}, error {value(best, 'error'):g}", inverse(value(best, "seconds"))
+
+
+def contestant_of(entry, name):
+    return next((c for c in value(entry, "contestants") if c["name"] == name), None)
+
+
+def published_order(folder, contestant):
+    """Spearman's correlation of our build times with those the thesis prints, over the meshes that stand for its scenes."""
+    run = Measurement(folder)
+    published = {row["mesh"]: row["ms"]["thesis"] for row in run.get("experiment.published.rows")}
+    named = run.get("stand_ins")
+    pairs = [(published[named.get(row["mesh"], row["mesh"])], value(contestant_of(row, contestant), "processor_ms.value"))
+             for row in run.get("rows") if named.get(row["mesh"], row["mesh"]) in published]
+    if len(pairs) > 2:
+        ranks = numpy.argsort(numpy.argsort(numpy.array(pairs), axis=0), axis=0)
+        yield f"rank correlation over {len(pairs)} meshes", exact(float(numpy.corrcoef(ranks.T)[0, 1]))
+
+
+def build_rate(folder, contestant):
+    """Million triangles per second on the wall, where it is largest."""
+    rows = [(row["mesh"], 1e-3 * value(row, "triangles"), inverse(value(contestant_of(row, contestant), "wall_ms")))
+            for row in Measurement(folder).get("rows")]
+    mesh, scale, rate = max(rows, key=lambda row: row[1] * row[2]["value"])
+    yield f"{mesh.replace('_', ' ')}, Mtris/s", {key: scale * rate[key] for key in rate}
+
+
+def build_gain(folder, contestant):
+    """Speed over Embree's builder of medium quality, where it is largest."""
+    mesh, speed = max(((row["mesh"], value(contestant_of(row, contestant), "speed_over_embree"))
+                       for row in Measurement(folder).get("rows")), key=lambda entry: value(entry[1], "value"))
+    yield f"{mesh.replace('_', ' ')}, over Embree", speed
+
+
+def ray_kinds(folder, meshes):
+    """(mesh, kind -> its entry) of the meshes that were measured."""
+    for row in Measurement(folder).get("rows"):
+        if row["mesh"] in meshes:
+            yield row["mesh"], {kind["kind"]: kind for kind in value(row, "kinds")}
+
+
+def ray_rate(folder, meshes, kind, contestant):
+    """Mrays/s on the wall."""
+    for mesh, kinds in ray_kinds(folder, meshes):
+        yield mesh.replace("_", " "), value(contestant_of(kinds[kind], contestant), "Mrays_s")
+
+
+def coherence(folder, meshes, contestant):
+    """Rate of primary rays over that of diffuse ones, from processor time; the interval is of the ends that are farthest."""
+    for mesh, kinds in ray_kinds(folder, meshes):
+        primary, diffuse = (value(contestant_of(kinds[kind], contestant), "processor_ns") for kind in ("primary", "diffuse"))
+        yield mesh.replace("_", " "), {"value": value(diffuse, "value") / value(primary, "value"),
+                                       "low": value(diffuse, "low") / value(primary, "high"),
+                                       "high": value(diffuse, "high") / value(primary, "low")}
+
+
+def leaks(folder):
+    """Rays from inside closed shapes that hit nothing, the worst layout of each shape at the origin."""
+    for row in Measurement(folder).get("rows"):
+        if row["check"] != "hits" and all(value(layout, "limit") == 0 for layout in value(row, "layouts")):
+            yield f"{row['mesh']}, {value(row, 'rays'):.3g} rays", exact(max(value(layout, "misses") for layout in row["layouts"]))
+
+
+READERS = {reader.__name__: reader for reader in (
+    agreements, build_gain, build_rate, coherence, control_gain, edge_errors, gain, leaks, memory, published_order, ray_rate,
+    sample_cost, slopes)}
