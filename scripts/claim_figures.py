@@ -133,26 +133,66 @@ def build_gain(folder, contestant):
     yield f"{mesh.replace('_', ' ')}, over Embree", speed
 
 
-def ray_kinds(folder, meshes):
-    """(mesh, kind -> its entry) of the meshes that were measured."""
+def scene_name(row):
+    return value(row, "mesh").replace("_", " ")
+
+
+def quotient(over, under):
+    """Of two intervals; its ends are those that lie farthest apart."""
+    return {"value": value(over, "value") / value(under, "value"), "low": value(over, "low") / value(under, "high"),
+            "high": value(over, "high") / value(under, "low")}
+
+
+def frame_rate(folder, kind):
+    """Mrays/s of a kind of ray, every scene."""
     for row in Measurement(folder).get("rows"):
-        if row["mesh"] in meshes:
-            yield row["mesh"], {kind["kind"]: kind for kind in value(row, "kinds")}
+        rays = 1e-3 * value(row, f"rays.{kind}")
+        yield scene_name(row), quotient(exact(rays), value(row, f"{kind}_ms"))
 
 
-def ray_rate(folder, meshes, kind, contestant):
-    """Mrays/s on the wall."""
-    for mesh, kinds in ray_kinds(folder, meshes):
-        yield mesh.replace("_", " "), value(contestant_of(kinds[kind], contestant), "Mrays_s")
+def coherence(folder):
+    """Rate of primary rays over that of secondary ones, every scene."""
+    for row in Measurement(folder).get("rows"):
+        rays = value(row, "rays.primary") / value(row, "rays.secondary")
+        ratio_of_times = quotient(value(row, "secondary_ms"), value(row, "primary_ms"))
+        yield scene_name(row), {key: rays * ratio_of_times[key] for key in ratio_of_times}
 
 
-def coherence(folder, meshes, contestant):
-    """Rate of primary rays over that of diffuse ones, from processor time; the interval is of the ends that are farthest."""
-    for mesh, kinds in ray_kinds(folder, meshes):
-        primary, diffuse = (value(contestant_of(kinds[kind], contestant), "processor_ns") for kind in ("primary", "diffuse"))
-        yield mesh.replace("_", " "), {"value": value(diffuse, "value") / value(primary, "value"),
-                                       "low": value(diffuse, "low") / value(primary, "high"),
-                                       "high": value(diffuse, "high") / value(primary, "low")}
+def frame_time(folder):
+    """Milliseconds on the wall, every scene."""
+    for row in Measurement(folder).get("rows"):
+        yield f"{scene_name(row)}, ms", value(row, "frame_ms")
+
+
+TRACING = ("intersect_nearest", "intersect_any")
+
+
+def traced_share(folder):
+    """Share of intersection in the device's time of a frame, every scene; ends as if all the rest went the other way."""
+    for row in Measurement(folder).get("rows"):
+        def together(end, tracing, stages=value(row, "stages")):
+            return sum(value(stage, f"ms.{end}") for stage in stages if (stage["name"] in TRACING) == tracing)
+
+        yield scene_name(row), {end: together(end, True) / (together(end, True) + together(other, False))
+                                for end, other in (("value", "value"), ("low", "high"), ("high", "low"))}
+
+
+def wavefront_gain(folder, rival, bounces, best=False):
+    """Samples per second of the wavefront over a rival's at so many bounces: every scene, or where it is largest."""
+    found = [(scene_name(row), value(depth, "wavefront_over")[rival]) for row in Measurement(folder).get("rows")
+             for depth in value(row, "depths") if depth["bounces"] == bounces]
+    yield from [max(found, key=lambda entry: value(entry[1], "value"))] if best and found else found
+
+
+def ablation(folder, setting, best=False):
+    """Speed of frames with a setting over those with the defaults: every scene, or the slowest alone, as a loss."""
+    found = [(scene_name(row), value(entry, "speed_over_defaults")) for row in Measurement(folder).get("rows")
+             for entry in value(row, "frames") if entry["name"] == setting]
+    if best and found:
+        name, speed = min(found, key=lambda entry: value(entry[1], "value"))
+        yield f"{name}, defaults over it", inverse(speed)
+    else:
+        yield from found
 
 
 def leaks(folder):
@@ -163,5 +203,5 @@ def leaks(folder):
 
 
 READERS = {reader.__name__: reader for reader in (
-    agreements, build_gain, build_rate, coherence, control_gain, edge_errors, gain, leaks, memory, published_order, ray_rate,
-    sample_cost, slopes)}
+    ablation, agreements, build_gain, build_rate, coherence, control_gain, edge_errors, frame_rate, frame_time, gain, leaks,
+    memory, published_order, sample_cost, slopes, traced_share, wavefront_gain)}

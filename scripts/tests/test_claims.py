@@ -129,22 +129,43 @@ class Readers(Folders):
         ((name, gain),) = self.figures("build_gain", "build", contestant="sah").items()
         self.assertEqual((name, gain["value"]), ("x, over Embree", 0.2))
 
-        def kind(name, ns):
-            return {"kind": name, "contestants": [{"name": "bvh2", "processor_ns": interval(0.9 * ns, 1.1 * ns), "Mrays_s": interval(1 / ns, 1 / ns)}]}
-
-        self.write("rates", {"schema_version": 1, "rows": [{"mesh": "a", "kinds": [kind("primary", 100), kind("diffuse", 300)]}]})
-        (ratio,) = self.figures("coherence", "rates", meshes=["a", "b"], contestant="bvh2").values()
-        self.assertAlmostEqual(ratio["value"], 3)
-        self.assertAlmostEqual(ratio["low"], 270 / 110)
-        (rate,) = self.figures("ray_rate", "rates", meshes=["a"], kind="diffuse", contestant="bvh2").values()
-        self.assertAlmostEqual(rate["value"], 1 / 300)
-
         def shape(check, limit, *misses):
             return {"check": check, "mesh": f"shape {limit}", "rays": 1000, "layouts": [{"misses": m, "limit": limit} for m in misses]}
 
         self.write("traversal", {"schema_version": 1, "rows": [shape("hits", 0), shape("watertight", 0, 0, 3), shape("watertight", 1e-5, 9)]})
         (misses,) = self.figures("leaks", "traversal").values()
         self.assertEqual(misses["value"], 3)
+
+
+    def test_frames(self):
+        def stage(name, ms):
+            return {"name": name, "ms": interval(0.9 * ms, 1.1 * ms)}
+
+        row = {"mesh": "sponza_inside", "rays": {"primary": 1000, "shadow": 900, "secondary": 800}, "primary_ms": interval(1, 1),
+               "shadow_ms": interval(2, 2), "secondary_ms": interval(2, 2), "frame_ms": interval(9, 11),
+               "stages": [stage("intersect_nearest", 4), stage("intersect_any", 2), stage("extend_path", 2)]}
+        self.write("frames", {"schema_version": 1, "rows": [row]})
+        self.assertAlmostEqual(self.figures("frame_rate", "frames", kind="secondary")["sponza inside"]["value"], 0.4)
+        self.assertAlmostEqual(self.figures("coherence", "frames")["sponza inside"]["value"], 2.5)
+        self.assertEqual(self.figures("frame_time", "frames")["sponza inside, ms"]["high"], 11)
+        share = self.figures("traced_share", "frames")["sponza inside"]
+        self.assertAlmostEqual(share["value"], 0.75)
+        self.assertAlmostEqual(share["low"], 5.4 / (5.4 + 2.2))
+
+    def test_scenes_where_it_holds_best(self):
+        def row(mesh, speed):
+            depths = [{"bounces": b, "wavefront_over": {"megakernel": interval(b * speed, b * speed)}} for b in (1, 8)]
+            frames = [{"name": name, "speed_over_defaults": interval(s, s)} for name, s in (("defaults", 1), ("axes", 1 / speed))]
+            return {"mesh": mesh, "depths": depths, "frames": frames}
+
+        self.write("run", {"schema_version": 1, "rows": [row("a", 0.5), row("b", 2)]})
+        every = self.figures("wavefront_gain", "run", rival="megakernel", bounces=8)
+        self.assertEqual({name: figure["value"] for name, figure in every.items()}, {"a": 4, "b": 16})
+        self.assertEqual(list(self.figures("wavefront_gain", "run", rival="megakernel", bounces=8, best=True)), ["b"])
+        self.assertEqual(len(self.figures("ablation", "run", setting="axes")), 2)
+        ((name, loss),) = self.figures("ablation", "run", setting="axes", best=True).items()
+        self.assertEqual((name, loss["value"]), ("b, defaults over it", 2))
+        self.assertEqual(self.figures("ablation", "run", setting="none", best=True), {})
 
 
 class Page(Folders):
