@@ -14,7 +14,6 @@ from tables import Table
 
 CLAIMS = pathlib.Path(__file__).resolve().parent.parent / "experiments/claims.json"
 NOT_MEASURED = "not measured"
-WORDS = {"reproduced": "holds", "partly": "holds partly", "not reproduced": "does not hold here", "undecided": "undecided"}
 
 
 def place(figure, bounds):
@@ -28,9 +27,9 @@ def place(figure, bounds):
 def figure_verdict(figure, rule):
     """The verdict on one figure."""
     if "agrees" in rule:
-        return WORDS[agreement_verdict(figure)]
+        return agreement_verdict(figure)
     if "gain" in rule:
-        return WORDS[gain_verdict(figure, rule["gain"])]
+        return gain_verdict(figure, rule["gain"])
     where = place(figure, rule["within"])
     if where == "inside":
         return "holds"

@@ -97,24 +97,24 @@ def slope_verdict(slope, expected, tolerance):
     low, high = expected - tolerance, expected + tolerance
     measured_low, measured_high = value(slope, "low"), value(slope, "high")
     if low <= measured_low and measured_high <= high:
-        return "reproduced"
+        return "holds"
     if measured_high < low or measured_low > high:
-        return "not reproduced"
+        return "does not hold here"
     return "undecided"
 
 
 def gain_verdict(gain, claimed):
     """Whether an interval reaches the factor claimed, is a gain at all, or a loss."""
     if value(gain, "low") > 1:
-        return "reproduced" if value(gain, "high") >= claimed else "partly"
-    return "not reproduced" if value(gain, "high") < claimed else "undecided"
+        return "holds" if value(gain, "high") >= claimed else "holds partly"
+    return "does not hold here" if value(gain, "high") < claimed else "undecided"
 
 
 def agreement_verdict(agreement):
     """The image claim: the same picture as the reference, up to noise."""
     if not value(agreement, "agrees") or value(agreement, "equivalence") == "different":
-        return "not reproduced"
-    return "reproduced" if value(agreement, "equivalence") == "equivalent" else "undecided"
+        return "does not hold here"
+    return "holds" if value(agreement, "equivalence") == "equivalent" else "undecided"
 
 
 def label(curve):

@@ -114,18 +114,18 @@ class Documents(RunFolder):
         self.assertEqual(value(self.document, "reference.files.1"), "b.exr")
 
     def test_verdicts(self):
-        self.assertEqual(slope_verdict({"low": -0.52, "high": -0.48}, -0.5, 0.03), "reproduced")
+        self.assertEqual(slope_verdict({"low": -0.52, "high": -0.48}, -0.5, 0.03), "holds")
         self.assertEqual(slope_verdict({"low": -0.54, "high": -0.48}, -0.5, 0.03), "undecided")
-        self.assertEqual(slope_verdict({"low": -0.40, "high": -0.30}, -0.5, 0.03), "not reproduced")
-        for low, high, verdict in ((1.9, 2.1, "reproduced"), (2.5, 3, "reproduced"), (1.2, 1.9, "partly"),
-                                   (0.8, 1.5, "not reproduced"), (0.8, 2.5, "undecided")):
+        self.assertEqual(slope_verdict({"low": -0.40, "high": -0.30}, -0.5, 0.03), "does not hold here")
+        for low, high, verdict in ((1.9, 2.1, "holds"), (2.5, 3, "holds"), (1.2, 1.9, "holds partly"),
+                                   (0.8, 1.5, "does not hold here"), (0.8, 2.5, "undecided")):
             self.assertEqual(gain_verdict({"low": low, "high": high}, 2), verdict)
         agreement = copy.deepcopy(self.document["curves"][0]["agreement"])
-        self.assertEqual(agreement_verdict(agreement), "reproduced")
+        self.assertEqual(agreement_verdict(agreement), "holds")
         agreement["equivalence"] = "undecided"
         self.assertEqual(agreement_verdict(agreement), "undecided")
         agreement["agrees"] = False
-        self.assertEqual(agreement_verdict(agreement), "not reproduced")
+        self.assertEqual(agreement_verdict(agreement), "does not hold here")
 
 
 class Tables(RunFolder):
@@ -207,8 +207,8 @@ class Reports(RunFolder):
         self.assertTrue((self.folder / "plots/contributions_path_tracing.implicit.svg").stat().st_size > 0)
         self.assertTrue((self.folder / "plots/early.svg").stat().st_size > 0)
         page = (self.folder / "report.md").read_text()
-        self.assertIn("| path tracing (implicit) | 4 times fewer samples | 1.00 [1.00, 1.00] | not reproduced |", page)
-        self.assertIn("| path tracing (implicit) | 2 times less device time | 1.00 [1.00, 1.00] | not reproduced |", page)
+        self.assertIn("| path tracing (implicit) | 4 times fewer samples | 1.00 [1.00, 1.00] | does not hold here |", page)
+        self.assertIn("| path tracing (implicit) | 2 times less device time | 1.00 [1.00, 1.00] | does not hold here |", page)
 
     def test_viewer_has_the_images(self):
         from viewer import to_rgbe
