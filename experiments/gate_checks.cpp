@@ -207,7 +207,8 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
             lines.push_back(describe(pair, change, "first stage", decision));
         }
     }
-    if (!undecided.empty()) {
+    CheckLine slope = check_slope(curve.id(), first, baseline.first_stage, reference);
+    if (!undecided.empty() || !slope.passed) {
         const StageErrors second =
             measure_errors(bench, curve, reference, second_stage_seed, rule.second_stage_renders);
         for (uint64_t spp : undecided) {
@@ -216,8 +217,12 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
                 second.at(spp), stored(baseline.second_stage, spp, rule.second_stage_renders, pair));
             lines.push_back(describe(pair, change, "second stage", decide_gate(change)));
         }
+        if (!slope.passed) {
+            lines.push_back({slope.text + " in the first stage", true});
+            slope = check_slope(curve.id() + ", second stage", second, baseline.second_stage, reference);
+        }
     }
-    lines.push_back(check_slope(curve.id(), first, baseline.first_stage, reference));
+    lines.push_back(slope);
     return lines;
 }
 

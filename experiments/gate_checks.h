@@ -64,7 +64,9 @@ constexpr double largest_slope_bias = 0.02;
 CheckLine check_slope(const std::string &curve, const StageErrors &errors, const StageErrors &baseline,
                       const Reference &reference);
 
-/// The two-stage rule at every spp (architecture, "The gate"), and the slope of the first stage.
+/// The two-stage rule at every spp (architecture, "The gate"), and for the slope: one that misses in the
+/// first stage is decided by the second. Of nine pairs and sixteen renders, whose intervals cover less than
+/// they say, one may miss.
 std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDescription &curve,
                                          const Reference &reference, const CurveBaseline &baseline);
 

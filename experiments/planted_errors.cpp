@@ -36,8 +36,8 @@ CheckLine find_error(const GateBench &bench, const PlantedError &error, const Re
     settings.source_overlays[error.file] = plant(error, device_source(error.file));
     if (error.by_slope) {
         const CurveDescription curve{settings};
-        const StageErrors errors =
-            measure_errors(bench, curve, reference, first_stage_seed, bench.gate.convergence.renders);
+        const StageErrors errors = measure_errors(bench, curve, reference, second_stage_seed,
+                                                  bench.gate.convergence.second_stage_renders);
         const CheckLine slope = check_slope(curve.id(), errors, errors, reference);
         return {fmt::format("planted '{}' is caught: {}", error.name, slope.text), !slope.passed};
     }
