@@ -232,9 +232,9 @@ std::string describe(const Place &place, Surfaces surfaces) {
 }
 
 Scene make_scene(const Place &place) {
+    // Of cameras and lights that models have not, which are replaced.
+    const NoticeReceiver silence([](const std::string &) {});
     if (!place.model.empty()) {
-        const NoticeReceiver silence(
-            [](const std::string &) {});  // of a camera and a light, which are replaced
         return load_scene(measured_file(place.model).string());
     }
     Scene scene;
