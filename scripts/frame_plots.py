@@ -45,7 +45,8 @@ def samples_per_second(run):
             rates = [next(c for c in value(depth, "contestants") if c["name"] == contestant)["Msamples_s"] for depth in depths]
             middle = numpy.array([value(rate, "value") for rate in rates])
             reach = [middle - [value(rate, "low") for rate in rates], [value(rate, "high") for rate in rates] - middle]
-            panel.bar(numpy.arange(len(depths)) + 0.27 * (i - 1), middle, 0.25, yerr=reach, color=COLOURS[i], label=contestant,
+            width = 0.8 / len(names)
+            panel.bar(numpy.arange(len(depths)) + width * (i - (len(names) - 1) / 2), middle, 0.93 * width, yerr=reach, color=COLOURS[i], label=contestant,
                       error_kw={"linewidth": 0.8})
         panel.set_xticks(range(len(depths)), [f"{value(depth, 'bounces')}" for depth in depths])
         panel.set(title=mesh_name(run, row["mesh"]), xlabel="bounces", ylabel="Msamples/s")

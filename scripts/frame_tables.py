@@ -91,38 +91,41 @@ def frame_times(run, figures):
     return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
 
 
-RIVALS = ("megakernel", "Embree reference")
-
-
 def bounces(run, figures):
     """Figure 4.22, a row for each scene and length of path."""
     published = {row["mesh"]: row for row in run.get("experiment.published.rows")}
-    table = []
+    names = [c["name"] for c in value(run.get("rows")[0], "depths.0.contestants")]
+    rivals = names[1:]
+    table, absent = [], set()
     for row in run.get("rows"):
         printed = published.get(run.get("stand_ins").get(row["mesh"], row["mesh"]))
+        absent.update(value(row, "absent_peers"))
         for depth in value(row, "depths"):
             rates = {c["name"]: c["Msamples_s"] for c in value(depth, "contestants")}
             table.append([f"{printed['scene']}, {printed['triangles']}" if printed else NONE, mesh_name(run, row["mesh"]),
                           f"{value(row, 'triangles')}", f"{value(depth, 'bounces')}", f"{2 * value(depth, 'bounces') + 2}",
                           f"{value(depth, 'rays_per_sample'):.2f}", f"{value(depth, 'reference_rays_per_sample'):.2f}",
-                          *(interval(rates[c]) for c in ("wavefront", *RIVALS)),
-                          *(interval(value(depth, "wavefront_over")[rival]) for rival in RIVALS),
+                          *(interval(rates[c]) for c in names),
+                          *(interval(value(depth, "wavefront_over")[rival]) for rival in rivals),
                           f"{value(depth, 'turns')}", f"{100 * value(depth, 'foreign_load'):.0f}"])
-    means = [[f"{value(mean, 'max_depth') - 1}", *(f"{mean[rival]:.2f}" for rival in RIVALS)]
+    means = [[f"{value(mean, 'max_depth') - 1}", *(f"{mean[rival]:.2f}" for rival in rivals)]
              for mean in run.get("summary.wavefront_over")]
     tables = (
-        Table("How many times faster the wavefront is: geometric means over the scenes", ["bounces", *RIVALS], means),
+        Table("How many times faster the wavefront is: geometric means over the scenes", ["bounces", *rivals], means),
         Table("Msamples/s (wall), and how many times faster the wavefront is (processor time)", [
             "thesis", "measured here", "triangles", "bounces", "rays per sample, at most", "wavefront, rays per sample",
-            "Embree, rays per sample", "wavefront, Msamples/s", *(f"{rival}, Msamples/s" for rival in RIVALS),
-            *(f"wavefront / {rival}" for rival in RIVALS), "turns", "others' load, %"], table),
+            "Embree, rays per sample", *(f"{c}, Msamples/s" for c in names),
+            *(f"wavefront / {rival}" for rival in rivals), "turns", "others' load, %"], table),
     )
     what = (f"{size_of(run)}, {run.get('experiment.settings').get('spp', 1)} sample(s) per pixel and turn. All surfaces are "
             "diffuse, no roulette, one explicit connection at every hit, light not counted where paths hit it: 2 (b + 1) rays "
             "for b bounces, fewer where paths leave the scene or a light lies behind a surface. Medians of turns with 95 % "
-            f"intervals, all three in every turn. As printed: {run.get('experiment.published.source')}. {run.get('experiment.claim')} "
+            f"intervals, all of them in every turn. As printed: {run.get('experiment.published.source')}. {run.get('experiment.claim')} "
             "OptiX needs its maker's GPUs: what stands in for it is the same path tracer as one kernel, on the same device, and "
-            "the Embree reference, which computes in double precision but for the rays.")
+            "the Embree reference, which computes in double precision but for the rays. Mitsuba 3 also counts light that paths "
+            "hit, and sends a last ray for it; its processes count as others' load.")
+    if absent:
+        what += f" Not installed and left out: {', '.join(sorted(absent))}."
     return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
 
 

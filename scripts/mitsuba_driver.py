@@ -3,10 +3,14 @@
 (`scripts/install --peers` makes build/peers):
 
     build/peers/bin/python scripts/mitsuba_driver.py NAME.xml OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
+    build/peers/bin/python scripts/mitsuba_driver.py NAME.xml --serve [--variant V]
 
 With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
 JSON for each image: file, seed, spp, seconds, mean of R, G and B. The depth is ours: Mitsuba counts one more. The
 reconstruction filter is a box of one pixel, also where the file names another.
+
+With --serve it renders whenever a line "MAX_DEPTH SPP SEED" comes on standard input, without roulette, keeps no image, and
+answers by a line of JSON: seconds on the wall and of all its threads.
 """
 
 import argparse
@@ -18,17 +22,31 @@ import sys
 import time
 
 
+def serve(mitsuba, scene, variant):
+    print(json.dumps({"engine": f"Mitsuba {mitsuba.__version__} {variant}"}), flush=True)
+    for line in sys.stdin:
+        depth, spp, seed = map(int, line.split())
+        integrator = mitsuba.load_dict({"type": "path", "max_depth": depth + 1, "rr_depth": 1 << 30})
+        start, processor = time.perf_counter(), time.process_time()
+        mitsuba.Bitmap(mitsuba.render(scene, integrator=integrator, spp=spp, seed=seed))
+        print(json.dumps({"seconds": time.perf_counter() - start, "processor_seconds": time.process_time() - processor}),
+              flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("scene", type=pathlib.Path)
-    parser.add_argument("output", type=pathlib.Path)
-    parser.add_argument("--spp", type=int, required=True)
+    parser.add_argument("output", type=pathlib.Path, nargs="?")
+    parser.add_argument("--serve", action="store_true")
+    parser.add_argument("--spp", type=int)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--max-depth", type=int, help="scattering events, 0: no limit; the scene's by default")
     parser.add_argument("--runs", type=int)
     parser.add_argument("--variant", default="llvm_ad_rgb", help="scalar_rgb is slower and needs no LLVM")
     parser.add_argument("--define", action="append", default=[], metavar="NAME=VALUE", help="a <default> of the file")
     options = parser.parse_args()
+    if not options.serve and (options.output is None or options.spp is None):
+        parser.error("OUT.exr and --spp are missing, or --serve")
     # Dr.Jit takes any LLVM, and those below 19 fail on processors with AVX512-FP16 ("cannot select").
     libraries = sorted(pathlib.Path("/usr/lib/x86_64-linux-gnu").glob("libLLVM*19*.so*"))
     if libraries:
@@ -47,6 +65,9 @@ def main():
     mitsuba.file_resolver().prepend(str(options.scene.resolve().parent))
     text = re.sub(r'<rfilter\s+type="\w+"', '<rfilter type="box"', options.scene.read_text())
     scene = mitsuba.load_string(text, **defines)
+    if options.serve:
+        serve(mitsuba, scene, options.variant)
+        return 0
 
     for run in range(options.runs or 1):
         seed = options.seed + run

@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Samples per second by length of path, on the device and by Embree: thesis 4.4.3.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "experiments/document.h"
+#include "experiments/frames/peer.h"
 #include "experiments/frames/scenes.h"
 #include "experiments/hierarchy/kinds.h"
 #include "reference/renderer.h"
+#include "renderer/export/export_scene.h"
 #include "renderer/pipeline/render_session.h"
 
 namespace rtrays {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Scattering events of 1, 4 and 8 bounces: the first hit is one.
 constexpr uint32_t depths[] = {2, 5, 9};
 
-/// What OptiX is replaced by: one kernel for whole paths, and another program.
-constexpr const char *rivals[] = {"megakernel", "Embree reference"};
+constexpr const char *ours = "wavefront", *megakernel = "megakernel", *embree = "Embree reference";
 
 RenderSettings settings_for(const MeasurementSettings &measurement, const std::string &pipeline) {
     RenderSettings settings;
@@ -54,7 +59,9 @@ class Bounces {
         : name_(name),
           settings_(settings),
           device_(&device),
-          timed_(load_timed_scene(name, Surfaces::diffuse)) {}
+          timed_(load_timed_scene(name, Surfaces::diffuse)) {
+        load_peers();
+    }
 
     Json row() {
         Json at_depths = Json::array();
@@ -65,18 +72,44 @@ class Bounces {
                 {"procedural", timed_.is_procedural},
                 {"surfaces", timed_.description},
                 {"triangles", timed_.scene.meshes().triangle.size()},
+                {"absent_peers", absent_peers_},
                 {"depths", at_depths}};
     }
 
   private:
+    /// Mitsuba 3 in the variants wanted, each with the scene in a process of its own; those that are not
+    /// there are listed.
+    void load_peers() {
+        if (settings_.peers.empty()) {
+            return;
+        }
+        timed_.scene.set_film_size(settings_.width, settings_.height);
+        const fs::path folder = fs::temp_directory_path() / fmt::format("rtrays-bounces-{}", getpid());
+        fs::create_directories(folder);
+        export_scene(timed_.scene, folder / "scene.xml");
+        for (const std::string &variant : settings_.peers) {
+            auto peer = std::make_unique<MitsubaPeer>(folder / "scene.xml", variant);
+            if (peer->is_there()) {
+                peers_.push_back(std::move(peer));
+            } else {
+                absent_peers_.push_back("Mitsuba 3 " + variant);
+            }
+        }
+        fs::remove_all(folder);
+    }
+
     Json at_depth(uint32_t depth) {
         ReferenceRenderer reference(timed_.scene.arrays(), reference_settings(settings_, timed_, depth));
         Contest contest;
-        add(contest, "wavefront", wavefront_, depth);
-        add(contest, rivals[0], megakernel_, depth);
+        add(contest, ours, wavefront_, depth);
+        add(contest, megakernel, megakernel_, depth);
         uint64_t done = reference.render(0, settings_.spp);
-        contest.add(rivals[1],
+        contest.add(embree,
                     [&] { return time_of([&] { done = reference.render(done, done + settings_.spp); }); });
+        for (const std::unique_ptr<MitsubaPeer> &peer : peers_) {
+            peer->render(depth, settings_.spp);  // compiles
+            contest.add(peer->engine(), [&, depth] { return peer->render(depth, settings_.spp); });
+        }
         make_sessions({&wavefront_, &megakernel_});
         run_turns(contest, settings_.repetitions / 2);
         make_sessions({&megakernel_, &wavefront_});
@@ -93,9 +126,11 @@ class Bounces {
                                                                    1e-6 * samples / seconds.low})},
                                    {"processor_ms", scaled(contest.processor_seconds(contestant), 1e3)}});
         }
-        Json wavefront_over;
-        for (const char *rival : rivals) {
-            wavefront_over[rival] = to_json(contest.speed_over("wavefront", rival));
+        Json wavefront_over = Json::object();
+        for (const std::string &rival : contest.names()) {
+            if (rival != ours) {
+                wavefront_over[rival] = to_json(contest.speed_over(ours, rival));
+            }
         }
         const RenderStats stats = wavefront_.session->stats();
         const ReferenceStats theirs = reference.stats();
@@ -141,7 +176,9 @@ class Bounces {
     MeasurementSettings settings_;
     DeviceContext *device_;
     TimedScene timed_;
-    Pipeline wavefront_{"wavefront"}, megakernel_{"megakernel"};
+    Pipeline wavefront_{ours}, megakernel_{megakernel};
+    std::vector<std::unique_ptr<MitsubaPeer>> peers_;
+    Json absent_peers_ = Json::array();
 };
 
 }  // namespace
@@ -155,15 +192,15 @@ MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext 
     plan.summarise = [](const Json &rows) {
         // Geometric means over the scenes of the wavefront's speed over each rival's, by depth.
         Json means = Json::array();
-        for (size_t i = 0; i < std::size(depths); ++i) {
+        for (size_t i = 0; i < std::size(depths) && !rows.empty(); ++i) {
             Json mean = {{"max_depth", depths[i]}};
-            for (const char *rival : rivals) {
+            for (const auto &[rival, first] : rows.at(0).at("depths").at(i).at("wavefront_over").items()) {
                 double logarithms = 0;
                 for (const Json &row : rows) {
-                    logarithms += std::log(
-                        row.at("depths").at(i).at("wavefront_over").at(rival).at("value").get<double>());
+                    const Json &speed = row.at("depths").at(i).at("wavefront_over").at(rival);
+                    logarithms += std::log(speed.at("value").get<double>());
                 }
-                mean[rival] = std::exp(logarithms / static_cast<double>(std::max<size_t>(1, rows.size())));
+                mean[rival] = std::exp(logarithms / static_cast<double>(rows.size()));
             }
             means.push_back(mean);
         }

@@ -38,8 +38,8 @@ MeasurementPlan plan_bvh_animation(const MeasurementSettings &settings, DeviceCo
 MeasurementPlan plan_frame_times(const MeasurementSettings &settings, DeviceContext &device);
 
 /// Samples per second of paths of 1, 4 and 8 bounces on diffuse surfaces, roulette off, one explicit
-/// connection at every hit (thesis figure 4.22): the wavefront, one kernel for whole paths, and the Embree
-/// reference, in turns. Rows hold, by depth, rates on the wall, rays per sample, and by processor time how
+/// connection at every hit (thesis figure 4.22): the wavefront, one kernel for whole paths, the Embree
+/// reference and, where wanted and installed, Mitsuba 3, in turns. Rows hold, by depth, rates on the wall, rays per sample, and by processor time how
 /// many times faster the wavefront is.
 MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext &device);
 

@@ -89,6 +89,7 @@ MeasurementSettings settings_of(const Json &description, const Json &profile, Js
     settings.width = size.at(0);
     settings.height = size.at(1);
     settings.spp = profile.value("spp", uint64_t{1});
+    settings.peers = profile.value("peers", std::vector<std::string>());
     settings.settings = profile.value("settings", std::vector<std::string>());
     return settings;
 }

@@ -221,6 +221,19 @@ class Program(unittest.TestCase):
                 self.assertAlmostEqual(depth["rays_per_sample"] / depth["reference_rays_per_sample"], 1, delta=0.2)
                 self.assertEqual(len(depth["contestants"]), 3)
 
+    def test_peers_are_contestants_or_listed_as_absent(self):
+        document = json.loads((EXPERIMENTS / "bounces.json").read_text())
+        document["profiles"]["ci"].update(scenes=["hall_100"], peers=["scalar_rgb"])
+        out = self.folder / "out"
+        done = self.call("run", self.measurement("bounces", profiles=document["profiles"]), "--profile", "ci", "--out", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.tables(out).returncode, 0)
+        (row,) = json.loads((out / "run.json").read_text())["rows"]
+        for depth in row["depths"]:
+            mitsuba = [c["name"] for c in depth["contestants"] if c["name"].startswith("Mitsuba 3")]
+            self.assertEqual(len(mitsuba) + len(row["absent_peers"]), 1)
+            self.assertTrue(set(mitsuba) <= set(depth["wavefront_over"]))
+
     def test_ablations(self):
         """Every setting has its figures; other bins make another tree, and the same ones the same."""
         run, text = self.frames("ablations", "speeds_over_defaults")
