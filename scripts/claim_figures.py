@@ -158,10 +158,15 @@ def coherence(folder):
         yield scene_name(row), {key: rays * ratio_of_times[key] for key in ratio_of_times}
 
 
+THESIS_FRAME = [1024, 768]
+
+
 def frame_time(folder):
-    """Milliseconds on the wall, every scene."""
-    for row in Measurement(folder).get("rows"):
-        yield f"{scene_name(row)}, ms", value(row, "frame_ms")
+    """Milliseconds on the wall, every scene, where frames are as large as the thesis'."""
+    run = Measurement(folder)
+    if run.get("experiment.settings.size") == THESIS_FRAME:
+        for row in run.get("rows"):
+            yield f"{scene_name(row)}, ms", value(row, "frame_ms")
 
 
 TRACING = ("intersect_nearest", "intersect_any")
