@@ -15,8 +15,8 @@
 
 namespace rtrays {
 
-/// How the build is spread over a device, and what it builds. Group and chunk size change no bit of the result; the subtree size
-/// moves nodes in memory, but boxes, links and the order of triangles stay the same.
+/// How the build is spread over a device, and what it builds. Group and chunk size change no bit of the
+/// result; the subtree size moves nodes in memory, but boxes, links and the order of triangles stay the same.
 struct BvhBuildParameters {
     uint32_t group_size;    ///< work-items per work-group
     uint32_t chunk_size;    ///< primitives per work-item while a node is split by many

@@ -136,7 +136,6 @@ class Readers(Folders):
         (misses,) = self.figures("leaks", "traversal").values()
         self.assertEqual(misses["value"], 3)
 
-
     def test_frames(self):
         def stage(name, ms):
             return {"name": name, "ms": interval(0.9 * ms, 1.1 * ms)}
