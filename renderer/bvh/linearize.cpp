@@ -28,16 +28,16 @@ Bvh BvhLinearizer::linearize(Bvh bvh) {
     const Buffer<uint32_t> parents(*device_, "bvh node parents", node_count);
     const Buffer<uint32_t> sizes(*device_, "bvh subtree sizes", node_count);
     const Buffer<uint32_t> places(*device_, "bvh node places", node_count);
-    Buffer<StacklessNode> nodes(*device_, "bvh nodes", node_count + report.leaves);
+    Buffer<StacklessNode> nodes(*device_, "bvh nodes", 2 * size_t{node_count} + 2);
     link_parents_.bind({bvh.nodes(), node_count, parents, sizes});
     link_parents_.enqueue(node_count);
     count_subtrees_.bind({bvh.nodes(), node_count, subtree_size_, parents, sizes});
     count_subtrees_.enqueue(node_count);
     place_subtree_nodes_.bind({bvh.nodes(), node_count, subtree_size_, parents, sizes, places});
     place_subtree_nodes_.enqueue(node_count);
-    write_stackless_nodes_.bind({bvh.nodes(), node_count, sizes, places, nodes});
+    write_stackless_nodes_.bind({bvh.nodes(), node_count, parents, places, nodes});
     write_stackless_nodes_.enqueue(node_count);
-    link_stackless_nodes_.bind({bvh.nodes(), node_count, parents, sizes, places, nodes});
+    link_stackless_nodes_.bind({bvh.nodes(), node_count, parents, places, nodes});
     link_stackless_nodes_.enqueue(node_count);
     device_->finish();
 

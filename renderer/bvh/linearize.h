@@ -6,7 +6,7 @@
 
 namespace rtrays {
 
-/// Brings the nodes of two-wide hierarchies into depth-first order on a device (shared/stackless_node.h).
+/// Makes two-wide hierarchies ones that are traversed without a stack, on a device (shared/stackless_node.h).
 class BvhLinearizer {
   public:
     /// `subtree_size`: a subtree of at most so many triangles is numbered by one work-item; changes no bit of the result.

@@ -67,11 +67,11 @@ bool BvhRefitter::refit(Bvh &bvh, const Buffer<float> &positions, const Buffer<u
     }
     faults_.fill(0);
     bvh.visit([&](const auto &nodes, const auto &triangles) {
-        const auto count = static_cast<uint32_t>(nodes.size()), records = static_cast<uint32_t>(triangles.size());
+        const auto records = static_cast<uint32_t>(triangles.size());
         refit_triangles_.bind({positions, vertex_count, indices, records, triangles, faults_});
         refit_triangles_.enqueue(records);
         for (size_t level = levels_.size() - 1; level-- > 0;) {
-            refit_nodes_.bind({order_, levels_[level], levels_[level + 1], count, nodes, triangles});
+            refit_nodes_.bind({order_, levels_[level], levels_[level + 1], nodes, triangles});
             refit_nodes_.enqueue(levels_[level + 1] - levels_[level]);
         }
     });

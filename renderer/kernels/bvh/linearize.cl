@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The two-wide tree in depth-first order (shared/stackless_node.h), a work-item per node in each stage: link_parents ->
-// count_subtrees -> place_subtree_nodes -> write_stackless_nodes -> link_stackless_nodes. Nodes that hold more than the subtree
-// size of triangles are on their own, the highest below them answer for all of their subtree.
+// The two-wide tree as traversal without a stack reads it (shared/stackless_node.h), a work-item per node in each stage:
+// link_parents -> count_subtrees -> place_subtree_nodes (in depth-first order) -> write_stackless_nodes ->
+// link_stackless_nodes. Nodes that hold more than the subtree size of triangles are on their own, the highest below them
+// answer for all of their subtree.
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/stackless_node.h"
 
@@ -17,18 +18,9 @@ static bool is_first(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, ui
            is_large(nodes + (parents[index] >> 1), subtree_size);
 }
 
-/// How many nodes in depth-first order a node is: itself and the leaves that are its children.
-static uint own_size(GLOBAL const BvhNode *node) {
-    uint size = 1;
-    for (uint side = 0; side < 2; ++side) {
-        size += !has_node(node, side) && node->count[side] > 0 ? 1u : 0u;
-    }
-    return size;
-}
-
-/// Nodes in depth-first order below and including child `side`.
+/// Nodes below and including child `side`.
 static uint child_size(GLOBAL const BvhNode *node, uint side, GLOBAL const uint *sizes) {
-    return has_node(node, side) ? sizes[node->child[side]] : node->count[side] > 0 ? 1u : 0u;
+    return has_node(node, side) ? sizes[node->child[side]] : 0u;
 }
 
 /// `parents`: 2 x number + side. `sizes`: of the node alone; count_subtrees adds what is below.
@@ -45,10 +37,10 @@ __kernel void link_parents(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL 
     if (index == 0) {
         parents[0] = BVH_NO_PARENT;
     }
-    sizes[index] = own_size(nodes + index);
+    sizes[index] = 1;
 }
 
-/// The node after `node` in depth-first order without leaves, below `root`; BVH_NO_PARENT after the last one.
+/// The node after `node` in depth-first order, below `root`; BVH_NO_PARENT after the last one.
 static uint next_node(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, uint root, uint node) {
     for (uint side = 0; side < 2; ++side) {
         if (has_node(nodes + node, side)) {
@@ -65,21 +57,20 @@ static uint next_node(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, u
     return BVH_NO_PARENT;
 }
 
-/// Adds every node's own size to those above it, up to the first of its subtree, and that of the whole subtree further up.
+/// Counts every node with those above it, up to the first of its subtree, and the whole subtree further up.
 __kernel void count_subtrees(GLOBAL const BvhNode *nodes, uint node_count, uint subtree_size, GLOBAL const uint *parents,
                              GLOBAL uint *sizes) {
     const uint index = (uint)get_global_id(0);
     if (index >= node_count || !is_first(nodes, parents, index, subtree_size)) {
         return;
     }
-    uint size = own_size(nodes + index);
+    uint size = 1;
     if (!is_large(nodes + index, subtree_size)) {
         for (uint node = next_node(nodes, parents, index, index); node != BVH_NO_PARENT;
              node = next_node(nodes, parents, index, node)) {
-            const uint own = own_size(nodes + node);
-            size += own;
+            ++size;
             for (uint up = parents[node] >> 1; up != index; up = parents[up] >> 1) {
-                sizes[up] += own;
+                ++sizes[up];
             }
         }
         sizes[index] = size;
@@ -89,7 +80,7 @@ __kernel void count_subtrees(GLOBAL const BvhNode *nodes, uint node_count, uint 
     }
 }
 
-/// The place of every node among those of the subtree below it, and of leaves.
+/// The place of every node in depth-first order.
 __kernel void place_subtree_nodes(GLOBAL const BvhNode *nodes, uint node_count, uint subtree_size, GLOBAL const uint *parents,
                                   GLOBAL const uint *sizes, GLOBAL uint *places) {
     const uint index = (uint)get_global_id(0);
@@ -134,76 +125,76 @@ static uint octants_right_first(GLOBAL const BvhNode *node) {
     return distance >= 0.0f ? towards_lower[widest] : ~towards_lower[widest] & 0xffu;
 }
 
-/// Writes the boxes and leaves of the children of a node, and what it knows of them; the root's work-item writes the root, too.
-__kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const uint *sizes,
+/// An empty leaf, from where the way ends.
+static StacklessNode no_node(void) {
+    StacklessNode node;
+    for (uint axis = 0; axis < 3; ++axis) {
+        node.bounds[0][axis] = INFINITY;
+        node.bounds[1][axis] = -INFINITY;
+    }
+    node.link = BVH_EMPTY_LEAF;
+    node.right_first = 0;
+    for (uint octant = 0; octant < 8; ++octant) {
+        node.escape[octant] = 0;
+    }
+    return node;
+}
+
+/// Writes the boxes and leaves of a node's children, and how the way goes on below it; the root's work-item writes its box, too.
+__kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const uint *parents,
                                     GLOBAL const uint *places, GLOBAL StacklessNode *stackless_nodes) {
     const uint index = (uint)get_global_id(0);
     if (index >= node_count) {
         return;
     }
     GLOBAL const BvhNode *node = nodes + index;
-    GLOBAL StacklessNode *stackless = stackless_nodes + places[index];
-    if (index == 0) {
+    GLOBAL StacklessNode *stackless = stackless_nodes;
+    if (index > 0) {
+        stackless += stackless_child(places[parents[index] >> 1], parents[index] & 1u);
+    } else {
+        stackless_nodes[0] = stackless_nodes[1] = no_node();
         for (uint axis = 0; axis < 3; ++axis) {
             stackless->bounds[0][axis] = lesser(node->bounds[0][0][axis], node->bounds[1][0][axis]);
             stackless->bounds[1][axis] = greater(node->bounds[0][1][axis], node->bounds[1][1][axis]);
         }
     }
-    const bool has_right = node->count[1] > 0;
-    uint place = places[index] + 1u;
-    stackless->link = has_right ? place + child_size(node, 0, sizes) : sizes[0];
-    stackless->right_first = has_right ? octants_right_first(node) : 0u;
+    stackless->link = stackless_child(places[index], 0);
+    stackless->right_first = octants_right_first(node);
     for (uint side = 0; side < 2; ++side) {
-        const uint size = child_size(node, side, sizes);
-        if (size > 0) {
-            write_box(stackless_nodes + place, node->bounds[side]);
-            if ((node->child[side] & BVH_LEAF_BIT) != 0) {
-                stackless_nodes[place].link = node->child[side];
-                stackless_nodes[place].right_first = 0;
-            }
+        GLOBAL StacklessNode *child = stackless_nodes + stackless_child(places[index], side);
+        write_box(child, node->bounds[side]);
+        if (!has_node(node, side)) {
+            child->link = node->child[side];
+            child->right_first = 0;
         }
-        place += size;
     }
 }
 
 /// From the child that comes first the way goes on to the other, and from there where it goes on from their parent; that is the
 /// other child of the first one above, on the way up, that comes first itself.
 __kernel void link_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const uint *parents,
-                                   GLOBAL const uint *sizes, GLOBAL const uint *places, GLOBAL StacklessNode *stackless_nodes) {
+                                   GLOBAL const uint *places, GLOBAL StacklessNode *stackless_nodes) {
     const uint index = (uint)get_global_id(0);
     if (index >= node_count) {
         return;
     }
-    const uint count = sizes[0];
-    uint after[8];
-    for (uint octant = 0; octant < 8; ++octant) {
-        after[octant] = count;
-    }
+    uint after[8] = {0};
     uint open = 0xffu;  // octants for which it is not known yet
     for (uint up = parents[index]; up != BVH_NO_PARENT && open != 0; up = parents[up >> 1]) {
-        const uint place = places[up >> 1];
-        const uint right_first = stackless_nodes[place].right_first;
-        const bool is_right = (up & 1u) != 0;
-        const uint found = open & (is_right ? right_first : ~right_first);
-        const uint other = is_right ? place + 1u : stackless_nodes[place].link;
+        const uint right_first = octants_right_first(nodes + (up >> 1));
+        const uint found = open & ((up & 1u) != 0 ? right_first : ~right_first);
+        const uint other = stackless_child(places[up >> 1], 1u - (up & 1u));
         for (uint octant = 0; octant < 8; ++octant) {
             after[octant] = (found >> octant & 1u) != 0 ? other : after[octant];
         }
         open &= ~found;
     }
-    const uint place = places[index];
-    const uint left = place + 1u;
-    const uint right = stackless_nodes[place].link;
+    const uint left = stackless_child(places[index], 0);
+    const uint right = stackless_child(places[index], 1);
+    const uint right_first = octants_right_first(nodes + index);
     for (uint octant = 0; octant < 8; ++octant) {
-        const bool right_first = (stackless_nodes[place].right_first >> octant & 1u) != 0;
-        if (index == 0) {
-            stackless_nodes[place].escape[octant] = count;
-        }
-        if (left < count) {
-            stackless_nodes[left].escape[octant] = right_first ? after[octant] : right;
-        }
-        if (right < count) {
-            stackless_nodes[right].escape[octant] = right_first ? left : after[octant];
-        }
+        const bool is_right_first = (right_first >> octant & 1u) != 0;
+        stackless_nodes[left].escape[octant] = is_right_first ? after[octant] : right;
+        stackless_nodes[right].escape[octant] = is_right_first ? left : after[octant];
     }
 }

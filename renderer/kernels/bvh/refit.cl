@@ -9,13 +9,14 @@
 #include "renderer/shared/bvh_layout.h"
 
 /// Sets the parents of the nodes below a node. Node 0 is the one above all others.
-static void link_children(GLOBAL const BVH_NODE *nodes, uint node_count, uint index, GLOBAL uint *parents) {
+static void link_children(GLOBAL const BVH_NODE *nodes, uint index, GLOBAL uint *parents) {
 #if BVH_LAYOUT == BVH_LAYOUT_STACKLESS
-    if ((nodes[index].link & BVH_LEAF_BIT) == 0 && node_count > 1) {
-        parents[index + 1u] = index;
-        if (nodes[index].link < node_count) {
-            parents[nodes[index].link] = index;
-        }
+    if ((nodes[index].link & BVH_LEAF_BIT) == 0) {
+        parents[nodes[index].link] = index;
+        parents[nodes[index].link + 1u] = index;
+    }
+    if (index == 1) {  // read by nobody
+        parents[index] = 0;
     }
 #else
     for (uint i = 0; i < sizeof(nodes->child) / sizeof(uint); ++i) {
@@ -30,7 +31,7 @@ static void link_children(GLOBAL const BVH_NODE *nodes, uint node_count, uint in
 __kernel void link_parents(GLOBAL const BVH_NODE *nodes, uint node_count, GLOBAL uint *parents) {
     const uint index = (uint)get_global_id(0);
     if (index < node_count) {
-        link_children(nodes, node_count, index, parents);
+        link_children(nodes, index, parents);
     }
 }
 
@@ -174,7 +175,7 @@ static Interval bounds_below(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIA
     return all;
 }
 
-__kernel void refit_nodes(GLOBAL const uint *order, uint level_begin, uint level_end, uint node_count, GLOBAL BVH_NODE *nodes,
+__kernel void refit_nodes(GLOBAL const uint *order, uint level_begin, uint level_end, GLOBAL BVH_NODE *nodes,
                           GLOBAL const BVH_TRIANGLES *triangles) {
     const uint place = level_begin + (uint)get_global_id(0);
     if (place >= level_end) {
@@ -184,16 +185,9 @@ __kernel void refit_nodes(GLOBAL const uint *order, uint level_begin, uint level
     GLOBAL BVH_NODE *node = nodes + index;
     for (uint axis = 0; axis < 3; ++axis) {
 #if BVH_LAYOUT == BVH_LAYOUT_STACKLESS
-        Interval all;
-        if ((node->link & BVH_LEAF_BIT) != 0) {
-            all = bounds_below(nodes, triangles, node->link, axis);
-        } else if (node_count > 1) {
-            all = bounds_below(nodes, triangles, index + 1u, axis);
-            if (node->link < node_count) {
-                extend(&all, nodes[node->link].bounds[0][axis], nodes[node->link].bounds[1][axis]);
-            }
-        } else {  // a tree of nothing
-            continue;
+        Interval all = bounds_below(nodes, triangles, node->link, axis);
+        if ((node->link & BVH_LEAF_BIT) == 0) {
+            extend(&all, nodes[node->link + 1u].bounds[0][axis], nodes[node->link + 1u].bounds[1][axis]);
         }
         node->bounds[0][axis] = all.lower;
         node->bounds[1][axis] = all.upper;

@@ -18,19 +18,14 @@ DEVICE Hit traverse_stackless(GLOBAL const StacklessNode *nodes, GLOBAL const Le
         return hit;
     }
     const uint octant = ray.entry_side[0] | ray.entry_side[1] << 1 | ray.entry_side[2] << 2;
-    const uint end = nodes->escape[octant];
-    uint index = end > 1u ? 1u : end;
-    if ((nodes->right_first >> octant & 1u) != 0) {
-        index = nodes->link;
-    }
-    while (index != end) {
+    uint index = nodes->link + (nodes->right_first >> octant & 1u);
+    while (index != 0) {
         GLOBAL const StacklessNode *node = nodes + index;
         COUNT(hit, nodes, 1u);
-        const bool is_leaf = (node->link & BVH_LEAF_BIT) != 0;
         if (intersect_box(node->bounds, &ray, hit.t) == INFINITY) {
             index = node->escape[octant];
-        } else if (!is_leaf) {
-            index = (node->right_first >> octant & 1u) != 0 ? node->link : index + 1u;
+        } else if ((node->link & BVH_LEAF_BIT) == 0) {
+            index = node->link + (node->right_first >> octant & 1u);
         } else {
             index = node->escape[octant];
             intersect_leaf(triangles, node->link, &ray, &hit);
