@@ -21,8 +21,8 @@ uint32_t divide_up(uint32_t a, uint32_t b) {
     return a / b + (a % b != 0 ? 1 : 0);
 }
 
-/// An unsplit node is above the subtree size, so a level has at most this many; no level is deeper than the
-/// traversal stack, which bounds nodes and subtrees of the large phase.
+/// An unsplit node is above the subtree size, so a level has at most this many; no level is deeper than
+/// leaves may be, which bounds nodes and subtrees of the large phase.
 struct Capacities {
     uint32_t tasks, chunks, top_nodes, subtrees;
     size_t bin_sets;  ///< a BinSet is one of the usual number of bins and axes
@@ -31,7 +31,7 @@ struct Capacities {
         tasks = triangles / parameters.subtree_size + 1;
         chunks = triangles / parameters.chunk_size + tasks + 1;
         top_nodes =
-            static_cast<uint32_t>(std::min<uint64_t>(uint64_t{BVH_STACK_SIZE} * tasks, triangles + 1u));
+            static_cast<uint32_t>(std::min<uint64_t>(uint64_t{BVH_BINNED_DEPTH} * tasks, triangles + 1u));
         subtrees = top_nodes + 1;
         const size_t usual = size_t{BVH_BINS} * BVH_BINNED_AXES;
         bin_sets = (chunks * size_t{parameters.bins} * parameters.axes + usual - 1) / usual;

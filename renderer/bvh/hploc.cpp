@@ -107,7 +107,7 @@ std::optional<Bvh> HplocBuilder::build(GatheredPrimitives gathered, const Buffer
     cluster(work, count);
     const ClusterState state = work.state.read().front();
     const uint64_t clustering = work.codes.bytes() + order.bytes() + work.clusters.bytes() + work.bytes();
-    if (state.depth >= BVH_STACK_SIZE - 1) {
+    if (state.depth > BVH_MAX_DEPTH) {
         return std::nullopt;
     }
     Buffer<BvhNode> nodes(*device_, "bvh nodes", state.node_count);

@@ -20,13 +20,17 @@
 
 /// The builder splits by area as long as a node is less deep than this, and in halves by count from here on.
 /// A node at this depth holds at most BVH_MAX_TRIANGLES = 2^26 triangles, and 24 halvings bring those to
-/// four: no leaf is deeper than 38 + 24 = 62.
+/// four: no leaf of it is deeper than BVH_BINNED_DEPTH = 38 + 24.
 #define BVH_AREA_DEPTH 38u
+#define BVH_BINNED_DEPTH 62u
 #define BVH_MAX_TRIANGLES (1u << 26)
 
+/// No leaf of any tree is deeper. Clustering has no bound of its own and gives up beyond (hploc.h).
+#define BVH_MAX_DEPTH 94u
+
 /// Traversal keeps at most one postponed child for each level above the current node, hence never more than
-/// 62 entries: its stack cannot overflow.
-#define BVH_STACK_SIZE 64u
+/// BVH_MAX_DEPTH entries: its stack cannot overflow.
+#define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2u)
 
 typedef struct BvhNode {
     float bounds[2][2][3];  ///< [left, right][lower, upper][x, y, z], scene units; lower > upper: empty

@@ -22,8 +22,8 @@ typedef struct TriangleBlock {
     uint id[WIDE_LANES];                 ///< indices in the scene's list of triangles
 } TriangleBlock;
 
-/// Every level of the two-wide tree, at most 62 (bvh_node.h), postpones up to seven children.
-#define WIDE_STACK_SIZE (62u * (WIDE_LANES - 1u) + WIDE_LANES)
+/// Every level of the two-wide tree postpones up to seven children.
+#define WIDE_STACK_SIZE (BVH_MAX_DEPTH * (WIDE_LANES - 1u) + WIDE_LANES)
 
 DEVICE uint wide_leaf(uint block, uint count) {
     return BVH_LEAF_BIT | ((count - 1u) << BVH_COUNT_SHIFT) | block;

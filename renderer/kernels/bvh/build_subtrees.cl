@@ -71,7 +71,7 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
     const float area_scale = state->inverse_extent;
 
     // The right sibling of each node on the way down waits here: never more than the depth of a leaf.
-    PendingRange pending[BVH_STACK_SIZE];
+    PendingRange pending[BVH_BINNED_DEPTH];
     uint pending_count = 0;
     uint node_count = 0;
     uint leaf_count = 0;
