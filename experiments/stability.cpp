@@ -85,11 +85,22 @@ Moments moments_of(const std::vector<double> &values) {
     return result;
 }
 
-/// The mean over batches of the squared error of pixels.
-double mean_squared_error(const std::vector<Image> &images, const Image &expected) {
-    double mse = 0;
+/// The mean variance of the pixels of an expected image.
+double expected_error(const ExpectedImage &expected) {
+    double sum = 0;
+    for (const std::string &channel : rgb_names()) {
+        const std::vector<double> means = expected.noisy ? block_means(expected.mean, "variance." + channel) : std::vector<double>{0};
+        sum += means.back() / 3;
+    }
+    return sum;
+}
+
+/// The mean over batches of the squared error of pixels; that of the expected image, where it has one, is taken off: on average
+/// it adds its variance.
+double mean_squared_error(const std::vector<Image> &images, const ExpectedImage &expected) {
+    double mse = -expected_error(expected);
     for (const Image &image : images) {
-        mse += compute_metrics(image, expected).mse / static_cast<double>(images.size());
+        mse += compute_metrics(image, expected.mean).mse / static_cast<double>(images.size());
     }
     return mse;
 }
@@ -143,7 +154,8 @@ StabilityTest test_stability(const std::vector<Image> &images, const ExpectedIma
     }
     const double difference = (result.measured - result.expected) / result.expected, reach = near * error / result.expected;
     result.difference = {difference, difference - reach, difference + reach};
-    result.mse = mean_squared_error(images, expected.mean) / std::pow(result.expected, 2);
+    result.mse = mean_squared_error(images, expected) / std::pow(result.expected, 2);
+    result.mse_expected = expected_error(expected) / std::pow(result.expected, 2);
     result.verdict = result.rejected > 0 ? "off" : result.tests <= result.undecided ? "undecided" : reach > within ? "imprecise" : "ok";
     return result;
 }
@@ -239,7 +251,7 @@ StabilityTest test_case(const StabilityCase &tested, const RenderSettings &setti
     }
     const Image mean = average_images(others);
     StabilityTest result = test_stability(paired(rendered.images, others, mean), {mean, false}, tested.bound, tested.within, alpha);
-    result.mse = mean_squared_error(rendered.images, mean) / std::pow(result.expected, 2);
+    result.mse = mean_squared_error(rendered.images, {mean, false}) / std::pow(result.expected, 2);
     return result;
 }
 
@@ -261,20 +273,20 @@ const char *name_of(Expectation expectation) {
 Json measure(const StabilityCase &tested, double alpha, DeviceContext &device, const fs::path &images) {
     Image reference;
     if (tested.expectation == Expectation::reference) {
-        reference = render_reference(tested, tested.runs.front());
+        reference = render_reference(tested, tested.runs.front().settings);
         write_exr(reference, images / fmt::format("{}.reference.exr", tested.name));
     }
     Json rows = Json::array();
-    for (const RenderSettings &settings : tested.runs) {
+    for (const auto &[name, settings] : tested.runs) {
         const Batches rendered = render(tested.scene, tested, settings, device);
         const bool finite = rendered.non_finite == 0 && (rendered.out_of_range == 0 || tested.expectation == Expectation::saturates);
         const StabilityTest test = test_case(tested, settings, rendered, reference, alpha, device);
-        write_exr(average_images(rendered.images), images / fmt::format("{}.{}.exr", tested.name, settings.algorithm));
+        write_exr(average_images(rendered.images), images / fmt::format("{}.{}.exr", tested.name, name));
         rows.push_back({{"case", tested.name},
                         {"group", tested.group},
                         {"stiffness", tested.stiffness},
                         {"title", tested.title},
-                        {"algorithm", settings.algorithm},
+                        {"algorithm", name},
                         {"settings", changed_settings(settings)},
                         {"against", name_of(tested.expectation)},
                         {"expected", test.expected},
@@ -290,6 +302,7 @@ Json measure(const StabilityCase &tested, double alpha, DeviceContext &device, c
                         {"saturated", rendered.out_of_range},
                         {"spp", tested.spp},
                         {"mse", test.mse},
+                        {"mse_expected", test.mse_expected},
                         {"seconds", rendered.seconds}});
     }
     for (const auto &[algorithm, why] : tested.unseen) {
@@ -353,8 +366,8 @@ ExitCode run_stability(const RunOptions &options) {
     size_t rows = 0, tests = 0;
     for (const StabilityCase &tested : suite.cases) {
         rows += tested.runs.size();
-        for (const RenderSettings &settings : tested.runs) {
-            tests += tests_of(settings.width);
+        for (const StabilityRun &run : tested.runs) {
+            tests += tests_of(run.settings.width);
         }
     }
     if (options.dry_run) {

@@ -22,10 +22,12 @@ struct ExpectedImage {
 struct StabilityTest {
     double expected = 0, measured = 0;  ///< means over pixels and channels
     Interval difference;                ///< of them, over `expected`
-    size_t tests = 0;                   ///< blocks of 16 x 16 pixels and the whole, by channel, less those undecided
+    size_t tests = 0;                   ///< blocks of 8 x 8 pixels and the whole, by channel, less those undecided
     size_t undecided = 0;               ///< batches too skewed for a t interval
     size_t rejected = 0;                ///< the interval lies outside expected * (1 +- bound)
-    double mse = 0;                     ///< of a batch: mean over pixels and channels of (batch - expected)^2, over `expected`^2
+    double mse = 0;                     ///< of a batch: mean over pixels and channels of (batch - expected)^2, over `expected`^2;
+                                        ///< without what the noise of the expected image adds on average
+    double mse_expected = 0;            ///< that noise: mean variance over pixels and channels, over `expected`^2
     std::string verdict;                ///< "ok", "off", "undecided" or "imprecise"
 };
 

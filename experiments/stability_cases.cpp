@@ -139,18 +139,26 @@ StabilityCase read_case(const DescriptionFile &file, const Json &json, std::map<
             value = parameters.text(value);
         }
     }
-    for (const std::string algorithm : setting("algorithms")) {
+    for (const Json &choice : setting("algorithms")) {
+        const std::string algorithm = choice.is_string() ? choice : choice.at("algorithm");
+        const Json own = choice.is_string() ? Json::object() : choice.at("settings");
         if (result.unseen.count(algorithm) > 0) {
             continue;
         }
-        RenderSettings settings = parse_render_settings({{"algorithm", algorithm}, {"settings", chosen}});
+        Json all = chosen;
+        std::string name = algorithm;
+        for (const auto &[key, value] : own.items()) {
+            all[key] = value;
+            name += fmt::format(" {}", value.is_string() ? value.get<std::string>() : value.dump());
+        }
+        RenderSettings settings = parse_render_settings({{"algorithm", algorithm}, {"settings", all}});
         settings.width = settings.height = setting("size");
         settings.variance = false;
         settings.features = profile.at("features");
         // No more room than a batch fills: empty queue entries cost time in every round, and no bit depends on it.
         const double paths = static_cast<double>(result.spp) / 32 * settings.width * settings.height;
         settings.stream_capacity = static_cast<uint32_t>(std::clamp(paths, 256.0, 16384.0));
-        result.runs.push_back(settings);
+        result.runs.push_back({name, settings});
     }
     return result;
 }

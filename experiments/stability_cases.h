@@ -31,6 +31,12 @@ enum class Expectation {
     saturates     ///< samples beyond the film's range must be counted and reported, not clamped or wrapped
 };
 
+/// One of the algorithms that render a case.
+struct StabilityRun {
+    std::string name;  ///< with the values of its own settings: "path_tracing implicit"
+    RenderSettings settings;
+};
+
 struct StabilityCase {
     std::string name;       ///< with the values of its sweep: "furnace rho=0.5"
     std::string group;      ///< without
@@ -41,7 +47,7 @@ struct StabilityCase {
     std::array<double, 3> expected{};    ///< radiance by channel, of a closed form
     SceneVariant other;                  ///< of `like`
     std::array<size_t, 3> channels{};    ///< of `like`: the channel of `other` that each must equal
-    std::vector<RenderSettings> runs;    ///< one per algorithm; with size
+    std::vector<StabilityRun> runs;      ///< with size
     std::map<std::string, std::string> unseen;  ///< algorithms that cannot render it, and why
     uint64_t spp = 0;                    ///< of all batches together
     uint64_t reference_spp = 0;

@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "renderer/base/error.h"
+
 namespace rtrays {
 
 namespace {
@@ -162,11 +164,24 @@ const char *name_of(EmbreeCall call, Query query) {
     return names[call == EmbreeCall::packets ? 1 : 0][query == Query::any ? 1 : 0];
 }
 
-EmbreeTracer::EmbreeTracer(const test::Mesh &mesh, uint32_t threads, const std::string &isa,
-                           uint32_t simd_width)
-    : isa_(isa),
+std::vector<EmbreeIsa> embree_isas() {
+    std::vector<EmbreeIsa> present;
+    for (const EmbreeIsa &isa : {EmbreeIsa{"sse4.2", 128}, EmbreeIsa{"avx2", 256}, EmbreeIsa{"avx512", 512}}) {
+        if (const RTCDevice device = rtcNewDevice(fmt::format("threads=1,isa={}", isa.name).c_str())) {
+            rtcReleaseDevice(device);
+            present.push_back(isa);
+        }
+    }
+    if (present.empty()) {
+        throw Error(ExitCode::run_failed, "Embree needs a processor with SSE4.2");
+    }
+    return present;
+}
+
+EmbreeTracer::EmbreeTracer(const test::Mesh &mesh, uint32_t threads, const EmbreeIsa &isa)
+    : isa_(isa.name),
       threads_(threads),
-      scene_(mesh, fmt::format("threads={},isa={},frequency_level=simd{}", threads, isa, simd_width)) {}
+      scene_(mesh, fmt::format("threads={},isa={},frequency_level=simd{}", threads, isa.name, isa.width)) {}
 
 template <typename Work>
 size_t EmbreeTracer::on_all_threads(size_t count, const Work &work) const {
@@ -212,9 +227,8 @@ std::vector<float> EmbreeTracer::nearest(const std::vector<RayRecord> &rays) con
 
 std::vector<std::unique_ptr<EmbreeTracer>> embree_tracers(const test::Mesh &mesh, uint32_t threads) {
     std::vector<std::unique_ptr<EmbreeTracer>> tracers;
-    for (const auto &[isa, width] :
-         {std::pair("sse4.2", 128u), std::pair("avx2", 256u), std::pair("avx512", 512u)}) {
-        tracers.push_back(std::make_unique<EmbreeTracer>(mesh, threads, isa, width));
+    for (const EmbreeIsa &isa : embree_isas()) {
+        tracers.push_back(std::make_unique<EmbreeTracer>(mesh, threads, isa));
     }
     return tracers;
 }

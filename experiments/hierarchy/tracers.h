@@ -75,10 +75,19 @@ enum class EmbreeCall { single, packets };
 
 const char *name_of(EmbreeCall call, Query query);
 
+/// An instruction set that Embree is built for, and the bits of its registers.
+struct EmbreeIsa {
+    const char *name;
+    uint32_t width;
+};
+
+/// Those that this processor has, the widest last. Throws `Error` where there is none.
+std::vector<EmbreeIsa> embree_isas();
+
 /// Embree's hierarchy of medium quality, ROBUST, traced by as many threads as it was built by.
 class EmbreeTracer {
   public:
-    EmbreeTracer(const test::Mesh &mesh, uint32_t threads, const std::string &isa, uint32_t simd_width);
+    EmbreeTracer(const test::Mesh &mesh, uint32_t threads, const EmbreeIsa &isa);
 
     const test::EmbreeScene &scene() const { return scene_; }
     const std::string &isa() const { return isa_; }
@@ -99,7 +108,7 @@ class EmbreeTracer {
     test::EmbreeScene scene_;
 };
 
-/// One for every instruction set.
+/// One for every instruction set of this processor.
 std::vector<std::unique_ptr<EmbreeTracer>> embree_tracers(const test::Mesh &mesh, uint32_t threads);
 
 }  // namespace rtrays

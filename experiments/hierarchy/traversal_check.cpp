@@ -82,7 +82,7 @@ struct Verdict {
 Json compare_hits(DeviceContext &device, const std::string &name, size_t ray_count) {
     const test::Mesh mesh = load_measured_mesh(name).mesh;
     const uint32_t threads = device.info().compute_units;
-    const EmbreeTracer embree(mesh, threads, "avx512", 512);
+    const EmbreeTracer embree(mesh, threads, embree_isas().back());
     const test::DoubleJudge judge(mesh);
     std::vector<std::string> names;
     const std::vector<DeviceTracer> tracers = tracers_of(device, mesh, names);

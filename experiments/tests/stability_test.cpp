@@ -87,12 +87,28 @@ TEST(Stability, CountsTheNoiseOfTheReference) {
     EXPECT_EQ(test_stability(batches(noise), noisy, 0, 0.1, alpha).verdict, "ok");
 }
 
+TEST(Stability, LeavesTheNoiseOfTheReferenceOutOfTheError) {
+    std::mt19937 generator(2);
+    std::normal_distribution<double> far(1, 0.3);
+    ExpectedImage noisy{filled([&](int) { return far(generator); }), true};
+    for (const std::string &channel : rgb_names("variance")) {
+        noisy.mean.add_channel(channel).assign(size * size, 0.09f);
+    }
+    const StabilityTest test = test_stability(batches(noise), noisy, 0, 0.1, alpha);
+    EXPECT_NEAR(test.mse, 0.01, 0.025);  // 768 values of the reference: 0.09 +- 5 %, and 5 sigma
+    EXPECT_NEAR(test.mse_expected, 0.09, 0.01);
+}
+
 TEST(StabilityCases, AreReadWithTheirSweepsAndFormulas) {
     const StabilitySuite suite = load_stability(RTRAYS_EXPERIMENTS "/stability.json", "quick");
     EXPECT_GT(suite.cases.size(), 100u);
     const auto found = std::find_if(suite.cases.begin(), suite.cases.end(), [](const StabilityCase &c) { return c.name == "furnace rho=0.5"; });
     ASSERT_NE(found, suite.cases.end());
     EXPECT_EQ(found->expected, (std::array<double, 3>{2, 1, 0.5}));
+    const StabilitySuite stiff = load_stability(RTRAYS_EXPERIMENTS "/stiffness.json", "quick");
+    EXPECT_TRUE(stiff.survey);
+    EXPECT_EQ(stiff.cases.front().runs.front().name, "path_tracing implicit");
+    EXPECT_EQ(stiff.cases.front().runs.front().settings.strategies, "implicit");
     for (const char *profile : {"ci", "full"}) {
         for (const StabilityCase &tested : load_stability(RTRAYS_EXPERIMENTS "/stability.json", profile).cases) {
             EXPECT_NO_THROW(tested.scene.load()) << tested.name;
