@@ -5,12 +5,13 @@ PROFILE ?= quick
 REFERENCE_SPP ?= 100000
 JOBS ?= $(shell nproc)
 BENCH ?= .
+STIFFNESS ?= results/stiffness
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors mirror_ring glass_goblets door_ajar floor_lamps
 MEASUREMENTS = bvh_build bvh_animation ray_rates frame_times bounces ablations
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability bench measurements references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability stiffness instructions bench measurements references format lint clean
 
 all: build
 
@@ -31,6 +32,7 @@ reproduce-chapter4: programs
 	done
 	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out $(CHAPTER4)/stability || [ $$? -eq 3 ]
 	build/bin/rtrays-experiment control experiments/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
+	$(if $(filter full,$(PROFILE)),$(MAKE) --no-print-directory stiffness STIFFNESS=$(CHAPTER4)/stiffness)
 	$(MAKE) --no-print-directory report
 
 # Tables, plots and pages from the run.json files that are there.
@@ -73,6 +75,16 @@ specialisation: programs
 # Stiff and extreme cases by every algorithm that can render them: a table, and exit code 3 if one fails.
 stability: programs
 	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out build/stability.$(PROFILE)
+
+# Roughness and light size towards zero: where each algorithm fails; on an idle machine, a quarter of an hour.
+stiffness: programs
+	build/bin/rtrays-experiment run experiments/stiffness.json --profile full --out $(STIFFNESS)
+	/usr/bin/python3 scripts/stiffness $(STIFFNESS)
+
+# Instructions per ray by layout and by Embree, counted by Valgrind, which scripts/install does not install.
+instructions: programs
+	scripts/instructions build/bin/rtrays-render build/bin/rtrays-reference scenes/cornell_bumps/scene.json > results/instructions.md.new
+	mv results/instructions.md.new results/instructions.md
 
 # The hierarchy beside Embree's: rays per second by mesh and kind of ray, and how long it takes to build; on an idle machine.
 # A part of them: BENCH=sphere (a regular expression). `make measurements` makes tables of the same turns.

@@ -16,6 +16,7 @@
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/pipeline/compile_scene.h"
 #include "renderer/tests/chi_square.h"
+#include "renderer/tests/float_traps.h"
 #include "renderer/tests/shapes_double.h"
 
 namespace rtrays {
@@ -272,6 +273,7 @@ TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
 
 TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const test::InvalidAllowed points_that_are_none;
     for (const double aperture : {0.0, 0.25}) {
         const CameraRecord camera =
             compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, 3), 0, 40, 20);

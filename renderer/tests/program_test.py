@@ -205,6 +205,21 @@ class Program(unittest.TestCase):
         self.assertEqual(self.words(first), self.words(whole))
         self.expect_error(2, ["overlap"], "merge", whole, second, "-o", self.path / "none.exr")
 
+    def test_passes_of_two_devices_have_the_bits_of_one(self):
+        environment = dict(os.environ, POCL_DEVICES="basic pthread")
+        devices = self.run_program("--list-devices", env=environment).stdout.splitlines()
+        if len(devices) < 2 or not devices[0].startswith("basic") or not devices[1].startswith("pthread"):
+            self.skipTest("PoCL with two devices is not the first platform")
+        settings = ("--spp", "2", "--algorithm", "truncated_bdpt")
+        whole = self.film("whole", *settings, "--device", "0:1", env=environment)
+        camera = self.film("camera", *settings, "--passes", "camera", "--device", "0:0", env=environment)
+        light = self.film("light", *settings, "--passes", "light", "--device", "0:1", env=environment)
+        merged = self.path / "merged"
+        result = self.run_program("merge", light, camera, "-o", self.path / "merged.exr", "--state", merged)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotEqual(self.words(camera), self.words(whole))
+        self.assertEqual(self.words(merged), self.words(whole))
+
     def test_a_damaged_film_is_refused(self):
         state = self.film("film", "--spp", "1")
         content = bytearray(state.read_bytes())

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "renderer/tests/bsdf_cases.h"
+#include "renderer/tests/float_traps.h"
 
 namespace rtrays {
 namespace {
@@ -129,6 +130,7 @@ TEST(Texture, HasItsOriginAtTheLowerLeft) {
 
 TEST(Texture, StaysInsideTheImageWhateverTheCoordinates) {
     const float infinity = std::numeric_limits<float>::infinity();
+    const test::InvalidAllowed coordinates_that_are_none;
     for (uint flags = 0; flags < 16; ++flags) {
         const TestTexture texture(flags);
         std::vector<double> values;

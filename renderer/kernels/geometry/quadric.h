@@ -87,7 +87,7 @@ DEVICE bool intersect_quadric(GLOBAL const ShapeRecord *q, ShapeRay ray, float t
         return false;
     }
     const float w = -(b + copysign(sqrt(discriminant), b));
-    const float s0 = c / w;
+    const float s0 = c / w;  // w = 0, a tangent at its point: NaN where c = 0 as well, which no range takes
     const float s1 = a == 0.0f ? s0 : w / a;
     ray.origin = near;
     return (both && quadric_hit(q, ray, shift, s0 < s1 ? s0 : s1, t_max, t, p)) ||
