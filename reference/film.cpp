@@ -26,4 +26,20 @@ Image Film::develop() const {
     return image;
 }
 
+Film Film::of(const Image &developed, uint64_t first_sample, uint64_t end_sample) {
+    Film film(developed.width(), developed.height(), first_sample);
+    film.end = end_sample;
+    const auto names = rgb_names(), variance_names = rgb_names("variance");
+    for (size_t i = 0; i < film.pixels.size(); ++i) {
+        Spectrum mean, variance;
+        for (size_t channel = 0; channel < 3; ++channel) {
+            mean[static_cast<Eigen::Index>(channel)] = static_cast<double>(developed.channel(names[channel])[i]);
+            variance[static_cast<Eigen::Index>(channel)] =
+                static_cast<double>(developed.channel(variance_names[channel])[i]);
+        }
+        film.pixels[i] = PixelMoments::of(mean, variance, film.count());
+    }
+    return film;
+}
+
 }  // namespace rtrays::reference

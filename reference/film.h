@@ -38,6 +38,15 @@ class PixelMoments {
         return count < 2 ? Spectrum(Spectrum::Zero()) : Spectrum(deviations_ / (n * (n - 1.0)));
     }
 
+    /// Of `count` samples of which only this is known.
+    static PixelMoments of(const Spectrum &mean, const Spectrum &variance_of_mean, uint64_t count) {
+        const auto n = static_cast<double>(count);
+        PixelMoments moments;
+        moments.sum_ = mean * n;
+        moments.deviations_ = variance_of_mean * (n * (n - 1.0));
+        return moments;
+    }
+
   private:
     Spectrum sum_ = Spectrum::Zero();
     Spectrum compensation_ = Spectrum::Zero();
@@ -57,6 +66,9 @@ struct Film {
 
     /// R, G, B, variance.R, .G, .B (of the mean), samples.
     Image develop() const;
+
+    /// The film of which that was developed, means and variances as float32 has them (relative error 6e-8).
+    static Film of(const Image &developed, uint64_t first_sample, uint64_t end_sample);
 
     int width;
     int height;

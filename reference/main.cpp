@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <sstream>
 
 #include "reference/checkpoint.h"
 #include "reference/manifest.h"
@@ -45,8 +46,31 @@ void check_outputs(const Options &options) {
     }
 }
 
-/// Restores the state file when asked to; refuses to overwrite one that is not finished. Returns the
-/// commits that worked on the film, this program's included.
+/// Goes on from the image that the manifest lists with these settings and less samples: of references that were made
+/// elsewhere the image is there, the state is not. Returns the commits that worked on it.
+std::vector<std::string> continue_listed(const Options &options, const Json &config, ReferenceRenderer &renderer) {
+    const Json entry = manifest_entry(options.manifest, options.output);
+    if (entry.is_null()) {
+        return {};
+    }
+    const Image image = read_exr(options.output);
+    const auto made_with = image.attributes().find("rtrays:config");
+    const uint64_t begin = entry.at("sample_range").at(0), end = entry.at("sample_range").at(1);
+    if (made_with == image.attributes().end() || std::get<std::string>(made_with->second) != config.dump() ||
+        begin != options.begin || end >= options.end) {
+        return {};
+    }
+    renderer.restore(Film::of(image, begin, end), entry.at("seconds"));
+    std::vector<std::string> commits;
+    std::istringstream listed(entry.at("commit").get<std::string>());
+    for (std::string commit; std::getline(listed, commit, ',');) {
+        commits.push_back(commit);
+    }
+    return commits;
+}
+
+/// Restores the state file when asked to, or continues a listed image; refuses to overwrite a state that is not finished.
+/// Returns the commits that worked on the film, this program's included.
 std::vector<std::string> begin_or_resume(const Options &options, const Json &config,
                                          ReferenceRenderer &renderer) {
     std::vector<std::string> commits;
@@ -62,6 +86,8 @@ std::vector<std::string> begin_or_resume(const Options &options, const Json &con
                 "it, or delete it to start anew",
                 options.state, checkpoint.film.count(), checkpoint.target - checkpoint.film.begin));
         }
+    } else if (options.resume && !options.manifest.empty()) {
+        commits = continue_listed(options, config, renderer);
     }
     const std::string commit = RTRAYS_VERSION;
     const bool has_work = renderer.samples() < options.end - options.begin;

@@ -92,21 +92,26 @@ void update_manifest(const fs::path &path, const fs::path &image, Json entry) {
     write_file(path, manifest.dump(2) + "\n");
 }
 
-bool manifest_lists(const fs::path &path, const fs::path &image, const Json &wanted) {
+Json manifest_entry(const fs::path &path, const fs::path &image) {
     if (!fs::exists(path) || !fs::exists(image)) {
-        return false;
+        return nullptr;
     }
     const Json references = load_manifest(path).at("references");
     const auto entry = references.find(image.filename().string());
-    if (entry == references.end() || entry->at("spp") < wanted.at("spp")) {
+    return entry != references.end() && entry->at("sha256") == sha256_of(image) ? *entry : Json();
+}
+
+bool manifest_lists(const fs::path &path, const fs::path &image, const Json &wanted) {
+    const Json entry = manifest_entry(path, image);
+    if (entry.is_null() || entry.at("spp") < wanted.at("spp")) {
         return false;
     }
     for (const auto &[key, value] : wanted.items()) {
-        if (key != "spp" && entry->value(key, Json()) != value) {
+        if (key != "spp" && entry.value(key, Json()) != value) {
             return false;
         }
     }
-    return entry->at("sha256") == sha256_of(image);
+    return true;
 }
 
 }  // namespace rtrays::reference

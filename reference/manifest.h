@@ -29,6 +29,9 @@ Json load_manifest(const std::filesystem::path &path);
 /// manifest is locked against other writers, validated and replaced as a whole.
 void update_manifest(const std::filesystem::path &path, const std::filesystem::path &image, Json entry);
 
+/// The entry of `image`; null where there is none, or the file is not the one that was listed.
+Json manifest_entry(const std::filesystem::path &path, const std::filesystem::path &image);
+
 /// Whether the manifest lists `image` with at least `wanted["spp"]` samples and otherwise the values of
 /// `wanted` (keys of an entry), and the file is the one that was listed.
 bool manifest_lists(const std::filesystem::path &path, const std::filesystem::path &image,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tables of what frames take, in Markdown."""
 
-from measurement_tables import NONE, figure_links, heading, interval, mesh_name, name, number, page
+from measurement_tables import NONE, interval, mesh_name, name, number
 from run_document import value
 from tables import Table
 
@@ -65,7 +65,7 @@ def stage_order(run):
     return [*TRACING, *(stage for stage in others if largest[stage] >= 1)]
 
 
-def frame_times(run, figures):
+def frame_times(run):
     shown = stage_order(run)
     table = []
     for row in run.get("rows"):
@@ -88,10 +88,10 @@ def frame_times(run, figures):
             "turn. Frame: wall time of a sample per pixel by MIS, roulette from the first bounce; processor ms: of all "
             "threads together, which other load hardly changes. Hierarchy (wall time) and compiling, first enqueue "
             "included (less where kernels are in a cache), come before and are not in it.")
-    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
+    return what, tables
 
 
-def bounces(run, figures):
+def bounces(run):
     """Figure 4.22, a row for each scene and length of path."""
     published = {row["mesh"]: row for row in run.get("experiment.published.rows")}
     names = [c["name"] for c in value(run.get("rows")[0], "depths.0.contestants")]
@@ -126,7 +126,7 @@ def bounces(run, figures):
             "hit, and sends a last ray for it; its processes count as others' load.")
     if absent:
         what += f" Not installed and left out: {', '.join(sorted(absent))}."
-    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
+    return what, tables
 
 
 def question(run, setting):
@@ -134,7 +134,7 @@ def question(run, setting):
     return run.get("experiment.questions").get(setting.split("=")[0], "") if "=" in setting else ""
 
 
-def ablations(run, figures):
+def ablations(run):
     frames, builds = [], []
     for row in run.get("rows"):
         head = [mesh_name(run, row["mesh"]), f"{value(row, 'triangles')}"]
@@ -164,7 +164,7 @@ def ablations(run, figures):
             "what is in flight, refilled as paths end; what has none of that is the megakernel, where a work-item follows its "
             "path to the end. Every frame is of a session made for its turn: a session keeps its memory, and what was made first is "
             "up to 7 % slower. Compiling takes less where kernels are in a cache.")
-    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
+    return what, tables
 
 
 FRAME_TABLES = {"ablations": ablations, "bounces": bounces, "frame_times": frame_times}

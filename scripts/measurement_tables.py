@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tables of the hierarchy's measurements, in Markdown. A figure that a side does not tell is a dash."""
+"""Tables of the hierarchy's measurements: what was measured, in words, and the tables. A figure that a side does not tell is
+a dash."""
 
 import re
 
@@ -55,12 +56,13 @@ def heading(run, what):
     return text
 
 
-def figure_links(figures):
-    return [f"![{caption}]({stem}.svg)\n\n{caption}" for stem, caption in figures.items()]
-
-
-def page(parts):
-    return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
+def page(run, what, tables, figures):
+    """The Markdown page of a measurement; `tables` lie beside it as tables/table_N.csv and .tex."""
+    parts = [heading(run, what)]
+    for index, table in enumerate(tables, 1):
+        parts.append(f"## {table.caption}\n\n{table.markdown()}\n[CSV](tables/table_{index}.csv), [LaTeX](tables/table_{index}.tex)")
+    parts += [f"![{caption}]({stem}.svg)\n\n{caption}" for stem, caption in figures.items()]
+    return "\n\n".join(parts) + "\n"
 
 
 def published_table(run):
@@ -101,7 +103,7 @@ def build_rows(run):
                    f"{100 * value(row, 'foreign_load'):.0f}"]
 
 
-def bvh_build(run, figures):
+def bvh_build(run):
     full = Table("Each builder and layout", [
         "mesh", "triangles", "builder", "ms", "processor ms", "Mtris/s (wall)", "Mtris per processor s", "speed / Embree medium", "SAH", "/ full sweep",
         "nodes per ray", "triangles per ray", "bytes per triangle", "peak", "peak, MB", "turns", "others' load, %"],
@@ -114,8 +116,7 @@ def bvh_build(run, figures):
             "and high quality, not ROBUST. SAH: K_T = K_I = 1, of the two-wide tree below every layout, also over that of a "
             "full sweep on the host; nodes and triangles: of diffuse rays. Peak: all that a build holds, vertices, indices and "
             f"the result included. {GIVING_UP}")
-    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in (published_table(run), full, exponents, stages(run))),
-                 *figure_links(figures)])
+    return what, (published_table(run), full, exponents, stages(run))
 
 
 def stages(run):
@@ -155,7 +156,7 @@ def costs(run, ours):
                  ["layout", "hierarchy", "meshes × kinds", "a, ns", "b, ns per node", "c, ns per triangle", "median residual, %", "largest, %"], rows)
 
 
-def ray_rates(run, figures):
+def ray_rates(run):
     first = value(run.get("rows")[0], "kinds")[0]
     ours = [c["name"] for c in value(first, "contestants") if c["side"] == "ours"]
     rates, work = [], []
@@ -188,10 +189,10 @@ def ray_rates(run, figures):
             "has compute units. Embree: ROBUST, the instruction set that is fastest on these rays (in brackets); 1: "
             "rtcIntersect1 or, for shadow and ambient occlusion rays, rtcOccluded1; 16: rtcIntersect16, rtcOccluded16, told "
             f"which rays are coherent. {GIVING_UP}")
-    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
+    return what, tables
 
 
-def traversal(run, _):
+def traversal(run):
     hits, closed = [], []
     for row in run.get("rows"):
         for layout in value(row, "layouts"):
@@ -212,10 +213,10 @@ def traversal(run, _):
             "or the middle of an edge (tied: either side may answer). A difference: hit against miss, or more than 1e-5 of the "
             "scene's diagonal in distance from Embree (ROBUST). Brute force in double precision, which differences are judged "
             "by, finds wrong at most 1e-6 of the rays.")
-    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables)])
+    return what, tables
 
 
-def bvh_animation(run, figures):
+def bvh_animation(run):
     updates, rays = [], []
     for row in run.get("rows"):
         frames = value(row, "frames")
@@ -236,7 +237,7 @@ def bvh_animation(run, figures):
     motions = "; ".join(f"{name(row['mesh'])} ({value(row, 'triangles')} triangles): {value(row, 'motion')}" for row in run.get("rows"))
     what = (f"Every frame the hierarchy is built anew, and that of frame 0 is fitted to where its triangles are now (its links stay). "
             f"{motions}. Medians of turns with 95 % intervals.")
-    return page([heading(run, what), *(f"## {t.caption}\n\n{t.markdown()}" for t in tables), *figure_links(figures)])
+    return what, tables
 
 
 TABLES = {"bvh_animation": bvh_animation, "bvh_build": bvh_build, "ray_rates": ray_rates, "traversal": traversal}

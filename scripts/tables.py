@@ -54,6 +54,12 @@ class Table:
             ]
         )
 
+    def write(self, folder, name):
+        """NAME.csv, NAME.md and NAME.tex."""
+        write_text(folder / f"{name}.csv", self.csv())
+        write_text(folder / f"{name}.md", f"{self.caption}\n\n{self.markdown()}")
+        write_text(folder / f"{name}.tex", self.latex())
+
 
 LATEX_SPECIAL = {
     "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_",
@@ -196,8 +202,6 @@ def write_tables(run, folder):
     folder.mkdir(parents=True, exist_ok=True)
     tables = {name: make(run) for name, make in TABLES.items()}
     for name, table in tables.items():
-        write_text(folder / f"{name}.csv", table.csv())
-        write_text(folder / f"{name}.md", f"{table.caption}\n\n{table.markdown()}")
-        write_text(folder / f"{name}.tex", table.latex())
+        table.write(folder, name)
     write_text(folder / "repetitions.csv", repetitions_table(run).csv())
     return tables
