@@ -7,12 +7,11 @@
 #include <set>
 #include <sstream>
 
+#include "renderer/bvh/bvh.h"
 #include "renderer/device/context.h"
 #include "renderer/device/source.h"
 #include "renderer/integrators/algorithm.h"
-#include "renderer/integrators/megakernel.h"
 #include "renderer/pipeline/render_session.h"
-#include "renderer/pipeline/stages.h"
 #include "renderer/scene/scene.h"
 #include "renderer/tests/errors.h"
 #include "renderer/tests/temporary_folder.h"
@@ -336,40 +335,6 @@ TEST(ClosedForm, IrradianceBelowASquareEmitter) {
         EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * mean.value) << "power";
     }
 }
-
-// Compiles all stages under a mask: with every feature, with none, and with each one off.
-class FeatureBuild : public testing::TestWithParam<int> {};
-
-std::string name_of_build(int index) {
-    return index == -2 ? "all" : index == -1 ? "none" : "without_" + FeatureMask().with(static_cast<Feature>(index)).names().front();
-}
-
-TEST_P(FeatureBuild, Succeeds) {
-    const int index = GetParam();
-    const FeatureMask mask = index == -2   ? FeatureMask::all()
-                             : index == -1 ? FeatureMask()
-                                           : FeatureMask::all().with(static_cast<Feature>(index), false);
-    const auto build = [](const Pass &pass, std::vector<std::string> stages) {
-        for (const RoundStage &stage : pass.round) {
-            stages.push_back(stage.name);
-        }
-        EXPECT_NO_THROW(StageSet(device(), stages, pass.features, {64, 512, 4, true}, {})) << pass.name;
-    };
-    for (const Pass &pass : algorithm_passes("bdpt", mask, 1, 2)) {
-        build(pass, {"reset_streams", "carry_film"});
-    }
-    for (const Pass &pass : megakernel_passes(algorithm_passes("path_tracing", mask, 1, 2))) {
-        build(pass, {});
-    }
-    // Of what the others have besides: the stages of their own.
-    for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
-        pass.round = {pass.round[pass.round.size() - 2]};
-        build(pass, {"end_paths"});
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(Masks, FeatureBuild, testing::Range(-2, static_cast<int>(Feature::count)),
-                         [](const auto &built) { return name_of_build(built.param); });
 
 // Figure 3.7 of the thesis: which block serves which algorithm.
 TEST(Readme, ListsTheStagesOfEveryAlgorithm) {

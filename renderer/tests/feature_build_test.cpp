@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Every feature can be left out: all stages compile under masks with every feature, with none, and with each one off.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "renderer/device/context.h"
+#include "renderer/integrators/algorithm.h"
+#include "renderer/integrators/megakernel.h"
+#include "renderer/pipeline/stages.h"
+
+namespace rtrays {
+namespace {
+
+/// Code that is never run need not be good: without optimizing, PoCL takes less than half the time. What is kept of
+/// it is kept apart.
+DeviceContext &device() {
+    static const bool in_haste = setenv("POCL_EXTRA_BUILD_FLAGS", "-cl-opt-disable", 1) == 0 &&
+                                 setenv("RTRAYS_CACHE_DIR", RTRAYS_FEATURE_BUILD_CACHE, 1) == 0;
+    EXPECT_TRUE(in_haste);
+    static DeviceContext context;
+    return context;
+}
+
+class FeatureBuild : public testing::TestWithParam<int> {};
+
+std::string name_of_build(int index) {
+    return index == -2 ? "all" : index == -1 ? "none" : "without_" + FeatureMask().with(static_cast<Feature>(index)).names().front();
+}
+
+TEST_P(FeatureBuild, Succeeds) {
+    const int index = GetParam();
+    const FeatureMask mask = index == -2   ? FeatureMask::all()
+                             : index == -1 ? FeatureMask()
+                                           : FeatureMask::all().with(static_cast<Feature>(index), false);
+    const auto build = [](const Pass &pass, std::vector<std::string> stages) {
+        for (const RoundStage &stage : pass.round) {
+            stages.push_back(stage.name);
+        }
+        EXPECT_NO_THROW(StageSet(device(), stages, pass.features, {64, 512, 4, true}, {})) << pass.name;
+    };
+    for (const Pass &pass : algorithm_passes("bdpt", mask, 1, 2)) {
+        build(pass, {"reset_streams", "carry_film"});
+    }
+    for (const Pass &pass : megakernel_passes(algorithm_passes("path_tracing", mask, 1, 2))) {
+        build(pass, {});
+    }
+    // Of what the others have besides: the stages of their own.
+    for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
+        pass.round = {pass.round[pass.round.size() - 2]};
+        build(pass, {"end_paths"});
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Masks, FeatureBuild, testing::Range(-2, static_cast<int>(Feature::count)),
+                         [](const auto &built) { return name_of_build(built.param); });
+
+}  // namespace
+}  // namespace rtrays
