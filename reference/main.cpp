@@ -46,7 +46,7 @@ void check_outputs(const Options &options) {
     }
 }
 
-/// Goes on from the image that the manifest lists with these settings and less samples: of references that were made
+/// Goes on from the image that the manifest lists with these settings and fewer samples: of references that were made
 /// elsewhere the image is there, the state is not. Returns the commits that worked on it.
 std::vector<std::string> continue_listed(const Options &options, const Json &config, ReferenceRenderer &renderer) {
     const Json entry = manifest_entry(options.manifest, options.output);
