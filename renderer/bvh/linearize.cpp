@@ -17,7 +17,6 @@ BvhLinearizer::BvhLinearizer(DeviceContext &device, uint32_t subtree_size)
     count_subtrees_ = Kernel(program, "count_subtrees", group_size);
     place_subtree_nodes_ = Kernel(program, "place_subtree_nodes", group_size);
     write_stackless_nodes_ = Kernel(program, "write_stackless_nodes", group_size);
-    link_stackless_nodes_ = Kernel(program, "link_stackless_nodes", group_size);
 }
 
 Bvh BvhLinearizer::linearize(Bvh bvh) {
@@ -37,8 +36,6 @@ Bvh BvhLinearizer::linearize(Bvh bvh) {
     place_subtree_nodes_.enqueue(node_count);
     write_stackless_nodes_.bind({bvh.nodes(), node_count, parents, places, nodes});
     write_stackless_nodes_.enqueue(node_count);
-    link_stackless_nodes_.bind({bvh.nodes(), node_count, parents, places, nodes});
-    link_stackless_nodes_.enqueue(node_count);
     device_->finish();
 
     report.seconds_device += total_seconds(device_->profiler().stages()) - seconds_before;

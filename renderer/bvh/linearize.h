@@ -18,7 +18,7 @@ class BvhLinearizer {
   private:
     DeviceContext *device_;
     uint32_t subtree_size_;
-    Kernel link_parents_, count_subtrees_, place_subtree_nodes_, write_stackless_nodes_, link_stackless_nodes_;
+    Kernel link_parents_, count_subtrees_, place_subtree_nodes_, write_stackless_nodes_;
 };
 
 }  // namespace rtrays

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two-wide tree as traversal without a stack reads it (shared/stackless_node.h), a work-item per node in each stage:
-// link_parents -> count_subtrees -> place_subtree_nodes (in depth-first order) -> write_stackless_nodes ->
-// link_stackless_nodes. Nodes that hold more than the subtree size of triangles are on their own, the highest below them
-// answer for all of their subtree.
+// link_parents -> count_subtrees -> place_subtree_nodes (in depth-first order) -> write_stackless_nodes. Nodes that hold more
+// than the subtree size of triangles are on their own, the highest below them answer for all of their subtree.
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/stackless_node.h"
 
@@ -140,7 +139,26 @@ static StacklessNode no_node(void) {
     return node;
 }
 
-/// Writes the boxes and leaves of a node's children, and how the way goes on below it; the root's work-item writes its box, too.
+/// Where the way goes on after a node, by octant: the other child of the first one above, on the way up, that comes first itself.
+static void find_escapes(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, GLOBAL const uint *places, uint index,
+                         PRIVATE uint *after) {
+    for (uint octant = 0; octant < 8; ++octant) {
+        after[octant] = 0;
+    }
+    uint open = 0xffu;  // octants for which it is not known yet
+    for (uint up = parents[index]; up != BVH_NO_PARENT && open != 0; up = parents[up >> 1]) {
+        const uint right_first = octants_right_first(nodes + (up >> 1));
+        const uint found = open & ((up & 1u) != 0 ? right_first : ~right_first);
+        const uint other = stackless_child(places[up >> 1], 1u - (up & 1u));
+        for (uint octant = 0; octant < 8; ++octant) {
+            after[octant] = (found >> octant & 1u) != 0 ? other : after[octant];
+        }
+        open &= ~found;
+    }
+}
+
+/// Writes a node's children but for what they know of their own ones, and how the way goes on below it: first to the child that
+/// comes first, from there to the other, and from that where it goes on from the node. The root's work-item writes node 0, too.
 __kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const uint *parents,
                                     GLOBAL const uint *places, GLOBAL StacklessNode *stackless_nodes) {
     const uint index = (uint)get_global_id(0);
@@ -158,43 +176,22 @@ __kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count
             stackless->bounds[1][axis] = greater(node->bounds[0][1][axis], node->bounds[1][1][axis]);
         }
     }
-    stackless->link = stackless_child(places[index], 0);
-    stackless->right_first = octants_right_first(node);
+    const uint left = stackless_child(places[index], 0);
+    const uint right_first = octants_right_first(node);
+    stackless->link = left;
+    stackless->right_first = right_first;
+    uint after[8];
+    find_escapes(nodes, parents, places, index, after);
     for (uint side = 0; side < 2; ++side) {
-        GLOBAL StacklessNode *child = stackless_nodes + stackless_child(places[index], side);
+        GLOBAL StacklessNode *child = stackless_nodes + left + side;
         write_box(child, node->bounds[side]);
         if (!has_node(node, side)) {
             child->link = node->child[side];
             child->right_first = 0;
         }
-    }
-}
-
-/// From the child that comes first the way goes on to the other, and from there where it goes on from their parent; that is the
-/// other child of the first one above, on the way up, that comes first itself.
-__kernel void link_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const uint *parents,
-                                   GLOBAL const uint *places, GLOBAL StacklessNode *stackless_nodes) {
-    const uint index = (uint)get_global_id(0);
-    if (index >= node_count) {
-        return;
-    }
-    uint after[8] = {0};
-    uint open = 0xffu;  // octants for which it is not known yet
-    for (uint up = parents[index]; up != BVH_NO_PARENT && open != 0; up = parents[up >> 1]) {
-        const uint right_first = octants_right_first(nodes + (up >> 1));
-        const uint found = open & ((up & 1u) != 0 ? right_first : ~right_first);
-        const uint other = stackless_child(places[up >> 1], 1u - (up & 1u));
         for (uint octant = 0; octant < 8; ++octant) {
-            after[octant] = (found >> octant & 1u) != 0 ? other : after[octant];
+            const bool is_first = (right_first >> octant & 1u) == side;
+            child->escape[octant] = is_first ? left + 1u - side : after[octant];
         }
-        open &= ~found;
-    }
-    const uint left = stackless_child(places[index], 0);
-    const uint right = stackless_child(places[index], 1);
-    const uint right_first = octants_right_first(nodes + index);
-    for (uint octant = 0; octant < 8; ++octant) {
-        const bool is_right_first = (right_first >> octant & 1u) != 0;
-        stackless_nodes[left].escape[octant] = is_right_first ? after[octant] : right;
-        stackless_nodes[right].escape[octant] = is_right_first ? left : after[octant];
     }
 }
