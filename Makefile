@@ -27,10 +27,14 @@ build: install
 	cmake --build --preset release -j $(JOBS)
 
 reproduce-chapter4: programs
+	@step() { n=$$((n + 1)); echo "[$$n of $(words $(MEASUREMENTS) $(EXPERIMENTS) stability convergence_control)] $$1"; }; n=0; \
 	for experiment in $(MEASUREMENTS) $(EXPERIMENTS); do \
+	    step $$experiment; \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
-	done
-	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out $(CHAPTER4)/stability || [ $$? -eq 3 ]
+	done; \
+	step stability; \
+	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out $(CHAPTER4)/stability || [ $$? -eq 3 ] || exit 1; \
+	step convergence_control; \
 	build/bin/rtrays-experiment control experiments/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
 	$(if $(filter full,$(PROFILE)),$(MAKE) --no-print-directory stiffness STIFFNESS=$(CHAPTER4)/stiffness)
 	$(MAKE) --no-print-directory report

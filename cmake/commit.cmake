@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A header with the commit, the dirty flag and both as one text (RTRAYS_VERSION), refreshed by every build, rewritten only when it changes.
+# A header with the commit and the dirty flag, refreshed by every build, rewritten only when it changes.
 add_custom_target(rtrays_commit
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DOUTPUT=${PROJECT_BINARY_DIR}/generated/rtrays_commit.h
             -P ${PROJECT_SOURCE_DIR}/cmake/write_commit.cmake

@@ -10,15 +10,12 @@ execute_process(COMMAND git -C ${SOURCE} status --porcelain --untracked-files=no
                 OUTPUT_VARIABLE changes OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(changes)
     set(dirty "true")
-    set(version "${commit}-dirty")
 else()
     set(dirty "false")
-    set(version "${commit}")
 endif()
 set(content "#pragma once
 #define RTRAYS_COMMIT \"${commit}\"
 #define RTRAYS_DIRTY ${dirty}
-#define RTRAYS_VERSION \"${version}\"
 ")
 if(EXISTS ${OUTPUT})
     file(READ ${OUTPUT} previous)

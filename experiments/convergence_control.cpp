@@ -15,11 +15,12 @@
 #include "experiments/ladder.h"
 #include "experiments/metrics.h"
 #include "experiments/references.h"
+#include "experiments/resumption.h"
+#include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
 #include "renderer/pipeline/render_session.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -246,21 +247,26 @@ fs::path run_control(const ControlOptions &options) {
     const Description description = load(options.description, options.profile);
     const fs::path out =
         options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
-    const fs::path partial = out / "partial";
-    fs::create_directories(partial);
     const Json &wanted = description.file.json.at("reference");
     std::vector<Scene> scenes;
     std::vector<Image> references;
+    std::string inputs = description.file.text + options.profile;
     for (const fs::path &path : description.scenes) {
         scenes.push_back(load_scene(path.string()));
-        references.push_back(load_reference({description.file.resolve(wanted.at("folder")),
-                                             scenes.back().name(), scenes.back().hash(), wanted.at("engine"),
-                                             description.size, description.size, path.string()})
-                                 .reference.image);
+        StoredReference reference =
+            load_reference({description.file.resolve(wanted.at("folder")), scenes.back().name(), scenes.back().hash(),
+                            wanted.at("engine"), description.size, description.size, path.string()});
+        references.push_back(std::move(reference.reference.image));
+        inputs += reference.description.dump();
     }
     DeviceContext device(options.device);
+    const fs::path table = out / (description.name + ".md");
+    const Resumption resumption(out, description.name + ".json", inputs, device.info());
+    if (!resumption.finished().is_null() && fs::exists(table)) {
+        return table;
+    }
     Json document = {
-        {"schema_version", 1},          {"commit", RTRAYS_COMMIT},    {"dirty", RTRAYS_DIRTY},
+        {"schema_version", 1},          {"commit", commit()},         {"dirty", built_from_changed_sources()},
         {"device", device.info().name}, {"profile", options.profile}, {"size", description.size},
         {"spp", description.spp},       {"seeds", description.seeds}, {"load_average_start", load_average()},
         {"rows", Json::array()}};
@@ -272,27 +278,22 @@ fs::path run_control(const ControlOptions &options) {
     for (size_t scene = 0; scene < scenes.size(); ++scene) {
         for (const RenderSettings &curve : description.curves) {
             const uint64_t before = finished;
-            const fs::path done = partial / fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm);
-            const Json key = {scenes[scene].hash(), image_settings(curve), description.errors,
-                              description.size,     description.spp,       description.seeds,
-                              device.info().name,   RTRAYS_VERSION};
-            Json result = fs::exists(done) ? load_json(done) : Json::object();
-            if (result.value("key", Json()) != key) {
-                result = {{"key", key},
-                          {"rows", measure(description, scenes[scene], curve, references[scene], device,
-                                           [&] { progress.update(++finished); })}};
-                write_file(done, result.dump(1) + "\n");
+            const fs::path done =
+                resumption.parts() / fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm);
+            if (!fs::exists(done)) {
+                write_file(done, Json(measure(description, scenes[scene], curve, references[scene], device,
+                                              [&] { progress.update(++finished); }))
+                                         .dump(1) +
+                                     "\n");
             }
-            document["rows"].insert(document["rows"].end(), result.at("rows").begin(),
-                                    result.at("rows").end());
+            const Json rows = load_json(done);
+            document["rows"].insert(document["rows"].end(), rows.begin(), rows.end());
             progress.update(finished = before + renders_of_row);
         }
     }
     document["load_average_end"] = load_average();
-    const fs::path table = out / (description.name + ".md");
-    write_file(out / (description.name + ".json"), document.dump(1) + "\n");
     write_file(table, table_of(document));
-    fs::remove_all(partial);
+    resumption.finish(document);
     return table;
 }
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
 
 #include "embedded/experiment_schemas.h"
@@ -48,6 +50,44 @@ void require_increasing(const std::vector<uint64_t> &spp, const std::string &loc
     }
 }
 
+namespace {
+
+/// The rungs up to one of them. Throws `Error` (bad input) when it is none, or fewer than three are left.
+std::vector<uint64_t> rungs_up_to(const std::vector<uint64_t> &spp, uint64_t last, const std::string &location) {
+    const auto found = std::find(spp.begin(), spp.end(), last);
+    if (found == spp.end() || found - spp.begin() < 2) {
+        throw input_error(fmt::format("{}: {} is none of \"spp\" from the third on", location, last));
+    }
+    return {spp.begin(), found + 1};
+}
+
+/// Fills in what a profile says of sample counts.
+void read_ladders(const DescriptionFile &file, const std::string &pointer, const Json &profile,
+                  std::vector<CurveDescription> &curves) {
+    const auto spp = profile.at("spp").get<std::vector<uint64_t>>();
+    require_increasing(spp, file.location(pointer + "/spp"));
+    const auto early = profile.value("early_images", std::vector<uint64_t>());
+    for (const uint64_t wanted : early) {
+        if (std::find(spp.begin(), spp.end(), wanted) == spp.end()) {
+            throw input_error(fmt::format("{}: {} is none of \"spp\"", file.location(pointer + "/early_images"), wanted));
+        }
+    }
+    std::map<std::string, uint64_t> most = profile.value("most_spp", std::map<std::string, uint64_t>());
+    for (CurveDescription &curve : curves) {
+        const auto limit = most.find(curve.id());
+        curve.spp = limit == most.end() ? spp
+                                        : rungs_up_to(spp, limit->second, file.location(pointer + "/most_spp"));
+        std::copy_if(early.begin(), early.end(), std::back_inserter(curve.early_images),
+                     [&](uint64_t wanted) { return wanted <= curve.spp.back(); });
+        most.erase(curve.id());
+    }
+    if (!most.empty()) {
+        throw input_error(fmt::format("{}: there is no curve '{}'", file.location(pointer + "/most_spp"), most.begin()->first));
+    }
+}
+
+}  // namespace
+
 std::string CurveDescription::id() const {
     std::string id = settings.algorithm + "." + settings.strategies;
     const std::string root = "integrator.";
@@ -91,16 +131,8 @@ ExperimentDescription load_experiment(const std::filesystem::path &path, const s
     experiment.expected_gain = json.value("expected_gain", Json());
     read_measured_scene(file, chosen.at("size"), experiment);
     experiment.profile = profile;
-    chosen.at("spp").get_to(experiment.spp);
-    require_increasing(experiment.spp, file.location("/profiles/" + profile + "/spp"));
+    read_ladders(file, "/profiles/" + profile, chosen, experiment.curves);
     chosen.at("seeds").get_to(experiment.seeds);
-    experiment.early_images = chosen.value("early_images", experiment.early_images);
-    for (const uint64_t spp : experiment.early_images) {
-        if (std::find(experiment.spp.begin(), experiment.spp.end(), spp) == experiment.spp.end()) {
-            throw input_error(fmt::format("{}: {} is none of \"spp\"",
-                                          file.location("/profiles/" + profile + "/early_images"), spp));
-        }
-    }
     chosen.at("throughput").at("repetitions").get_to(experiment.throughput.repetitions);
     chosen.at("throughput").at("spp").get_to(experiment.throughput.spp);
     experiment.source = json;

@@ -16,6 +16,8 @@ namespace rtrays {
 /// One curve: an algorithm with its settings.
 struct CurveDescription {
     RenderSettings settings;  ///< size and seed are set by the runner
+    std::vector<uint64_t> spp = {};           ///< strictly increasing; of experiments
+    std::vector<uint64_t> early_images = {};  ///< rungs at which the first seed's image is kept; of experiments
 
     /// "path_tracing.mis", "truncated_bdpt.mis,light_paths=auto": names the curve's files.
     std::string id() const;
@@ -41,9 +43,7 @@ struct ExperimentDescription : MeasuredScene {
     Json expected_gain;  ///< {"algorithm", "samples", "time"} over path tracing, as the thesis states it, or null
     // of the chosen profile
     std::string profile;
-    std::vector<uint64_t> spp;  ///< strictly increasing
-    int seeds = 0;              ///< seeds 1 .. seeds
-    std::vector<uint64_t> early_images;  ///< rungs at which the first seed's image is kept
+    int seeds = 0;  ///< seeds 1 .. seeds
     ThroughputDescription throughput;
     Json source;  ///< the file as written
 };

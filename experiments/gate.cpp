@@ -7,8 +7,8 @@
 
 #include "embedded/experiment_schemas.h"
 #include "experiments/gate_checks.h"
+#include "renderer/base/commit.h"
 #include "renderer/base/files.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -116,7 +116,7 @@ void update_baseline(const GateBench &bench, const StoredReference &reference) {
     require_writable(gate.baseline);
     Json baseline = {{"schema_version", 1},
                      {"gate", gate.name},
-                     {"commit", RTRAYS_VERSION},
+                     {"commit", version()},
                      {"scene_hash", bench.scene.hash()},
                      {"reference_spp", reference.description.at("spp")},
                      {"size", {gate.width, gate.height}}};

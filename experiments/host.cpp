@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/device/program.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -104,8 +104,8 @@ RunContext::RunContext() : started_at_(utc_now()), load_average_(load_average())
 
 Json RunContext::finish(const DeviceInfo &device) const {
     const CpuUse use = meter_.use();
-    return {{"commit", RTRAYS_COMMIT},
-            {"dirty", RTRAYS_DIRTY},
+    return {{"commit", commit()},
+            {"dirty", built_from_changed_sources()},
             {"started_at", started_at_},
             {"finished_at", utc_now()},
             {"host", describe_host()},

@@ -17,10 +17,10 @@
 #include "experiments/runner.h"
 #include "experiments/scene_agreement.h"
 #include "experiments/stability.h"
+#include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
-#include "rtrays_commit.h"
 
 namespace {
 
@@ -43,7 +43,7 @@ struct Arguments {
 
 void declare(CLI::App &app, Arguments &arguments) {
     app.require_subcommand(1);
-    app.set_version_flag("--version", "rtrays-experiment " RTRAYS_VERSION);
+    app.set_version_flag("--version", "rtrays-experiment " + version());
 
     auto *run = app.add_subcommand("run", "measure an experiment and write OUT/run.json; a stability suite: exit 3 if a case fails");
     run->add_option("FILE", arguments.run.experiment, "experiment (JSON)")->required();

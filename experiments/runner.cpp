@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,10 +12,10 @@
 #include "experiments/host.h"
 #include "experiments/ladder.h"
 #include "experiments/references.h"
+#include "experiments/resumption.h"
 #include "experiments/throughput.h"
 #include "reference/renderer.h"
 #include "renderer/base/error.h"
-#include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
 #include "renderer/scene/scene.h"
@@ -42,27 +43,19 @@ Json describe_experiment(const ExperimentDescription &experiment) {
 
 void print_plan(const ExperimentDescription &experiment, const StoredReference &reference) {
     const double pixels = static_cast<double>(experiment.width) * experiment.height;
-    const double curve = pixels * static_cast<double>(experiment.spp.back()) * experiment.seeds;
     const double throughput =
         2 * pixels * static_cast<double>(experiment.throughput.spp) * experiment.throughput.repetitions;
-    fmt::print("{} ({}), profile {}: {}x{}, {} to {} spp, {} seeds\n", experiment.name, experiment.thesis,
-               experiment.profile, experiment.width, experiment.height, experiment.spp.front(),
-               experiment.spp.back(), experiment.seeds);
-    for (const auto &description : experiment.curves) {
-        fmt::print("  {:24} {:8.1f} Msamples\n", description.id(), curve / 1e6);
+    fmt::print("{} ({}), profile {}: {}x{}, {} seeds\n", experiment.name, experiment.thesis, experiment.profile,
+               experiment.width, experiment.height, experiment.seeds);
+    for (const auto &curve : experiment.curves) {
+        fmt::print("  {:40} {:4} to {:4} spp {:8.1f} Msamples\n", curve.id(), curve.spp.front(), curve.spp.back(),
+                   1e-6 * pixels * static_cast<double>(curve.spp.back()) * experiment.seeds);
     }
-    fmt::print("  {:24} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
+    fmt::print("  {:57} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
     fmt::print("  reference: {} spp ({}), noise floor RMSE {:.3g}\n",
                reference.description.at("spp").get<uint64_t>(),
                reference.description.at("engine").get<std::string>(),
                std::sqrt(reference.reference.noise_mse));
-}
-
-/// Names what the partial results depend on: the program's own bytes, since a dirty tree has no commit.
-std::string partial_key(const ExperimentDescription &experiment, const StoredReference &reference,
-                        const DeviceInfo &device) {
-    return content_hash(content_hash(read_file("/proc/self/exe")) + experiment.source.dump() +
-                        experiment.profile + reference.description.dump() + device.name + device.driver);
 }
 
 /// Renderer and reference in turns on the last curve's settings.
@@ -116,6 +109,8 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     task.settings = description.settings;
     task.settings.width = experiment.width;
     task.settings.height = experiment.height;
+    task.spp = description.spp;
+    task.early_images = description.early_images;
     const LadderResult ladder = render_ladders(task);
     const std::string image = "images/" + description.id() + ".exr";
     const Image mean = average_images(ladder.images);
@@ -134,7 +129,7 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
                                     : test_agreement(mean, task.reference, policy);
     curve["agreement"] = to_json(agreement, policy);
     curve["image"] = image;
-    curve["image_spp"] = experiment.spp.back() * static_cast<uint64_t>(experiment.seeds);
+    curve["image_spp"] = task.spp.back() * static_cast<uint64_t>(experiment.seeds);
     curve["layers"] = Json::array();
     for (const char *layer : {"camera", "light"}) {
         if (mean.has(rgb_names(layer).front())) {
@@ -155,22 +150,22 @@ fs::path output_folder(const RunOptions &options, const ExperimentDescription &e
 }
 
 /// A run is never written with a value missing.
-void write_run(const Json &run, const fs::path &path) {
-    const std::string text = run.dump(2) + "\n";
+void require_complete(const Json &run) {
     try {
-        parse_run(text, path.string());
+        parse_run(run.dump(), "run.json");
     } catch (const Error &error) {
         throw run_error(fmt::format("the run is incomplete and was not written: {}", error.what()));
     }
-    write_file(path, text);
 }
 
-void create_folder(const fs::path &folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) {
-        throw input_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
-    }
+/// A repository keeps run.json without the images: such a run is measured anew.
+bool has_images(const Json &run, const fs::path &out) {
+    const auto is_there = [&](const Json &entry) { return fs::exists(out / entry.at("image").get<std::string>()); };
+    return is_there(run.at("reference")) &&
+           std::all_of(run.at("curves").begin(), run.at("curves").end(), [&](const Json &curve) {
+               return is_there(curve) && std::all_of(curve.at("early_images").begin(),
+                                                     curve.at("early_images").end(), is_there);
+           });
 }
 
 }  // namespace
@@ -184,30 +179,32 @@ fs::path run_experiment(const RunOptions &options) {
         return {};
     }
     const fs::path out = output_folder(options, experiment);
-    create_folder(out / "images");
-    require_writable(out / "run.json");
-
     const RunContext context;
     DeviceContext device(options.device);
-    const fs::path partial = out / ".partial" / partial_key(experiment, reference, device.info());
-    create_folder(partial);
-
+    const Resumption resumption(out, "run.json",
+                                experiment.source.dump() + experiment.profile + reference.description.dump(),
+                                device.info());
+    if (const Json run = resumption.finished(); !run.is_null() && has_images(run, out)) {
+        return out;
+    }
+    fs::create_directories(out / "images");
     Json run = {{"schema_version", run_schema_version}, {"experiment", describe_experiment(experiment)}};
     {
         uint64_t done = 0;
-        Progress progress(
-            experiment.name,
-            experiment.curves.size() * static_cast<uint64_t>(experiment.seeds) * experiment.spp.back(), "spp",
-            options.quiet);
+        uint64_t total = 0;
+        for (const CurveDescription &curve : experiment.curves) {
+            total += static_cast<uint64_t>(experiment.seeds) * curve.spp.back();
+        }
+        Progress progress(experiment.name, total, "spp", options.quiet);
         progress.update(0);
         const LadderTask task{scene,
                               device,
                               {},
-                              experiment.spp,
+                              {},
                               experiment.seeds,
-                              experiment.early_images,
+                              {},
                               reference.reference.image,
-                              partial,
+                              resumption.parts(),
                               [&](uint64_t spp) { progress.update(done += spp); }};
         for (const auto &description : experiment.curves) {
             run["curves"].push_back(
@@ -220,8 +217,8 @@ fs::path run_experiment(const RunOptions &options) {
     write_exr(reference.reference.image, out / "images/reference.exr");
     run["reference"] = reference.description;
     run["context"] = context.finish(device.info());
-    write_run(run, out / "run.json");
-    fs::remove_all(out / ".partial");
+    require_complete(run);
+    resumption.finish(run);
     return out;
 }
 

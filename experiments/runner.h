@@ -17,8 +17,7 @@ struct RunOptions {
 
 /// Runs an experiment and writes OUT/run.json and OUT/images/*.exr; returns OUT (empty after a dry run).
 ///
-/// What is done is kept in OUT/.partial under a hash of program, experiment, scene, device and reference: the
-/// same command continues a run that was stopped. Throws `Error`: bad input, reference missing, run failed,
+/// The same command continues a run that was stopped, and leaves a finished one as it is (`Resumption`). Throws `Error`: bad input, reference missing, run failed,
 /// interrupted.
 std::filesystem::path run_experiment(const RunOptions &options);
 

@@ -18,12 +18,12 @@
 #include "experiments/ladder.h"
 #include "reference/film.h"
 #include "reference/renderer.h"
+#include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
 #include "renderer/pipeline/compile_scene.h"
 #include "renderer/pipeline/render_session.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -261,7 +261,7 @@ Json measure(const Scene &scene, const Description &description, DeviceContext &
 /// What a finished scene's result holds for.
 std::string key_of(const Scene &scene, const Description &description) {
     return fmt::format("{} {} {} {} {} {} {}", scene.hash(), description.size, description.spp, description.reference_spp,
-                       fmt::join(description.algorithms, " "), description.features, RTRAYS_VERSION);
+                       fmt::join(description.algorithms, " "), description.features, version());
 }
 
 std::string line_of(const Json &row) {
@@ -314,7 +314,7 @@ ExitCode run_agreement(const AgreeOptions &options) {
     fs::create_directories(out / "images");
     DeviceContext device(options.device);
     Json document = {{"schema_version", 1},
-                     {"commit", RTRAYS_VERSION},
+                     {"commit", version()},
                      {"device", device.info().name},
                      {"size", description.size},
                      {"spp", description.spp},

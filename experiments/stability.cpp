@@ -14,13 +14,14 @@
 #include "experiments/host.h"
 #include "experiments/ladder.h"
 #include "experiments/metrics.h"
+#include "experiments/resumption.h"
 #include "experiments/stability_cases.h"
 #include "reference/renderer.h"
+#include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
 #include "renderer/pipeline/render_session.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -375,18 +376,24 @@ ExitCode run_stability(const RunOptions &options) {
         return ExitCode::ok;
     }
     const fs::path out = options.out.empty() ? fs::path(suite.name + "." + suite.profile) : options.out;
-    const fs::path partial = out / ".partial" / content_hash(read_file("/proc/self/exe") + read_file(options.experiment) + suite.profile);
-    fs::create_directories(partial);
-    fs::create_directories(out / "images");
-    require_writable(out / "stability.json");
     DeviceContext device(options.device);
-    Json document = {{"schema_version", 1},      {"commit", RTRAYS_COMMIT}, {"dirty", RTRAYS_DIRTY},
+    const Resumption resumption(out, "stability.json", read_file(options.experiment) + suite.profile, device.info());
+    const auto conclude = [&](const Json &results) {
+        const auto failed = std::count_if(results.begin(), results.end(), [&](const Json &row) { return !passes(row, suite.survey); });
+        fmt::print("{} of {} rows fail; {}\n", failed, results.size(), (out / "stability.md").string());
+        return failed > 0 ? ExitCode::regression : ExitCode::ok;
+    };
+    if (const Json document = resumption.finished(); !document.is_null()) {
+        return conclude(document.at("rows"));
+    }
+    fs::create_directories(out / "images");
+    Json document = {{"schema_version", 1},      {"commit", commit()},       {"dirty", built_from_changed_sources()},
                      {"device", device.info().name}, {"host", describe_host()}, {"profile", suite.profile},
                      {"bound", suite.bound},     {"batches", batches},      {"rows", Json::array()}};
-    size_t failed = 0, finished = 0;
+    size_t finished = 0;
     Progress progress(suite.name, suite.cases.size(), "cases", options.quiet);
     for (const StabilityCase &tested : suite.cases) {
-        const fs::path done = partial / (tested.name + ".json");
+        const fs::path done = resumption.parts() / (tested.name + ".json");
         if (!fs::exists(done)) {
             try {
                 write_file(done, measure(tested, family_alpha / static_cast<double>(tests), device, out / "images").dump(1) + "\n");
@@ -396,17 +403,14 @@ ExitCode run_stability(const RunOptions &options) {
         }
         for (const Json &row : load_json(done)) {
             fmt::print("{} {}\n", passes(row, suite.survey) ? "ok  " : "FAIL", cells_of(row));
-            failed += passes(row, suite.survey) ? 0 : 1;
             document["rows"].push_back(row);
         }
         std::fflush(stdout);
         progress.update(++finished);
     }
-    write_file(out / "stability.json", document.dump(1) + "\n");
     write_file(out / "stability.md", table_of(document));
-    fs::remove_all(out / ".partial");
-    fmt::print("{} of {} rows fail; {}\n", failed, document["rows"].size(), (out / "stability.md").string());
-    return failed > 0 ? ExitCode::regression : ExitCode::ok;
+    resumption.finish(document);
+    return conclude(document["rows"]);
 }
 
 }  // namespace rtrays

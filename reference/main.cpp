@@ -12,11 +12,11 @@
 #include "reference/options.h"
 #include "reference/output.h"
 #include "reference/renderer.h"
+#include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/scene/scene.h"
-#include "rtrays_commit.h"
 
 namespace {
 
@@ -89,10 +89,10 @@ std::vector<std::string> begin_or_resume(const Options &options, const Json &con
     } else if (options.resume && !options.manifest.empty()) {
         commits = continue_listed(options, config, renderer);
     }
-    const std::string commit = RTRAYS_VERSION;
+    const std::string made_by = version();
     const bool has_work = renderer.samples() < options.end - options.begin;
-    if (has_work && std::find(commits.begin(), commits.end(), commit) == commits.end()) {
-        commits.push_back(commit);
+    if (has_work && std::find(commits.begin(), commits.end(), made_by) == commits.end()) {
+        commits.push_back(made_by);
     }
     return commits;
 }

@@ -8,8 +8,8 @@
 #include <iostream>
 #include <string_view>
 
+#include "renderer/base/commit.h"
 #include "renderer/base/error.h"
-#include "rtrays_commit.h"
 
 namespace rtrays::reference {
 
@@ -63,7 +63,7 @@ std::optional<Options> parse_options(int argc, char **argv) {
     CLI::App app{
         "Renders a scene with the independent Embree path tracer.\n"
         "A state file beside the output keeps what is done; --resume continues it."};
-    app.set_version_flag("--version", "rtrays-reference " RTRAYS_VERSION);
+    app.set_version_flag("--version", "rtrays-reference " + version());
     app.add_option("SCENE", options.scene, "scene file")->required();
     app.add_option("-o,--output", options.output, "image to write (OpenEXR)")->required();
     auto *spp = app.add_option("--spp", options.end, "samples per pixel; the same as --samples 0:N")

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
@@ -17,13 +18,10 @@
 #include "renderer/export/export_scene.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
 namespace {
-
-const char *const version_text = "rtrays-render 0.1.0 (" RTRAYS_COMMIT ")";
 
 struct Options {
     std::string scene;
@@ -261,7 +259,7 @@ ExitCode parse_and_run(int argc, char **argv) {
     install_interrupt_handler();
     Options options;
     CLI::App app("Renders a scene on an OpenCL device.\n\nOther uses: rtrays-render merge FILM... -o OUT.exr", "rtrays-render");
-    app.set_version_flag("--version", version_text);
+    app.set_version_flag("--version", "rtrays-render 0.1.0 (" + commit() + ")");
     app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings() +
                "  scene.NODE.PROPERTY = ...  any property that --print-scene lists");
     bool devices = false, algorithms = false;

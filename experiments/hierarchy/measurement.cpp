@@ -13,6 +13,7 @@
 #include "experiments/hierarchy/kinds.h"
 #include "experiments/hierarchy/meshes.h"
 #include "experiments/host.h"
+#include "experiments/resumption.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 
@@ -127,43 +128,41 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     const fs::path out = options.out.empty() ? fs::path(name + "." + options.profile) : options.out;
     const RunContext context;
     DeviceContext device(options.device);
-    const std::string key = content_hash(content_hash(read_file("/proc/self/exe")) + file.text +
-                                         options.profile + device.info().name + device.info().driver);
-    const fs::path partial = out / ".partial" / key;
-    std::error_code error;
-    fs::create_directories(partial, error);
-    if (error) {
-        throw input_error(fmt::format("{}: cannot be created: {}", partial.string(), error.message()));
+    const Resumption resumption(out, "run.json", file.text + options.profile + stand_ins.dump() + absent.dump(),
+                                device.info());
+    const auto note_failure = [&](const Json &summary) {
+        if (!summary.value("passed", true)) {
+            exit_code = ExitCode::regression;
+        }
+    };
+    if (const Json run = resumption.finished(); !run.is_null()) {
+        note_failure(run.at("summary"));
+        return out;
     }
-    require_writable(out / "run.json");
 
     const MeasurementPlan plan = kind.plan(settings, device);
     Progress progress(name, plan.tasks.size(), "rows", options.quiet);
     Json rows = Json::array();
     for (const MeasurementTask &task : plan.tasks) {
         progress.update(rows.size());
-        rows.push_back(row_of(task, partial));
+        rows.push_back(row_of(task, resumption.parts()));
     }
     progress.update(rows.size());
     const Json summary = plan.summarise(rows);
-    if (!summary.value("passed", true)) {
-        exit_code = ExitCode::regression;
-    }
+    note_failure(summary);
     Json experiment = file.json;
     experiment.erase("$schema");
     experiment.erase("profiles");
     experiment["profile"] = options.profile;
     experiment["settings"] = profile;
-    const Json run = {{"schema_version", measurement_schema_version},
-                      {"measures", measures},
-                      {"experiment", experiment},
-                      {"stand_ins", stand_ins},
-                      {"absent", absent},
-                      {"rows", rows},
-                      {"summary", summary},
-                      {"context", context.finish(device.info())}};
-    write_file(out / "run.json", run.dump(1) + "\n");
-    fs::remove_all(out / ".partial");
+    resumption.finish({{"schema_version", measurement_schema_version},
+                       {"measures", measures},
+                       {"experiment", experiment},
+                       {"stand_ins", stand_ins},
+                       {"absent", absent},
+                       {"rows", rows},
+                       {"summary", summary},
+                       {"context", context.finish(device.info())}});
     return out;
 }
 

@@ -45,7 +45,7 @@ struct MeasurementPlan {
 bool is_measurement(const std::filesystem::path &experiment);
 
 /// Measures and writes OUT/run.json; returns OUT (empty after a dry run). Rows that an earlier, stopped call
-/// of the same program finished are not measured again. A mesh or scene that is not there is replaced by its
+/// finished are not measured again, nor is a finished run (`Resumption`). A mesh or scene that is not there is replaced by its
 /// stand-in, or listed as absent. Throws `Error`: bad input, run failed, interrupted. `exit_code` becomes
 /// `ExitCode::regression` when a check fails.
 std::filesystem::path run_measurement(const RunOptions &options, ExitCode &exit_code);

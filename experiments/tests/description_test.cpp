@@ -40,16 +40,40 @@ std::string replaced(std::string text, const std::string &from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
-TEST(Description, ShippedExperimentLoadsInEveryProfile) {
-    for (const char *profile : {"quick", "full", "ci"}) {
-        const auto experiment = load_experiment(shipped / "cornell_diffuse.json", profile);
-        EXPECT_EQ(experiment.name, "cornell_diffuse");
-        EXPECT_EQ(experiment.curves.size(), 3u);
-        EXPECT_EQ(experiment.curves[0].id(), "path_tracing.implicit");
-        EXPECT_GE(experiment.seeds, 8);
-        EXPECT_TRUE(experiment.scene.is_absolute());
+TEST(Description, ShippedExperimentsLoadInEveryProfile) {
+    for (const char *name : {"cornell_diffuse", "cornell_algorithms", "cornell_bumps", "cornell_mirrors", "mirror_ring",
+                             "glass_goblets", "door_ajar", "floor_lamps"}) {
+        for (const char *profile : {"quick", "full", "ci"}) {
+            const auto experiment = load_experiment(shipped / (std::string(name) + ".json"), profile);
+            EXPECT_EQ(experiment.name, name);
+            EXPECT_EQ(experiment.curves[0].id(), "path_tracing.implicit");
+            EXPECT_GE(experiment.seeds, 8);
+            EXPECT_TRUE(experiment.scene.is_absolute());
+            for (const CurveDescription &curve : experiment.curves) {
+                EXPECT_GE(curve.spp.size(), 3u);
+            }
+        }
     }
-    EXPECT_EQ(load_experiment(shipped / "cornell_diffuse.json", "full").spp.back(), 2048u);
+}
+
+TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
+    const std::string good = read_file(shipped / "glass_goblets.json");
+    const auto ladder = [&](const std::string &most) {
+        const fs::path path = fs::path(testing::TempDir()) / "capped_experiment.json";
+        write_file(path, replaced(good, "\"early_images\": [4, 16]", "\"early_images\": [4, 16], \"most_spp\": {" + most + "}"));
+        return load_experiment(path, "quick").curves;
+    };
+    for (const CurveDescription &curve : ladder("\"bdpt.mis\": 8")) {
+        const bool capped = curve.id() == "bdpt.mis";
+        EXPECT_EQ(curve.spp.back(), capped ? 8u : 16u);
+        EXPECT_EQ(curve.early_images, capped ? std::vector<uint64_t>{4} : std::vector<uint64_t>({4, 16}));
+    }
+    const auto error = [&](const std::string &most) {
+        return error_of(replaced(good, "\"early_images\": [4, 16]", "\"most_spp\": {" + most + "}"));
+    };
+    EXPECT_NE(error("\"bdpt\": 8").find("there is no curve 'bdpt'"), std::string::npos);
+    EXPECT_NE(error("\"bdpt.mis\": 5").find("none of \"spp\""), std::string::npos);
+    EXPECT_NE(error("\"bdpt.mis\": 2").find("from the third on"), std::string::npos);
 }
 
 TEST(Description, ErrorsNameTheKey) {

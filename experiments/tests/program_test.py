@@ -310,6 +310,13 @@ class Program(unittest.TestCase):
         reported = self.call("report", out)
         self.assertEqual(reported.returncode, 0, reported.stderr)
         self.assertTrue(pathlib.Path(reported.stdout.strip()).exists())
+        # A finished run stays as it is.
+        before = (out / "run.json").read_bytes()
+        again = self.call(*command)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertIn("finished already", again.stderr)
+        self.assertEqual((out / "run.json").read_bytes(), before)
+        self.assertFalse((out / ".partial").exists())
 
 
 if __name__ == "__main__":

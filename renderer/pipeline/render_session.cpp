@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/pipeline/session_state.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -135,7 +135,7 @@ void describe_image(Image &image, const FilmState &film) {
     attributes["samplesPerPixel"] = static_cast<int>(film.samples());
     attributes["renderTimeSeconds"] = static_cast<float>(film.wall_seconds);
     attributes["rtrays:deviceSeconds"] = film.device_seconds;
-    attributes["rtrays:commit"] = std::string(RTRAYS_VERSION);
+    attributes["rtrays:commit"] = version();
     attributes["rtrays:seed"] = std::to_string(film.seed);
     attributes["rtrays:samples"] = ranges;
     attributes["rtrays:config"] = film.config;

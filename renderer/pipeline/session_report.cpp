@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/commit.h"
 #include "renderer/pipeline/session_state.h"
 #include "renderer/shared/path_state.h"
-#include "rtrays_commit.h"
 
 namespace rtrays {
 
@@ -13,8 +13,8 @@ nlohmann::json RenderSession::report() const {
     const StreamCounters counters = s.counters.read().front();
     nlohmann::json report = {
         {"schema_version", 1},
-        {"commit", RTRAYS_COMMIT},
-        {"dirty", RTRAYS_DIRTY},
+        {"commit", commit()},
+        {"dirty", built_from_changed_sources()},
         {"device", {{"name", s.device.info().name}, {"driver", s.device.info().driver}, {"platform", s.device.info().platform_name}}},
         {"settings", image_settings(s.settings)},
         {"features", s.features.names()},
