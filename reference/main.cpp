@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// rtrays-reference: renders a scene with the independent Embree path tracer.
+// rtrays-reference: renders a scene with the independent Embree path tracer, or has Mitsuba or Cycles render it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "reference/manifest.h"
 #include "reference/options.h"
 #include "reference/output.h"
+#include "reference/peer.h"
 #include "reference/renderer.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
@@ -32,9 +33,9 @@ void check_outputs(const Options &options) {
         }
     }
     if (!options.manifest.empty()) {
-        if (const std::string engine = parse_reference_name(options.output).engine; engine != "embree") {
-            throw input_error(fmt::format("{}: the engine is embree, not {}; name it SCENE.embree.HALF.exr",
-                                          options.output, engine));
+        if (parse_reference_name(options.output).engine != options.engine) {
+            throw input_error(fmt::format("{}: the engine is {}; name it SCENE.{}.HALF.exr", options.output,
+                                          options.engine, options.engine));
         }
         if (fs::absolute(options.output).parent_path() != fs::absolute(options.manifest).parent_path()) {
             throw input_error(
@@ -46,9 +47,16 @@ void check_outputs(const Options &options) {
     }
 }
 
+/// What is to be rendered, in steps of the renderer.
+struct Steps {
+    uint64_t begin = 0, end = 0;
+    uint64_t samples = 1;  ///< per pixel, of one
+};
+
 /// Goes on from the image that the manifest lists with these settings and fewer samples: of references that were made
 /// elsewhere the image is there, the state is not. Returns the commits that worked on it.
-std::vector<std::string> continue_listed(const Options &options, const Json &config, ReferenceRenderer &renderer) {
+template <class Renderer>
+std::vector<std::string> continue_listed(const Options &options, const Steps &steps, const Json &config, Renderer &renderer) {
     const Json entry = manifest_entry(options.manifest, options.output);
     if (entry.is_null()) {
         return {};
@@ -60,7 +68,7 @@ std::vector<std::string> continue_listed(const Options &options, const Json &con
         begin != options.begin || end >= options.end) {
         return {};
     }
-    renderer.restore(Film::of(image, begin, end), entry.at("seconds"));
+    renderer.restore(Film::of(image, begin / steps.samples, end / steps.samples), entry.at("seconds"));
     std::vector<std::string> commits;
     std::istringstream listed(entry.at("commit").get<std::string>());
     for (std::string commit; std::getline(listed, commit, ',');) {
@@ -71,26 +79,27 @@ std::vector<std::string> continue_listed(const Options &options, const Json &con
 
 /// Restores the state file when asked to, or continues a listed image; refuses to overwrite a state that is not finished.
 /// Returns the commits that worked on the film, this program's included.
-std::vector<std::string> begin_or_resume(const Options &options, const Json &config,
-                                         ReferenceRenderer &renderer) {
+template <class Renderer>
+std::vector<std::string> begin_or_resume(const Options &options, const Steps &steps, const Json &config, Renderer &renderer) {
     std::vector<std::string> commits;
     if (fs::exists(options.state)) {
         Checkpoint checkpoint = load_checkpoint(options.state);
         if (options.resume) {
-            require_continues(checkpoint, config, options.begin, options.end, options.state);
+            require_continues(checkpoint, config, steps.begin, steps.end, options.state);
             commits = checkpoint.commits;
             renderer.restore(std::move(checkpoint.film), checkpoint.seconds);
         } else if (!checkpoint.finished()) {
             throw input_error(fmt::format(
                 "{}: holds {} of {} samples of an unfinished run; pass --resume to continue "
                 "it, or delete it to start anew",
-                options.state, checkpoint.film.count(), checkpoint.target - checkpoint.film.begin));
+                options.state, steps.samples * checkpoint.film.count(),
+                steps.samples * (checkpoint.target - checkpoint.film.begin)));
         }
     } else if (options.resume && !options.manifest.empty()) {
-        commits = continue_listed(options, config, renderer);
+        commits = continue_listed(options, steps, config, renderer);
     }
     const std::string made_by = version();
-    const bool has_work = renderer.samples() < options.end - options.begin;
+    const bool has_work = renderer.samples() < steps.end - steps.begin;
     if (has_work && std::find(commits.begin(), commits.end(), made_by) == commits.end()) {
         commits.push_back(made_by);
     }
@@ -104,41 +113,30 @@ bool is_listed(const Options &options, const Json &config) {
     return options.begin == 0 && manifest_lists(options.manifest, options.output, wanted);
 }
 
-ExitCode run(int argc, char **argv) {
-    auto parsed = parse_options(argc, argv);
-    if (!parsed) {
-        return ExitCode::ok;
-    }
-    Options &options = *parsed;
-    check_outputs(options);
-    const Scene scene = load_scene(options.scene);
-    if (options.settings.width == 0) {
-        options.settings.width = scene.film_width();
-        options.settings.height = scene.film_height();
-    }
-    options.settings.camera = static_cast<size_t>(scene.active_camera());
-    ReferenceRenderer renderer(scene.arrays(), options.settings);
-    const Json config = make_config(scene.name(), scene.hash(), options.settings, renderer.stats().engine);
+/// Renders what is missing and writes the results; `counts` tells further statistics.
+template <class Renderer, class Counts>
+ExitCode render_reference(const Options &options, const Steps &steps, const Json &config, Renderer &renderer,
+                          const Counts &counts) {
     if (options.skip_if_listed && is_listed(options, config)) {
         fmt::print(stderr, "rtrays-reference: {} is listed already with these settings: nothing to do\n",
                    options.output);
         return ExitCode::ok;
     }
-    const std::vector<std::string> commits = begin_or_resume(options, config, renderer);
+    const std::vector<std::string> commits = begin_or_resume(options, steps, config, renderer);
 
     install_interrupt_handler();
     const auto save = [&] {
-        save_checkpoint({config, renderer.film(), options.end, renderer.seconds(), commits}, options.state);
+        save_checkpoint({config, renderer.film(), steps.end, renderer.seconds(), commits}, options.state);
     };
     {
         Progress progress(fs::path(options.output).filename().string(), options.end - options.begin, "spp",
                           options.quiet);
-        progress.update(renderer.samples());
+        progress.update(steps.samples * renderer.samples());
         auto last_save = std::chrono::steady_clock::now();
-        uint64_t done = options.begin + renderer.samples();
-        while (done < options.end && !interrupted()) {
-            done = renderer.render(done, std::min(options.end, done + renderer.batch_size()));
-            progress.update(renderer.samples());
+        uint64_t done = steps.begin + renderer.samples();
+        while (done < steps.end && !interrupted()) {
+            done = renderer.render(done, std::min(steps.end, done + renderer.batch_size()));
+            progress.update(steps.samples * renderer.samples());
             const auto now = std::chrono::steady_clock::now();
             if (std::chrono::duration<double>(now - last_save).count() >= options.checkpoint_interval) {
                 save();
@@ -147,13 +145,52 @@ ExitCode run(int argc, char **argv) {
         }
     }
     save();
-    if (renderer.film().end < options.end) {
+    const Film &film = renderer.film();
+    if (film.end < steps.end) {
         fmt::print(stderr, "rtrays-reference: interrupted after {} of {} spp; continue with --resume\n",
-                   renderer.samples(), options.end - options.begin);
+                   steps.samples * renderer.samples(), options.end - options.begin);
         return ExitCode::interrupted;
     }
-    write_results(options, config, renderer, commits);
+    write_results(options, config,
+                  {renderer.develop(), steps.samples * film.begin, steps.samples * film.end, renderer.seconds(), counts()},
+                  commits);
     return ExitCode::ok;
+}
+
+ExitCode render_by_embree(const Options &options, const Scene &scene) {
+    ReferenceRenderer renderer(scene.arrays(), options.settings);
+    const Json config = make_config(scene.name(), scene.hash(), options.settings, renderer.stats().engine);
+    return render_reference(options, {options.begin, options.end, 1}, config, renderer,
+                            [&] { return describe_counts(renderer); });
+}
+
+/// The number of samples is rounded up to whole steps.
+ExitCode render_by_peer(Options options, Scene &scene) {
+    scene.set_film_size(options.settings.width, options.settings.height);
+    PeerRenderer renderer(scene, options.settings, options.engine, options.state + ".scene");
+    const uint64_t samples = renderer.samples_per_step();
+    const Steps steps{0, std::max<uint64_t>(2, (options.end + samples - 1) / samples), samples};  // two: they scatter
+    options.end = samples * steps.end;
+    renderer.plan(steps.end);
+    Json config = make_config(scene.name(), scene.hash(), options.settings, renderer.engine());
+    config["samples_per_step"] = samples;
+    return render_reference(options, steps, config, renderer, [] { return Json::object(); });
+}
+
+ExitCode run(int argc, char **argv) {
+    auto parsed = parse_options(argc, argv);
+    if (!parsed) {
+        return ExitCode::ok;
+    }
+    Options &options = *parsed;
+    check_outputs(options);
+    Scene scene = load_scene(options.scene);
+    if (options.settings.width == 0) {
+        options.settings.width = scene.film_width();
+        options.settings.height = scene.film_height();
+    }
+    options.settings.camera = static_cast<size_t>(scene.active_camera());
+    return options.engine == "embree" ? render_by_embree(options, scene) : render_by_peer(options, scene);
 }
 
 }  // namespace

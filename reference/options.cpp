@@ -61,7 +61,7 @@ std::optional<Options> parse_options(int argc, char **argv) {
     Options options;
     std::string size, range, strategies = name_of(options.settings.strategies);
     CLI::App app{
-        "Renders a scene with the independent Embree path tracer.\n"
+        "Renders a scene with the independent Embree path tracer, or with Mitsuba 3 or Blender's Cycles.\n"
         "A state file beside the output keeps what is done; --resume continues it."};
     app.set_version_flag("--version", "rtrays-reference " + version());
     app.add_option("SCENE", options.scene, "scene file")->required();
@@ -70,6 +70,9 @@ std::optional<Options> parse_options(int argc, char **argv) {
                     ->check(CLI::PositiveNumber);
     auto *samples = app.add_option("--samples", range, "sample range BEGIN:END")->excludes(spp);
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--engine", options.engine, "embree, or mitsuba or cycles where they are installed (else exit code 77)")
+        ->check(CLI::IsMember({"embree", "mitsuba", "cycles"}))
+        ->capture_default_str();
     app.add_option("--size", size, "film size WxH; the scene's by default");
     app.add_option("--strategies", strategies, "direct light: implicit, explicit or mis")
         ->capture_default_str();
@@ -112,6 +115,9 @@ std::optional<Options> parse_options(int argc, char **argv) {
         apply_size(size, options.settings);
     }
     options.settings.strategies = strategies_from_name(strategies);
+    if (options.engine != "embree" && (samples->count() > 0 || options.settings.strategies != Strategies::mis)) {
+        throw input_error(fmt::format("--engine {}: --samples and --strategies are of embree", options.engine));
+    }
     if (options.state.empty()) {
         options.state = options.output + ".state";
     }

@@ -16,6 +16,7 @@ struct Options {
     std::string state;           ///< OUTPUT.state unless given
     std::string stats;           ///< empty: none
     std::string manifest;        ///< empty: none
+    std::string engine = "embree";  ///< or "mitsuba", "cycles"
     ReferenceSettings settings;  ///< width and height 0: the scene's film
     uint64_t begin = 0;
     uint64_t end = 0;

@@ -2,13 +2,12 @@
 // Mitsuba 3 as a contestant: a process that renders when it is told to.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "experiments/hierarchy/contest.h"
+#include "renderer/base/process.h"
 
 namespace rtrays {
 
@@ -18,9 +17,6 @@ class MitsubaPeer {
     /// Loads an exported scene (.xml) in `variant` ("scalar_rgb", "llvm_ad_rgb"); waits until it is there.
     /// Where Mitsuba or the variant is not installed, `is_there` is false.
     MitsubaPeer(const std::filesystem::path &scene, const std::string &variant);
-    ~MitsubaPeer();
-    MitsubaPeer(const MitsubaPeer &) = delete;
-    MitsubaPeer &operator=(const MitsubaPeer &) = delete;
 
     bool is_there() const { return !engine_.empty(); }
     const std::string &engine() const { return engine_; }  ///< "Mitsuba 3.9.1 scalar_rgb"
@@ -30,10 +26,7 @@ class MitsubaPeer {
     Seconds render(uint32_t max_depth, uint64_t spp);
 
   private:
-    std::string read_line();
-
-    pid_t process_ = -1;
-    int to_ = -1, from_ = -1;
+    Process process_;
     std::string engine_;
     uint32_t seed_ = 0;
 };

@@ -47,6 +47,9 @@ MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext 
 /// setting changed at a time, in turns with the defaults; speeds over those by processor time.
 MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContext &device);
 
+/// Stored references by every renderer that made some, and an image of ours, tested against each other pair by pair.
+MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings, DeviceContext &device);
+
 /// {"value", "low", "high"} times a factor.
 Json scaled(const Interval &interval, double factor);
 

@@ -38,6 +38,7 @@ const std::vector<Kind> &kinds() {
         {"bvh_build", {"meshes", "rays", "repetitions"}, plan_bvh_build},
         {"frame_times", {"scenes", "size", "repetitions"}, plan_frame_times},
         {"ray_rates", {"meshes", "rays", "repetitions"}, plan_ray_rates},
+        {"reference_agreement", {"references", "size", "spp"}, plan_reference_agreement},
         {"traversal", {"meshes", "rays", "watertight_rays"}, plan_traversal},
     };
     return all;
@@ -86,6 +87,7 @@ MeasurementSettings settings_of(const Json &description, const Json &profile, Js
         present(profile.value("meshes", none), has_measured_mesh, replacements, stand_ins, absent);
     settings.scenes =
         present(profile.value("scenes", none), has_timed_scene, replacements, stand_ins, absent);
+    settings.references = profile.value("references", std::vector<std::string>());
     const Json size = profile.value("size", Json{0, 0});
     settings.width = size.at(0);
     settings.height = size.at(1);
@@ -121,8 +123,8 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     Json stand_ins = Json::object(), absent = Json::array();
     const MeasurementSettings settings = settings_of(file.json, profile, stand_ins, absent);
     if (options.dry_run) {
-        fmt::print("{}, profile {}: {} on {}{}\n", name, options.profile, measures,
-                   fmt::join(settings.meshes, ", "), fmt::join(settings.scenes, ", "));
+        fmt::print("{}, profile {}: {} on {}{}{}\n", name, options.profile, measures,
+                   fmt::join(settings.meshes, ", "), fmt::join(settings.scenes, ", "), fmt::join(settings.references, ", "));
         return {};
     }
     const fs::path out = options.out.empty() ? fs::path(name + "." + options.profile) : options.out;

@@ -22,6 +22,7 @@ struct MeasurementSettings {
     int frames = 0;              ///< of an animation, but for the first
     std::vector<std::string> meshes;
     std::vector<std::string> scenes;
+    std::vector<std::string> references;  ///< scenes of this repository that have some
     int width = 0, height = 0;          ///< pixels of a frame
     uint64_t spp = 0;                   ///< of a frame
     std::vector<std::string> peers;     ///< variants of Mitsuba 3

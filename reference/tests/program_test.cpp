@@ -291,5 +291,44 @@ TEST_F(Program, refuses_bad_usage_with_code_2_and_one_line) {
     EXPECT_EQ(run({"--version"}), 0);
 }
 
+/// The other renderers, where they are installed: a grown reference with its entry, and the reference's image.
+TEST_F(Program, other_engines_go_on_from_their_state) {
+    ASSERT_EQ(run({cornell_box, "-o", in_folder("cornell_box.embree.a.exr"), "--spp", "512", "--size", "16x16", "--quiet"}), 0);
+    const Image reference = read_exr(in_folder("cornell_box.embree.a.exr"));
+    size_t installed = 0;
+    for (const std::string engine : {"mitsuba", "cycles"}) {
+        const std::string image = in_folder("cornell_box." + engine + ".a.exr"), manifest = in_folder("manifest.json");
+        const auto render = [&](const std::string &spp) {
+            return run({cornell_box, "-o", image, "--engine", engine, "--spp", spp, "--size", "16x16", "--resume",
+                        "--manifest", manifest, "--quiet"});
+        };
+        if (const int code = render("500"); code == static_cast<int>(ExitCode::skipped)) {
+            EXPECT_NE(read_file(log()).find("scripts/install --peers"), std::string::npos);
+            continue;
+        } else {
+            ASSERT_EQ(code, 0) << read_file(log());
+        }
+        ++installed;
+        EXPECT_EQ(manifest_entry(manifest, image).at("spp"), 512);  // whole steps
+        ASSERT_EQ(render("1024"), 0) << read_file(log());
+        EXPECT_EQ(manifest_entry(manifest, image).at("spp"), 1024);
+        EXPECT_FALSE(fs::exists(image + ".state.scene"));
+        const Image made = read_exr(image);
+        double sum = 0, expected = 0;
+        for (const std::string &name : rgb_names()) {
+            for (size_t i = 0; i < made.pixel_count(); ++i) {
+                sum += static_cast<double>(made.channel(name)[i]);
+                expected += static_cast<double>(reference.channel(name)[i]);
+                EXPECT_GE(made.channel("variance." + name)[i], 0.0f);
+            }
+        }
+        EXPECT_NEAR(sum / expected, 1.0, 0.05) << engine;
+        EXPECT_EQ(made.channel("samples")[0], 1024.0f);
+    }
+    if (installed == 0) {
+        GTEST_SKIP() << "neither Mitsuba nor Blender is installed";
+    }
+}
+
 }  // namespace
 }  // namespace rtrays::reference

@@ -2,14 +2,17 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <limits>
 
+#include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/image.h"
+#include "renderer/base/process.h"
 #include "renderer/tests/errors.h"
 
 namespace rtrays {
@@ -189,6 +192,42 @@ TEST(RunMain, TurnsErrorsIntoExitCodes) {
     EXPECT_EQ(run_main("p", []() -> ExitCode { throw run_error("failed"); }), 1);
     EXPECT_EQ(run_main("p", []() -> ExitCode { throw std::runtime_error("other"); }), 1);
     EXPECT_EQ(run_main("p", []() -> ExitCode { throw std::bad_alloc(); }), 1);
+}
+
+TEST(Process, answers_line_by_line) {
+    Process cat({"cat"});
+    EXPECT_TRUE(cat.write("one\ntwo\n"));
+    EXPECT_EQ(cat.read_line(), "one");
+    EXPECT_EQ(cat.read_line(), "two");
+}
+
+TEST(Process, ends_with_its_exit_code) {
+    Process shell({"sh", "-c", "echo $WORD; exit 5"}, {{"WORD", "told"}});
+    EXPECT_EQ(shell.read_line(), "told");
+    EXPECT_EQ(shell.read_line(), std::nullopt);
+    EXPECT_EQ(shell.wait(), 5);
+}
+
+TEST(Process, that_is_not_there_says_nothing) {
+    Process nothing({"rtrays-no-such-program"});
+    EXPECT_EQ(nothing.read_line(), std::nullopt);
+    EXPECT_EQ(nothing.wait(), 127);
+    EXPECT_FALSE(nothing.write("anyone?\n"));
+}
+
+TEST(Process, that_is_not_waited_for_is_stopped) {
+    const auto start = std::chrono::steady_clock::now();
+    { Process sleeper({"sleep", "60"}); }
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST(Commit, is_no_part_of_the_program_hash) {
+    const std::string program = read_file("/proc/self/exe");
+    EXPECT_NE(program.find(commit()), std::string::npos);
+    EXPECT_NE(program_hash(), content_hash(program));
+    std::string elsewhere = program;
+    elsewhere.replace(elsewhere.find(commit()), commit().size(), commit().size(), '-');
+    EXPECT_EQ(program_hash(), content_hash(elsewhere)) << "the commit is in the program once";
 }
 
 }  // namespace

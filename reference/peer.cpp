@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "reference/peer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "renderer/base/error.h"
+#include "renderer/base/json.h"
+#include "renderer/base/process.h"
+#include "renderer/base/progress.h"
+#include "renderer/export/export_scene.h"
+
+namespace rtrays::reference {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What is particular to a program.
+struct PeerKind {
+    const char *name, *scene_file;
+    uint64_t samples_per_step;  ///< enough that starting a render is small beside it, few enough for memory
+    std::vector<std::string> version, render;  ///< command lines; the arguments of the driver follow
+    const char *version_prefix;  ///< before what the version command prints first
+    std::string version_suffix;
+};
+
+const char *const python = RTRAYS_SOURCE "/build/peers/bin/python";
+
+PeerKind kind_of(const std::string &name) {
+    if (name == "mitsuba") {
+        return {"mitsuba", "scene.xml", 64, {python, "-c", "import mitsuba; print(mitsuba.__version__)"},
+                {python, RTRAYS_SOURCE "/scripts/mitsuba_driver.py"}, "Mitsuba ", " llvm_ad_rgb"};
+    }
+    return {"cycles", "scene.blender.json", 256, {"blender", "--version"},
+            {"blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
+             RTRAYS_SOURCE "/scripts/cycles_driver.py", "--"}, "Cycles of ", ""};
+}
+
+/// Blender takes its Python's packages from where the first python3 of the PATH is.
+std::vector<std::pair<std::string, std::string>> environment() {
+    const char *path = std::getenv("PATH");
+    return {{"PATH", fmt::format("/usr/bin:{}", path != nullptr ? path : "/bin")}};
+}
+
+std::string version_of(const PeerKind &kind) {
+    Process program(kind.version, environment());
+    const auto line = program.read_line();
+    if (!line) {
+        throw Error(ExitCode::skipped,
+                    fmt::format("{} is not installed; scripts/install --peers installs it", kind.name));
+    }
+    while (program.read_line()) {
+    }
+    return kind.version_prefix + *line + kind.version_suffix;
+}
+
+/// Seeds of different halves do not meet: each has a million steps.
+uint64_t first_seed(uint64_t seed) {
+    return seed << 20;
+}
+
+}  // namespace
+
+struct PeerRenderer::State {
+    PeerKind kind;
+    ReferenceSettings settings;
+    fs::path folder;
+    std::string engine;
+    Film film;
+    double seconds = 0;
+    std::optional<Process> process;  ///< renders the steps from film.end on
+
+    void start(uint64_t end) {
+        std::vector<std::string> command = kind.render;
+        const std::vector<std::string> arguments = {
+            (folder / kind.scene_file).string(), (folder / "step.exr").string(), "--spp",
+            std::to_string(kind.samples_per_step), "--seed", std::to_string(first_seed(settings.seed) + film.end),
+            "--max-depth", std::to_string(settings.max_depth), "--runs", std::to_string(end - film.end)};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        process.emplace(command, environment());
+    }
+
+    /// The record that the driver prints for the next image.
+    Json next_record() {
+        while (const auto line = process->read_line()) {
+            if (line->rfind("{\"file\"", 0) == 0) {
+                return parse_json(*line, engine);
+            }
+        }
+        throw run_error(fmt::format("{} ended with exit code {} before its images were done", engine, process->wait()));
+    }
+
+    void add(const Image &image) {
+        if (image.width() != film.width || image.height() != film.height) {
+            throw run_error(fmt::format("{} made an image of {}x{}", engine, image.width(), image.height()));
+        }
+        const auto names = rgb_names();
+        for (size_t i = 0; i < film.pixels.size(); ++i) {
+            const Spectrum value(static_cast<double>(image.channel(names[0])[i]),
+                                 static_cast<double>(image.channel(names[1])[i]),
+                                 static_cast<double>(image.channel(names[2])[i]));
+            if (!value.allFinite()) {
+                throw run_error(fmt::format("{}: pixel {},{} is not finite", engine,
+                                            i % static_cast<size_t>(film.width), i / static_cast<size_t>(film.width)));
+            }
+            film.pixels[i].add(value, film.count());
+        }
+        ++film.end;
+    }
+};
+
+PeerRenderer::PeerRenderer(const Scene &scene, const ReferenceSettings &settings, const std::string &engine, fs::path folder)
+    : state_(new State{kind_of(engine), settings, std::move(folder), {}, Film(settings.width, settings.height, 0), 0, {}}) {
+    state_->engine = version_of(state_->kind);
+    fs::create_directories(state_->folder);
+    export_scene(scene, state_->folder / state_->kind.scene_file);
+}
+
+PeerRenderer::~PeerRenderer() {
+    state_->process.reset();
+    std::error_code ignored;
+    fs::remove_all(state_->folder, ignored);
+}
+
+const std::string &PeerRenderer::engine() const {
+    return state_->engine;
+}
+
+uint64_t PeerRenderer::samples_per_step() const {
+    return state_->kind.samples_per_step;
+}
+
+uint64_t PeerRenderer::batch_size() const {
+    return 1;
+}
+
+uint64_t PeerRenderer::render(uint64_t begin, uint64_t end) {
+    State &s = *state_;
+    if (s.film.count() == 0) {
+        s.film.begin = s.film.end = begin;
+    }
+    if (!s.process) {
+        s.start(std::max(end, last_step_));
+    }
+    while (s.film.end < end && !interrupted()) {
+        const Json record = s.next_record();
+        const fs::path file = record.at("file").get<std::string>();
+        s.add(read_exr(file));
+        fs::remove(file);
+        s.seconds += record.at("seconds").get<double>();
+    }
+    return s.film.end;
+}
+
+double PeerRenderer::seconds() const {
+    return state_->seconds;
+}
+
+uint64_t PeerRenderer::samples() const {
+    return state_->film.count();
+}
+
+const Film &PeerRenderer::film() const {
+    return state_->film;
+}
+
+void PeerRenderer::restore(Film film, double seconds) {
+    state_->film = std::move(film);
+    state_->seconds = seconds;
+}
+
+Image PeerRenderer::develop() const {
+    Image image = state_->film.develop();
+    const uint64_t spp = samples() * samples_per_step();
+    image.channel("samples").assign(image.pixel_count(), static_cast<float>(spp));
+    image.attributes()["samplesPerPixel"] = static_cast<int>(spp);
+    image.attributes()["renderTimeSeconds"] = static_cast<float>(seconds());
+    return image;
+}
+
+}  // namespace rtrays::reference

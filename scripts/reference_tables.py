@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+"""The table of how references by several renderers agree, and our own image with them."""
+
+from measurement_tables import NONE, name
+from run_document import value
+from tables import Table
+
+# What was looked into, by scene and renderer.
+KNOWN = {
+    ("floor_lamps", "mitsuba"): "Mitsuba 3 has no cone, which the lamps stand on.",
+}
+
+
+def reference_agreement(run):
+    renderers, pairs, notes = [], [], []
+    for row in run.get("rows"):
+        scene = value(row, "scene")
+        for renderer in value(row, "renderers"):
+            renderers.append([name(scene), value(renderer, "engine"), f"{value(renderer, 'spp')}", f"{value(renderer, 'noise_rmse'):.3g}"])
+        renderers += [[name(scene), missing, NONE, NONE] for missing in value(row, "absent")]
+        for pair in value(row, "pairs"):
+            result = value(pair, "agreement")
+            percent = {end: 100 * value(result, f"relative_difference.{end}") for end in ("value", "low", "high")}
+            pairs.append([name(scene), value(pair, "image"), value(pair, "against"),
+                          f"{percent['value']:+.3f} [{percent['low']:+.3f}, {percent['high']:+.3f}]",
+                          f"{value(result, 'rejected')} of {value(result, 'tests')}", f"{value(result, 'largest_z'):.2f}",
+                          value(result, "largest_z_at"), value(result, "equivalence")])
+        notes += [f"{name(scene)} by {engine}: {text}" for (where, engine), text in KNOWN.items() if where == scene]
+    width, height = run.get("experiment.settings.size")
+    tables = (
+        Table("Images against each other", ["scene", "image", "against", "difference of the mean, % [99 %]", "block tests that reject",
+                                            "largest z", "at", "within 0.1 %"], pairs),
+        Table("What there is", ["scene", "renderer", "samples per pixel", f"noise, RMSE at {width} x {height}"], renderers),
+    )
+    what = (f"References of results/references/ averaged to {width} x {height} pixels, and an image of ours, tested pair by pair: means "
+            "of blocks of 16 x 16 pixels and of the image, by channel, Holm's correction at 0.01 within a pair. What the noise of "
+            "both images says of a difference is its standard error; for Mitsuba and Cycles that is the scatter of their "
+            "batches. A dash: there is none.")
+    return " ".join([what, *notes]), tables
+
+
+REFERENCE_TABLES = {"reference_agreement": reference_agreement}
