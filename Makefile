@@ -5,13 +5,13 @@ PROFILE ?= quick
 REFERENCE_SPP ?= 100000
 JOBS ?= $(shell nproc)
 BENCH ?= .
-STIFFNESS ?= results/stiffness
+STIFFNESS ?= results/chapter4/stiffness
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors mirror_ring glass_goblets door_ajar floor_lamps
 MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces ablations
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability stiffness instructions bench measurements references format lint clean
+.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
 
 all: build
 
@@ -57,8 +57,8 @@ test-asan: install
 # feature scenes by renderer and reference, with a contact sheet, and by every algorithm. What they print is evidence and
 # is kept in results/.
 test-full: programs
-	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/traversal
-	/usr/bin/python3 scripts/measurements results/traversal
+	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/chapter4/traversal
+	/usr/bin/python3 scripts/measurements results/chapter4/traversal
 	for agreement in feature_scenes algorithms; do \
 	    build/bin/rtrays-experiment agree experiments/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
 	    mkdir -p results/$$agreement; \
@@ -91,7 +91,7 @@ instructions: programs
 	mv results/instructions.md.new results/instructions.md
 
 # The hierarchy beside Embree's: rays per second by mesh and kind of ray, and how long it takes to build; on an idle machine.
-# A part of them: BENCH=sphere (a regular expression). `make measurements` makes tables of the same turns.
+# A part of them: BENCH=sphere (a regular expression). The experiments bvh_build and ray_rates make tables of the same turns.
 bench: install
 	cmake --preset release
 	cmake --build --preset release -j $(JOBS) --target benchmark_ray_rates benchmark_bvh_build
@@ -99,13 +99,6 @@ bench: install
 	    build/bin/benchmark_$$program --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
 	        --benchmark_out=build/$$program.json --benchmark_out_format=json || exit $$?; \
 	done
-
-# The full profiles of the experiments on speed (thesis 4.4), resumable, with tables and plots; on an idle machine.
-measurements: programs
-	for experiment in $(MEASUREMENTS); do \
-	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile full --out results/$$experiment || exit $$?; \
-	done
-	/usr/bin/python3 scripts/measurements $(addprefix results/,$(MEASUREMENTS))
 
 # The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
 references: programs
