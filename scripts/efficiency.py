@@ -7,7 +7,7 @@ whatever sample counts they were stopped at.
 
 import numpy
 
-from run_document import RunError, usable_points, value
+from run_document import RunError, pilot_seconds, usable_points, value
 
 DRAWS = 2000
 
@@ -21,7 +21,7 @@ class Cost:
             raise RunError(f"curve {value(curve, 'id')} has no point above the reference's noise: it needs more samples")
         point = points[-1]
         self.spp = value(point, "spp")
-        self.pilot_seconds = curve["render_report"]["pilot"]["seconds"] if "pilot" in value(curve, "render_report") else 0.0
+        self.pilot_seconds = pilot_seconds(curve)
         repetitions = value(point, "repetitions")
         self.mse = numpy.array([value(r, "mse") for r in repetitions]) - noise
         self.seconds = float(numpy.median([value(r, "seconds_device") for r in repetitions])) - self.pilot_seconds

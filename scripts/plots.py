@@ -12,12 +12,12 @@ matplotlib.rcParams.update({"svg.hashsalt": "rtrays", "svg.fonttype": "none", "f
 import matplotlib.pyplot as pyplot
 import numpy
 
-from run_document import label, usable_points, value
+from run_document import label, pilot_seconds, shown_curves, usable_points, value
 
 AXES = {
     "spp": "samples per pixel",
-    "seconds_device": "device time, s (kernel compilation and BVH construction apart)",
-    "seconds_wall": "wall time, s (kernel compilation and BVH construction apart)",
+    "seconds_device": "device time, s (kernel compilation and BVH construction apart, pilots included)",
+    "seconds_wall": "wall time, s (kernel compilation and BVH construction apart, pilots included)",
 }
 # Okabe & Ito: told apart with any colour vision.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D1F")
@@ -43,7 +43,8 @@ def curves_figure(run, x_key):
     all_x, first_y = [], []
     for index, curve in enumerate(run.curves):
         points = usable_points(curve)
-        x = [value(point, x_key) for point in points]
+        ahead = pilot_seconds(curve) if x_key == "seconds_wall" else 0.0  # in device seconds it is already
+        x = [value(point, x_key) + ahead for point in points]
         y = [value(point, "rmse") for point in points]
         colour = COLOURS[index % len(COLOURS)]
         axes.fill_between(x, *band(points, "rmse"), color=colour, alpha=0.2, linewidth=0)
@@ -102,21 +103,28 @@ def contributions_figure(run, curve):
     return panels_figure(panels)
 
 
-def early_figure(run):
-    """The first seed's images of every curve after few samples (figures 4.9, 4.12, 4.15, 4.18)."""
+def early_figure(run, curves):
+    """The first seed's images after few samples, a row for each curve (figures 4.9, 4.12, 4.15, 4.18)."""
     rows = [[(f"{label(curve)}, {value(early, 'spp')} spp", run.image(value(early, "image")))
-             for early in value(curve, "early_images")] for curve in run.curves]
-    figure, grid = pyplot.subplots(len(rows[0]), len(rows), figsize=(2.6 * len(rows), 2.9 * len(rows[0])),
-                                   layout="constrained", squeeze=False)
-    for column, panels in zip(grid.T, rows):
-        for axes, panel in zip(column, panels):
+             for early in value(curve, "early_images")] for curve in curves]
+    columns = max(map(len, rows))
+    figure, grid = pyplot.subplots(len(rows), columns, figsize=(2.9 * columns, 3.1 * len(rows)), layout="constrained",
+                                   squeeze=False)
+    for axes in grid.flat:
+        axes.set_axis_off()
+    for line, panels in zip(grid, rows):
+        for axes, panel in zip(line, panels):
             draw_image(axes, *panel)
     return figure
 
 
-def save(figure, stem):
-    """STEM.svg and STEM.png."""
-    for extension, metadata in ((".svg", {"Date": None}), (".png", {"Software": None})):
+FORMS = {".svg": {"Date": None}, ".png": {"Software": None}}
+
+
+def save(figure, stem, *extensions):
+    """STEM.svg, STEM.png: curves as both, pictures, which are pixels, as the latter."""
+    for extension in extensions:
+        metadata = FORMS[extension]
         temporary = stem.with_name(f"{stem.name}.tmp{extension}")
         figure.savefig(temporary, dpi=160, metadata=metadata)
         temporary.replace(stem.with_name(stem.name + extension))
@@ -124,22 +132,24 @@ def save(figure, stem):
 
 
 def write_plots(run, folder):
-    """All figures of a run; returns {stem: caption}."""
+    """All figures of a run; returns {file: caption}."""
     folder.mkdir(parents=True, exist_ok=True)
     figures = {}
     for x_key, axis in AXES.items():
-        stem = f"rmse_{x_key}"
-        save(curves_figure(run, x_key), folder / stem)
-        figures[stem] = f"RMSE against {axis}."
-    for curve in run.curves:
-        stem = f"images_{value(curve, 'id')}"
-        save(images_figure(run, curve), folder / stem)
-        figures[stem] = f"Reference, {label(curve)} and ten times their absolute difference (sRGB for display)."
+        save(curves_figure(run, x_key), folder / f"rmse_{x_key}", ".svg", ".png")
+        figures[f"rmse_{x_key}.svg"] = f"RMSE against {axis}."
+
+    def save_pictures(figure, stem, caption):
+        save(figure, folder / stem, ".png")
+        figures[f"{stem}.png"] = caption
+
+    curves = shown_curves(run)
+    for curve in curves:
+        save_pictures(images_figure(run, curve), f"images_{value(curve, 'id')}",
+                      f"Reference, {label(curve)} and ten times their absolute difference (sRGB for display).")
         if value(curve, "layers"):
-            stem = f"contributions_{value(curve, 'id')}"
-            save(contributions_figure(run, curve), folder / stem)
-            figures[stem] = f"What the passes of {label(curve)} contribute, and their sum."
-    if all(value(curve, "early_images") for curve in run.curves):
-        save(early_figure(run), folder / "early")
-        figures["early"] = "After few samples, first seed."
+            save_pictures(contributions_figure(run, curve), f"contributions_{value(curve, 'id')}",
+                          f"What the passes of {label(curve)} contribute, and their sum.")
+    if any(value(curve, "early_images") for curve in curves):
+        save_pictures(early_figure(run, curves), "early", "After few samples, first seed.")
     return figures

@@ -5,7 +5,7 @@ import html
 import os
 
 from efficiency import Cost, base_curve, ratio
-from run_document import agreement_verdict, gain_verdict, label, slope_verdict, value, write_text
+from run_document import agreement_verdict, gain_verdict, is_blind, label, slope_verdict, value, write_text
 from tables import Table, interval
 from viewer import write_viewer
 
@@ -29,12 +29,13 @@ def verdict_table(run):
     expected, tolerance = run.get("experiment.expected_slope.value"), run.get("experiment.expected_slope.tolerance")
     rows = []
     for curve in run.curves:
+        blind = "not expected: it sees nothing in mirrors and glass" if is_blind(curve) else None
         rows.append([label(curve), f"slope {expected} ± {tolerance}", interval(value(curve, "slope"), form="{:.4f}"),
-                     slope_verdict(value(curve, "slope"), expected, tolerance)])
+                     blind or slope_verdict(value(curve, "slope"), expected, tolerance)])
         agreement = value(curve, "agreement")
         measured = (f"mean {interval(value(agreement, 'relative_difference'), 100, '{:+.3f}')} %, "
                     f"{value(agreement, 'rejected')} of {value(agreement, 'tests')} block tests reject")
-        rows.append([label(curve), "the reference's image", measured, agreement_verdict(agreement)])
+        rows.append([label(curve), "the reference's image", measured, blind or agreement_verdict(agreement)])
     rows += gain_rows(run)
     return Table("Claim, measurement, verdict", ["curve", "thesis", "measured", "verdict"], rows)
 
@@ -83,7 +84,7 @@ def title(run):
 
 def markdown_page(run, tables, figures):
     parts = [f"# {title(run)}", f"The thesis claims: {run.get('experiment.claim')}", verdict_table(run).markdown()]
-    parts += [f"![{caption}](plots/{stem}.svg)\n\n{caption}" for stem, caption in figures.items()]
+    parts += [f"![{caption}](plots/{file})\n\n{caption}" for file, caption in figures.items()]
     parts += [f"## {table.caption}\n\n{table.markdown()}" for table in tables.values()]
     parts += ["---", "\n".join(f"- {line}" for line in provenance(run))]
     return "\n\n".join(parts) + "\n"
@@ -104,10 +105,10 @@ def html_document(heading, body):
 
 def html_page(run, tables, figures):
     parts = [f"<p>The thesis claims: {html.escape(run.get('experiment.claim'))}</p>", html_table(verdict_table(run))]
-    for stem, caption in figures.items():
+    for file, caption in figures.items():
         text = html.escape(caption)
-        parts.append(f'<figure><img src="plots/{stem}.svg" alt="{text}"><figcaption>{text} '
-                     f'<a href="plots/{stem}.png">PNG</a></figcaption></figure>')
+        link = f' <a href="plots/{file[:-4]}.png">PNG</a>' if file.endswith(".svg") else ""
+        parts.append(f'<figure><img src="plots/{file}" alt="{text}"><figcaption>{text}{link}</figcaption></figure>')
     parts.append(f"<h2>Images</h2>{write_viewer(run)}")
     for name, table in tables.items():
         links = ", ".join(f'<a href="tables/{name}.{form}">{form}</a>' for form in ("csv", "md", "tex"))

@@ -82,6 +82,23 @@ def value(document, path):
     return current
 
 
+def shown_curves(run):
+    """Those whose images have figures, of path tracing by MIS and of truncated BDPT as it is by default; all of a run that
+    has neither. The viewer has the images of all."""
+    shown = [curve for curve in run.curves if value(curve, "id") in ("truncated_bdpt.mis", "path_tracing.mis")]
+    return shown or run.curves
+
+
+def is_blind(curve):
+    """Whether the algorithm does not see all light of the scene: of light tracing, what mirrors and glass show."""
+    return value(curve, "algorithm") == "light_tracing" and "delta" in value(curve, "render_report.features")
+
+
+def pilot_seconds(curve):
+    """Device time of the pilot that chose the number of light paths; zero where there was none."""
+    return value(curve, "render_report.pilot.seconds") if "pilot" in value(curve, "render_report") else 0.0
+
+
 def usable_points(curve):
     """The points before the first where the reference's noise dominates: where curves stop."""
     points = []

@@ -7,7 +7,7 @@ import pathlib
 
 import numpy
 
-from run_document import label, value, write_text
+from run_document import label, shown_curves, value, write_text
 
 SCRIPT = pathlib.Path(__file__).with_name("viewer.js")
 
@@ -26,11 +26,13 @@ def to_rgbe(linear):
 
 
 def pictures(run):
-    """(name, linear image) of all that the run kept: the reference first, then by curve."""
+    """(name, linear image): the reference, then every curve, with passes and early images of those that have figures."""
     yield f"reference, {run.get('reference.spp')} spp", run.image(run.get("reference.image"))
     for curve in reversed(run.curves):
         image, spp = value(curve, "image"), value(curve, "image_spp")
         yield f"{label(curve)}, {spp} spp", run.image(image)
+        if curve not in shown_curves(run):
+            continue
         for layer in value(curve, "layers"):
             yield f"{label(curve)}, {layer} paths alone", run.layer(image, layer)
         for early in value(curve, "early_images"):
@@ -44,4 +46,5 @@ def write_viewer(run):
     write_text(run.folder / "images.js", f"const images = {json.dumps(images)};\n")
     write_text(run.folder / "viewer.js", SCRIPT.read_text())
     return ('<div id=viewer></div><script src="images.js"></script><script src="viewer.js"></script>'
-            '<script>viewer(document.getElementById("viewer"), images);</script>')
+            '<script>typeof images === "undefined" ? document.getElementById("viewer").textContent = "The repository keeps no images '
+            'of this run; the experiment, run again, makes them." : viewer(document.getElementById("viewer"), images);</script>')

@@ -33,7 +33,7 @@ def made_up_curve(strategies):
                        "noise_dominates": spp == 8, "repetitions": repetitions})
     slope = {"value": -0.5, "low": -0.51, "high": -0.49, "confidence": 0.95, "spp": [1, 4]}
     return {"id": f"path_tracing.{strategies}", "scene": "box", "algorithm": "path_tracing", "strategies": strategies,
-            "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {"bytes_per_path": 112, "light_vertex_bytes_per_path": 0},
+            "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {"bytes_per_path": 112, "light_vertex_bytes_per_path": 0, "features": []},
             "points": points,
             "slope": slope, "slope_unbiased": slope, "image": "images/ours.exr", "image_spp": 64, "layers": [],
             "early_images": [{"spp": 2, "image": "images/early.exr"}],
@@ -187,7 +187,7 @@ class Reports(RunFolder):
         text = page.read_text()
         self.assertNotIn("http", text)
         self.assertIn("A box &amp; more", text)
-        for link in ("plots/rmse_spp.svg", "plots/rmse_spp.png", "plots/images_path_tracing.mis.svg", "tables/errors.tex"):
+        for link in ("plots/rmse_spp.svg", "plots/rmse_spp.png", "plots/images_path_tracing.mis.png", "tables/errors.tex"):
             self.assertIn(link, text)
             self.assertTrue((self.folder / link).stat().st_size > 0)
         self.assertIn("commit abc", (self.folder / "report.md").read_text())
@@ -197,18 +197,18 @@ class Reports(RunFolder):
 
     def test_passes_and_gains_have_figures_and_rows(self):
         curve = self.document["curves"][0]
-        curve.update(algorithm="truncated_bdpt", layers=["camera", "light"])
+        curve.update(id="truncated_bdpt.mis", algorithm="truncated_bdpt", layers=["camera", "light"])
         self.document["experiment"]["expected_gain"] = {"algorithm": "truncated_bdpt", "samples": 4, "time": 2}
         for layer in curve["layers"]:
             shutil.copy(self.folder / "images/ours.npy", self.folder / f"images/ours.{layer}.npy")
         self.run_object()
         done = self.script("report", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue((self.folder / "plots/contributions_path_tracing.implicit.svg").stat().st_size > 0)
-        self.assertTrue((self.folder / "plots/early.svg").stat().st_size > 0)
+        self.assertTrue((self.folder / "plots/contributions_truncated_bdpt.mis.png").stat().st_size > 0)
+        self.assertTrue((self.folder / "plots/early.png").stat().st_size > 0)
         page = (self.folder / "report.md").read_text()
-        self.assertIn("| path tracing (implicit) | 4 times fewer samples | 1.00 [1.00, 1.00] | does not hold here |", page)
-        self.assertIn("| path tracing (implicit) | 2 times less device time | 1.00 [1.00, 1.00] | does not hold here |", page)
+        self.assertIn("| truncated bdpt (mis) | 4 times fewer samples | 1.00 [1.00, 1.00] | does not hold here |", page)
+        self.assertIn("| truncated bdpt (mis) | 2 times less device time | 1.00 [1.00, 1.00] | does not hold here |", page)
 
     def test_viewer_has_the_images(self):
         from viewer import to_rgbe
