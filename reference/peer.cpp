@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -43,14 +42,8 @@ PeerKind kind_of(const std::string &name) {
              RTRAYS_SOURCE "/scripts/cycles_driver.py", "--"}, "Cycles of ", ""};
 }
 
-/// Blender takes its Python's packages from where the first python3 of the PATH is.
-std::vector<std::pair<std::string, std::string>> environment() {
-    const char *path = std::getenv("PATH");
-    return {{"PATH", fmt::format("/usr/bin:{}", path != nullptr ? path : "/bin")}};
-}
-
 std::string version_of(const PeerKind &kind) {
-    Process program(kind.version, environment());
+    Process program(kind.version, python_environment());
     const auto line = program.read_line();
     if (!line) {
         throw Error(ExitCode::skipped,
@@ -84,7 +77,7 @@ struct PeerRenderer::State {
             std::to_string(kind.samples_per_step), "--seed", std::to_string(first_seed(settings.seed) + film.end),
             "--max-depth", std::to_string(settings.max_depth), "--runs", std::to_string(end - film.end)};
         command.insert(command.end(), arguments.begin(), arguments.end());
-        process.emplace(command, environment());
+        process.emplace(command, python_environment());
     }
 
     /// The record that the driver prints for the next image.

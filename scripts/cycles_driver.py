@@ -3,9 +3,13 @@
 
     blender --background --factory-startup --python-exit-code 1 --python scripts/cycles_driver.py -- \\
         NAME.blender.json OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
+    blender --background --factory-startup --python-exit-code 1 --python scripts/cycles_driver.py -- NAME.blender.json --serve
 
 With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
 JSON for each image: file, seed, spp, mean of R, G and B, seconds (of Blender's render call, synchronisation included).
+
+With --serve it renders whenever a line "MAX_DEPTH SPP SEED" comes on standard input, without roulette, keeps no image, and
+answers by a line of JSON: seconds of the render call and of all its threads.
 
 The world is scaled to an extent of 1, since Cycles compares the edges of a bright triangle with a distance over an area
 (triangle_light_sample): in large units it takes lamps by solid angles that it knows to 1e-4 sr, and renders them up to
@@ -238,12 +242,17 @@ def set_up(scene, film, spp, max_depth):
     cycles.blur_glossy = 0.0
     cycles.caustics_reflective = cycles.caustics_refractive = True
     cycles.use_fast_gi = False
-    cycles.min_light_bounces = cycles.min_transparent_bounces = 0
+    cycles.min_transparent_bounces = 0
+    set_depth(cycles, max_depth, roulette=True)
+    cycles.volume_bounces = 0
+    cycles.transparent_max_bounces = MOST_BOUNCES
+
+
+def set_depth(cycles, max_depth, roulette):
     bounces = MOST_BOUNCES if max_depth == 0 else min(max_depth - 1, MOST_BOUNCES)
     for kind in ("max", "diffuse", "glossy", "transmission"):
         setattr(cycles, kind + "_bounces", bounces)
-    cycles.volume_bounces = 0
-    cycles.transparent_max_bounces = MOST_BOUNCES
+    cycles.min_light_bounces = 0 if roulette else bounces
 
 
 def mean_of(file):
@@ -255,15 +264,31 @@ def mean_of(file):
     return texels.reshape(-1, 4).mean(0, numpy.float64)[:3].tolist()
 
 
+def serve(film):
+    film.render.use_persistent_data = True
+    print(json.dumps({"engine": "Cycles of Blender " + bpy.app.version_string}), flush=True)
+    for line in sys.stdin:
+        depth, film.cycles.samples, film.cycles.seed = map(int, line.split())
+        set_depth(film.cycles, depth, roulette=False)
+        film.update_tag()  # else persistent data keep the settings of the first render
+        start, processor = time.perf_counter(), time.process_time()
+        bpy.ops.render.render()
+        print(json.dumps({"seconds": time.perf_counter() - start, "processor_seconds": time.process_time() - processor}),
+              flush=True)
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="cycles_driver", description=__doc__.split("\n\n")[0])
     parser.add_argument("description", type=pathlib.Path)
-    parser.add_argument("output", type=pathlib.Path)
+    parser.add_argument("output", type=pathlib.Path, nargs="?")
+    parser.add_argument("--serve", action="store_true")
     parser.add_argument("--spp", type=int)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--max-depth", type=int)
     parser.add_argument("--runs", type=int)
     options = parser.parse_args(arguments)
+    if not options.serve and options.output is None:
+        parser.error("OUT.exr is missing, or --serve")
     scene = json.loads(options.description.read_text())
     if scene.get("format") != "rtrays scene for Blender" or scene.get("version") != 1:
         raise ValueError(f"{options.description}: no description that `rtrays-render --export` wrote for this driver")
@@ -282,10 +307,14 @@ def main(arguments):
         if light not in around:
             add_light(light, scale)
 
+    if options.serve:
+        serve(film)
+        return
     film.render.use_persistent_data = True  # further runs need not build the scene again
     for run in range(options.runs or 1):
         seed = options.seed + run
         film.cycles.seed = seed
+        film.update_tag()  # else persistent data keep the settings of the first render
         output = options.output.resolve()
         if options.runs is not None:
             output = output.with_suffix(f".{seed}.exr")

@@ -122,8 +122,9 @@ def bounces(run):
             "for b bounces, fewer where paths leave the scene or a light lies behind a surface. Medians of turns with 95 % "
             f"intervals, all of them in every turn. As printed: {run.get('experiment.published.source')}. {run.get('experiment.claim')} "
             "OptiX needs its maker's GPUs: what stands in for it is the same path tracer as one kernel, on the same device, and "
-            "the Embree reference, which computes in double precision but for the rays. Mitsuba 3 also counts light that paths "
-            "hit, and sends a last ray for it; its processes count as others' load.")
+            "the Embree reference, which computes in double precision but for the rays. Mitsuba 3 and Cycles also count light that "
+            "paths hit, and send a last ray for it; of Cycles a frame is a quarter of one of Blender's render calls for four. Their processes count as others' "
+            "load.")
     if absent:
         what += f" Not installed and left out: {', '.join(sorted(absent))}."
     return what, tables

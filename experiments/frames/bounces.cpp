@@ -14,7 +14,6 @@
 #include "experiments/frames/scenes.h"
 #include "experiments/hierarchy/kinds.h"
 #include "reference/renderer.h"
-#include "renderer/export/export_scene.h"
 #include "renderer/pipeline/render_session.h"
 
 namespace rtrays {
@@ -77,8 +76,7 @@ class Bounces {
     }
 
   private:
-    /// Mitsuba 3 in the variants wanted, each with the scene in a process of its own; those that are not
-    /// there are listed.
+    /// Other renderers, each with the scene in a process of its own; those that are not there are listed.
     void load_peers() {
         if (settings_.peers.empty()) {
             return;
@@ -86,13 +84,12 @@ class Bounces {
         timed_.scene.set_film_size(settings_.width, settings_.height);
         const fs::path folder = fs::temp_directory_path() / fmt::format("rtrays-bounces-{}", getpid());
         fs::create_directories(folder);
-        export_scene(timed_.scene, folder / "scene.xml");
-        for (const std::string &variant : settings_.peers) {
-            auto peer = std::make_unique<MitsubaPeer>(folder / "scene.xml", variant);
+        for (const std::string &kind : settings_.peers) {
+            auto peer = std::make_unique<Peer>(timed_.scene, folder, kind);
             if (peer->is_there()) {
                 peers_.push_back(std::move(peer));
             } else {
-                absent_peers_.push_back("Mitsuba 3 " + variant);
+                absent_peers_.push_back(Peer::name_of(kind));
             }
         }
         fs::remove_all(folder);
@@ -106,7 +103,7 @@ class Bounces {
         uint64_t done = reference.render(0, settings_.spp);
         contest.add(embree,
                     [&] { return time_of([&] { done = reference.render(done, done + settings_.spp); }); });
-        for (const std::unique_ptr<MitsubaPeer> &peer : peers_) {
+        for (const std::unique_ptr<Peer> &peer : peers_) {
             peer->render(depth, settings_.spp);  // compiles
             contest.add(peer->engine(), [&, depth] { return peer->render(depth, settings_.spp); });
         }
@@ -177,7 +174,7 @@ class Bounces {
     DeviceContext *device_;
     TimedScene timed_;
     Pipeline wavefront_{ours}, megakernel_{megakernel};
-    std::vector<std::unique_ptr<MitsubaPeer>> peers_;
+    std::vector<std::unique_ptr<Peer>> peers_;
     Json absent_peers_ = Json::array();
 };
 

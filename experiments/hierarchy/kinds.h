@@ -39,8 +39,8 @@ MeasurementPlan plan_frame_times(const MeasurementSettings &settings, DeviceCont
 
 /// Samples per second of paths of 1, 4 and 8 bounces on diffuse surfaces, roulette off, one explicit
 /// connection at every hit (thesis figure 4.22): the wavefront, one kernel for whole paths, the Embree
-/// reference and, where wanted and installed, Mitsuba 3, in turns. Rows hold, by depth, rates on the wall, rays per sample, and by processor time how
-/// many times faster the wavefront is.
+/// reference and, where wanted and installed, Mitsuba 3 and Cycles, in turns. Rows hold, by depth, rates on the wall, rays per
+/// sample, and by processor time how many times faster the wavefront is.
 MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext &device);
 
 /// Frames of path tracing (MIS, roulette), one sample per pixel, and builds of the hierarchy, with one

@@ -25,7 +25,7 @@ struct MeasurementSettings {
     std::vector<std::string> references;  ///< scenes of this repository that have some
     int width = 0, height = 0;          ///< pixels of a frame
     uint64_t spp = 0;                   ///< of a frame
-    std::vector<std::string> peers;     ///< variants of Mitsuba 3
+    std::vector<std::string> peers;     ///< variants of Mitsuba 3, "cycles"
     std::vector<std::string> settings;  ///< NAME=VALUE of the renderer, to be tried one at a time
 };
 

@@ -223,16 +223,16 @@ class Program(unittest.TestCase):
 
     def test_peers_are_contestants_or_listed_as_absent(self):
         document = json.loads((EXPERIMENTS / "bounces.json").read_text())
-        document["profiles"]["ci"].update(scenes=["hall_100"], peers=["scalar_rgb"])
+        document["profiles"]["ci"].update(scenes=["hall_100"], peers=["scalar_rgb", "cycles"])
         out = self.folder / "out"
         done = self.call("run", self.measurement("bounces", profiles=document["profiles"]), "--profile", "ci", "--out", out, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.tables(out).returncode, 0)
         (row,) = json.loads((out / "run.json").read_text())["rows"]
         for depth in row["depths"]:
-            mitsuba = [c["name"] for c in depth["contestants"] if c["name"].startswith("Mitsuba 3")]
-            self.assertEqual(len(mitsuba) + len(row["absent_peers"]), 1)
-            self.assertTrue(set(mitsuba) <= set(depth["wavefront_over"]))
+            peers = [c["name"] for c in depth["contestants"] if c["name"].startswith(("Mitsuba 3", "Cycles"))]
+            self.assertEqual(len(peers) + len(row["absent_peers"]), 2)
+            self.assertTrue(set(peers) <= set(depth["wavefront_over"]))
 
     def test_ablations(self):
         """Every setting has its figures; other bins make another tree, and the same ones the same."""

@@ -30,6 +30,11 @@ std::array<int, 2> make_pipe() {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> python_environment() {
+    const char *path = std::getenv("PATH");
+    return {{"PATH", fmt::format("/usr/bin:{}", path != nullptr ? path : "/bin")}};
+}
+
 Process::Process(const std::vector<std::string> &command,
                  const std::vector<std::pair<std::string, std::string>> &environment) {
     std::vector<char *> arguments;

@@ -38,4 +38,7 @@ class Process {
     std::string read_ahead_;
 };
 
+/// Debian's Python first in the PATH: Blender takes its Python's packages from where the first python3 is.
+std::vector<std::pair<std::string, std::string>> python_environment();
+
 }  // namespace rtrays
