@@ -250,7 +250,7 @@ fs::path run_control(const ControlOptions &options) {
     const Json &wanted = description.file.json.at("reference");
     std::vector<Scene> scenes;
     std::vector<Image> references;
-    std::string inputs = description.file.text + options.profile;
+    std::string inputs = description.file.of_profile(options.profile);
     for (const fs::path &path : description.scenes) {
         scenes.push_back(load_scene(path.string()));
         StoredReference reference =
@@ -262,7 +262,7 @@ fs::path run_control(const ControlOptions &options) {
     DeviceContext device(options.device);
     const fs::path table = out / (description.name + ".md");
     const Resumption resumption(out, description.name + ".json", inputs, device.info());
-    if (!resumption.finished().is_null() && fs::exists(table)) {
+    if (!resumption.finished([&](const Json &) { return fs::exists(table); }).is_null()) {
         return table;
     }
     Json document = {

@@ -18,6 +18,12 @@ std::filesystem::path DescriptionFile::resolve(const Json &relative) const {
     return (path.parent_path() / relative.get<std::string>()).lexically_normal();
 }
 
+std::string DescriptionFile::of_profile(const std::string &name) const {
+    Json alone = json;
+    alone["profiles"] = {{name, json.at("profiles").at(name)}};
+    return alone.dump();
+}
+
 DescriptionFile load_description(const std::filesystem::path &path, const std::string &schema) {
     DescriptionFile file{path, read_file(path), {}};
     file.json = parse_json(file.text, path.string());
@@ -135,7 +141,7 @@ ExperimentDescription load_experiment(const std::filesystem::path &path, const s
     chosen.at("seeds").get_to(experiment.seeds);
     chosen.at("throughput").at("repetitions").get_to(experiment.throughput.repetitions);
     chosen.at("throughput").at("spp").get_to(experiment.throughput.spp);
-    experiment.source = json;
+    experiment.source = file.of_profile(profile);
     return experiment;
 }
 

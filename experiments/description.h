@@ -45,7 +45,7 @@ struct ExperimentDescription : MeasuredScene {
     std::string profile;
     int seeds = 0;  ///< seeds 1 .. seeds
     ThroughputDescription throughput;
-    Json source;  ///< the file as written
+    std::string source;  ///< the file as written, of the chosen profile
 };
 
 /// Reads and checks an experiment; `profile` is "quick", "full" or "ci". Throws `Error` (bad input) naming
@@ -62,6 +62,9 @@ struct DescriptionFile {
     std::string location(const std::string &pointer) const {
         return json_location(path.string(), text, pointer);
     }
+
+    /// All that the file says of one profile: a run of it does not depend on the others.
+    std::string of_profile(const std::string &name) const;
 
     /// A path that the file gives relative to itself.
     std::filesystem::path resolve(const Json &relative) const;

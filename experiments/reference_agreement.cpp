@@ -47,16 +47,17 @@ Contender rendered(const Scene &scene, const MeasurementSettings &wanted, uint32
     return contender;
 }
 
+const fs::path root = RTRAYS_SOURCE;
+
 /// All pairs of a scene, and which references it has none of.
 Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, uint32_t seed, DeviceContext &device) {
-    const fs::path root = RTRAYS_SOURCE;
     const fs::path path = root / "scenes" / name / "scene.json";
     const Scene scene = load_scene(path.string());
     std::vector<Contender> contenders;
     Json absent = Json::array();
     for (const char *engine : engines) {
         try {
-            StoredReference stored = load_reference({root / "results/references", scene.name(), scene.hash(), engine,
+            StoredReference stored = load_reference({references_manifest().parent_path(), scene.name(), scene.hash(), engine,
                                                      wanted.width, wanted.height, path.string()});
             contenders.push_back({{{"name", engine},
                                    {"engine", stored.description.at("engine")},
@@ -86,6 +87,10 @@ Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, ui
 }
 
 }  // namespace
+
+fs::path references_manifest() {
+    return root / "results/references/manifest.json";
+}
 
 MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings, DeviceContext &device) {
     MeasurementPlan plan;

@@ -26,12 +26,12 @@ Resumption::Resumption(fs::path out, std::string name, const std::string &inputs
     require_writable(result_);
 }
 
-Json Resumption::finished() const {
+Json Resumption::finished(const std::function<bool(const Json &)> &is_whole) const {
     if (!fs::exists(result_)) {
         return {};
     }
     Json result = load_json(result_);
-    if (!result.is_object() || result.value("made_from", "") != key_) {
+    if (!result.is_object() || result.value("made_from", "") != key_ || (is_whole && !is_whole(result))) {
         return {};
     }
     fs::remove_all(out_ / ".partial");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -18,8 +19,9 @@ class Resumption {
     /// Throws `Error` (bad usage) where OUT cannot be written.
     Resumption(std::filesystem::path out, std::string name, const std::string &inputs, const DeviceInfo &device);
 
-    /// The result, where one is there of the same key; says so on stderr. Null otherwise.
-    Json finished() const;
+    /// The result, where one is there of the same key and `is_whole` finds nothing missing that belongs to it; says so on
+    /// stderr and deletes the parts. Null otherwise.
+    Json finished(const std::function<bool(const Json &)> &is_whole = {}) const;
 
     /// The folder of the parts.
     const std::filesystem::path &parts() const { return parts_; }

@@ -181,10 +181,8 @@ fs::path run_experiment(const RunOptions &options) {
     const fs::path out = output_folder(options, experiment);
     const RunContext context;
     DeviceContext device(options.device);
-    const Resumption resumption(out, "run.json",
-                                experiment.source.dump() + experiment.profile + reference.description.dump(),
-                                device.info());
-    if (const Json run = resumption.finished(); !run.is_null() && has_images(run, out)) {
+    const Resumption resumption(out, "run.json", experiment.source + reference.description.dump(), device.info());
+    if (!resumption.finished([&](const Json &run) { return has_images(run, out); }).is_null()) {
         return out;
     }
     fs::create_directories(out / "images");

@@ -7,7 +7,7 @@ whatever sample counts they were stopped at.
 
 import numpy
 
-from run_document import RunError, pilot_seconds, usable_points, value
+from run_document import RunError, label, pilot_seconds, usable_points, value
 
 DRAWS = 2000
 
@@ -43,3 +43,41 @@ def base_curve(run):
     """The curve of path tracing with both its strategies; the last one where there is none."""
     named = [curve for curve in run.curves if value(curve, "id") == "path_tracing.mis"]
     return (named or run.curves)[-1]
+
+
+def curve_named(run, name):
+    return next((curve for curve in run.curves if value(curve, "id") == name), None)
+
+
+def times(gain):
+    return f"{value(gain, 'value'):.2f} [{value(gain, 'low'):.2f}, {value(gain, 'high'):.2f}]"
+
+
+def share_of_pass(curve, name):
+    """Of a pass ("camera", "light") in the device time of all stages."""
+    stages = value(curve, "render_report.stages")
+    return sum(stage["seconds"] for stage in stages if stage["pass"] == name) / sum(stage["seconds"] for stage in stages)
+
+
+def explanation(run):
+    """Why an algorithm gains in equal time what it gains: fewer samples, each dearer, and what further strategies would save.
+    Empty for a run of which the thesis states no gain."""
+    expected = run.document["experiment"].get("expected_gain")
+    curve = curve_named(run, f"{value(expected, 'algorithm')}.mis") if expected else None
+    if curve is None:
+        return ""
+    noise, base = run.get("reference.noise_floor.mse"), base_curve(run)
+    usual, ours = Cost(base, noise), Cost(curve, noise)
+    price = (ours.seconds / ours.spp) / (usual.seconds / usual.spp)
+    text = (f"For the error of {label(base)}, {label(curve)} needs {times(ratio(usual, ours, 'spp'))} times fewer samples, each of "
+            f"which takes {price:.2f} times the device time (its light pass {100 * share_of_pass(curve, 'light'):.0f} % of that): "
+            f"{times(ratio(usual, ours, 'seconds'))} in equal time, where the thesis has {value(expected, 'time'):g}.")
+    full = curve_named(run, "bdpt.mis")
+    if full is not None:
+        saved = ratio(ours, Cost(full, noise), "spp")
+        text += (f" Full BDPT, which has all other connections, needs {times(saved)} times fewer samples than that: ")
+        if value(saved, "low") <= 1:
+            text += "no gain that this run can tell, so that little of what is left of the error is for want of connections."
+        else:
+            text += "so much of what is left of the error is for want of connections."
+    return text

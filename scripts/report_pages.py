@@ -4,7 +4,7 @@
 import html
 import os
 
-from efficiency import Cost, base_curve, ratio
+from efficiency import Cost, base_curve, explanation, ratio
 from run_document import agreement_verdict, gain_verdict, is_blind, label, slope_verdict, value, write_text
 from tables import Table, interval
 from viewer import write_viewer
@@ -84,6 +84,7 @@ def title(run):
 
 def markdown_page(run, tables, figures):
     parts = [f"# {title(run)}", f"The thesis claims: {run.get('experiment.claim')}", verdict_table(run).markdown()]
+    parts += [text for text in [explanation(run)] if text]
     parts += [f"![{caption}](plots/{file})\n\n{caption}" for file, caption in figures.items()]
     parts += [f"## {table.caption}\n\n{table.markdown()}" for table in tables.values()]
     parts += ["---", "\n".join(f"- {line}" for line in provenance(run))]
@@ -104,7 +105,8 @@ def html_document(heading, body):
 
 
 def html_page(run, tables, figures):
-    parts = [f"<p>The thesis claims: {html.escape(run.get('experiment.claim'))}</p>", html_table(verdict_table(run))]
+    parts = [f"<p>The thesis claims: {html.escape(run.get('experiment.claim'))}</p>", html_table(verdict_table(run)),
+             f"<p>{html.escape(explanation(run))}</p>"]
     for file, caption in figures.items():
         text = html.escape(caption)
         link = f' <a href="plots/{file[:-4]}.png">PNG</a>' if file.endswith(".svg") else ""

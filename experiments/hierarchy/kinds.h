@@ -49,6 +49,7 @@ MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContex
 
 /// Stored references by every renderer that made some, and an image of ours, tested against each other pair by pair.
 MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings, DeviceContext &device);
+std::filesystem::path references_manifest();  ///< what it depends on
 
 /// {"value", "low", "high"} times a factor.
 Json scaled(const Interval &interval, double factor);

@@ -130,7 +130,9 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     const fs::path out = options.out.empty() ? fs::path(name + "." + options.profile) : options.out;
     const RunContext context;
     DeviceContext device(options.device);
-    const Resumption resumption(out, "run.json", file.text + options.profile + stand_ins.dump() + absent.dump(),
+    const std::string references = settings.references.empty() ? "" : read_file(references_manifest());
+    const Resumption resumption(out, "run.json",
+                                file.of_profile(options.profile) + stand_ins.dump() + absent.dump() + references,
                                 device.info());
     const auto note_failure = [&](const Json &summary) {
         if (!summary.value("passed", true)) {

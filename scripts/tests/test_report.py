@@ -33,7 +33,8 @@ def made_up_curve(strategies):
                        "noise_dominates": spp == 8, "repetitions": repetitions})
     slope = {"value": -0.5, "low": -0.51, "high": -0.49, "confidence": 0.95, "spp": [1, 4]}
     return {"id": f"path_tracing.{strategies}", "scene": "box", "algorithm": "path_tracing", "strategies": strategies,
-            "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {"bytes_per_path": 112, "light_vertex_bytes_per_path": 0, "features": []},
+            "settings": {}, "compile_seconds": 1.5, "bvh_seconds": 0.01, "render_report": {"bytes_per_path": 112, "light_vertex_bytes_per_path": 0, "features": [],
+                              "stages": [{"pass": "camera", "seconds": 3}, {"pass": "light", "seconds": 1}]},
             "points": points,
             "slope": slope, "slope_unbiased": slope, "image": "images/ours.exr", "image_spp": 64, "layers": [],
             "early_images": [{"spp": 2, "image": "images/early.exr"}],
@@ -209,6 +210,7 @@ class Reports(RunFolder):
         page = (self.folder / "report.md").read_text()
         self.assertIn("| truncated bdpt (mis) | 4 times fewer samples | 1.00 [1.00, 1.00] | does not hold here |", page)
         self.assertIn("| truncated bdpt (mis) | 2 times less device time | 1.00 [1.00, 1.00] | does not hold here |", page)
+        self.assertIn("1.00 [1.00, 1.00] times fewer samples, each of which takes 1.00 times the device time (its light pass 25 % of that)", page)
 
     def test_viewer_has_the_images(self):
         from viewer import to_rgbe
