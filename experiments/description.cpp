@@ -83,6 +83,10 @@ void read_ladders(const DescriptionFile &file, const std::string &pointer, const
         const auto limit = most.find(curve.id());
         curve.spp = limit == most.end() ? spp
                                         : rungs_up_to(spp, limit->second, file.location(pointer + "/most_spp"));
+        if (curve.spp.back() % batches_per_seed != 0) {
+            throw input_error(fmt::format("{}: {} is no multiple of {}: so many batches of each seed are tested for agreement",
+                                          file.location(pointer + "/spp"), curve.spp.back(), batches_per_seed));
+        }
         std::copy_if(early.begin(), early.end(), std::back_inserter(curve.early_images),
                      [&](uint64_t wanted) { return wanted <= curve.spp.back(); });
         most.erase(curve.id());

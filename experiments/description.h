@@ -13,6 +13,9 @@
 
 namespace rtrays {
 
+/// A seed's samples are cut into so many batches: eight seeds make the 32 images that a variance takes.
+constexpr uint64_t batches_per_seed = 4;
+
 /// One curve: an algorithm with its settings.
 struct CurveDescription {
     RenderSettings settings;  ///< size and seed are set by the runner

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
@@ -42,20 +43,55 @@ class LazySession {
     std::unique_ptr<RenderSession> session_;
 };
 
+fs::path batch_file(const LadderTask &task, uint32_t seed, uint64_t batch) {
+    return partial_file(task, seed, fmt::format("batch{}.exr", batch));
+}
+
+/// What the samples after those of `before`, `done` batches, add: of `now`, the mean of one batch more. In double, as
+/// the difference of nearly equal sums; what float32 rounds off is 1e-7 of the sums, not of a batch's noise.
+Image batch_between(const Image &before, const Image &now, uint64_t done) {
+    Image batch = Image::rgb(now.width(), now.height());
+    const auto n = static_cast<double>(done);
+    for (const std::string &name : rgb_names()) {
+        for (size_t i = 0; i < now.pixel_count(); ++i) {
+            const double sum = (n + 1) * static_cast<double>(now.channel(name)[i]);
+            const double known = done > 0 ? n * static_cast<double>(before.channel(name)[i]) : 0.0;
+            batch.channel(name)[i] = static_cast<float>(sum - known);
+        }
+    }
+    return batch;
+}
+
+/// The ladder of one seed; writes its batches and early images.
 Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_t seed) {
     session.restart(seed);
     Repetition repetition;
     repetition.seed = seed;
-    uint64_t done = 0;
-    for (uint64_t spp : task.spp) {
+    const uint64_t batch_spp = task.spp.back() / batches_per_seed;
+    std::set<uint64_t> stops(task.spp.begin(), task.spp.end());
+    for (uint64_t batch = 1; batch <= batches_per_seed; ++batch) {
+        stops.insert(batch * batch_spp);
+    }
+    const auto is_in = [](const std::vector<uint64_t> &counts, uint64_t spp) {
+        return std::find(counts.begin(), counts.end(), spp) != counts.end();
+    };
+    uint64_t done = 0, batches = 0;
+    Image before;
+    for (const uint64_t spp : stops) {
         render_whole(session, done, spp);
         const RenderStats stats = session.stats();
         const Image image = session.develop();
-        repetition.points.push_back(
-            {spp, stats.device_seconds, stats.wall_seconds, compute_metrics(image, task.reference)});
-        if (seed == first_seed &&
-            std::find(task.early_images.begin(), task.early_images.end(), spp) != task.early_images.end()) {
+        if (is_in(task.spp, spp)) {
+            repetition.points.push_back(
+                {spp, stats.device_seconds, stats.wall_seconds, compute_metrics(image, task.reference)});
+        }
+        if (seed == first_seed && is_in(task.early_images, spp)) {
             write_exr(image, early_file(task, spp));
+        }
+        if (spp == (batches + 1) * batch_spp) {
+            write_exr(batch_between(before, image, batches), batch_file(task, seed, batches));
+            before = image;
+            ++batches;
         }
         task.advance(spp - done);
         done = spp;
@@ -70,24 +106,27 @@ LadderResult render_ladders(const LadderTask &task) {
     LazySession session(task);
     for (uint32_t seed = first_seed; seed < first_seed + static_cast<uint32_t>(task.seeds); ++seed) {
         const fs::path numbers = partial_file(task, seed, "json"), picture = partial_file(task, seed, "exr");
-        // The numbers are written last: where they are, the picture is.
+        // The numbers are written last: where they are, the pictures are.
         if (fs::exists(numbers)) {
             const Json stored = load_json(numbers);
             result.repetitions.push_back(parse_repetition(stored.at("repetition")));
             result.cost = stored.at("cost");
             result.images.push_back(read_exr(picture));
             task.advance(task.spp.back());
-            continue;
+        } else {
+            result.repetitions.push_back(render_ladder(task, session.get(), seed));
+            const RenderStats stats = session.get().stats();
+            result.cost = {{"compile_seconds", stats.compile_seconds},
+                           {"bvh_seconds", stats.bvh_seconds},
+                           {"render_report", session.get().report()}};
+            result.images.push_back(session.get().develop());
+            write_exr(result.images.back(), picture);
+            write_file(numbers,
+                       Json{{"repetition", to_json(result.repetitions.back())}, {"cost", result.cost}}.dump());
         }
-        result.repetitions.push_back(render_ladder(task, session.get(), seed));
-        const RenderStats stats = session.get().stats();
-        result.cost = {{"compile_seconds", stats.compile_seconds},
-                       {"bvh_seconds", stats.bvh_seconds},
-                       {"render_report", session.get().report()}};
-        result.images.push_back(session.get().develop());
-        write_exr(result.images.back(), picture);
-        write_file(numbers,
-                   Json{{"repetition", to_json(result.repetitions.back())}, {"cost", result.cost}}.dump());
+        for (uint64_t batch = 0; batch < batches_per_seed; ++batch) {
+            result.batches.push_back(read_exr(batch_file(task, seed, batch)));
+        }
     }
     for (const uint64_t spp : task.early_images) {
         result.early_images.push_back(read_exr(early_file(task, spp)));

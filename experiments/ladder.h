@@ -22,7 +22,7 @@ struct LadderTask {
     const Scene &scene;
     DeviceContext &device;
     RenderSettings settings;  ///< with size
-    std::vector<uint64_t> spp;
+    std::vector<uint64_t> spp;  ///< the last one a multiple of `batches_per_seed`
     int seeds = 0;
     std::vector<uint64_t> early_images;  ///< rungs at which the first seed's image is kept
     const Image &reference;
@@ -33,6 +33,7 @@ struct LadderTask {
 struct LadderResult {
     std::vector<Repetition> repetitions;
     std::vector<Image> images;  ///< of the seeds at the top rung
+    std::vector<Image> batches;  ///< R, G, B of independent samples, `batches_per_seed` of equal size of each seed
     std::vector<Image> early_images;  ///< of the first seed, as the task names them
     nlohmann::json cost;  ///< {"compile_seconds", "bvh_seconds", "render_report"}
 };
