@@ -47,21 +47,6 @@ fs::path batch_file(const LadderTask &task, uint32_t seed, uint64_t batch) {
     return partial_file(task, seed, fmt::format("batch{}.exr", batch));
 }
 
-/// What the samples after those of `before`, `done` batches, add: of `now`, the mean of one batch more. In double, as
-/// the difference of nearly equal sums; what float32 rounds off is 1e-7 of the sums, not of a batch's noise.
-Image batch_between(const Image &before, const Image &now, uint64_t done) {
-    Image batch = Image::rgb(now.width(), now.height());
-    const auto n = static_cast<double>(done);
-    for (const std::string &name : rgb_names()) {
-        for (size_t i = 0; i < now.pixel_count(); ++i) {
-            const double sum = (n + 1) * static_cast<double>(now.channel(name)[i]);
-            const double known = done > 0 ? n * static_cast<double>(before.channel(name)[i]) : 0.0;
-            batch.channel(name)[i] = static_cast<float>(sum - known);
-        }
-    }
-    return batch;
-}
-
 /// The ladder of one seed; writes its batches and early images.
 Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_t seed) {
     session.restart(seed);
@@ -89,7 +74,7 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
             write_exr(image, early_file(task, spp));
         }
         if (spp == (batches + 1) * batch_spp) {
-            write_exr(batch_between(before, image, batches), batch_file(task, seed, batches));
+            write_exr(last_batch(before, image, batches + 1), batch_file(task, seed, batches));
             before = image;
             ++batches;
         }

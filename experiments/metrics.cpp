@@ -126,6 +126,19 @@ Image average_runs(const std::vector<Image> &images) {
     return result;
 }
 
+Image last_batch(const Image &before, const Image &all, uint64_t count) {
+    Image batch = Image::rgb(all.width(), all.height());
+    const auto n = static_cast<double>(count);
+    for (const std::string &name : rgb_names()) {
+        const auto &mean = all.channel(name);
+        for (size_t i = 0; i < mean.size(); ++i) {
+            const double others = count > 1 ? (n - 1) * static_cast<double>(before.channel(name)[i]) : 0.0;
+            batch.channel(name)[i] = static_cast<float>(n * static_cast<double>(mean[i]) - others);
+        }
+    }
+    return batch;
+}
+
 Image downsample(const Image &image, int factor) {
     if (factor < 1 || image.width() % factor != 0 || image.height() % factor != 0) {
         throw input_error(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,10 @@ Image average_images(const std::vector<Image> &images);
 /// estimated from their spread (image count - 1 degrees of freedom per pixel). For renderers that state no variance.
 /// Throws `Error` (bad input) for less than two images and when sizes differ.
 Image average_runs(const std::vector<Image> &images);
+
+/// R, G, B of the last of `count` batches of equal size: `all` is the mean of them, `before` that of the others (of none: any
+/// image). In double, as the difference of sums: what float32 rounds off is 1e-7 of those.
+Image last_batch(const Image &before, const Image &all, uint64_t count);
 
 /// Averages squares of `factor` x `factor` pixels. With a box filter of one pixel this is exactly the image
 /// the same camera gives at the smaller film; variances follow as those of independent pixels.

@@ -102,6 +102,20 @@ TEST(Metrics, AveragingAddsSamplesAndDividesVariance) {
     EXPECT_FLOAT_EQ(mean.channel("R")[9], (a.channel("R")[9] + b.channel("R")[9]) / 2);
 }
 
+TEST(Metrics, BatchesAreWhatTheirMeansTell) {
+    std::vector<Image> batches, means;
+    for (uint64_t n = 1; n <= 4; ++n) {
+        batches.push_back(noisy(1, 0, 10, n, 8));
+        means.push_back(average_images(batches));
+        const Image batch = last_batch(n > 1 ? means[n - 2] : Image(), means.back(), n);
+        for (const std::string &name : rgb_names()) {
+            for (size_t i = 0; i < batch.pixel_count(); ++i) {
+                EXPECT_NEAR(batch.channel(name)[i], batches.back().channel(name)[i], 1e-5f);
+            }
+        }
+    }
+}
+
 TEST(Metrics, DownsamplingAveragesSquares) {
     Image image = constant(4, 2, 0);
     for (size_t i = 0; i < 8; ++i) {
