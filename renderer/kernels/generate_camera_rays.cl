@@ -46,13 +46,13 @@ __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings setti
                                    LIVE_PIXELS_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     const WorkItems items = take_work(counters);
-    const uint pixels = LIVE_COUNT(camera.width * camera.height);
+    const uint samples = work / LIVE_COUNT(camera.width * camera.height);
     PushBuffer started;
     started.count = 0u;
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
         const uint item = items.first + i;
-        start_path(paths, slot, camera, settings, first_sample, LIVE_PIXEL(item % pixels), item / pixels);
+        start_path(paths, slot, camera, settings, first_sample, LIVE_PIXEL(item / samples), item % samples);
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);
