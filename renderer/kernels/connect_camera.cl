@@ -129,7 +129,7 @@ __kernel void connect_camera(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAME
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
         if (join_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera, settings, first_sample)) {
             push_slot(&shadow, slot);
         }

@@ -59,7 +59,7 @@ __kernel void connect_emitter(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord c
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
         if (join_start(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS camera, settings, first_sample)) {
             push_slot(&shadow, slot);
         }

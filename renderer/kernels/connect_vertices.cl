@@ -117,7 +117,7 @@ __kernel void connect_vertices(SURFACE_PARAMETERS MATERIAL_PARAMETERS Integrator
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
         if (join_to_vertex(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings,
                            chosen)) {
             push_slot(&shadow, slot);

@@ -16,7 +16,7 @@ DEVICE void count_ray(GLOBAL long *counts, uint kind, uint depth) {
 __kernel void count_nearest_rays(GLOBAL long *ray_counts, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        count_ray(ray_counts, RAY_NEAREST, get_depth(paths, active_slot(queues, counters, capacity, i)));
+        count_ray(ray_counts, RAY_NEAREST, get_depth(paths, active_queue(queues, counters, capacity)[i]));
     }
 }
 

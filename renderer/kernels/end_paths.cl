@@ -12,7 +12,7 @@ __kernel void end_paths(GLOBAL long *film, STREAM_PARAMETERS) {
     PushBuffer ended;
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
         add_path(paths, slot, film, counters);
         push_slot(&ended, slot);
     }

@@ -164,7 +164,8 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
 __kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        add_emission(paths, active_slot(queues, counters, capacity, i), SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
+        add_emission(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings);
     }
 }
 

@@ -140,7 +140,7 @@ __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *fi
     extended.count = 0u;
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
 #if FEATURE_scattering
         if (scatter(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS settings, first_sample)) {
             push_slot(&extended, slot);

@@ -112,7 +112,7 @@ __kernel void follow_branches(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long
     extended.count = 0u;
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
         if (next_branch(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings)) {
             push_slot(&extended, slot);
         } else {

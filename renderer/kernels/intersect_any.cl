@@ -18,7 +18,7 @@ DEVICE void add_unblocked(PathStates paths, uint slot, GEOMETRY_PARAMETERS float
 __kernel void intersect_any(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, counters->shadow) {
-        const uint slot = queues[QUEUE_SHADOW * capacity + i];
+        const uint slot = path_at(paths, queues + QUEUE_SHADOW * capacity, i, i_end);
         add_unblocked(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot));
     }
 }

@@ -40,7 +40,7 @@ DEVICE void find_hit(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 ori
 __kernel void intersect_nearest(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
         find_hit(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_ray_direction(paths, slot));
     }
 }

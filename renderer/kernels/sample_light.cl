@@ -114,7 +114,7 @@ __kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETE
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = active_slot(queues, counters, capacity, i);
+        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
         if (join_to_light(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample, chosen)) {
             push_slot(&shadow, slot);
         }

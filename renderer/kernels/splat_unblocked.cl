@@ -10,7 +10,7 @@
 __kernel void splat_unblocked(GEOMETRY_PARAMETERS GLOBAL long *film, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, counters->shadow) {
-        const uint slot = queues[QUEUE_SHADOW * capacity + i];
+        const uint slot = path_at(paths, queues + QUEUE_SHADOW * capacity, i, i_end);
         if (is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot))) {
             continue;
         }

@@ -44,7 +44,7 @@ __kernel void store_vertex(SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSett
                            VERTEX_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        keep_hit(paths, active_slot(queues, counters, capacity, i),
+        keep_hit(paths, path_at(paths, active_queue(queues, counters, capacity), i, i_end),
                  SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings);
     }
 }

@@ -72,6 +72,14 @@ typedef struct PathStates {
 #define PATH_WORD(paths, slot, word) (paths).words[(word) * (paths).capacity + (slot)]
 #endif
 
+/// Asks for a path's words ahead of their use, where they lie together.
+DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {
+#if PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE && defined(__clang__)
+    __builtin_prefetch(&PATH_WORD(paths, slot, 0));
+    __builtin_prefetch(&PATH_WORD(paths, slot, PATH_STATE_WORDS - 1u));
+#endif
+}
+
 // get_<name>(paths, slot) and set_<name>(paths, slot, value) for every field.
 #define ACCESS_uint(name)                                                                          \
     DEVICE uint get_##name(PathStates paths, uint slot) { return PATH_WORD(paths, slot, PATH_##name); } \
