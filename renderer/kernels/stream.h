@@ -71,10 +71,10 @@ DEVICE GLOBAL const uint *active_queue(GLOBAL const uint *queues, GLOBAL const S
     return queues + counters->parity * capacity;
 }
 
-/// The slot of the path that is entry i of a queue, in FOR_EACH_ENTRY, where `end` is i_end. Asks for the path four entries on:
+/// The slot of the path that is entry i of a queue, in FOR_EACH_ENTRY, where `end` is i_end. Asks for the path three entries on:
 /// on a CPU its words may be in another core's cache.
 DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uint i, MAYBE_UNUSED uint end) {
-    prefetch_path(paths, queue[min(i + 4u, end - 1u)]);
+    prefetch_path(paths, queue[min(i + 3u, end - 1u)]);
     return queue[i];
 }
 

@@ -75,7 +75,9 @@ typedef struct PathStates {
 /// Asks for a path's words ahead of their use, where they lie together.
 DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {
 #if PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE && defined(__clang__)
-    __builtin_prefetch(&PATH_WORD(paths, slot, 0));
+    for (uint word = 0u; word < PATH_STATE_WORDS; word += 16u) {  // a cache line of most CPUs
+        __builtin_prefetch(&PATH_WORD(paths, slot, word));
+    }
     __builtin_prefetch(&PATH_WORD(paths, slot, PATH_STATE_WORDS - 1u));
 #endif
 }
