@@ -40,19 +40,31 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
 #endif
 }
 
+/// Starts item `item` of a batch of `work`: the samples of a pixel follow each other, so that the sums of the film that they
+/// end in are in a cache. Paths that are joined to light paths go over all pixels sample by sample, as those do.
+DEVICE void start_item(PathStates paths, uint slot, CameraRecord camera, IntegratorSettings settings, ulong first_sample,
+                       LIVE_PIXELS_PARAMETERS uint item, MAYBE_UNUSED uint work) {
+    const uint pixels = LIVE_COUNT(camera.width * camera.height);
+#if FEATURE_vertex_joins
+    const uint pixel = item % pixels, sample = item / pixels;
+#else
+    const uint samples = work / pixels;
+    const uint pixel = item / samples, sample = item % samples;
+#endif
+    start_path(paths, slot, camera, settings, first_sample, LIVE_PIXEL(pixel), sample);
+}
+
 #if !PATH_STATES_PRIVATE
 
 __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,
                                    LIVE_PIXELS_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     const WorkItems items = take_work(counters);
-    const uint samples = work / LIVE_COUNT(camera.width * camera.height);
     PushBuffer started;
     started.count = 0u;
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
-        const uint item = items.first + i;
-        start_path(paths, slot, camera, settings, first_sample, LIVE_PIXEL(item / samples), item % samples);
+        start_item(paths, slot, camera, settings, first_sample, LIVE_PIXELS_ARGUMENTS items.first + i, work);
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);

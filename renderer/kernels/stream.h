@@ -54,7 +54,7 @@ typedef struct WorkItems {
     uint count;
 } WorkItems;
 
-/// Items of work are paths of the batch, sample by sample, each over all pixels or light paths. There are at most 2^31 and
+/// Items of work are paths of the batch. There are at most 2^31 and
 /// a round overshoots them by at most `capacity`, so the counter does not wrap before the host sees the end.
 DEVICE WorkItems take_work(GLOBAL StreamCounters *counters) {
     WorkItems items;

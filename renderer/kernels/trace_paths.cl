@@ -77,11 +77,9 @@ __kernel void trace_paths(TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAM
                           uint first_work, uint work, LIVE_PIXELS_PARAMETERS GLOBAL StreamCounters *counters) {
     uint words[PATH_STATE_WORDS];
     const PathStates paths = {words, 1u};
-    const uint pixels = LIVE_COUNT(camera.width * camera.height);
     RayCounts rays = {0u, 0u};
     FOR_EACH_ENTRY(i, work - first_work) {
-        const uint path = first_work + i;
-        start_path(paths, 0u, camera, settings, first_sample, LIVE_PIXEL(path % pixels), path / pixels);
+        start_item(paths, 0u, camera, settings, first_sample, LIVE_PIXELS_ARGUMENTS first_work + i, work);
         trace_path(paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample,
                    &rays);
         end_path(paths, 0u, film, HALF_FILM_ARGUMENTS first_sample, counters);
