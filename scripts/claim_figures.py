@@ -9,7 +9,8 @@ import json
 
 import numpy
 
-from efficiency import DRAWS, Cost, base_curve, ratio
+import efficiency
+from efficiency import DRAWS, base_curve
 from run_document import Measurement, Run, RunError, label, usable_points, value
 
 
@@ -45,7 +46,7 @@ def gain(folder, of, curve="truncated_bdpt.mis", over="path_tracing.mis"):
     run = Run(folder)
     noise = run.get("reference.noise_floor.mse")
     yield (f"{label(curve_of(run, curve))} over {label(curve_of(run, over))}",
-           ratio(Cost(curve_of(run, over), noise), Cost(curve_of(run, curve), noise), of))
+           efficiency.gain(curve_of(run, over), curve_of(run, curve), noise, of))
 
 
 def sample_cost(folder, curve="truncated_bdpt.mis", over="path_tracing.mis"):

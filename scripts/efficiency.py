@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Curves of a run against its path tracing: equal error, equal time.
 
-The mean squared error of an unbiased estimator falls as 1 / N, so that MSE x samples and MSE x seconds compare curves
-whatever sample counts they were stopped at.
+The mean squared error of an unbiased estimator falls as 1 / N, so that MSE x samples and MSE x seconds hardly depend on N.
+They are compared at one N all the same: the paths that are left at a batch's end cost less of many samples than of few.
 """
 
 import numpy
@@ -13,10 +13,10 @@ DRAWS = 2000
 
 
 class Cost:
-    """MSE x samples and MSE x device seconds of a curve, at its last point above the reference's noise."""
+    """MSE x samples and MSE x device seconds of a curve, at its last point above the reference's noise, or at `spp`."""
 
-    def __init__(self, curve, noise):
-        points = usable_points(curve)
+    def __init__(self, curve, noise, spp=None):
+        points = [point for point in usable_points(curve) if spp is None or value(point, "spp") <= spp]
         if not points:
             raise RunError(f"curve {value(curve, 'id')} has no point above the reference's noise: it needs more samples")
         point = points[-1]
@@ -37,6 +37,17 @@ def ratio(base, curve, key):
     generator = numpy.random.default_rng(1)
     low, high = numpy.quantile(scale * base.draws(generator) / curve.draws(generator), [0.025, 0.975])
     return {"value": scale * base.mse.mean() / curve.mse.mean(), "low": low, "high": high}
+
+
+def costs(base, curve, noise):
+    """Of two curves, where the one that ends first ends."""
+    spp = min(Cost(base, noise).spp, Cost(curve, noise).spp)
+    return Cost(base, noise, spp), Cost(curve, noise, spp)
+
+
+def gain(base, curve, noise, key):
+    """How many times fewer samples ("spp") or less device time ("seconds") `curve` needs for the error of `base`."""
+    return ratio(*costs(base, curve, noise), key)
 
 
 def base_curve(run):
@@ -67,14 +78,14 @@ def explanation(run):
     if curve is None:
         return ""
     noise, base = run.get("reference.noise_floor.mse"), base_curve(run)
-    usual, ours = Cost(base, noise), Cost(curve, noise)
-    price = (ours.seconds / ours.spp) / (usual.seconds / usual.spp)
+    usual, ours = costs(base, curve, noise)
+    price = ours.seconds / usual.seconds
     text = (f"For the error of {label(base)}, {label(curve)} needs {times(ratio(usual, ours, 'spp'))} times fewer samples, each of "
             f"which takes {price:.2f} times the device time (its light pass {100 * share_of_pass(curve, 'light'):.0f} % of that): "
             f"{times(ratio(usual, ours, 'seconds'))} in equal time, where the thesis has {value(expected, 'time'):g}.")
     full = curve_named(run, "bdpt.mis")
     if full is not None:
-        saved = ratio(ours, Cost(full, noise), "spp")
+        saved = gain(curve, full, noise, "spp")
         text += (f" Full BDPT, which has all other connections, needs {times(saved)} times fewer samples than that: ")
         if value(saved, "low") <= 1:
             text += "no gain that this run can tell, so that little of what is left of the error is for want of connections."

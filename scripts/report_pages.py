@@ -4,7 +4,7 @@
 import html
 import os
 
-from efficiency import Cost, base_curve, explanation, ratio
+from efficiency import base_curve, explanation, gain
 from run_document import agreement_verdict, gain_verdict, is_blind, label, slope_verdict, value, write_text
 from tables import Table, interval
 from viewer import write_viewer
@@ -51,9 +51,9 @@ def gain_rows(run):
         if value(curve, "algorithm") == value(expected, "algorithm"):
             for key, of_run, words in (("samples", "spp", "samples"), ("time", "seconds", "device time")):
                 claimed = value(expected, key)
-                gain = ratio(Cost(base, noise), Cost(curve, noise), of_run)
+                measured = gain(base, curve, noise, of_run)
                 rows.append([label(curve), f"{claimed} times fewer {words}" if key == "samples" else f"{claimed} times less {words}",
-                             interval(gain, form="{:.2f}"), gain_verdict(gain, claimed)])
+                             interval(measured, form="{:.2f}"), gain_verdict(measured, claimed)])
     return rows
 
 

@@ -4,7 +4,7 @@
 import csv
 import io
 
-from efficiency import Cost, base_curve, ratio
+from efficiency import Cost, base_curve, gain
 from run_document import label, value, write_text
 
 POINT_METRICS = ("l2", "rmse", "mae", "relmse", "mse", "mse_unbiased")
@@ -133,13 +133,13 @@ def cost_table(run):
 def efficiency_table(run):
     """Every curve against path tracing: samples for the same error, error in the same time."""
     noise = run.get("reference.noise_floor.mse")
-    base = Cost(base_curve(run), noise)
+    base = base_curve(run)
     rows = []
     for curve in run.curves:
         cost = Cost(curve, noise)
         rows.append([label(curve), str(cost.spp), number(cost.mse.mean()), number(cost.seconds), number(cost.pilot_seconds),
-                     interval(ratio(base, cost, "spp")), interval(ratio(base, cost, "seconds"))])
-    name = label(base_curve(run))
+                     interval(gain(base, curve, noise, "spp")), interval(gain(base, curve, noise, "seconds"))])
+    name = label(base)
     return Table(f"{run.get('experiment.title')}: against {name}, less reference noise, 95 % intervals over seeds; "
                  "light that a curve cannot see counts as its error",
                  ["curve", "at spp", "MSE", "device s without pilot", "pilot s", f"samples of {name} for one of its own",
