@@ -35,6 +35,11 @@ std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask fea
     if (algorithm != "path_tracing" && features.has(Feature::lights)) {
         passes.push_back({"light", light, light_tracing_round(light)});
     }
+    for (Pass &pass : passes) {
+        if (pass.features.has(Feature::scattering)) {
+            pass.last_paths = {{"finish_paths"}, {"end_round"}};
+        }
+    }
     return passes;
 }
 

@@ -26,6 +26,8 @@ struct Pass {
     std::vector<RoundStage> round;  ///< in order; stages that the features do not call for are absent
     bool adds_hits = true;          ///< what its paths hit counts; else another pass sees to that
     bool streams = true;            ///< of paths between its stages; else it has one, which runs once and ends all paths
+    /// The round of the last few paths, which takes each of them far; empty where they go on as before.
+    std::vector<RoundStage> last_paths = {};
 };
 
 /// The passes of an algorithm (settings.h names them) for a scene and settings with these features.

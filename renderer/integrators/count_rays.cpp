@@ -15,6 +15,7 @@ std::vector<Pass> counting_passes(std::vector<Pass> passes) {
             round.push_back(stage);
         }
         pass.round = round;
+        pass.last_paths.clear();
     }
     return passes;
 }

@@ -7,6 +7,7 @@ std::vector<Pass> megakernel_passes(std::vector<Pass> path_tracing) {
     for (Pass &pass : path_tracing) {
         pass.round = {{"trace_paths"}};
         pass.streams = false;
+        pass.last_paths.clear();
     }
     return path_tracing;
 }

@@ -123,8 +123,10 @@ DEVICE bool join_hit(PathStates paths, uint slot,
     return true;
 }
 
+#if !PATH_STATES_PRIVATE
+
 __kernel void connect_camera(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
-                                IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
+                             IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
@@ -136,3 +138,5 @@ __kernel void connect_camera(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAME
     }
     append_slots(queues, QUEUE_SHADOW, capacity, &counters->shadow, counters, &shadow);
 }
+
+#endif

@@ -7,13 +7,21 @@
 #include "renderer/kernels/traversal/shadow_ray.h"
 #include "renderer/shared/path_state.h"
 
+/// Adds what a light path brings to the film unless something is in the way.
+DEVICE void splat(PathStates paths, uint slot, GEOMETRY_PARAMETERS GLOBAL long *film, GLOBAL StreamCounters *counters) {
+    if (!is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot))) {
+        add_to_pixel(film, get_splat_pixel(paths, slot), get_shadow_radiance(paths, slot), counters);
+    }
+}
+
+#if !PATH_STATES_PRIVATE
+
 __kernel void splat_unblocked(GEOMETRY_PARAMETERS GLOBAL long *film, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, counters->shadow) {
         const uint slot = path_at(paths, queues + QUEUE_SHADOW * capacity, i, i_end);
-        if (is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot))) {
-            continue;
-        }
-        add_to_pixel(film, get_splat_pixel(paths, slot), get_shadow_radiance(paths, slot), counters);
+        splat(paths, slot, GEOMETRY_ARGUMENTS film, counters);
     }
 }
+
+#endif

@@ -7,6 +7,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/pipeline/session_state.h"
+#include "renderer/shared/finish_paths.h"
 
 namespace rtrays {
 
@@ -18,6 +19,9 @@ constexpr uint64_t batch_paths = 1u << 21;
 
 /// Rounds enqueued between two looks at the counters.
 constexpr int rounds_per_check = 8;
+
+/// Rounds of the last few paths of a batch after which a kernel that takes them far in one launch is worth compiling.
+constexpr int many_rounds = 512;
 
 /// Stages share what is chosen: it is bound where the next to take it asks for another.
 void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
@@ -56,6 +60,8 @@ void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, 
         return pass.stages.enqueue(name, (paths + layout.chunk - 1) / layout.chunk);
     case Items::slots:
         return pass.stages.enqueue(name, layout.capacity);
+    case Items::few_paths:
+        return pass.stages.enqueue(name, FEW_PATHS(layout.capacity));
     case Items::film_sums:
         return pass.stages.enqueue(name, film_sums());
     case Items::one:
@@ -113,13 +119,17 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
     enqueue(pass, "reset_streams");
     const auto splat_stages = std::count_if(pass.round.begin(), pass.round.end(),
                                             [](const RoundStage &stage) { return stage.name == "splat_unblocked"; });
+    const bool takes_far = !pass.last_paths.empty() && pass.stages.has(pass.last_paths.front().name);
     uint64_t in_flight = layout.capacity;
+    int rounds_of_few = 0;
     // The counters are read one check behind, so that the device is never idle while the host looks.
     std::array<StreamCounters, 2> seen{};
     std::array<ClEvent, 2> read;
     for (int check = 0;; ++check) {
+        const bool few = in_flight <= FEW_PATHS(layout.capacity);
+        rounds_of_few += few ? rounds_per_check : 0;
         for (int i = 0; i < rounds_per_check; ++i) {
-            for (const RoundStage &stage : pass.round) {
+            for (const RoundStage &stage : few && takes_far ? pass.last_paths : pass.round) {
                 if (stage.rounds > 0 && static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
                     continue;
                 }
@@ -128,8 +138,9 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
             }
         }
         // A camera path ends with one addition to its pixel, of which there are few in a batch; splats of all light
-        // paths may go to one.
-        pass.additions += static_cast<uint64_t>(splat_stages * rounds_per_check) * in_flight;
+        // paths may go to one, in the round of the last few by as many events as there are fewer of them.
+        const uint64_t events = few && takes_far ? FINISH_EVENTS : 1;
+        pass.additions += static_cast<uint64_t>(splat_stages * rounds_per_check) * in_flight * events;
         if (pass.additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
             carry_film(pass);
         }
@@ -156,6 +167,7 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
             }
         }
     }
+    pass.has_long_paths = pass.has_long_paths || rounds_of_few > many_rounds;
     collect_profile(pass);
 }
 

@@ -228,6 +228,19 @@ void RenderSession::State::warm_up() {
     compile_seconds += seconds_since(start);
 }
 
+void RenderSession::State::add_last_stages(CompiledPass &pass) {
+    const auto start = Clock::now();
+    for (const RoundStage &stage : pass.last_paths) {
+        if (!pass.stages.has(stage.name)) {
+            pass.stages.add({stage.name});
+            enqueue(pass, stage.name);  // no path is in flight: this compiles
+        }
+    }
+    device.finish();
+    device.profiler().take();
+    compile_seconds += seconds_since(start);
+}
+
 void RenderSession::State::reset_film() {
     for (CompiledPass &pass : passes) {
         pass.clear();

@@ -40,6 +40,7 @@ struct CompiledPass {
           round(pass.round),
           adds_hits(pass.adds_hits),
           streams(pass.streams),
+          last_paths(pass.last_paths),
           stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
 
     static std::vector<std::string> stage_names(const Pass &pass) {
@@ -84,11 +85,13 @@ struct CompiledPass {
     std::vector<RoundStage> round;
     bool adds_hits;
     bool streams;
+    std::vector<RoundStage> last_paths;
     StageSet stages;
     Buffer<int64_t> film;
     Buffer<int64_t> ray_counts;
     uint32_t chosen = SELECT_LIGHT;  ///< what StageInput::chosen is bound to
     uint64_t additions = 0;          ///< to one pixel since the last carry, at most
+    bool has_long_paths = false;     ///< the last few paths of a batch took many rounds
     std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
 };
 
@@ -111,6 +114,9 @@ struct RenderSession::State {
 
     /// The first enqueue of a kernel compiles it for its group size: a batch without work does that.
     void warm_up();
+
+    /// Compiles the stages of the last few paths of a pass that has long ones.
+    void add_last_stages(CompiledPass &pass);
 
     void reset_film();
     double device_seconds() const;

@@ -41,6 +41,10 @@ const std::vector<StageDescription> &stage_table() {
          {In::traversal, In::surfaces, In::materials, In::lights, In::camera, In::film, In::half_film, In::settings,
           In::first_sample, In::first_work, In::work, In::live_pixels, In::counters},
          Items::paths},
+        {"finish_paths", "kernels/finish_paths.cl",
+         {In::traversal, In::surfaces, In::materials, In::lights, In::camera, In::film, In::half_film, In::settings,
+          In::first_sample, In::streams},
+         Items::few_paths},
         {"end_shadow_rays", "kernels/advance_streams.cl", {In::counters}, Items::one},
         {"count_nearest_rays", "kernels/count_rays.cl", {In::ray_counts, In::streams}, Items::entries},
         {"count_shadow_rays", "kernels/count_rays.cl", {In::ray_counts, In::streams}, Items::entries},
@@ -60,37 +64,48 @@ const StageDescription &stage_description(const std::string &name) {
 }
 
 StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features,
-                   const StreamLayout &layout, const SourceOverlays &overlays) {
-    Defines defines = features.defines();
-    defines["STREAM_CHUNK"] = std::to_string(layout.chunk);
-    defines["PATH_STATE_INTERLEAVED"] = layout.interleaved ? "1" : "0";
-    defines["BVH_LAYOUT"] = std::to_string(static_cast<uint32_t>(layout.bvh));
+                   const StreamLayout &layout, const SourceOverlays &overlays)
+    : device_(&device), defines_(features.defines()), group_size_(layout.group_size), overlays_(overlays) {
+    defines_["STREAM_CHUNK"] = std::to_string(layout.chunk);
+    defines_["PATH_STATE_INTERLEAVED"] = layout.interleaved ? "1" : "0";
+    defines_["BVH_LAYOUT"] = std::to_string(static_cast<uint32_t>(layout.bvh));
+    add(names);
+}
+
+void StageSet::add(const std::vector<std::string> &names) {
     for (const std::string &name : names) {
         const StageDescription &description = stage_description(name);
         const auto program =
-            programs_.try_emplace(description.file, device, description.file, defines, overlays).first;
-        const uint32_t size = description.items == StageDescription::Items::one ? 1 : layout.group_size;
-        stages_.emplace(name, Stage{&description, Kernel(program->second, name, size)});
+            programs_.try_emplace(description.file, *device_, description.file, defines_, overlays_).first;
+        const uint32_t size = description.items == StageDescription::Items::one ? 1 : group_size_;
+        const auto [stage, is_new] = stages_.try_emplace(name, Stage{&description, Kernel(program->second, name, size)});
+        if (is_new && !arguments_.empty()) {
+            bind(stage->second, arguments_);
+        }
     }
 }
 
-void StageSet::bind(const StageArguments &arguments) {
-    for (const auto &[input, list] : arguments) {
-        parameter_count_[input] = static_cast<uint32_t>(list.size());
+void StageSet::bind(const StageArguments &changed) {
+    for (const auto &[input, list] : changed) {
+        arguments_[input] = list;
     }
     for (auto &[name, stage] : stages_) {
-        uint32_t index = 0;
-        for (const StageInput input : stage.description->inputs) {
-            const auto found = arguments.find(input);
-            if (found != arguments.end()) {
-                for (uint32_t i = 0; i < found->second.size(); ++i) {
-                    stage.kernel.bind(index + i, found->second[i]);
-                }
-            }
-            index += parameter_count_.at(input);
-        }
-        stage.kernel.require_argument_count(index);
+        bind(stage, changed);
     }
+}
+
+void StageSet::bind(Stage &stage, const StageArguments &changed) {
+    uint32_t index = 0;
+    for (const StageInput input : stage.description->inputs) {
+        const auto found = changed.find(input);
+        if (found != changed.end()) {
+            for (uint32_t i = 0; i < found->second.size(); ++i) {
+                stage.kernel.bind(index + i, found->second[i]);
+            }
+        }
+        index += static_cast<uint32_t>(arguments_[input].size());
+    }
+    stage.kernel.require_argument_count(index);
 }
 
 void StageSet::enqueue(const std::string &name, uint64_t items) { stages_.at(name).kernel.enqueue(items); }

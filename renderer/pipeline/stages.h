@@ -21,9 +21,9 @@ struct StageDescription {
     std::string name;  ///< of the kernel, in source, profile and results
     std::string file;
     std::vector<StageInput> inputs;
-    /// What its work-items stand for: chunks of a queue's entries, slots, chunks of the work's paths, sums of the
-    /// film, or just one.
-    enum class Items { entries, slots, paths, film_sums, one } items;
+    /// What its work-items stand for: chunks of a queue's entries, slots, chunks of the work's paths, the last few paths,
+    /// sums of the film, or just one.
+    enum class Items { entries, slots, paths, few_paths, film_sums, one } items;
 };
 
 /// All stages there are.
@@ -52,6 +52,11 @@ class StageSet {
     StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features, const StreamLayout &layout,
              const SourceOverlays &overlays);
 
+    /// Compiles more stages, with the arguments that the others have. Their first launch compiles once more.
+    void add(const std::vector<std::string> &names);
+
+    bool has(const std::string &name) const { return stages_.count(name) > 0; }
+
     /// Binds what `arguments` holds; inputs that it does not name keep their binding.
     void bind(const StageArguments &arguments);
 
@@ -67,9 +72,15 @@ class StageSet {
         Kernel kernel;
     };
 
+    void bind(Stage &stage, const StageArguments &changed);
+
+    DeviceContext *device_;
+    Defines defines_;
+    uint32_t group_size_;
+    SourceOverlays overlays_;
     std::map<std::string, Program> programs_;
     std::map<std::string, Stage> stages_;
-    std::map<StageInput, uint32_t> parameter_count_;  ///< of each input, learnt from the first binding
+    StageArguments arguments_;  ///< all that were bound
 };
 
 }  // namespace rtrays

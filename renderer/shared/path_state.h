@@ -36,7 +36,14 @@
 
 #ifdef __OPENCL_VERSION__
 
-// A program whose paths never leave their work-item (trace_paths.cl) keeps them in its own memory and has no queues.
+// Where a word of a path lies in a stream of `capacity`.
+#if PATH_STATE_INTERLEAVED
+#define STREAM_WORD(capacity, slot, word) ((slot) * PATH_STATE_WORDS + (word))
+#else
+#define STREAM_WORD(capacity, slot, word) ((word) * (capacity) + (slot))
+#endif
+
+// A program whose work-items follow a path on their own (advance_path.h) keeps it in their own memory.
 #ifndef PATH_STATES_PRIVATE
 #define PATH_STATES_PRIVATE 0
 #endif
@@ -66,11 +73,7 @@ typedef struct PathStates {
     uint capacity;
 } PathStates;
 
-#if PATH_STATE_INTERLEAVED
-#define PATH_WORD(paths, slot, word) (paths).words[(slot) * PATH_STATE_WORDS + (word)]
-#else
-#define PATH_WORD(paths, slot, word) (paths).words[(word) * (paths).capacity + (slot)]
-#endif
+#define PATH_WORD(paths, slot, word) (paths).words[STREAM_WORD((paths).capacity, slot, word)]
 
 /// Asks for a path's words ahead of their use, where they lie together.
 DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {

@@ -44,6 +44,10 @@ TEST_P(FeatureBuild, Succeeds) {
     for (const Pass &pass : megakernel_passes(algorithm_passes("path_tracing", mask, 1, 2))) {
         build(pass, {});
     }
+    for (Pass pass : algorithm_passes("light_tracing", mask, 1, 2)) {
+        pass.round = pass.last_paths;
+        build(pass, {});
+    }
     // Of what the others have besides: the stages of their own.
     for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
         pass.round = {pass.round[pass.round.size() - 2]};
