@@ -105,6 +105,16 @@ double welch_freedom(const NoisySum &a, const NoisySum &b) {
     return shares > 0 ? variance * variance / shares : std::numeric_limits<double>::infinity();
 }
 
+/// The third cumulant of a mean of as many batches as there are degrees of freedom, and one.
+double third_cumulant(const NoisySum &sum) {
+    return std::isfinite(sum.freedom) ? sum.skewness * std::pow(sum.variance, 1.5) / std::sqrt(sum.freedom + 1) : 0;
+}
+
+/// Student's t of skewed data without the first-order effect of the skewness `q` of the mean: where bright batches are
+/// rare, both mean and scatter are low without them, and large negative t are common. Rises with t. P. Hall, On the
+/// removal of skewness by transformation, J. R. Statist. Soc. B 54 (1992), 221-228, equation (2.4) with a = 1/3, b = 1/6.
+double without_skewness(double t, double q) { return t + q * t * t / 3 + q * q * t * t * t / 27 + q / 6; }
+
 BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pixels) {
     BlockTest test;
     test.difference = (image.value - reference.value) / pixels;
@@ -118,8 +128,11 @@ BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pi
     test.p_value = normal_p_value(test.z);
     const double freedom = welch_freedom(image, reference);
     if (std::isfinite(freedom)) {
+        // Below the rounding of float32 pixels there is no telling what is skewed.
+        const double q = variance > 0 ? (third_cumulant(image) - third_cumulant(reference)) / std::pow(variance, 1.5) : 0;
+        const double t = without_skewness(test.z, q);
         const boost::math::students_t student(freedom);
-        test.p_value = 2 * boost::math::cdf(boost::math::complement(student, std::abs(test.z)));
+        test.p_value = 2 * boost::math::cdf(boost::math::complement(student, std::abs(t)));
         const boost::math::normal normal;
         test.z = test.p_value > 0 ? boost::math::quantile(boost::math::complement(normal, 0.5 * test.p_value)) : test.z;
     }

@@ -34,8 +34,8 @@ struct AgreementPolicy {
     double alpha = 0.01;              ///< family-wise, Holm
     double confidence = 0.99;         ///< of the interval of the mean difference
     double equivalence_limit = 1e-3;  ///< of the relative difference of the mean
-    /// Of batches. Rare bright paths that most batches lack make a block's estimate look more certain than it is; 32
-    /// normal batches exceed this in one case of 800.
+    /// Of batches. Rare bright paths that most batches lack make a block look more certain than it is, even after the tests
+    /// have taken off the first-order effect of skewness; 32 normal batches exceed this in one case of 800.
     double largest_skewness = 1.5;
 };
 
