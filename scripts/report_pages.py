@@ -5,7 +5,7 @@ import html
 import os
 
 from efficiency import base_curve, explanation, gain
-from run_document import agreement_verdict, gain_verdict, is_blind, label, slope_verdict, value, write_text
+from run_document import agreement_verdict, gain_verdict, is_blind, is_stratified, label, slope_verdict, value, write_text
 from tables import Table, interval
 from viewer import write_viewer
 
@@ -31,7 +31,8 @@ def verdict_table(run):
     for curve in run.curves:
         blind = "not expected: it sees nothing in mirrors and glass" if is_blind(curve) else None
         rows.append([label(curve), f"slope {expected} ± {tolerance}", interval(value(curve, "slope"), form="{:.4f}"),
-                     blind or slope_verdict(value(curve, "slope"), expected, tolerance)])
+                     blind or (is_stratified(curve) and "not expected: stratified samples")
+                     or slope_verdict(value(curve, "slope"), expected, tolerance)])
         agreement = value(curve, "agreement")
         measured = (f"mean {interval(value(agreement, 'relative_difference'), 100, '{:+.3f}')} %, "
                     f"{value(agreement, 'rejected')} of {value(agreement, 'tests')} block tests reject")

@@ -94,6 +94,11 @@ def is_blind(curve):
     return value(curve, "algorithm") == "light_tracing" and "delta" in value(curve, "render_report.features")
 
 
+def is_stratified(curve):
+    """Whether its samples fill the domain evenly, so that errors may fall faster than those of independent ones."""
+    return value(curve, "settings").get("integrator.sampler") == "sobol"
+
+
 def pilot_seconds(curve):
     """Device time of the pilot that chose the number of light paths; zero where there was none."""
     return value(curve, "render_report.pilot.seconds") if "pilot" in value(curve, "render_report") else 0.0

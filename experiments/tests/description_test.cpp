@@ -42,11 +42,11 @@ std::string replaced(std::string text, const std::string &from, const std::strin
 
 TEST(Description, ShippedExperimentsLoadInEveryProfile) {
     for (const char *name : {"cornell_diffuse", "cornell_algorithms", "cornell_bumps", "cornell_mirrors", "mirror_ring",
-                             "glass_goblets", "door_ajar", "floor_lamps"}) {
+                             "glass_goblets", "door_ajar", "floor_lamps", "samplers"}) {
         for (const char *profile : {"quick", "full", "ci"}) {
             const auto experiment = load_experiment(shipped / (std::string(name) + ".json"), profile);
             EXPECT_EQ(experiment.name, name);
-            EXPECT_EQ(experiment.curves[0].id(), "path_tracing.implicit");
+            EXPECT_EQ(experiment.curves[0].id(), experiment.name == "samplers" ? "path_tracing.mis" : "path_tracing.implicit");
             EXPECT_GE(experiment.seeds, 8);
             EXPECT_TRUE(experiment.scene.is_absolute());
             for (const CurveDescription &curve : experiment.curves) {

@@ -212,6 +212,16 @@ class Reports(RunFolder):
         self.assertIn("| truncated bdpt (mis) | 2 times less device time | 1.00 [1.00, 1.00] | does not hold here |", page)
         self.assertIn("1.00 [1.00, 1.00] times fewer samples, each of which takes 1.00 times the device time (its light pass 25 % of that)", page)
 
+    def test_slopes_are_judged_where_the_claim_is_made(self):
+        from report_pages import verdict_table
+
+        self.document["curves"][0]["settings"]["integrator.sampler"] = "sobol"
+        self.document["curves"].append(copy.deepcopy(self.document["curves"][1]))
+        self.document["curves"][2].update({"id": "light_tracing.mis", "algorithm": "light_tracing"})
+        self.document["curves"][2]["render_report"]["features"] = ["delta"]
+        slopes = [row[-1].partition(":")[0] for row in verdict_table(self.run_object()).rows if row[1].startswith("slope")]
+        self.assertEqual(slopes, ["not expected", "holds", "not expected"])
+
     def test_viewer_has_the_images(self):
         from viewer import to_rgbe
 
