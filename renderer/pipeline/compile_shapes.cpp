@@ -55,11 +55,13 @@ void set_transform(const Eigen::Matrix4d &world_from_object, ShapeRecord &record
     // The inverse of the rounded matrix, so that the two differ from inverses by the rounding of one of them
     // only.
     const Eigen::Matrix3d linear = world.leftCols<3>().cast<double>();
-    const Eigen::Matrix3f inverse = Eigen::Matrix3d(linear.inverse()).cast<float>();
+    const Eigen::Matrix3d exact_inverse = linear.inverse();
+    const Eigen::Matrix3f inverse = exact_inverse.cast<float>();
     for (int row = 0; row < 3; ++row) {
         std::copy_n(Eigen::RowVector4f(world.row(row)).data(), 4, record.world_from_object[row]);
         std::copy_n(Eigen::RowVector3f(inverse.row(row)).data(), 3, record.object_from_world[row]);
     }
+    record.error2 = static_cast<float>(std::pow(16 * std::ldexp(1.0, -24) * linear.norm() * exact_inverse.norm(), 2));
     if (!world.allFinite() || !inverse.allFinite()) {
         throw input_error("its transform cannot be inverted in single precision");
     }

@@ -126,7 +126,8 @@ typedef struct ShapeRecord {
     float z_lower, z_upper;
     float bound2;  ///< x^2 + y^2 + z^2 of the surface's points is at most this (which clips a disc)
     uint uv_kind;  ///< SHAPE_UV_*
-    float padding[3];
+    float error2;  ///< (16 u k)^2, k = |A|_F |M|_F of A = object_from_world and its inverse M: shape_space.h
+    float padding[2];
 } ShapeRecord;
 
 #define SHAPE_QUADRIC 0u
