@@ -126,7 +126,7 @@ def save(figure, stem, *extensions):
     for extension in extensions:
         metadata = FORMS[extension]
         temporary = stem.with_name(f"{stem.name}.tmp{extension}")
-        figure.savefig(temporary, dpi=160, metadata=metadata)
+        figure.savefig(temporary, dpi=160, metadata=metadata, bbox_inches="tight")
         temporary.replace(stem.with_name(stem.name + extension))
     pyplot.close(figure)
 
