@@ -8,12 +8,8 @@
 
 #include "renderer/shared/compat.h"
 
-/// Direction numbers of the first four dimensions (Joe & Kuo 2008), most significant bit first.
-CONSTANT uint SOBOL_DIRECTIONS[4][32] = {
-    {0x80000000u, 0x40000000u, 0x20000000u, 0x10000000u, 0x08000000u, 0x04000000u, 0x02000000u, 0x01000000u,
-     0x00800000u, 0x00400000u, 0x00200000u, 0x00100000u, 0x00080000u, 0x00040000u, 0x00020000u, 0x00010000u,
-     0x00008000u, 0x00004000u, 0x00002000u, 0x00001000u, 0x00000800u, 0x00000400u, 0x00000200u, 0x00000100u,
-     0x00000080u, 0x00000040u, 0x00000020u, 0x00000010u, 0x00000008u, 0x00000004u, 0x00000002u, 0x00000001u},
+/// Direction numbers of dimensions 2 to 4 (Joe & Kuo 2008), most significant bit first; those of the first are the bits.
+CONSTANT uint SOBOL_DIRECTIONS[3][32] = {
     {0x80000000u, 0xc0000000u, 0xa0000000u, 0xf0000000u, 0x88000000u, 0xcc000000u, 0xaa000000u, 0xff000000u,
      0x80800000u, 0xc0c00000u, 0xa0a00000u, 0xf0f00000u, 0x88880000u, 0xcccc0000u, 0xaaaa0000u, 0xffff0000u,
      0x80008000u, 0xc000c000u, 0xa000a000u, 0xf000f000u, 0x88008800u, 0xcc00cc00u, 0xaa00aa00u, 0xff00ff00u,
@@ -46,18 +42,17 @@ DEVICE uint scramble(uint x, uint seed) {
     return reverse_bits(x);
 }
 
-/// The point of the sequence as published whose index has these bits.
+/// The point of the sequence as published whose index has these bits. They are random: masks cost less than branches that
+/// nobody can foresee.
 DEVICE uint4 plain_sobol_point(uint bits) {
-    uint4 point = make_uint4(0u, 0u, 0u, 0u);
-    for (uint i = 0u; bits != 0u; ++i, bits >>= 1) {
-        if ((bits & 1u) != 0u) {
-            point.x ^= SOBOL_DIRECTIONS[0][i];
-            point.y ^= SOBOL_DIRECTIONS[1][i];
-            point.z ^= SOBOL_DIRECTIONS[2][i];
-            point.w ^= SOBOL_DIRECTIONS[3][i];
-        }
+    uint y = 0u, z = 0u, w = 0u;
+    for (uint i = 0u; i < 32u; ++i) {
+        const uint mask = 0u - ((bits >> i) & 1u);
+        y ^= SOBOL_DIRECTIONS[0][i] & mask;
+        z ^= SOBOL_DIRECTIONS[1][i] & mask;
+        w ^= SOBOL_DIRECTIONS[2][i] & mask;
     }
-    return point;
+    return make_uint4(reverse_bits(bits), y, z, w);
 }
 
 /// Point `index` of a sequence whose order and scramblings are those of `order` and `seeds`.
