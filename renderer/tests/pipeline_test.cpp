@@ -365,9 +365,11 @@ TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
     for (const std::string &algorithm : algorithms) {
         std::set<std::string> used;
         for (const Pass &pass : algorithm_passes(algorithm, FeatureMask::all(), 1, 2)) {
-            for (const RoundStage &stage : pass.round) {
-                if (bookkeeping.count(stage.name) == 0) {
-                    used.insert(stage.name);
+            for (const std::vector<RoundStage> *stages : {&pass.round, &pass.last_paths}) {
+                for (const RoundStage &stage : *stages) {
+                    if (bookkeeping.count(stage.name) == 0) {
+                        used.insert(stage.name);
+                    }
                 }
             }
         }
