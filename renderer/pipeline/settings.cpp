@@ -92,7 +92,7 @@ const std::vector<Setting> &setting_table() {
         {"device.bvh_layout", TextSetting{&S::bvh_layout, names_of(bvh_layouts, {"auto"})},
          "nodes of two children, traversed with a stack or without, or of eight; auto: by device"},
         {"device.bvh_builder", TextSetting{&S::bvh_builder, names_of(bvh_methods)},
-         "binned_sah: top down, the better tree; hploc: by clustering, several times as fast to build"},
+         "binned_sah: top down, by bins; hploc: bottom up, by clustering, faster to build"},
         {"device.bvh_bins", TextSetting{&S::bvh_bins, {"4", "8", "16", "32"}}, "on an axis, of binned_sah"},
         {"device.bvh_axes", TextSetting{&S::bvh_axes, {"all", "widest"}},
          "that are binned, of binned_sah; widest: the one along which the triangles of a node lie widest"},
