@@ -67,7 +67,19 @@ std::vector<uint64_t> rungs_up_to(const std::vector<uint64_t> &spp, uint64_t las
     return {spp.begin(), found + 1};
 }
 
-/// Fills in what a profile says of sample counts.
+/// What `key` of a profile says of single curves, by id. Throws `Error` (bad input) for an id that is none of theirs.
+std::map<std::string, uint64_t> read_by_curve(const DescriptionFile &file, const std::string &pointer, const Json &profile,
+                                              const std::string &key, const std::vector<CurveDescription> &curves) {
+    auto counts = profile.value(key, std::map<std::string, uint64_t>());
+    for (const auto &[id, count] : counts) {
+        if (std::none_of(curves.begin(), curves.end(), [&, &id = id](const auto &curve) { return curve.id() == id; })) {
+            throw input_error(fmt::format("{}: there is no curve '{}'", file.location(pointer + "/" + key), id));
+        }
+    }
+    return counts;
+}
+
+/// Fills in what a profile says of sample counts and seeds.
 void read_ladders(const DescriptionFile &file, const std::string &pointer, const Json &profile,
                   std::vector<CurveDescription> &curves) {
     const auto spp = profile.at("spp").get<std::vector<uint64_t>>();
@@ -78,8 +90,11 @@ void read_ladders(const DescriptionFile &file, const std::string &pointer, const
             throw input_error(fmt::format("{}: {} is none of \"spp\"", file.location(pointer + "/early_images"), wanted));
         }
     }
-    std::map<std::string, uint64_t> most = profile.value("most_spp", std::map<std::string, uint64_t>());
+    const auto seeds = profile.at("seeds").get<uint32_t>();
+    const auto most = read_by_curve(file, pointer, profile, "most_spp", curves);
+    const auto more = read_by_curve(file, pointer, profile, "more_seeds", curves);
     for (CurveDescription &curve : curves) {
+        curve.seeds = more.count(curve.id()) > 0 ? static_cast<uint32_t>(more.at(curve.id())) : seeds;
         const auto limit = most.find(curve.id());
         curve.spp = limit == most.end() ? spp
                                         : rungs_up_to(spp, limit->second, file.location(pointer + "/most_spp"));
@@ -89,10 +104,6 @@ void read_ladders(const DescriptionFile &file, const std::string &pointer, const
         }
         std::copy_if(early.begin(), early.end(), std::back_inserter(curve.early_images),
                      [&](uint64_t wanted) { return wanted <= curve.spp.back(); });
-        most.erase(curve.id());
-    }
-    if (!most.empty()) {
-        throw input_error(fmt::format("{}: there is no curve '{}'", file.location(pointer + "/most_spp"), most.begin()->first));
     }
 }
 
@@ -142,7 +153,6 @@ ExperimentDescription load_experiment(const std::filesystem::path &path, const s
     read_measured_scene(file, chosen.at("size"), experiment);
     experiment.profile = profile;
     read_ladders(file, "/profiles/" + profile, chosen, experiment.curves);
-    chosen.at("seeds").get_to(experiment.seeds);
     chosen.at("throughput").at("repetitions").get_to(experiment.throughput.repetitions);
     chosen.at("throughput").at("spp").get_to(experiment.throughput.spp);
     experiment.source = file.of_profile(profile);

@@ -21,6 +21,7 @@ struct CurveDescription {
     RenderSettings settings;  ///< size and seed are set by the runner
     std::vector<uint64_t> spp = {};           ///< strictly increasing; of experiments
     std::vector<uint64_t> early_images = {};  ///< rungs at which the first seed's image is kept; of experiments
+    uint32_t seeds = 0;                       ///< seeds 1 .. seeds; of experiments
 
     /// "path_tracing.mis", "truncated_bdpt.mis,light_paths=auto": names the curve's files.
     std::string id() const;
@@ -46,7 +47,6 @@ struct ExperimentDescription : MeasuredScene {
     Json expected_gain;  ///< {"algorithm", "samples", "time"} over path tracing, as the thesis states it, or null
     // of the chosen profile
     std::string profile;
-    int seeds = 0;  ///< seeds 1 .. seeds
     ThroughputDescription throughput;
     std::string source;  ///< the file as written, of the chosen profile
 };

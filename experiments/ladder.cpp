@@ -89,7 +89,7 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
 LadderResult render_ladders(const LadderTask &task) {
     LadderResult result;
     LazySession session(task);
-    for (uint32_t seed = first_seed; seed < first_seed + static_cast<uint32_t>(task.seeds); ++seed) {
+    for (uint32_t seed = first_seed; seed < first_seed + task.seeds; ++seed) {
         const fs::path numbers = partial_file(task, seed, "json"), picture = partial_file(task, seed, "exr");
         // The numbers are written last: where they are, the pictures are.
         if (fs::exists(numbers)) {

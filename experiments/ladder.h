@@ -23,7 +23,7 @@ struct LadderTask {
     DeviceContext &device;
     RenderSettings settings;  ///< with size
     std::vector<uint64_t> spp;  ///< the last one a multiple of `batches_per_seed`
-    int seeds = 0;
+    uint32_t seeds = 0;
     std::vector<uint64_t> early_images;  ///< rungs at which the first seed's image is kept
     const Image &reference;
     std::filesystem::path partial;          ///< folder of finished seeds

@@ -45,13 +45,13 @@ void print_plan(const ExperimentDescription &experiment, const StoredReference &
     const double pixels = static_cast<double>(experiment.width) * experiment.height;
     const double throughput =
         2 * pixels * static_cast<double>(experiment.throughput.spp) * experiment.throughput.repetitions;
-    fmt::print("{} ({}), profile {}: {}x{}, {} seeds\n", experiment.name, experiment.thesis, experiment.profile,
-               experiment.width, experiment.height, experiment.seeds);
+    fmt::print("{} ({}), profile {}: {}x{}\n", experiment.name, experiment.thesis, experiment.profile, experiment.width,
+               experiment.height);
     for (const auto &curve : experiment.curves) {
-        fmt::print("  {:40} {:4} to {:4} spp {:8.1f} Msamples\n", curve.id(), curve.spp.front(), curve.spp.back(),
-                   1e-6 * pixels * static_cast<double>(curve.spp.back()) * experiment.seeds);
+        fmt::print("  {:40} {:4} to {:4} spp, {:3} seeds {:8.1f} Msamples\n", curve.id(), curve.spp.front(),
+                   curve.spp.back(), curve.seeds, 1e-6 * pixels * static_cast<double>(curve.spp.back() * curve.seeds));
     }
-    fmt::print("  {:57} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
+    fmt::print("  {:68} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
     fmt::print("  reference: {} spp ({}), noise floor RMSE {:.3g}\n",
                reference.description.at("spp").get<uint64_t>(),
                reference.description.at("engine").get<std::string>(),
@@ -111,6 +111,7 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     task.settings.height = experiment.height;
     task.spp = description.spp;
     task.early_images = description.early_images;
+    task.seeds = description.seeds;
     const LadderResult ladder = render_ladders(task);
     const std::string image = "images/" + description.id() + ".exr";
     const Image mean = average_images(ladder.images);
@@ -129,7 +130,7 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     const Agreement agreement = test_agreement(ladder.batches, task.reference, policy);
     curve["agreement"] = to_json(agreement, policy);
     curve["image"] = image;
-    curve["image_spp"] = task.spp.back() * static_cast<uint64_t>(experiment.seeds);
+    curve["image_spp"] = task.spp.back() * task.seeds;
     curve["layers"] = Json::array();
     for (const char *layer : {"camera", "light"}) {
         if (mean.has(rgb_names(layer).front())) {
@@ -191,7 +192,7 @@ fs::path run_experiment(const RunOptions &options) {
         uint64_t done = 0;
         uint64_t total = 0;
         for (const CurveDescription &curve : experiment.curves) {
-            total += static_cast<uint64_t>(experiment.seeds) * curve.spp.back();
+            total += curve.seeds * curve.spp.back();
         }
         Progress progress(experiment.name, total, "spp", options.quiet);
         progress.update(0);
@@ -199,7 +200,7 @@ fs::path run_experiment(const RunOptions &options) {
                               device,
                               {},
                               {},
-                              experiment.seeds,
+                              0,
                               {},
                               reference.reference.image,
                               resumption.parts(),

@@ -19,24 +19,22 @@ def rays_per_second(row, kind):
 
 
 def thesis_table(run):
-    """Tables 4.2 and 4.3 with our columns."""
+    """Tables 4.2 and 4.3, and below every row of the thesis ours."""
     columns = run.get("experiment.published.columns")
     published = {row["mesh"]: row for row in run.get("experiment.published.rows")}
     rows = []
     for row in run.get("rows"):
         printed = published.get(run.get("stand_ins").get(row["mesh"], row["mesh"]))
-        cells = [printed["scene"], printed["triangles"]] if printed else [NONE, NONE]
-        cells += [f"{value(printed['figures'], c['key'])}" if printed else NONE for c in columns]
-        cells += [mesh_name(run, row["mesh"]), f"{value(row, 'triangles')}"]
-        cells += [number(value(row, f"{kind}_ms.value")) for kind in ("primary", "shadow", "secondary")]
-        cells += [f"{rays_per_second(row, kind):.3g}" for kind in ("primary", "secondary")]
-        cells += [f"{value(row, 'rays.secondary'):.0f}", number(value(row, "frame_ms.value"))]
-        rows.append(cells)
-    titles = [c["title"] for c in columns]
-    heads = ["scene", "triangles", *(f"thesis: {title}" for title in titles), "measured here", "triangles", *titles]
+        if printed:
+            rows.append([printed["scene"], "thesis", printed["triangles"],
+                         *(f"{value(printed['figures'], c['key'])}" for c in columns)])
+        ours = {f"{kind}_ms": number(value(row, f"{kind}_ms.value")) for kind in ("primary", "shadow", "secondary", "frame")}
+        ours.update({f"{kind}_Mrays_s": f"{rays_per_second(row, kind):.3g}" for kind in ("primary", "secondary")})
+        ours["secondary_rays"] = f"{value(row, 'rays.secondary'):.0f}"
+        rows.append([mesh_name(run, row["mesh"]), "here", f"{value(row, 'triangles')}", *(ours[c["key"]] for c in columns)])
     hardware = "; ".join(sorted({c["hardware"] for c in columns}))
     return Table(f"As printed ({run.get('experiment.published.source')}; 1024 x 768, {hardware}), and here ({size_of(run)})",
-                 heads, rows)
+                 ["scene", "", "triangles", *(c["title"] for c in columns)], rows)
 
 
 def frame_rows(run):
@@ -96,26 +94,27 @@ def bounces(run):
     published = {row["mesh"]: row for row in run.get("experiment.published.rows")}
     names = [c["name"] for c in value(run.get("rows")[0], "depths.0.contestants")]
     rivals = names[1:]
-    table, absent = [], set()
+    rates, ratios, absent = [], [], set()
     for row in run.get("rows"):
         printed = published.get(run.get("stand_ins").get(row["mesh"], row["mesh"]))
         absent.update(value(row, "absent_peers"))
         for depth in value(row, "depths"):
-            rates = {c["name"]: c["Msamples_s"] for c in value(depth, "contestants")}
-            table.append([f"{printed['scene']}, {printed['triangles']}" if printed else NONE, mesh_name(run, row["mesh"]),
-                          f"{value(row, 'triangles')}", f"{value(depth, 'bounces')}", f"{2 * value(depth, 'bounces') + 2}",
-                          f"{value(depth, 'rays_per_sample'):.2f}", f"{value(depth, 'reference_rays_per_sample'):.2f}",
-                          *(interval(rates[c]) for c in names),
-                          *(interval(value(depth, "wavefront_over")[rival]) for rival in rivals),
-                          f"{value(depth, 'turns')}", f"{100 * value(depth, 'foreign_load'):.0f}"])
+            scene = [mesh_name(run, row["mesh"]), f"{value(depth, 'bounces')}"]
+            rate = {c["name"]: c["Msamples_s"] for c in value(depth, "contestants")}
+            rates.append([f"{printed['scene']}, {printed['triangles']}" if printed else NONE, *scene,
+                          *(interval(rate[c]) for c in names)])
+            ratios.append([*scene, f"{value(row, 'triangles')}", *(interval(value(depth, "wavefront_over")[rival]) for rival in rivals),
+                           f"{2 * value(depth, 'bounces') + 2}", f"{value(depth, 'rays_per_sample'):.2f}",
+                           f"{value(depth, 'reference_rays_per_sample'):.2f}", f"{value(depth, 'turns')}",
+                           f"{100 * value(depth, 'foreign_load'):.0f}"])
     means = [[f"{value(mean, 'max_depth') - 1}", *(f"{mean[rival]:.2f}" for rival in rivals)]
              for mean in run.get("summary.wavefront_over")]
     tables = (
         Table("How many times faster the wavefront is: geometric means over the scenes", ["bounces", *rivals], means),
-        Table("Msamples/s (wall), and how many times faster the wavefront is (processor time)", [
-            "thesis", "measured here", "triangles", "bounces", "rays per sample, at most", "wavefront, rays per sample",
-            "Embree, rays per sample", *(f"{c}, Msamples/s" for c in names),
-            *(f"wavefront / {rival}" for rival in rivals), "turns", "others' load, %"], table),
+        Table("Msamples/s, wall", ["thesis", "measured here", "bounces", *names], rates),
+        Table("How many times faster the wavefront is, processor time", [
+            "scene", "bounces", "triangles", *rivals, "rays per sample, at most", "wavefront, rays per sample",
+            "Embree, rays per sample", "turns", "others' load, %"], ratios),
     )
     what = (f"{size_of(run)}, {run.get('experiment.settings').get('spp', 1)} sample(s) per pixel and turn. All surfaces are "
             "diffuse, no roulette, one explicit connection at every hit, light not counted where paths hit it: 2 (b + 1) rays "

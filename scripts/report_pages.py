@@ -129,7 +129,9 @@ def markdown_pages(folder):
         if source.stem == source.parent.name:
             heading, _, text = source.read_text().partition("\n")
             page = source.with_name("index.html")
-            write_text(page, html_document(heading.lstrip("# "), markdown.markdown(text, extensions=["tables"])))
+            body = markdown.markdown(text, extensions=["tables"])
+            body = body.replace("<table>", "<div class=wide><table>").replace("</table>", "</table></div>")
+            write_text(page, html_document(heading.lstrip("# "), body))
             yield heading.lstrip("# "), page
 
 

@@ -46,10 +46,11 @@ TEST(Description, ShippedExperimentsLoadInEveryProfile) {
         for (const char *profile : {"quick", "full", "ci"}) {
             const auto experiment = load_experiment(shipped / (std::string(name) + ".json"), profile);
             EXPECT_EQ(experiment.name, name);
-            EXPECT_EQ(experiment.curves[0].id(), experiment.name == "samplers" ? "path_tracing.mis" : "path_tracing.implicit");
-            EXPECT_GE(experiment.seeds, 8);
+            // Throughput is the last curve's: path tracing on every page.
+            EXPECT_EQ(experiment.curves.back().id(), "path_tracing.mis");
             EXPECT_TRUE(experiment.scene.is_absolute());
             for (const CurveDescription &curve : experiment.curves) {
+                EXPECT_GE(curve.seeds, 8u);
                 EXPECT_GE(curve.spp.size(), 3u);
             }
         }
@@ -74,6 +75,20 @@ TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
     EXPECT_NE(error("\"bdpt\": 8").find("there is no curve 'bdpt'"), std::string::npos);
     EXPECT_NE(error("\"bdpt.mis\": 5").find("none of \"spp\""), std::string::npos);
     EXPECT_NE(error("\"bdpt.mis\": 2").find("from the third on"), std::string::npos);
+}
+
+TEST(Description, CurvesThatTheProfileNamesHaveMoreSeeds) {
+    const std::string good = read_file(shipped / "glass_goblets.json");
+    const auto with = [&](const std::string &more) {
+        return replaced(good, "\"early_images\": [4, 16]", "\"more_seeds\": {" + more + "}");
+    };
+    const fs::path path = fs::path(testing::TempDir()) / "more_seeds_experiment.json";
+    write_file(path, with("\"bdpt.mis\": 24"));
+    for (const CurveDescription &curve : load_experiment(path, "quick").curves) {
+        EXPECT_EQ(curve.seeds, curve.id() == "bdpt.mis" ? 24u : 8u);
+    }
+    EXPECT_NE(error_of(with("\"bdpt\": 24")).find("there is no curve 'bdpt'"), std::string::npos);
+    EXPECT_NE(error_of(with("\"bdpt.mis\": 4")).find("more_seeds"), std::string::npos);
 }
 
 TEST(Description, ErrorsNameTheKey) {
