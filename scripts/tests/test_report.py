@@ -21,6 +21,12 @@ from run_document import Run, RunError, agreement_verdict, gain_verdict, slope_v
 from tables import TABLES, efficiency_table, errors_table, memory_table, latex_escape, repetitions_table, throughput_table
 
 
+def from_rgbe(pixels):
+    """Linear values of viewer.to_rgbe's."""
+    mantissa, exponent = pixels[..., :3].astype(float), pixels[..., 3:].astype(float)
+    return numpy.where(exponent > 0, (mantissa + 0.5) * 2.0 ** (exponent - 136), 0)
+
+
 def made_up_curve(strategies):
     points = []
     for spp in (1, 2, 4, 8):
@@ -226,8 +232,7 @@ class Reports(RunFolder):
         from viewer import to_rgbe
 
         picture = numpy.array([[[1.0, 0.5, 0.0], [1e4, 1e-4, 3.0]], [[0, 0, 0], [-1, 2e-30, 1e-30]]])
-        bytes_ = to_rgbe(picture).astype(float)
-        decoded = numpy.where(bytes_[..., 3:] > 0, (bytes_[..., :3] + 0.5) * 2.0 ** (bytes_[..., 3:] - 136), 0)
+        decoded = from_rgbe(to_rgbe(picture))
         largest = numpy.max(picture, axis=-1, keepdims=True)
         self.assertTrue((abs(decoded - numpy.maximum(picture, 0)) <= largest * 2.0 ** -8).all())
         self.run_object()
@@ -236,6 +241,45 @@ class Reports(RunFolder):
         shown = json.loads(text[text.index("["):text.rindex(";")])
         self.assertEqual([image["name"] for image in shown][:3],
                          ["reference, 100 spp", "path tracing (mis), 64 spp", "path tracing (mis), 2 spp"])
+
+    @unittest.skipUnless(shutil.which("chromium"), "Chromium is not installed")
+    def test_viewer_compares_in_a_browser(self):
+        from viewer import to_rgbe
+
+        self.run_object()
+        self.assertEqual(self.script("report", self.folder).returncode, 0)
+        page = self.folder / "driven.html"
+        page.write_text((self.folder / "index.html").read_text() + """<pre id=told></pre><script>
+            const root = document.getElementById("viewer"), canvas = root.querySelector("canvas");
+            const [left, right, mode] = root.querySelectorAll("select"), [exposure] = root.querySelectorAll("input");
+            const set = (control, value) => { control.value = value; control.oninput(); };
+            const shown = () => Array.from(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data);
+            const told = {size: [canvas.width, canvas.height]};
+            set(mode, 1); told.left = shown();
+            set(mode, 2); told.right = shown();
+            set(mode, 3); set(exposure, 1); told.difference = shown();
+            const box = canvas.getBoundingClientRect();
+            canvas.dispatchEvent(new PointerEvent("pointermove", {clientX: box.right - 1, clientY: box.bottom - 1}));
+            told.readout = root.querySelector(".readout").textContent;
+            document.getElementById("told").textContent = JSON.stringify(told);</script>""")
+        done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", page.as_uri()],
+                              capture_output=True, text=True, timeout=120)
+        told = json.loads(done.stdout.rpartition("<pre id=\"told\">")[2].partition("</pre>")[0])
+        run = Run(self.folder)
+        reference, image = (from_rgbe(to_rgbe(run.image(name)))
+                            for name in (run.get("reference.image"), value(run.curves[-1], "image")))
+        height, width = reference.shape[:2]
+        self.assertEqual(told["size"], [width, height])
+
+        def bytes_of(linear):  # IEC 61966-2-1
+            x = numpy.clip(linear, 0, 1)
+            return 255 * numpy.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+
+        for key, linear in (("left", reference), ("right", image), ("difference", 20 * abs(reference - image))):
+            drawn = numpy.array(told[key]).reshape(height, width, 4)
+            self.assertTrue((drawn[..., 3] == 255).all())
+            self.assertLess(abs(drawn[..., :3] - bytes_of(linear)).max(), 0.51, key)
+        self.assertTrue(told["readout"].startswith(f"({width - 1}, {height - 1})  left "), told["readout"])
 
     def test_several_runs_get_an_index(self):
         self.run_object()
