@@ -2,9 +2,11 @@
 #include "renderer/device/context.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 
 #include "renderer/base/error.h"
 
@@ -98,6 +100,24 @@ DeviceInfo select_device(const std::string &spec) {
     return *found;
 }
 
+/// Asks for huge pages under a large buffer in the host's memory, before it is first touched: what kernels read lies anywhere
+/// in it, and every read would wait for its address to be translated, too. A mere wish: no error where it is not granted.
+void prefer_huge_pages(cl_command_queue queue, cl_mem memory, uint64_t bytes) {
+    constexpr uint64_t huge_page = 1u << 21;
+    if (bytes < 2 * huge_page) {
+        return;
+    }
+    cl_int status = CL_SUCCESS;
+    void *mapped = clEnqueueMapBuffer(queue, memory, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes, 0, nullptr, nullptr,
+                                      &status);
+    check_cl(status, "mapping a buffer");
+    const auto address = reinterpret_cast<uintptr_t>(mapped);
+    const uintptr_t begin = (address + huge_page - 1) / huge_page * huge_page;
+    const uintptr_t end = (address + bytes) / huge_page * huge_page;
+    madvise(reinterpret_cast<void *>(begin), end - begin, MADV_HUGEPAGE);
+    check_cl(clEnqueueUnmapMemObject(queue, memory, mapped, 0, nullptr, nullptr), "unmapping a buffer");
+}
+
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -147,6 +167,9 @@ ClMemory DeviceContext::allocate(const std::string &name, uint64_t bytes) {
     cl_int status = CL_SUCCESS;
     ClMemory memory(clCreateBuffer(context(), CL_MEM_READ_WRITE, bytes, nullptr, &status));
     check_cl(status, fmt::format("allocating buffer '{}' of {} bytes", name, bytes));
+    if (info_.is_cpu) {
+        prefer_huge_pages(queue(), memory.get(), bytes);
+    }
     return memory;
 }
 

@@ -13,8 +13,11 @@ __kernel void end_paths(GLOBAL long *film, STREAM_PARAMETERS) {
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
-        add_path(paths, slot, film, counters);
+        prefetch_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot));
         push_slot(&ended, slot);
+    }
+    for (uint i = 0u; i < ended.count; ++i) {
+        add_path(paths, ended.slots[i], film, counters);
     }
     append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);
 }

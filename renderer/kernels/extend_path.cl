@@ -5,6 +5,7 @@
 // To: the active queue of the next round, or the free queue.
 
 #include "renderer/kernels/film/add_sample.h"
+#include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
@@ -139,16 +140,22 @@ __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *fi
     PushBuffer extended, ended;
     extended.count = 0u;
     ended.count = 0u;
+    GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
+        const uint slot = shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
 #if FEATURE_scattering
         if (scatter(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS settings, first_sample)) {
             push_slot(&extended, slot);
             continue;
         }
 #endif
-        end_path(paths, slot, film, HALF_FILM_ARGUMENTS first_sample, counters);
+#if FEATURE_from_camera
+        prefetch_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot));
+#endif
         push_slot(&ended, slot);
+    }
+    for (uint i = 0u; i < ended.count; ++i) {
+        end_path(paths, ended.slots[i], film, HALF_FILM_ARGUMENTS first_sample, counters);
     }
     append_active(queues, counters, capacity, 1u - counters->parity, &extended);
     append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);

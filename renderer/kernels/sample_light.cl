@@ -5,6 +5,7 @@
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
+#include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/sampler.h"
@@ -113,8 +114,9 @@ __kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETE
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
+    GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
+        const uint slot = shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
         if (join_to_light(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample, chosen)) {
             push_slot(&shadow, slot);
         }

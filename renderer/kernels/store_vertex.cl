@@ -2,6 +2,7 @@
 // Stage store_vertex: keeps the hit of each light path where camera paths can be joined to it.
 // Reads: hit, ray_direction, throughput, log_arrival, log_strategies, active queue. Writes: light vertices.
 
+#include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -44,7 +45,7 @@ __kernel void store_vertex(SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSett
                            VERTEX_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        keep_hit(paths, path_at(paths, active_queue(queues, counters, capacity), i, i_end),
-                 SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings);
+        const uint slot = hit_path_at(SURFACE_ARGUMENTS paths, active_queue(queues, counters, capacity), i, i_end);
+        keep_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings);
     }
 }

@@ -11,6 +11,16 @@
 // written as fma().
 #pragma once
 
+// Asks a CPU for the cache line of what will be read soon. A GPU has other work to do while it waits.
+#define CACHE_LINE 64u
+#if defined(__x86_64__) || defined(__aarch64__)
+#define HAS_PREFETCH 1
+#define PREFETCH(address) __builtin_prefetch(address)
+#else
+#define HAS_PREFETCH 0
+#define PREFETCH(address) ((void)(address))
+#endif
+
 #ifdef __OPENCL_VERSION__
 
 #pragma OPENCL FP_CONTRACT OFF

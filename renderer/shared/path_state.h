@@ -75,13 +75,16 @@ typedef struct PathStates {
 
 #define PATH_WORD(paths, slot, word) (paths).words[STREAM_WORD((paths).capacity, slot, word)]
 
-/// Asks for a path's words ahead of their use, where they lie together.
+// Whether the stages ask ahead for what they will read of the next paths: where the words of a path lie together.
+#define PREFETCHES (HAS_PREFETCH && PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE)
+
+/// Asks for a path's words ahead of their use.
 DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {
-#if PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE && defined(__clang__)
-    for (uint word = 0u; word < PATH_STATE_WORDS; word += 16u) {  // a cache line of most CPUs
-        __builtin_prefetch(&PATH_WORD(paths, slot, word));
+#if PREFETCHES
+    for (uint word = 0u; word < PATH_STATE_WORDS; word += CACHE_LINE / 4u) {
+        PREFETCH(&PATH_WORD(paths, slot, word));
     }
-    __builtin_prefetch(&PATH_WORD(paths, slot, PATH_STATE_WORDS - 1u));
+    PREFETCH(&PATH_WORD(paths, slot, PATH_STATE_WORDS - 1u));
 #endif
 }
 

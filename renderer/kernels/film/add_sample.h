@@ -6,6 +6,21 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/stream_counters.h"
 
+/// Asks for the words of a pixel that adding a sample will change, by its largest channel.
+DEVICE void prefetch_pixel(MAYBE_UNUSED GLOBAL const long *film, MAYBE_UNUSED uint pixel, MAYBE_UNUSED float3 sample) {
+#if PREFETCHES
+    GLOBAL const long *words = film + (ulong)pixel * FILM_PIXEL_WORDS(FEATURE_variance);
+    const float largest = max(sample.x, max(sample.y, sample.z));
+    const uint word = min(film_word(largest, FILM_SUM_LOWEST, FILM_SUM_STEP), FILM_WORDS - 1u);
+    PREFETCH(words + word * PIXEL_SUMS);
+    PREFETCH(words + word * PIXEL_SUMS + 2);
+#if FEATURE_variance
+    const uint square = min(film_word(largest * largest, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP), FILM_WORDS - 1u);
+    PREFETCH(words + square * PIXEL_SUMS + 3);
+#endif
+#endif
+}
+
 /// Adds to a pixel; what the film refuses is counted. Returns whether it took the sample.
 DEVICE bool add_to_pixel(GLOBAL long *film, uint pixel, float3 sample, GLOBAL StreamCounters *counters) {
     const uint error = film_add_sample(film + (ulong)pixel * FILM_PIXEL_WORDS(FEATURE_variance), sample);

@@ -27,13 +27,18 @@ DEVICE bool film_add_word(volatile GLOBAL long *word, long value) {
 
 #define PIXEL_SUMS FILM_PIXEL_SUMS(FEATURE_variance)
 
-/// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`, in pixels of `sums` sums.
-/// `value` must be finite and below the largest limit, 2^(lowest + 5 step + 44), in magnitude.
-DEVICE bool film_add_value(volatile GLOBAL long *words, uint sums, float value, int lowest, int step) {
+/// The word of the magnitude of a value.
+DEVICE uint film_word(float value, int lowest, int step) {
     // |value| < 2^exponent, from the bits: exact, unlike log2; 0 and denormals give -126.
     const int exponent = (int)((as_uint(value) >> 23) & 0xffu) - 126;
     const int above = exponent - (lowest + FILM_UNITS_PER_ADDITION);
-    const uint word = above <= 0 ? 0u : (uint)((above + step - 1) / step);
+    return above <= 0 ? 0u : (uint)((above + step - 1) / step);
+}
+
+/// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`, in pixels of `sums` sums.
+/// `value` must be finite and below the largest limit, 2^(lowest + 5 step + 44), in magnitude.
+DEVICE bool film_add_value(volatile GLOBAL long *words, uint sums, float value, int lowest, int step) {
+    const uint word = film_word(value, lowest, step);
     // The factor 2^-unit is a normal float: |unit| <= 104.
     const float units = value * as_float((uint)(127 - (lowest + (int)word * step)) << 23);
     // Below 2^23 a float may hold a fraction: round to nearest, else it is an integer already.

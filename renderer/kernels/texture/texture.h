@@ -53,19 +53,25 @@ DEVICE TexelPair texel_pair(float x, uint size, uint clamped) {
     return pair;
 }
 
+/// Where `uv` lies in the image: (0, 0) is its upper left corner, (1, 1) its lower right one.
+DEVICE float2 texture_position(GLOBAL const TextureRecord *texture, float2 uv) {
+    const uint clamped = texture->flags & TEXTURE_CLAMP;
+    return make_float2(texture_wrap(texture->uv_scale[0] * uv.x + texture->uv_offset[0], clamped),
+                       1.0f - texture_wrap(texture->uv_scale[1] * uv.y + texture->uv_offset[1], clamped));
+}
+
 /// The colour at `uv`, linear.
 DEVICE float3 texture_lookup(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels, float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;
     const uint width = texture->width, height = texture->height;
-    const float x = texture_wrap(texture->uv_scale[0] * uv.x + texture->uv_offset[0], clamped);
-    const float y = 1.0f - texture_wrap(texture->uv_scale[1] * uv.y + texture->uv_offset[1], clamped);
+    const float2 at = texture_position(texture, uv);
     if ((texture->flags & TEXTURE_BILINEAR) == 0u) {
-        const uint column = min((uint)(x * (float)width), width - 1u);
-        const uint row = min((uint)(y * (float)height), height - 1u);
+        const uint column = min((uint)(at.x * (float)width), width - 1u);
+        const uint row = min((uint)(at.y * (float)height), height - 1u);
         return texture_texel(texture, texels, row * width + column);
     }
-    const TexelPair columns = texel_pair(x, width, clamped);
-    const TexelPair rows = texel_pair(y, height, clamped);
+    const TexelPair columns = texel_pair(at.x, width, clamped);
+    const TexelPair rows = texel_pair(at.y, height, clamped);
     const float3 top =
         texture_texel(texture, texels, rows.first * width + columns.first) * (1.0f - columns.t) +
         texture_texel(texture, texels, rows.first * width + columns.second) * columns.t;

@@ -66,6 +66,15 @@ DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block, PRIV
     }
 }
 
+/// Asks for a node or a block that is put on the stack: in large scenes it is in no cache nearby.
+DEVICE void prefetch_link(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks, uint link) {
+    GLOBAL const char *bytes = (link & BVH_LEAF_BIT) == 0 ? (GLOBAL const char *)(nodes + link)
+                                                          : (GLOBAL const char *)(blocks + wide_leaf_block(link));
+    for (uint i = 0; i < sizeof(WideNode); i += CACHE_LINE) {  // of a block the most part
+        PREFETCH(bytes + i);
+    }
+}
+
 /// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
 DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks, float3 origin,
                          float3 direction, float t_max, bool any) {
@@ -100,6 +109,7 @@ DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBloc
                 for (; lanes != 0u; lanes &= lanes - 1u) {
                     const uint lane = lowest_bit(lanes);
                     const float distance = distances[lane];
+                    prefetch_link(nodes, blocks, node->child[lane]);
                     uint place = size;
                     while (!any && place > bottom && entries[place - 1u] < distance) {
                         entries[place] = entries[place - 1u];
