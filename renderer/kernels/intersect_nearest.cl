@@ -23,7 +23,7 @@ DEVICE void find_hit(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 ori
     }
 #endif
 #if FEATURE_shapes
-    const ShapeHit shape = nearest_shape(shapes, shape_count, origin, direction, t);
+    const ShapeHit shape = nearest_shape(shapes, shape_bounds, shape_count, origin, direction, t);
     if (shape.shape != NO_HIT) {
         primitive = SHAPE_BIT | shape.shape;
         at = shape.object_point;

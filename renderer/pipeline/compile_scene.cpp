@@ -127,6 +127,7 @@ CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings)
     for (ShapeRecord &shape : compiled.shapes) {
         shape.light = NO_EMITTER;  // compile_lights says which of them emit
     }
+    compiled.shape_bounds = bound_shapes(compiled.shapes);
     compiled.features = compiled.features | shape_features(scene.arrays().shapes);
     compile_lights(scene.arrays(), settings, compiled);
     return compiled;

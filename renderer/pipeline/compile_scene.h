@@ -30,6 +30,7 @@ struct CompiledScene {
     std::vector<TriangleNormals> triangle_normals;
     std::vector<TriangleUv> triangle_uvs;
     std::vector<ShapeRecord> shapes;
+    std::vector<ShapeBounds> shape_bounds;
     std::vector<MaterialRecord> materials;
     std::vector<BxdfRecord> components;
     std::vector<TextureRecord> textures;

@@ -133,6 +133,28 @@ std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes) {
     return records;
 }
 
+std::vector<ShapeBounds> bound_shapes(const std::vector<ShapeRecord> &shapes) {
+    std::vector<ShapeBounds> bounds((shapes.size() + SHAPE_LANES - 1) / SHAPE_LANES);
+    for (size_t i = 0; i < shapes.size(); ++i) {
+        const ShapeRecord &shape = shapes[i];
+        ShapeBounds &to = bounds[i / SHAPE_LANES];
+        const size_t lane = i % SHAPE_LANES;
+        Eigen::Matrix3d linear;
+        for (int row = 0; row < 3; ++row) {
+            to.centre[row][lane] = shape.world_from_object[row][3];
+            for (int column = 0; column < 3; ++column) {
+                linear(row, column) = shape.world_from_object[row][column];
+            }
+        }
+        // (R + e)^2 <= 1.05 R^2 + 21 e^2, where the largest stretch of the transform makes R of the object's radius.
+        const double stretch = linear.jacobiSvd().singularValues()[0];
+        const bool bounded = shape.bound2 < SHAPE_UNBOUNDED;
+        to.bound2[lane] = bounded ? static_cast<float>(1.05 * stretch * stretch * shape.bound2) : INFINITY;
+        to.error2[lane] = 21.0f * shape.error2;
+    }
+    return bounds;
+}
+
 FeatureMask shape_features(const ShapeArrays &shapes) {
     const auto julias = static_cast<size_t>(std::count(shapes.kind.begin(), shapes.kind.end(), Kind::julia));
     return FeatureMask()

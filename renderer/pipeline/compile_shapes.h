@@ -15,6 +15,9 @@ namespace rtrays {
 /// surface is empty or beyond float; the message names the node.
 std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes);
 
+/// Balls around them, in eights (kernels/geometry/shape_bounds.h).
+std::vector<ShapeBounds> bound_shapes(const std::vector<ShapeRecord> &shapes);
+
 /// Which of `shapes`, `quadrics`, `julia` the scene has.
 FeatureMask shape_features(const ShapeArrays &shapes);
 

@@ -70,8 +70,8 @@ void RenderSession::update(const Scene &scene) {
 
 FilmState RenderSession::film() const {
     FilmState film = state_->film_header();
-    for (const CompiledPass &pass : state_->passes) {
-        const std::vector<int64_t> words = pass.film.read();
+    for (CompiledPass &pass : state_->passes) {
+        const std::vector<int64_t> words = state_->read_film(pass);
         film.words.insert(film.words.end(), words.begin(), words.end());
     }
     const StreamCounters counters = state_->counters.read().front();

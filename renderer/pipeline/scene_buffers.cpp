@@ -13,6 +13,7 @@ SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled,
     if (feature) {                                             \
         name##_ = Buffer<type>(device, #name, compiled.name);  \
     }
+    BOUNDS_BUFFERS(ROW)
     SURFACE_BUFFERS(ROW)
     MATERIAL_BUFFERS(ROW)
     LIGHT_BUFFERS(ROW)
@@ -31,9 +32,12 @@ StageArguments SceneBuffers::arguments(const Bvh &bvh) const {
     bvh.visit([&](const auto &bvh_nodes_, const auto &bvh_triangles_) { GEOMETRY_BUFFERS(ROW) });
     arguments[StageInput::traversal] = *list;
     ROW(FEATURE_shapes, ShapeRecord, shapes)
-    if (FEATURE_shapes) {
-        list->emplace_back(shape_count_);
-        arguments[StageInput::traversal].emplace_back(shape_count_);
+    for (const StageInput input : {StageInput::geometry, StageInput::traversal}) {
+        list = &arguments[input];
+        BOUNDS_BUFFERS(ROW)
+        if (FEATURE_shapes) {
+            list->emplace_back(shape_count_);
+        }
     }
     list = &arguments[StageInput::surfaces];
     SURFACE_BUFFERS(ROW)

@@ -23,6 +23,7 @@ class SceneBuffers {
     template <typename Visit>
     void visit(const Visit &visit_buffer) const {
 #define ROW(feature, type, name) visit_buffer(name##_);
+        BOUNDS_BUFFERS(ROW)
         SURFACE_BUFFERS(ROW)
         MATERIAL_BUFFERS(ROW)
         LIGHT_BUFFERS(ROW)
@@ -34,6 +35,7 @@ class SceneBuffers {
     LightingRecord lighting_{};
     uint32_t shape_count_ = 0;
 #define ROW(feature, type, name) Buffer<type> name##_;
+    BOUNDS_BUFFERS(ROW)
     SURFACE_BUFFERS(ROW)
     MATERIAL_BUFFERS(ROW)
     LIGHT_BUFFERS(ROW)

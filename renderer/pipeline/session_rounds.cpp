@@ -70,6 +70,12 @@ void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, 
 }
 
 void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
+    for (CompiledPass &pass : passes) {
+        if (count == 0 || pass.additions + count > FILM_ADDITIONS_BETWEEN_CARRIES) {
+            carry_film(pass);
+        }
+        pass.additions += count;
+    }
     if (features.has(Feature::vertex_joins)) {
         // One path of each pass for every pixel: chunk by chunk, so that both find the same light vertices.
         const auto work = static_cast<uint32_t>(count * pixels());
@@ -87,8 +93,8 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
         }
     }
     for (CompiledPass &pass : passes) {
-        carry_film(pass);
         if (pass.features.has(Feature::convergence) && (count == 0 || convergence->rule().is_check(first + count))) {
+            carry_film(pass);
             convergence->check(pass.film, first + count);
             pass.stages.bind(convergence->arguments());
         }
@@ -99,6 +105,14 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
 void RenderSession::State::carry_film(CompiledPass &pass) {
     enqueue(pass, "carry_film");
     pass.additions = 0;
+}
+
+std::vector<int64_t> RenderSession::State::read_film(CompiledPass &pass) {
+    if (pass.additions > 0) {
+        carry_film(pass);
+        collect_profile(pass);
+    }
+    return pass.film.read();
 }
 
 void RenderSession::State::collect_profile(CompiledPass &pass) {
@@ -137,8 +151,8 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
                 enqueue(pass, stage.name);
             }
         }
-        // A camera path ends with one addition to its pixel, of which there are few in a batch; splats of all light
-        // paths may go to one, in the round of the last few by as many events as there are fewer of them.
+        // A camera path ends with one addition to its pixel, which run_batch counts; splats of all light paths may go to
+        // one, in the round of the last few by as many events as there are fewer of them.
         const uint64_t events = few && takes_far ? FINISH_EVENTS : 1;
         pass.additions += static_cast<uint64_t>(splat_stages * rounds_per_check) * in_flight * events;
         if (pass.additions > FILM_ADDITIONS_BETWEEN_CARRIES) {

@@ -66,6 +66,7 @@ struct CompiledPass {
         if (ray_counts.size() > 0) {
             ray_counts.fill(0);
         }
+        additions = 0;
         profile.clear();
     }
 
@@ -170,6 +171,9 @@ struct RenderSession::State {
     /// `paths`: what a stage that traces whole paths is to trace.
     void enqueue(CompiledPass &pass, const std::string &name, uint64_t paths = 0);
     void carry_film(CompiledPass &pass);
+
+    /// The words of a pass' film, carried.
+    std::vector<int64_t> read_film(CompiledPass &pass);
     void collect_profile(CompiledPass &pass);
 
     DeviceContext &device;

@@ -2,7 +2,7 @@
 // The film's exact sums. A sum is held in several 64-bit integers ("words") at staggered scales: word k counts
 // multiples of 2^(lowest + k step). A float is added whole to the lowest word whose limit it does not reach, so
 // it keeps its 24 bits there (rounded to nearest below the range, at 2^lowest) and the sum of any number of
-// floats in any order is the same integer. Carries are moved up between batches.
+// floats in any order is the same integer. Carries are moved up before a word could overflow, and before it is read.
 //
 //   radiance: limits 2^-60 2^-40 2^-20 1 2^20 2^40, units 2^-104 ... 2^-4; below 2^44 units per addition, so
 //             2^19 additions fit between two carries. A value of 2^40 or more is out of range: counted, reported.

@@ -143,6 +143,15 @@ typedef struct ShapeRecord {
 #define SHAPE_UV_PLANE 5u
 #define SHAPE_UV_NONE 6u
 
+#define SHAPE_LANES 8u
+
+/// Balls in world space around eight shapes, lane by lane (kernels/geometry/shape_bounds.h).
+typedef struct ShapeBounds {
+    float centre[3][SHAPE_LANES];  ///< where the origin of object space goes
+    float bound2[SHAPE_LANES];     ///< more than the ball's squared radius; infinite for a plane
+    float error2[SHAPE_LANES];     ///< by how much of its squared distance that grows: rounding
+} ShapeBounds;
+
 /// A light as the sampler sees it.
 typedef struct LightRecord {
     float radiance[3];        ///< W / (sr m^2), W / sr or W / m^2 (LightArrays); environment: factor of the image
@@ -207,6 +216,7 @@ static_assert(sizeof(TextureRecord) == 32, "layout shared with the device");
 static_assert(sizeof(TriangleNormals) == 48, "layout shared with the device");
 static_assert(sizeof(TriangleUv) == 24, "layout shared with the device");
 static_assert(sizeof(ShapeRecord) == 144, "layout shared with the device");
+static_assert(sizeof(ShapeBounds) == 160, "layout shared with the device");
 static_assert(sizeof(LightRecord) == 112, "layout shared with the device");
 static_assert(sizeof(LightingRecord) == 48, "layout shared with the device");
 static_assert(sizeof(EmitterTriangle) == 16, "layout shared with the device");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/tests/light_paths.h"
+#include "renderer/tests/shape_hits.h"
 
 namespace rtrays {
 namespace {
@@ -18,7 +19,7 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
             const EmissionSample sample = emit_from(scene, light, i);
             ASSERT_GT(dot(sample.direction, sample.point.normal), 0.0f);
             if (kind != LIGHT_MESH) {
-                ASSERT_FALSE(any_shape(&scene.shapes[record.first_triangle], 1, sample.origin,
+                ASSERT_FALSE(test::any_shape(&scene.shapes[record.first_triangle], 1, sample.origin,
                                        sample.direction, INFINITY))
                     << i;
                 continue;

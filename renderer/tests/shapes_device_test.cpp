@@ -9,6 +9,7 @@
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
 #include "renderer/pipeline/compile_shapes.h"
+#include "renderer/tests/shape_hits.h"
 #include "renderer/tests/shapes_double.h"
 
 namespace rtrays::test {
@@ -20,7 +21,8 @@ const char *const kernel_source = R"(
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
 
-__kernel void trace(__global const ShapeRecord *shapes, uint shape_count, __global const float *rays,
+__kernel void trace(__global const ShapeRecord *shapes, __global const ShapeBounds *bounds,
+                    __global const ShapeBounds *single_bounds, uint shape_count, __global const float *rays,
                     __global float *hits, uint ray_count) {
     const uint i = get_global_id(0);
     if (i >= ray_count) {
@@ -31,16 +33,17 @@ __kernel void trace(__global const ShapeRecord *shapes, uint shape_count, __glob
     const float3 origin = make_float3(r[0], r[1], r[2]);
     const float3 direction = make_float3(r[3], r[4], r[5]);
     const float3 away = make_float3(r[6], r[7], r[8]);
-    const ShapeHit hit = nearest_shape(shapes, shape_count, origin, direction, INFINITY);
+    const ShapeHit hit = nearest_shape(shapes, bounds, shape_count, origin, direction, INFINITY);
     out[0] = hit.t;
     out[1] = hit.shape == NO_HIT ? -1.0f : (float)hit.shape;
-    out[2] = any_shape(shapes, shape_count, origin, direction, INFINITY) ? 1.0f : 0.0f;
+    out[2] = any_shape(shapes, bounds, shape_count, origin, direction, INFINITY) ? 1.0f : 0.0f;
     out[3] = 0.0f;
     out[4] = 0.0f;
     out[5] = -1.0f;
     if (hit.shape != NO_HIT) {
         const SurfacePoint point = shape_point(shapes + hit.shape, hit.object_point);
-        const ShapeHit next = nearest_shape(shapes + hit.shape, 1u, offset_ray_origin(point, away), away, INFINITY);
+        const ShapeHit next = nearest_shape(shapes + hit.shape, single_bounds + hit.shape, 1u,
+                                            offset_ray_origin(point, away), away, INFINITY);
         out[3] = dot(point.normal, away) < 0.0f ? 0.0f : 1.0f;
         out[4] = next.t;
         out[5] = next.shape == NO_HIT ? -1.0f : 1.0f;
@@ -83,9 +86,14 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
     const Program program(device, "kernels/trace_shapes.cl", shape_features(arrays).defines(),
                           {{"kernels/trace_shapes.cl", kernel_source}});
     Kernel kernel(program, "trace", 64);
+    std::vector<ShapeBounds> single_bounds;
+    for (const ShapeRecord &shape : shapes) {
+        single_bounds.push_back(bound_shapes({shape}).front());
+    }
     const Buffer<ShapeRecord> shape_buffer(device, "shapes", shapes);
+    const Buffer<ShapeBounds> bounds_buffer(device, "bounds", bound_shapes(shapes)), single_buffer(device, "single", single_bounds);
     const Buffer<float> ray_buffer(device, "rays", rays), hit_buffer(device, "hits", 6 * count);
-    kernel.bind({shape_buffer, 8u, ray_buffer, hit_buffer, count});
+    kernel.bind({shape_buffer, bounds_buffer, single_buffer, 8u, ray_buffer, hit_buffer, count});
     kernel.enqueue(count);
     const std::vector<float> hits = hit_buffer.read();
 

@@ -9,6 +9,7 @@
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
 #include "renderer/pipeline/compile_shapes.h"
+#include "renderer/tests/shape_hits.h"
 #include "renderer/tests/shapes_double.h"
 
 namespace rtrays::test {

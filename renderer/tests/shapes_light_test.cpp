@@ -13,6 +13,7 @@
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/pipeline/compile_shapes.h"
 #include "renderer/tests/chi_square.h"
+#include "renderer/tests/shape_hits.h"
 #include "renderer/tests/shapes_double.h"
 
 namespace rtrays::test {

@@ -9,6 +9,7 @@
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
 #include "renderer/pipeline/compile_shapes.h"
+#include "renderer/tests/shape_hits.h"
 #include "renderer/tests/shapes_double.h"
 
 namespace rtrays::test {
@@ -324,6 +325,34 @@ TEST(Shapes, AnyIsTrueExactlyWhereANearestExists) {
         both += hit.shape != NO_HIT;
     }
     EXPECT_GT(both, 1'000);
+}
+
+// Most shapes are left out for most rays; a ball's centre is never.
+TEST(Shapes, BallsLeaveOutWhatARayMisses) {
+    Random random(8);
+    std::vector<ShapeRecord> records;
+    for (int i = 0; i < 8; ++i) {
+        Shape shape;
+        shape.kind = i == 7 ? Kind::plane : Kind::sphere;
+        shape.world_from_object.topLeftCorner<3, 3>() *= 0.25;
+        shape.world_from_object.topRightCorner<3, 1>() = uniform_direction(random);
+        records.push_back(compile(shape));
+    }
+    const std::vector<ShapeBounds> bounds = bound_shapes(records);
+    uint32_t kept = 0;
+    constexpr uint32_t rays = 100'000;
+    for (uint32_t i = 0; i < rays; ++i) {
+        const float3 origin = to_float3(3 * uniform_direction(random));
+        const uint32_t target = i % 8;
+        const float3 centre = shape_centre(&records[target]);
+        ASSERT_TRUE(shapes_in_reach(bounds.data(), 8, origin, centre - origin, 1.0f) & 1u << target);
+        const uint32_t short_of = shapes_in_reach(bounds.data(), 8, origin, 0.5f * (centre - origin), 1.0f);
+        const uint32_t away = shapes_in_reach(bounds.data(), 8, origin, origin - centre, INFINITY);
+        ASSERT_EQ(short_of >> target & 1u, target == 7) << i;
+        ASSERT_EQ(away >> target & 1u, target == 7) << i;
+        kept += static_cast<uint32_t>(__builtin_popcount(shapes_in_reach(bounds.data(), 7, origin, to_float3(uniform_direction(random)), INFINITY)));
+    }
+    EXPECT_LT(kept, 7 * rays / 50);  // a ball seen from there takes up (1 - sqrt(1 - 0.26^2 / r^2)) / 2, r in [2, 4]
 }
 
 // Rays and shapes at the ends of the range of float: no NaN, nothing but a clean miss or a finite hit.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Rays against the shapes of a scene: all of them, one after the other. Scenes have few.
+// Rays against the shapes of a scene: all of them, those whose balls they meet one after the other. Scenes have few.
 #pragma once
 
 #include "renderer/kernels/geometry/julia.h"
 #include "renderer/kernels/geometry/quadric.h"
+#include "renderer/kernels/geometry/shape_bounds.h"
 #include "renderer/kernels/geometry/shape_space.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 
@@ -34,19 +35,23 @@ DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, floa
 
 /// The nearest hit at 0 < t < t_max (which may be INFINITY). Directions may have any length; rays that are
 /// not finite hit nothing.
-DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, uint shape_count, float3 origin,
-                              float3 direction, float t_max) {
+DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const ShapeBounds *shape_bounds, uint shape_count,
+                              float3 origin, float3 direction, float t_max) {
     ShapeHit hit;
     hit.t = t_max;
     hit.shape = NO_HIT;
     hit.object_point = make_float3(0.0f, 0.0f, 0.0f);
-    for (uint i = 0; i < shape_count; ++i) {
-        float t;
-        float3 p;
-        if (intersect_shape(shapes + i, origin, direction, hit.t, &t, &p)) {
-            hit.t = t;
-            hit.shape = i;
-            hit.object_point = p;
+    for (uint first = 0; first < shape_count; first += SHAPE_LANES) {
+        uint near = shapes_in_reach(shape_bounds + first / SHAPE_LANES, shape_count - first, origin, direction, hit.t);
+        for (; near != 0u; near &= near - 1u) {
+            const uint i = first + lowest_bit(near);
+            float t;
+            float3 p;
+            if (intersect_shape(shapes + i, origin, direction, hit.t, &t, &p)) {
+                hit.t = t;
+                hit.shape = i;
+                hit.object_point = p;
+            }
         }
     }
     return hit;
@@ -54,13 +59,16 @@ DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, uint shape_count
 
 /// Whether a shape is hit at 0 < t < t_max: true exactly when `nearest_shape` finds a hit, as both test the
 /// same shapes in the same order with the same bound up to the first that is hit.
-DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, uint shape_count, float3 origin, float3 direction,
-                      float t_max) {
-    for (uint i = 0; i < shape_count; ++i) {
-        float t;
-        float3 p;
-        if (intersect_shape(shapes + i, origin, direction, t_max, &t, &p)) {
-            return true;
+DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const ShapeBounds *shape_bounds, uint shape_count,
+                      float3 origin, float3 direction, float t_max) {
+    for (uint first = 0; first < shape_count; first += SHAPE_LANES) {
+        uint near = shapes_in_reach(shape_bounds + first / SHAPE_LANES, shape_count - first, origin, direction, t_max);
+        for (; near != 0u; near &= near - 1u) {
+            float t;
+            float3 p;
+            if (intersect_shape(shapes + first + lowest_bit(near), origin, direction, t_max, &t, &p)) {
+                return true;
+            }
         }
     }
     return false;

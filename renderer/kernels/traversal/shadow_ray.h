@@ -14,7 +14,7 @@
 DEVICE bool is_blocked(GEOMETRY_PARAMETERS float3 origin, float3 way) {
 #if FEATURE_shapes
     // A handful of tests that often spare the traversal.
-    if (any_shape(shapes, shape_count, origin, way, SHADOW_END)) {
+    if (any_shape(shapes, shape_bounds, shape_count, origin, way, SHADOW_END)) {
         return true;
     }
 #endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Hits of shapes on the host. That balls leave out no shape which is hit is tested wherever these are called.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "renderer/kernels/geometry/intersect_shapes.h"
+#include "renderer/pipeline/compile_shapes.h"
+
+namespace rtrays::test {
+
+inline ShapeHit nearest_shape(const ShapeRecord *shapes, uint count, float3 origin, float3 direction, float t_max) {
+    ShapeHit expected{t_max, NO_HIT, {0, 0, 0}};
+    for (uint i = 0; i < count; ++i) {
+        float t;
+        float3 object_point;
+        if (intersect_shape(shapes + i, origin, direction, expected.t, &t, &object_point)) {
+            expected = {t, i, object_point};
+        }
+    }
+    const std::vector<ShapeBounds> bounds = bound_shapes({shapes, shapes + count});
+    const ShapeHit hit = ::nearest_shape(shapes, bounds.data(), count, origin, direction, t_max);
+    EXPECT_EQ(hit.shape, expected.shape);
+    EXPECT_EQ(hit.t, expected.t);
+    return hit;
+}
+
+inline bool any_shape(const ShapeRecord *shapes, uint count, float3 origin, float3 direction, float t_max) {
+    const std::vector<ShapeBounds> bounds = bound_shapes({shapes, shapes + count});
+    return ::any_shape(shapes, bounds.data(), count, origin, direction, t_max);
+}
+
+}  // namespace rtrays::test
