@@ -124,7 +124,7 @@ def claims_page(folder):
     for _, table in tables[:-1]:
         for row in table.rows:
             counts[row[-1].partition(",")[0]] = counts.get(row[-1].partition(",")[0], 0) + 1
-    summary = ", ".join(f"{count} {word}" for word, count in sorted(counts.items(), key=lambda item: -item[1]))
+    summary = ", ".join(f"{count} × {word}" for word, count in sorted(counts.items(), key=lambda item: -item[1]))
     head = (f"# The thesis' claims and their verdicts\n\n{sum(counts.values())} claims of chapter 4: {summary}. Rules are those of "
             "experiments/claims.json, which states them before the results; intervals are of 95 % unless said otherwise. Figures "
             "of the thesis are of its hardware, which its tables name; ours of the runs below.")

@@ -193,7 +193,7 @@ class Page(Folders):
         text = claims_page(self.folder)
         self.assertNotIn("holds |", text)
         count = sum(len(section["claims"]) for section in json.loads(CLAIMS.read_text())["sections"])
-        self.assertIn(f"{count} claims of chapter 4: {count} not measured", text)
+        self.assertIn(f"{count} claims of chapter 4: {count} × not measured", text)
         self.assertEqual(text.count(": not measured | not measured |"), count)
 
     def test_what_was_measured_is_judged(self):
