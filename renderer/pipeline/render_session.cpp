@@ -25,14 +25,10 @@ uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function
         const uint64_t count = s.batch_size(begin, end);
         const uint64_t camera_paths = count * (s.convergence != nullptr ? s.convergence->live_count() : s.pixels());
         s.ranges.add_range({begin, begin + count});
-        for (CompiledPass &pass : s.passes) {
-            if (pass.has_long_paths) {
-                s.add_last_stages(pass);
-            }
-        }
         const auto start = Clock::now();
+        const double compiled_before = s.compile_seconds;
         s.run_batch(begin, count);
-        s.wall_seconds += seconds_since(start);
+        s.wall_seconds += seconds_since(start) - (s.compile_seconds - compiled_before);
         s.samples += camera_paths;
         begin += count;
         if (on_batch) {

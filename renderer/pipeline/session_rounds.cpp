@@ -20,6 +20,9 @@ constexpr uint64_t batch_paths = 1u << 21;
 /// Rounds enqueued between two looks at the counters.
 constexpr int rounds_per_check = 8;
 
+/// Such looks between two collections of the profile, which keeps an event of every launch until then.
+constexpr int checks_per_profile = 64;
+
 /// Rounds of the last few paths of a batch after which a kernel that takes them far in one launch is worth compiling.
 constexpr int many_rounds = 512;
 
@@ -71,10 +74,10 @@ void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, 
 
 void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
     for (CompiledPass &pass : passes) {
-        if (count == 0 || pass.additions + count > FILM_ADDITIONS_BETWEEN_CARRIES) {
-            carry_film(pass);
+        if (count == 0) {
+            carry_film(pass);  // compiles it
         }
-        pass.additions += count;
+        make_room(pass, count);
     }
     if (features.has(Feature::vertex_joins)) {
         // One path of each pass for every pixel: chunk by chunk, so that both find the same light vertices.
@@ -107,6 +110,13 @@ void RenderSession::State::carry_film(CompiledPass &pass) {
     pass.additions = 0;
 }
 
+void RenderSession::State::make_room(CompiledPass &pass, uint64_t additions) {
+    if (pass.additions + additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
+        carry_film(pass);
+    }
+    pass.additions += additions;
+}
+
 std::vector<int64_t> RenderSession::State::read_film(CompiledPass &pass) {
     if (pass.additions > 0) {
         carry_film(pass);
@@ -123,6 +133,20 @@ void RenderSession::State::collect_profile(CompiledPass &pass) {
     }
 }
 
+void RenderSession::State::add_last_stages(CompiledPass &pass, uint64_t in_flight) {
+    collect_profile(pass);
+    make_room(pass, pass.splats * in_flight * FINISH_EVENTS);
+    const auto start = Clock::now();
+    for (const RoundStage &stage : pass.last_paths) {
+        if (!pass.stages.has(stage.name)) {
+            pass.stages.add({stage.name});
+        }
+        enqueue(pass, stage.name);  // the first enqueue compiles
+    }
+    device.finish();
+    compile_seconds += seconds_since(start);
+}
+
 void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end) {
     pass.stages.bind(
         {{StageInput::first_sample, {first}}, {StageInput::first_work, {begin}}, {StageInput::work, {end}}});
@@ -131,9 +155,6 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
         return collect_profile(pass);
     }
     enqueue(pass, "reset_streams");
-    const auto splat_stages = std::count_if(pass.round.begin(), pass.round.end(),
-                                            [](const RoundStage &stage) { return stage.name == "splat_unblocked"; });
-    const bool takes_far = !pass.last_paths.empty() && pass.stages.has(pass.last_paths.front().name);
     uint64_t in_flight = layout.capacity;
     int rounds_of_few = 0;
     // The counters are read one check behind, so that the device is never idle while the host looks.
@@ -142,8 +163,15 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
     for (int check = 0;; ++check) {
         const bool few = in_flight <= FEW_PATHS(layout.capacity);
         rounds_of_few += few ? rounds_per_check : 0;
+        if (rounds_of_few > many_rounds && !pass.last_paths.empty() && !pass.has_last_stages()) {
+            add_last_stages(pass, in_flight);
+        }
+        const bool takes_far = few && pass.has_last_stages();
         for (int i = 0; i < rounds_per_check; ++i) {
-            for (const RoundStage &stage : few && takes_far ? pass.last_paths : pass.round) {
+            // A camera path ends with one addition to its pixel, which run_batch counts; splats of all light paths may go
+            // to one.
+            make_room(pass, pass.splats * in_flight * (takes_far ? FINISH_EVENTS : 1));
+            for (const RoundStage &stage : takes_far ? pass.last_paths : pass.round) {
                 if (stage.rounds > 0 && static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
                     continue;
                 }
@@ -151,12 +179,8 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
                 enqueue(pass, stage.name);
             }
         }
-        // A camera path ends with one addition to its pixel, which run_batch counts; splats of all light paths may go to
-        // one, in the round of the last few by as many events as there are fewer of them.
-        const uint64_t events = few && takes_far ? FINISH_EVENTS : 1;
-        pass.additions += static_cast<uint64_t>(splat_stages * rounds_per_check) * in_flight * events;
-        if (pass.additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
-            carry_film(pass);
+        if (check % checks_per_profile == checks_per_profile - 1) {
+            collect_profile(pass);
         }
         const int now = check % 2;
         cl_event event = nullptr;
@@ -181,7 +205,6 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
             }
         }
     }
-    pass.has_long_paths = pass.has_long_paths || rounds_of_few > many_rounds;
     collect_profile(pass);
 }
 

@@ -25,6 +25,10 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
     StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh} : StreamLayout{128, 1u << 20, 1, false, bvh};
     layout.group_size = settings.group_size > 0 ? settings.group_size : layout.group_size;
     layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
+    if (has_light_pass(settings)) {
+        // In a round each light path may splat twice, all of them to one pixel.
+        layout.capacity = std::min(layout.capacity, FILM_ADDITIONS_BETWEEN_CARRIES / 2);
+    }
     layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
     layout.interleaved = settings.path_layout == "auto" ? layout.interleaved : settings.path_layout == "interleaved";
     for (const NamedBvhLayout &named : bvh_layouts) {
@@ -225,19 +229,6 @@ void RenderSession::State::warm_up() {
     for (CompiledPass &pass : passes) {
         pass.profile.clear();
     }
-    compile_seconds += seconds_since(start);
-}
-
-void RenderSession::State::add_last_stages(CompiledPass &pass) {
-    const auto start = Clock::now();
-    for (const RoundStage &stage : pass.last_paths) {
-        if (!pass.stages.has(stage.name)) {
-            pass.stages.add({stage.name});
-            enqueue(pass, stage.name);  // no path is in flight: this compiles
-        }
-    }
-    device.finish();
-    device.profiler().take();
     compile_seconds += seconds_since(start);
 }
 

@@ -2,6 +2,7 @@
 // What a RenderSession holds: the passes of its algorithm, compiled, and all buffers they share.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -41,6 +42,8 @@ struct CompiledPass {
           adds_hits(pass.adds_hits),
           streams(pass.streams),
           last_paths(pass.last_paths),
+          splats(static_cast<uint64_t>(std::count_if(
+              round.begin(), round.end(), [](const RoundStage &stage) { return stage.name == "splat_unblocked"; }))),
           stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
 
     static std::vector<std::string> stage_names(const Pass &pass) {
@@ -53,6 +56,9 @@ struct CompiledPass {
         }
         return names;
     }
+
+    /// Whether the stages of the last few paths of a batch are compiled.
+    bool has_last_stages() const { return !last_paths.empty() && stages.has(last_paths.front().name); }
 
     /// The integrator's numbers for this pass.
     IntegratorSettings numbers(IntegratorSettings of_all) const {
@@ -87,12 +93,12 @@ struct CompiledPass {
     bool adds_hits;
     bool streams;
     std::vector<RoundStage> last_paths;
+    uint64_t splats;  ///< that a path in flight adds in a round, at most
     StageSet stages;
     Buffer<int64_t> film;
     Buffer<int64_t> ray_counts;
     uint32_t chosen = SELECT_LIGHT;  ///< what StageInput::chosen is bound to
     uint64_t additions = 0;          ///< to one pixel since the last carry, at most
-    bool has_long_paths = false;     ///< the last few paths of a batch took many rounds
     std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
 };
 
@@ -115,9 +121,6 @@ struct RenderSession::State {
 
     /// The first enqueue of a kernel compiles it for its group size: a batch without work does that.
     void warm_up();
-
-    /// Compiles the stages of the last few paths of a pass that has long ones.
-    void add_last_stages(CompiledPass &pass);
 
     void reset_film();
     double device_seconds() const;
@@ -168,9 +171,15 @@ struct RenderSession::State {
     /// Traces the paths from `begin` to `end` of the batch that starts at sample `first`.
     void run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end);
 
+    /// Compiles the stages of the last few paths of a batch, of which `in_flight` are left, and runs their first round.
+    void add_last_stages(CompiledPass &pass, uint64_t in_flight);
+
     /// `paths`: what a stage that traces whole paths is to trace.
     void enqueue(CompiledPass &pass, const std::string &name, uint64_t paths = 0);
     void carry_film(CompiledPass &pass);
+
+    /// Carries the film's sums if so many additions to one pixel would not fit any more.
+    void make_room(CompiledPass &pass, uint64_t additions);
 
     /// The words of a pass' film, carried.
     std::vector<int64_t> read_film(CompiledPass &pass);

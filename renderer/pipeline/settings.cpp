@@ -86,7 +86,7 @@ const std::vector<Setting> &setting_table() {
         {"integrator.convergence.start", CountSetting{&S::convergence_start, FILM_ADDITIONS_BETWEEN_CARRIES},
          "samples of the first check"},
         {"device.group_size", CountSetting{&S::group_size, 4096}, "work-items per group, 0: by device"},
-        {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device"},
+        {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26}, "paths in flight, 0: by device; 131072 at most where light paths are traced"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256}, "queue entries per work-item, 0: by device"},
         {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}}, "path states in memory"},
         {"device.bvh_layout", TextSetting{&S::bvh_layout, names_of(bvh_layouts, {"auto"})},

@@ -4,7 +4,9 @@
 #pragma once
 
 #define FEATURE_scattering 1
+#ifndef FEATURE_smooth_normals
 #define FEATURE_smooth_normals 1
+#endif
 #define FEATURE_tangents 1
 #define FEATURE_composite 1
 #define FEATURE_one_sided 1

@@ -31,7 +31,7 @@ struct Rendered {
     std::map<std::string, int> launches;  ///< of finish_paths, by pass
 };
 
-/// Two batches, of which the first may teach the second.
+/// Two batches: the first compiles finish_paths on its way where its last paths are long.
 Rendered render(const Scene &scene, const std::string &algorithm, const std::vector<std::string> &assignments) {
     static DeviceContext device;
     RenderSettings settings;

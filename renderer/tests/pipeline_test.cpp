@@ -13,6 +13,7 @@
 #include "renderer/integrators/algorithm.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
+#include "renderer/shared/film_layout.h"
 #include "renderer/tests/errors.h"
 #include "renderer/tests/temporary_folder.h"
 
@@ -163,6 +164,13 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
     settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
     settings.algorithm = "light_tracing";
     expect_input_error("light_tracing has no pass 'camera'", [&] { render("camera"); });
+}
+
+TEST(Pipeline, KeepsWhatARoundMaySplatWithinOneWordOfTheFilm) {
+    RenderSettings settings = small({"device.stream_capacity=1048576"});
+    settings.algorithm = "light_tracing";
+    const RenderSession session(cornell_box(), settings, device());
+    EXPECT_LE(2 * session.report()["stream"]["capacity"].get<uint64_t>(), FILM_ADDITIONS_BETWEEN_CARRIES);
 }
 
 TEST(Pipeline, CountsFewerLightPathsInTheWeights) {

@@ -9,8 +9,24 @@
 
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/pipeline/compile_shapes.h"
+#include "renderer/tests/shapes_double.h"
 
 namespace rtrays::test {
+
+/// The record of a quadric, disc or plane. `light`: which one it is.
+inline ShapeRecord compile(const Shape &shape, uint32_t light = no_index) {
+    ShapeArrays arrays;
+    arrays.name = {"shape"};
+    arrays.kind = {shape.kind};
+    arrays.world_from_object = {shape.world_from_object};
+    arrays.material = {0};
+    arrays.light = {light};
+    arrays.flare = {shape.flare};
+    arrays.julia_constant = {Eigen::Vector4d::Zero()};
+    arrays.julia_slice = {0};
+    arrays.julia_iterations = {0};
+    return compile_shapes(arrays).at(0);
+}
 
 DEVICE ShapeHit nearest_shape(const ShapeRecord *shapes, uint count, float3 origin, float3 direction, float t_max) {
     ShapeHit expected{t_max, NO_HIT, {0, 0, 0}};

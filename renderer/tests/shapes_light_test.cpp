@@ -11,7 +11,6 @@
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/light/shape_light.h"
 #include "renderer/kernels/sampling/random.h"
-#include "renderer/pipeline/compile_shapes.h"
 #include "renderer/tests/chi_square.h"
 #include "renderer/tests/shape_hits.h"
 #include "renderer/tests/shapes_double.h"
@@ -31,19 +30,11 @@ struct Light {
     Eigen::Vector3d centre;
 
     Light(Kind kind, const Eigen::Matrix3d &linear_part, const Eigen::Vector3d &position) {
-        ShapeArrays arrays;
-        arrays.name = {"light"};
-        arrays.kind = {kind};
-        arrays.world_from_object = {Eigen::Matrix4d::Identity()};
-        arrays.world_from_object[0].topLeftCorner<3, 3>() = linear_part;
-        arrays.world_from_object[0].topRightCorner<3, 1>() = position;
-        arrays.material = {0};
-        arrays.light = {0};
-        arrays.flare = {0};
-        arrays.julia_constant = {Eigen::Vector4d::Zero()};
-        arrays.julia_slice = {0};
-        arrays.julia_iterations = {0};
-        shape = compile_shapes(arrays).at(0);
+        Shape described;
+        described.kind = kind;
+        described.world_from_object.topLeftCorner<3, 3>() = linear_part;
+        described.world_from_object.topRightCorner<3, 1>() = position;
+        shape = compile(described, 0);
         for (int row = 0; row < 3; ++row) {
             for (int column = 0; column < 3; ++column) {
                 linear(row, column) = static_cast<double>(shape.world_from_object[row][column]);

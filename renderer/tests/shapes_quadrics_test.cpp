@@ -8,7 +8,6 @@
 #include "renderer/base/error.h"
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
-#include "renderer/pipeline/compile_shapes.h"
 #include "renderer/tests/shape_hits.h"
 #include "renderer/tests/shapes_double.h"
 
@@ -18,20 +17,6 @@ namespace {
 constexpr Kind quadrics[] = {Kind::sphere,      Kind::cylinder, Kind::cone, Kind::paraboloid,
                              Kind::hyperboloid, Kind::disc,     Kind::plane};
 constexpr double half_ulp = 0x1p-24;
-
-ShapeRecord compile(const Shape &shape) {
-    ShapeArrays arrays;
-    arrays.name = {"shape"};
-    arrays.kind = {shape.kind};
-    arrays.world_from_object = {shape.world_from_object};
-    arrays.material = {0};
-    arrays.light = {no_index};
-    arrays.flare = {shape.flare};
-    arrays.julia_constant = {Eigen::Vector4d::Zero()};
-    arrays.julia_slice = {0};
-    arrays.julia_iterations = {0};
-    return compile_shapes(arrays).at(0);
-}
 
 /// A shape under a random affine map: ratio of axes up to `ratio`, mirrored half the time, overall size 1e-6
 /// to 1e6, at up to ten times its size from the origin.

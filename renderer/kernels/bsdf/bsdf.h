@@ -38,13 +38,13 @@ DEVICE float3 to_local(SurfaceFrame frame, float3 w) {
 
 /// Whether light may pass between wo (on the front of both normals) and a direction of the given local
 /// height: not where it is on different sides of the geometric and the shading normal, nor in the plane of
-/// the latter (lobe.h).
+/// either (lobe.h).
 DEVICE bool sides_agree(SurfaceFrame frame, float3 wi, float local_z) {
     if (!(fabs(local_z) >= MIN_COSINE)) {
         return false;
     }
 #if FEATURE_smooth_normals
-    return dot(frame.ng, wi) * local_z > 0.0f;
+    return (local_z > 0.0f ? dot(frame.ng, wi) : -dot(frame.ng, wi)) >= MIN_COSINE;
 #else
     (void)frame;
     (void)wi;
@@ -68,6 +68,11 @@ DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos
     }
 #else
     (void)material;
+#endif
+#if FEATURE_smooth_normals
+    if (!(dot(frame.ng, frame.wo) >= MIN_COSINE)) {
+        return false;
+    }
 #endif
     return cos_wo >= MIN_COSINE;
 }

@@ -11,7 +11,7 @@
 
 /// Adds to a 64-bit word. Without 64-bit atomics the halves are added one after the other: the sum of all additions
 /// is right once they are done, which is all the film needs. Returns whether the word is half full: 2^18 additions before
-/// it could overflow. Carries come before that, unless splats gather in one pixel.
+/// it could overflow. Carries come before that, so it is the top word, and with it the sum, that nears its limit.
 DEVICE bool film_add_word(volatile GLOBAL long *word, long value) {
 #if FEATURE_int64_atomics
     const int high = (int)(atom_add(word, value) >> 32);
