@@ -38,18 +38,10 @@ DEVICE float3 to_local(SurfaceFrame frame, float3 w) {
 
 /// Whether light may pass between wo (on the front of both normals) and a direction of the given local
 /// height: not where it is on different sides of the geometric and the shading normal, nor in the plane of
-/// either (lobe.h).
+/// the latter (lobe.h). Also where the two are one: rounding takes a grazing direction across the surface, and a closed
+/// mirror that a path gets into does not let it go.
 DEVICE bool sides_agree(SurfaceFrame frame, float3 wi, float local_z) {
-    if (!(fabs(local_z) >= MIN_COSINE)) {
-        return false;
-    }
-#if FEATURE_smooth_normals
-    return (local_z > 0.0f ? dot(frame.ng, wi) : -dot(frame.ng, wi)) >= MIN_COSINE;
-#else
-    (void)frame;
-    (void)wi;
-    return true;
-#endif
+    return fabs(local_z) >= MIN_COSINE && dot(frame.ng, wi) * local_z > 0.0f;
 }
 
 /// Whether anything is seen from wo at all. A boundary cannot be one-sided: light comes through.
@@ -68,11 +60,6 @@ DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos
     }
 #else
     (void)material;
-#endif
-#if FEATURE_smooth_normals
-    if (!(dot(frame.ng, frame.wo) >= MIN_COSINE)) {
-        return false;
-    }
 #endif
     return cos_wo >= MIN_COSINE;
 }

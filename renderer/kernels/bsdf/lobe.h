@@ -3,16 +3,13 @@
 // along the shading normal, x and y along its tangents, wo.z > 0. Weight, texture and Fresnel term of thesis
 // (3.52) are applied outside.
 //
-// Cosines of wi and wo are MIN_COSINE at least (bsdf.h), 2^-19: the quotients of the models are bounded by that, and
-// rounding does not carry a direction across the surface. A cosine in the frame and the one of the same direction in the
-// world differ by a few times 2^-24; closer to the horizon a reflected ray might set out on the other side, and a closed
-// mirror that light gets into never lets it go. Directions that are left out carry 4e-12 of the light that a surface may
-// receive: the square of the cosine.
+// Cosines of wi and wo are MIN_COSINE at least (bsdf.h): the quotients of the models are bounded by that. A
+// direction closer to the horizon carries less than 1e-9 of the light that a surface may receive.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-#define MIN_COSINE 1.9073486e-6f
+#define MIN_COSINE 1e-10f
 
 /// A BxDF for a pair of directions.
 typedef struct Lobe {
