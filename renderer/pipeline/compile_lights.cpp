@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -45,7 +45,7 @@ Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
             }
         }
         const bool flat = scene.shapes.kind[i] == ShapeArrays::Kind::disc;
-        const double stretch = Eigen::JacobiSVD<Eigen::MatrixXd>(world.leftCols(flat ? 2 : 3)).singularValues()[0];
+        const double stretch = flat ? world.leftCols<2>().operatorNorm() : world.leftCols<3>().operatorNorm();
         shapes.push_back({world.col(3), stretch * std::sqrt(static_cast<double>(record.bound2))});
     }
     Eigen::AlignedBox3d box;

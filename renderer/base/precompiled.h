@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Headers of libraries that most files include anyway, parsed once for every target. Files name what they use all the
+// same: the asan preset compiles without this one.
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
