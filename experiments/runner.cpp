@@ -58,12 +58,17 @@ void print_plan(const ExperimentDescription &experiment, const StoredReference &
                std::sqrt(reference.reference.noise_mse));
 }
 
+RenderSettings settings_of(const ExperimentDescription &experiment, const CurveDescription &curve) {
+    RenderSettings settings = curve.settings;
+    settings.width = experiment.width;
+    settings.height = experiment.height;
+    return settings;
+}
+
 /// Renderer and reference in turns on the last curve's settings.
 Json run_throughput(const ExperimentDescription &experiment, const Scene &scene, DeviceContext &device,
                     bool quiet) {
-    RenderSettings settings = experiment.curves.back().settings;
-    settings.width = experiment.width;
-    settings.height = experiment.height;
+    const RenderSettings settings = settings_of(experiment, experiment.curves.back());
     RenderSession session(scene, settings, device);
 
     ReferenceSettings reference_settings;
@@ -106,9 +111,7 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
 /// One entry of "curves"; writes the curve's image.
 Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description, LadderTask task,
                double noise_mse, const fs::path &out) {
-    task.settings = description.settings;
-    task.settings.width = experiment.width;
-    task.settings.height = experiment.height;
+    task.settings = settings_of(experiment, description);
     task.spp = description.spp;
     task.early_images = description.early_images;
     task.seeds = description.seeds;
@@ -179,9 +182,15 @@ fs::path run_experiment(const RunOptions &options) {
         print_plan(experiment, reference);
         return {};
     }
+    DeviceContext device(options.device);
+    if (options.compile) {
+        for (const CurveDescription &curve : experiment.curves) {
+            RenderSession(scene, settings_of(experiment, curve), device);
+        }
+        return {};
+    }
     const fs::path out = output_folder(options, experiment);
     const RunContext context;
-    DeviceContext device(options.device);
     const Resumption resumption(out, "run.json", experiment.source + reference.description.dump(), device.info());
     if (!resumption.finished([&](const Json &run) { return has_images(run, out); }).is_null()) {
         return out;

@@ -375,8 +375,17 @@ ExitCode run_stability(const RunOptions &options) {
         fmt::print("{}, profile {}: {} cases, {} renders of {} batches, {} tests\n", suite.name, suite.profile, suite.cases.size(), rows, batches, tests);
         return ExitCode::ok;
     }
-    const fs::path out = options.out.empty() ? fs::path(suite.name + "." + suite.profile) : options.out;
     DeviceContext device(options.device);
+    if (options.compile) {
+        for (const StabilityCase &tested : suite.cases) {
+            const Scene scene = tested.scene.load();
+            for (const StabilityRun &run : tested.runs) {
+                RenderSession(scene, run.settings, device);
+            }
+        }
+        return ExitCode::ok;
+    }
+    const fs::path out = options.out.empty() ? fs::path(suite.name + "." + suite.profile) : options.out;
     const Resumption resumption(out, "stability.json", read_file(options.experiment) + suite.profile, device.info());
     const auto conclude = [&](const Json &results) {
         const auto failed = std::count_if(results.begin(), results.end(), [&](const Json &row) { return !passes(row, suite.survey); });

@@ -127,7 +127,7 @@ def cost_table(run):
     rows = [[label(curve), number(value(curve, "compile_seconds")), number(value(curve, "bvh_seconds"))]
             for curve in run.curves]
     return Table(f"{run.get('experiment.title')}: seconds outside of the curves",
-                 ["curve", "kernel compilation, first enqueue included", "BVH construction"], rows)
+                 ["curve", "kernels compiled or loaded, first enqueue included", "BVH construction"], rows)
 
 
 def efficiency_table(run):

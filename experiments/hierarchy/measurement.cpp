@@ -122,6 +122,9 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     const std::string name = file.json.at("name"), measures = file.json.at("measures");
     Json stand_ins = Json::object(), absent = Json::array();
     const MeasurementSettings settings = settings_of(file.json, profile, stand_ins, absent);
+    if (options.compile) {
+        throw input_error(fmt::format("{}: its kernels are compiled as it measures", options.experiment.string()));
+    }
     if (options.dry_run) {
         fmt::print("{}, profile {}: {} on {}{}{}\n", name, options.profile, measures,
                    fmt::join(settings.meshes, ", "), fmt::join(settings.scenes, ", "), fmt::join(settings.references, ", "));

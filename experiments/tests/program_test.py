@@ -2,6 +2,7 @@
 """rtrays-experiment as a user meets it: exit codes, messages, and nothing half-written."""
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -21,9 +22,9 @@ class Program(unittest.TestCase):
     def tearDown(self):
         self.temporary.cleanup()
 
-    def call(self, *arguments):
+    def call(self, *arguments, **environment):
         return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False,
-                              cwd=self.folder)
+                              cwd=self.folder, env={**os.environ, **environment})
 
     def refused(self, code, text, *arguments):
         """The call fails with the code and one message holding the text."""
@@ -73,6 +74,14 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("path_tracing.mis", done.stdout)
         self.assertEqual([entry.name for entry in self.folder.iterdir()], ["experiment.json"])
+
+    def test_compile_fills_the_cache_and_renders_nothing(self):
+        experiment, cache = self.experiment(), self.folder / "cache"
+        done = self.call("run", experiment, "--profile", "ci", "--compile", RTRAYS_CACHE_DIR=str(cache))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(entry.name for entry in self.folder.iterdir()), ["cache", "experiment.json"])
+        self.assertTrue(list(cache.glob("*.clbin")))
+        self.refused(2, "as it measures", "run", self.measurement("bvh_build"), "--compile")
 
     def test_unwritable_output(self):
         (self.folder / "file").write_text("")
