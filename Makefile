@@ -7,6 +7,7 @@ JOBS ?= $(shell nproc)
 BENCH ?= .
 STIFFNESS ?= results/chapter4/stiffness
 
+STIFF_CASES = $(PROFILE:quick=ci)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors samplers mirror_ring glass_goblets door_ajar floor_lamps
 MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces ablations
@@ -28,15 +29,16 @@ build: install
 
 # Kernels first, on all cores: a platform compiles on one. The quick profile has the stiff cases that CI has.
 reproduce-chapter4: programs
-	@echo "kernels of $(words $(EXPERIMENTS)) experiments"
-	@printf '%s\n' $(EXPERIMENTS:%=experiments/%.json) | xargs -P $(JOBS) -I FILE build/bin/rtrays-experiment run FILE --profile $(PROFILE) --compile
+	@echo "kernels of $(words stability $(EXPERIMENTS)) experiments"
+	@printf '%s\n' "stability.json --profile $(STIFF_CASES)" $(EXPERIMENTS:%="%.json --profile $(PROFILE)") \
+	    | (cd experiments && xargs -P $(JOBS) -L 1 ../build/bin/rtrays-experiment run --compile)
 	@step() { n=$$((n + 1)); echo "[$$n of $(words $(MEASUREMENTS) $(EXPERIMENTS) stability convergence_control)] $$1"; }; n=0; \
 	for experiment in $(MEASUREMENTS) $(EXPERIMENTS); do \
 	    step $$experiment; \
 	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
 	done; \
 	step stability; \
-	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE:quick=ci) --out $(CHAPTER4)/stability || [ $$? -eq 3 ] || exit 1; \
+	build/bin/rtrays-experiment run experiments/stability.json --profile $(STIFF_CASES) --out $(CHAPTER4)/stability || [ $$? -eq 3 ] || exit 1; \
 	step convergence_control; \
 	build/bin/rtrays-experiment control experiments/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
 	$(if $(filter full,$(PROFILE)),$(MAKE) --no-print-directory stiffness STIFFNESS=$(CHAPTER4)/stiffness)
