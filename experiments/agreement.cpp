@@ -93,6 +93,7 @@ std::vector<NoisySum> sums_by_batch(const std::vector<Image> &batches, size_t ch
 struct BlockTest {
     double difference = 0;      ///< mean of image less mean of reference
     double standard_error = 0;  ///< of `difference`
+    double scatter = 0;         ///< standard error of as many samples of the reference, where it is known
     double p_value = 1;
     double z = 0;               ///< of a normal variable with that p-value
     std::string where;
@@ -158,7 +159,8 @@ namespace {
 using Sums = std::function<std::vector<NoisySum>(size_t)>;
 
 /// `image_sums` and `reference_sums`: of a channel.
-Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape, const AgreementPolicy &policy) {
+Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape, const AgreementPolicy &policy,
+                    double samples_ratio = 0) {
     const std::vector<double> pixels = block_pixels(shape, policy.block_size);
     const auto where = [&](size_t block) {
         const size_t size = static_cast<size_t>(policy.block_size);
@@ -173,6 +175,7 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
         for (size_t i = 0; i < pixels.size(); ++i) {
             BlockTest test = test_block(image[i], reference[i], pixels[i]);
             test.where = rgb_names()[c] + " " + where(i);
+            test.scatter = std::sqrt(reference[i].variance * samples_ratio) / pixels[i];
             if (i + 1 == pixels.size()) {
                 mean_difference += test.difference / 3;
                 mean_error += test.standard_error / 3;
@@ -195,9 +198,18 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
             result.largest_z_at = test.where;
         }
     }
-    for (const double adjusted : holm_adjusted(p_values)) {
-        result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, adjusted);
-        result.rejected += adjusted <= policy.alpha ? 1 : 0;
+    const std::vector<double> adjusted = holm_adjusted(p_values);
+    for (size_t i = 0; i < tests.size(); ++i) {
+        result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, adjusted[i]);
+        if (adjusted[i] > policy.alpha) {
+            continue;
+        }
+        if (std::abs(tests[i].difference) > policy.most_scatter * tests[i].scatter) {
+            ++result.rejected;
+        } else {
+            ++result.undecided;
+            --result.tests;
+        }
     }
 
     if (!(mean_reference > 0)) {
@@ -227,7 +239,8 @@ Agreement test_agreement(const Image &image, const Image &reference, const Agree
                      [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, image, policy);
 }
 
-Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy) {
+Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy,
+                         double samples_ratio) {
     if (batches.size() < 2 || !has_variance(reference)) {
         throw input_error("two batches at least, and a reference with the layers variance.*, are needed for a test");
     }
@@ -235,7 +248,8 @@ Agreement test_agreement(const std::vector<Image> &batches, const Image &referen
         require_same_size(batch, reference);
     }
     return test_sums([&](size_t channel) { return sums_by_batch(batches, channel, policy.block_size); },
-                     [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, reference, policy);
+                     [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, reference, policy,
+                     samples_ratio);
 }
 
 Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others, const AgreementPolicy &policy) {

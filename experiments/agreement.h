@@ -18,7 +18,7 @@ const char *to_string(Equivalence equivalence);
 
 struct Agreement {
     size_t tests = 0;                ///< channels x (blocks + whole image), less those undecided
-    size_t undecided = 0;            ///< left out: the batches are too skewed for a t test
+    size_t undecided = 0;            ///< left out: the batches are too skewed for a t test, or too sure of themselves
     size_t rejected = 0;             ///< tests with adjusted p <= alpha
     double largest_z = 0;            ///< largest |z| of all tests
     std::string largest_z_at;        ///< its channel and the corner of its block, or "whole image"; "R (16, 0)"
@@ -37,6 +37,10 @@ struct AgreementPolicy {
     /// Of batches. Rare bright paths that most batches lack make a block look more certain than it is, even after the tests
     /// have taken off the first-order effect of skewness; 32 normal batches exceed this in one case of 800.
     double largest_skewness = 1.5;
+    /// A rejection counts where the difference exceeds so many standard errors of as many samples of the reference. Batches
+    /// that all lack the rare bright paths of a dark block agree with each other and are no more skewed than others: only
+    /// the reference, of far more samples, has met these paths and knows how much they scatter.
+    double most_scatter = 3;
 };
 
 /// Both images carry "variance.*" (variance of the mean of each pixel) and share no samples; pixels are taken
@@ -49,7 +53,11 @@ struct AgreementPolicy {
 /// (bad input) when sizes differ, a variance layer is missing, a value is not finite or the reference is
 /// black.
 Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy = {});
-Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy = {});
+///
+/// `samples_ratio`: samples of a pixel of the reference for one of all batches, for `most_scatter`; 0: not known, every
+/// rejection counts.
+Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy = {},
+                         double samples_ratio = 0);
 Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others,
                          const AgreementPolicy &policy = {});
 

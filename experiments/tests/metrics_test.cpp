@@ -204,6 +204,20 @@ std::vector<Image> noisy_batches(double bias, double sigma, uint64_t seed) {
     return batches;
 }
 
+TEST(Agreement, RarePathsThatAllBatchesLackRejectNothing) {
+    // The reference knows a standard error of 0.05 per pixel for as many samples: 0.003 of a block, 0.0008 of the whole. The
+    // batches show a tenth of it.
+    const double samples_ratio = 25;
+    const Image reference = noisy(1, 0, 0.01, 7);
+    const std::vector<Image> dark = noisy_batches(-0.002, 0.005, 100), wrong = noisy_batches(-0.02, 0.005, 100);
+    EXPECT_GT(test_agreement(dark, reference).rejected, 0u);
+    const Agreement forgiven = test_agreement(dark, reference, {}, samples_ratio);
+    EXPECT_EQ(forgiven.rejected, 0u);
+    EXPECT_EQ(forgiven.tests + forgiven.undecided, 51u);
+    EXPECT_GT(forgiven.undecided, 0u);
+    EXPECT_EQ(test_agreement(wrong, reference, {}, samples_ratio).rejected, 51u);
+}
+
 TEST(Agreement, OfBatchesFindsABiasAndNothingElse) {
     const Image reference = noisy(1, 0, 0.01, 7);
     const Agreement clean = test_agreement(noisy_batches(0, 0.05, 100), reference);
