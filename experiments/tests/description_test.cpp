@@ -59,19 +59,20 @@ TEST(Description, ShippedExperimentsLoadInEveryProfile) {
 
 TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
     const std::string good = read_file(shipped / "glass_goblets.json");
+    const auto capped = [&](const std::string &most) {
+        return replaced(good, "{\"truncated_bdpt.mis,light_paths=auto\": 8}", "{" + most + "}");
+    };
     const auto ladder = [&](const std::string &most) {
         const fs::path path = fs::path(testing::TempDir()) / "capped_experiment.json";
-        write_file(path, replaced(good, "\"early_images\": [4, 16]", "\"early_images\": [4, 16], \"most_spp\": {" + most + "}"));
+        write_file(path, capped(most));
         return load_experiment(path, "quick").curves;
     };
     for (const CurveDescription &curve : ladder("\"bdpt.mis\": 8")) {
-        const bool capped = curve.id() == "bdpt.mis";
-        EXPECT_EQ(curve.spp.back(), capped ? 8u : 16u);
-        EXPECT_EQ(curve.early_images, capped ? std::vector<uint64_t>{4} : std::vector<uint64_t>({4, 16}));
+        const bool is_capped = curve.id() == "bdpt.mis";
+        EXPECT_EQ(curve.spp.back(), is_capped ? 8u : 16u);
+        EXPECT_EQ(curve.early_images, is_capped ? std::vector<uint64_t>{4} : std::vector<uint64_t>({4, 16}));
     }
-    const auto error = [&](const std::string &most) {
-        return error_of(replaced(good, "\"early_images\": [4, 16]", "\"most_spp\": {" + most + "}"));
-    };
+    const auto error = [&](const std::string &most) { return error_of(capped(most)); };
     EXPECT_NE(error("\"bdpt\": 8").find("there is no curve 'bdpt'"), std::string::npos);
     EXPECT_NE(error("\"bdpt.mis\": 5").find("none of \"spp\""), std::string::npos);
     EXPECT_NE(error("\"bdpt.mis\": 2").find("from the third on"), std::string::npos);
