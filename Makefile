@@ -27,11 +27,12 @@ build: install
 	cmake --preset release
 	cmake --build --preset release -j $(JOBS)
 
-# Kernels first, on all cores: a platform compiles on one. The quick profile has the stiff cases that CI has.
+# Kernels of what has no result yet come first, those of as many experiments at a time as there are cores: PoCL compiles on
+# one. The quick profile has the stiff cases that CI has.
 reproduce-chapter4: programs
-	@echo "kernels of $(words stability $(EXPERIMENTS)) experiments"
-	@printf '%s\n' "stability.json --profile $(STIFF_CASES)" $(EXPERIMENTS:%="%.json --profile $(PROFILE)") \
-	    | (cd experiments && xargs -P $(JOBS) -L 1 ../build/bin/rtrays-experiment run --compile)
+	@printf '%s\n' $(if $(wildcard $(CHAPTER4)/stability/stability.json),,"stability.json --profile $(STIFF_CASES)") \
+	    $(foreach e,$(EXPERIMENTS),$(if $(wildcard $(CHAPTER4)/$e/run.json),,"$e.json --profile $(PROFILE)")) \
+	    | (cd experiments && xargs -r -P $(JOBS) -L 1 -t ../build/bin/rtrays-experiment run --compile)
 	@step() { n=$$((n + 1)); echo "[$$n of $(words $(MEASUREMENTS) $(EXPERIMENTS) stability convergence_control)] $$1"; }; n=0; \
 	for experiment in $(MEASUREMENTS) $(EXPERIMENTS); do \
 	    step $$experiment; \

@@ -8,7 +8,9 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "experiments/metrics.h"
@@ -42,6 +44,13 @@ std::vector<double> block_pixels(const Image &image, int size) {
     Image ones(image.width(), image.height());
     std::fill_n(ones.add_channel("R").begin(), image.pixel_count(), 1.0f);
     return block_sums(ones, "R", size);
+}
+
+/// "(16, 0)", its corner, or "whole image".
+std::string name_of(size_t block, const Image &image, int size) {
+    const int columns = (image.width() + size - 1) / size, rows = (image.height() + size - 1) / size;
+    const int i = static_cast<int>(block);
+    return i == columns * rows ? "whole image" : fmt::format("({}, {})", i % columns * size, i / columns * size);
 }
 
 /// An estimate of a sum with its variance, which is known from so many degrees of freedom, and the skewness of what
@@ -93,10 +102,11 @@ std::vector<NoisySum> sums_by_batch(const std::vector<Image> &batches, size_t ch
 struct BlockTest {
     double difference = 0;      ///< mean of image less mean of reference
     double standard_error = 0;  ///< of `difference`
-    double scatter = 0;         ///< standard error of as many samples of the reference, where it is known
+    double reference = 0;       ///< its mean
+    double skewness = 0;        ///< the larger one of both, absolute
     double p_value = 1;
-    double z = 0;               ///< of a normal variable with that p-value
-    std::string where;
+    double adjusted_p = 1;
+    double z = 0;               ///< of a normal variable with the p-value
 };
 
 /// Degrees of freedom of Welch's test; infinity where both variances are known.
@@ -118,6 +128,8 @@ double without_skewness(double t, double q) { return t + q * t * t / 3 + q * q *
 
 BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pixels) {
     BlockTest test;
+    test.reference = reference.value / pixels;
+    test.skewness = std::max(std::abs(image.skewness), std::abs(reference.skewness));
     test.difference = (image.value - reference.value) / pixels;
     // Pixels are rounded to float32: half an ulp each, in the worst case all the same way.
     const double rounding =
@@ -156,65 +168,85 @@ const char *to_string(Equivalence equivalence) {
 
 namespace {
 
+/// Of a channel.
 using Sums = std::function<std::vector<NoisySum>(size_t)>;
 
-/// `image_sums` and `reference_sums`: of a channel.
-Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape, const AgreementPolicy &policy,
-                    double samples_ratio = 0) {
-    const std::vector<double> pixels = block_pixels(shape, policy.block_size);
-    const auto where = [&](size_t block) {
-        const size_t size = static_cast<size_t>(policy.block_size);
-        const size_t columns = (static_cast<size_t>(shape.width()) + size - 1) / size;
-        return block + 1 == pixels.size() ? "whole image" : fmt::format("({}, {})", block % columns * size, block / columns * size);
-    };
-    Agreement result;
+/// Channel by channel the blocks and, last, the whole image.
+std::vector<BlockTest> block_tests(const Sums &image_sums, const Sums &reference_sums, const std::vector<double> &pixels) {
     std::vector<BlockTest> tests;
-    double mean_difference = 0, mean_error = 0, mean_reference = 0;
     for (size_t c = 0; c < rgb_names().size(); ++c) {
         const std::vector<NoisySum> image = image_sums(c), reference = reference_sums(c);
         for (size_t i = 0; i < pixels.size(); ++i) {
-            BlockTest test = test_block(image[i], reference[i], pixels[i]);
-            test.where = rgb_names()[c] + " " + where(i);
-            test.scatter = std::sqrt(reference[i].variance * samples_ratio) / pixels[i];
-            if (i + 1 == pixels.size()) {
-                mean_difference += test.difference / 3;
-                mean_error += test.standard_error / 3;
-            }
-            if (std::max(std::abs(image[i].skewness), std::abs(reference[i].skewness)) > policy.largest_skewness) {
-                ++result.undecided;
-            } else {
-                tests.push_back(test);
-            }
+            tests.push_back(test_block(image[i], reference[i], pixels[i]));
         }
-        mean_reference += reference.back().value / pixels.back() / 3;
     }
+    return tests;
+}
 
-    result.tests = tests.size();
+/// Holm's adjustment over `asked`, which are taken as one family.
+void adjust(std::vector<BlockTest> &tests, const std::vector<size_t> &asked) {
     std::vector<double> p_values;
-    for (const auto &test : tests) {
-        p_values.push_back(test.p_value);
-        if (std::abs(test.z) >= result.largest_z) {
-            result.largest_z = std::abs(test.z);
-            result.largest_z_at = test.where;
-        }
+    for (const size_t i : asked) {
+        p_values.push_back(tests[i].p_value);
     }
     const std::vector<double> adjusted = holm_adjusted(p_values);
-    for (size_t i = 0; i < tests.size(); ++i) {
-        result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, adjusted[i]);
-        if (adjusted[i] > policy.alpha) {
-            continue;
-        }
-        if (std::abs(tests[i].difference) > policy.most_scatter * tests[i].scatter) {
-            ++result.rejected;
-        } else {
-            ++result.undecided;
-            --result.tests;
-        }
+    for (size_t k = 0; k < asked.size(); ++k) {
+        tests[asked[k]].adjusted_p = adjusted[k];
     }
+}
 
+template <class Predicate>
+std::vector<size_t> chosen(const std::vector<size_t> &among, const Predicate &predicate) {
+    std::vector<size_t> result;
+    std::copy_if(among.begin(), among.end(), std::back_inserter(result), predicate);
+    return result;
+}
+
+/// `fresh_sums`, where rejections are to be confirmed, makes the sums of fresh batches.
+Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape, const AgreementPolicy &policy,
+                    const std::function<Sums()> &fresh_sums = {}) {
+    const std::vector<double> pixels = block_pixels(shape, policy.block_size);
+    std::vector<BlockTest> tests = block_tests(image_sums, reference_sums, pixels);
+    const auto is_decided = [&](size_t i) { return tests[i].skewness <= policy.largest_skewness; };
+    const auto rejects = [&](size_t i) { return tests[i].adjusted_p <= policy.alpha; };
+
+    Agreement result;
+    double mean_difference = 0, mean_error = 0, mean_reference = 0;
+    for (size_t i = pixels.size() - 1; i < tests.size(); i += pixels.size()) {
+        mean_difference += tests[i].difference / 3;
+        mean_error += tests[i].standard_error / 3;
+        mean_reference += tests[i].reference / 3;
+    }
     if (!(mean_reference > 0)) {
         throw input_error("the reference is black: a relative difference of the mean is not defined");
     }
+
+    std::vector<size_t> decided(tests.size());
+    std::iota(decided.begin(), decided.end(), size_t{0});
+    decided = chosen(decided, is_decided);
+    adjust(tests, decided);
+    const std::vector<size_t> suspects = chosen(decided, rejects);
+    if (fresh_sums && !suspects.empty()) {
+        const std::vector<BlockTest> fresh = block_tests(fresh_sums(), reference_sums, pixels);
+        for (const size_t i : suspects) {
+            tests[i] = fresh[i];
+        }
+        adjust(tests, chosen(suspects, is_decided));
+        result.unconfirmed = suspects.size() - chosen(suspects, rejects).size();
+        decided = chosen(decided, is_decided);
+    }
+
+    result.tests = decided.size();
+    result.undecided = tests.size() - decided.size();
+    result.rejected = chosen(decided, rejects).size();
+    for (const size_t i : decided) {
+        result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, tests[i].adjusted_p);
+        if (std::abs(tests[i].z) >= result.largest_z) {
+            result.largest_z = std::abs(tests[i].z);
+            result.largest_z_at = rgb_names()[i / pixels.size()] + " " + name_of(i % pixels.size(), shape, policy.block_size);
+        }
+    }
+
     const double reach = normal_quantile_two_sided(policy.confidence) * mean_error;
     result.relative_difference = {mean_difference / mean_reference,
                                   (mean_difference - reach) / mean_reference,
@@ -228,6 +260,14 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
     return result;
 }
 
+Sums sums_of(const Image &image, const AgreementPolicy &policy) {
+    return [&](size_t channel) { return sums_by_layer(image, channel, policy.block_size); };
+}
+
+Sums sums_of(const std::vector<Image> &batches, const AgreementPolicy &policy) {
+    return [&](size_t channel) { return sums_by_batch(batches, channel, policy.block_size); };
+}
+
 }  // namespace
 
 Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy) {
@@ -235,21 +275,24 @@ Agreement test_agreement(const Image &image, const Image &reference, const Agree
     if (!has_variance(image) || !has_variance(reference)) {
         throw input_error("both images need the layers variance.* (variance of the mean) to be tested");
     }
-    return test_sums([&](size_t channel) { return sums_by_layer(image, channel, policy.block_size); },
-                     [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, image, policy);
+    return test_sums(sums_of(image, policy), sums_of(reference, policy), image, policy);
 }
 
 Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy,
-                         double samples_ratio) {
+                         const FreshBatches &fresh) {
     if (batches.size() < 2 || !has_variance(reference)) {
         throw input_error("two batches at least, and a reference with the layers variance.*, are needed for a test");
     }
     for (const Image &batch : batches) {
         require_same_size(batch, reference);
     }
-    return test_sums([&](size_t channel) { return sums_by_batch(batches, channel, policy.block_size); },
-                     [&](size_t channel) { return sums_by_layer(reference, channel, policy.block_size); }, reference, policy,
-                     samples_ratio);
+    std::vector<Image> others;
+    const auto fresh_sums = [&] {
+        others = fresh();
+        return sums_of(others, policy);
+    };
+    return test_sums(sums_of(batches, policy), sums_of(reference, policy), reference, policy,
+                     fresh ? std::function<Sums()>(fresh_sums) : nullptr);
 }
 
 Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others, const AgreementPolicy &policy) {
@@ -261,8 +304,7 @@ Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Im
             require_same_size(batch, batches.front());
         }
     }
-    return test_sums([&](size_t channel) { return sums_by_batch(batches, channel, policy.block_size); },
-                     [&](size_t channel) { return sums_by_batch(others, channel, policy.block_size); }, batches.front(), policy);
+    return test_sums(sums_of(batches, policy), sums_of(others, policy), batches.front(), policy);
 }
 
 }  // namespace rtrays

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Agreement {
     size_t tests = 0;                ///< channels x (blocks + whole image), less those undecided
     size_t undecided = 0;            ///< left out: the batches are too skewed for a t test, or too sure of themselves
     size_t rejected = 0;             ///< tests with adjusted p <= alpha
+    size_t unconfirmed = 0;          ///< tests that rejected at first, and not again with fresh batches
     double largest_z = 0;            ///< largest |z| of all tests
     std::string largest_z_at;        ///< its channel and the corner of its block, or "whole image"; "R (16, 0)"
     double smallest_adjusted_p = 1;  ///< Holm over all tests
@@ -37,15 +39,18 @@ struct AgreementPolicy {
     /// Of batches. Rare bright paths that most batches lack make a block look more certain than it is, even after the tests
     /// have taken off the first-order effect of skewness; 32 normal batches exceed this in one case of 800.
     double largest_skewness = 1.5;
-    /// A rejection counts where the difference exceeds so many standard errors of as many samples of the reference. Batches
-    /// that all lack the rare bright paths of a dark block agree with each other and are no more skewed than others: only
-    /// the reference, of far more samples, has met these paths and knows how much they scatter.
-    double most_scatter = 3;
 };
+
+/// Batches of other seeds than those tested.
+using FreshBatches = std::function<std::vector<Image>()>;
 
 /// Both images carry "variance.*" (variance of the mean of each pixel) and share no samples; pixels are taken
 /// as independent, which holds for algorithms without splats. For those with: `batches`, images of independent samples, as
 /// many each, whose scatter gives the variance of every block as a whole.
+///
+/// Batches that all lack the rare bright paths of a dark block agree with each other, are no more skewed than others, and
+/// reject. With `fresh`, which is asked only then, a rejection stands where these batches reject the same test again (Holm
+/// over those asked again); the others are as the fresh batches have them.
 ///
 /// Channels of a pixel are correlated, so each channel is tested alone, and the standard error of the mean
 /// over channels is bounded by the mean of their standard errors (perfect correlation). The standard error
@@ -53,11 +58,8 @@ struct AgreementPolicy {
 /// (bad input) when sizes differ, a variance layer is missing, a value is not finite or the reference is
 /// black.
 Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy = {});
-///
-/// `samples_ratio`: samples of a pixel of the reference for one of all batches, for `most_scatter`; 0: not known, every
-/// rejection counts.
 Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy = {},
-                         double samples_ratio = 0);
+                         const FreshBatches &fresh = {});
 Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others,
                          const AgreementPolicy &policy = {});
 

@@ -89,6 +89,7 @@ json to_json(const Agreement &agreement, const AgreementPolicy &policy) {
             {"alpha", policy.alpha},
             {"tests", agreement.tests},
             {"rejected", agreement.rejected},
+            {"unconfirmed", agreement.unconfirmed},
             {"agrees", agreement.agrees()},
             {"largest_z", agreement.largest_z},
             {"largest_z_at", agreement.largest_z_at},

@@ -129,4 +129,9 @@ std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_
     return images;
 }
 
+std::vector<Image> render_fresh_batches(const LadderTask &task) {
+    RenderSession session(task.scene, task.settings, task.device);
+    return render_batches(session, first_seed + task.seeds, 2 * task.spp.back() * task.seeds, batches_per_seed * task.seeds);
+}
+
 }  // namespace rtrays

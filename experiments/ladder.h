@@ -42,6 +42,9 @@ struct LadderResult {
 /// on SIGINT and SIGTERM.
 LadderResult render_ladders(const LadderTask &task);
 
+/// As many batches as the ladders have, each of twice the samples, of a seed that no ladder has.
+std::vector<Image> render_fresh_batches(const LadderTask &task);
+
 /// Renders the samples [begin, end), or throws `Error` (interrupted). `Renderer` is `RenderSession` or
 /// `ReferenceRenderer`.
 template <class Renderer>

@@ -108,15 +108,9 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
     return json;
 }
 
-/// Of a pixel, which is the mean of as many stored ones as it was reduced by, along both sides.
-double samples_of(const StoredReference &reference) {
-    const auto reduced_by = reference.description.at("reduced_by").get<double>();
-    return reference.description.at("spp").get<double>() * reduced_by * reduced_by;
-}
-
 /// One entry of "curves"; writes the curve's image.
 Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description, LadderTask task,
-               const StoredReference &reference, const fs::path &out) {
+               double noise_mse, const fs::path &out) {
     task.settings = settings_of(experiment, description);
     task.spp = description.spp;
     task.early_images = description.early_images;
@@ -127,7 +121,7 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     write_exr(mean, out / image);
 
     const AgreementPolicy policy;
-    Json curve = summarise_curve(ladder.repetitions, reference.reference.noise_mse);
+    Json curve = summarise_curve(ladder.repetitions, noise_mse);
     curve.update(ladder.cost);
     curve["id"] = description.id();
     curve["scene"] = task.scene.name();
@@ -136,8 +130,8 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     curve["settings"] = image_settings(description.settings);
     // By batches also where pixels state their variance: with few samples that is as wrong as its rarest paths are missed,
     // and a normal test too sure.
-    const auto samples = static_cast<double>(task.spp.back() * task.seeds);
-    const Agreement agreement = test_agreement(ladder.batches, task.reference, policy, samples_of(reference) / samples);
+    const Agreement agreement =
+        test_agreement(ladder.batches, task.reference, policy, [&] { return render_fresh_batches(task); });
     curve["agreement"] = to_json(agreement, policy);
     curve["image"] = image;
     curve["image_spp"] = task.spp.back() * task.seeds;
@@ -223,7 +217,7 @@ fs::path run_experiment(const RunOptions &options) {
                               [&](uint64_t spp) { progress.update(done += spp); }};
         for (const auto &description : experiment.curves) {
             run["curves"].push_back(
-                run_curve(experiment, description, task, reference, out));
+                run_curve(experiment, description, task, reference.reference.noise_mse, out));
         }
     }
     run["throughput"] = run_throughput(experiment, scene, device, options.quiet);

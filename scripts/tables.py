@@ -115,11 +115,13 @@ def agreement_table(run):
         agreement = value(curve, "agreement")
         rows.append([
             label(curve), str(value(curve, "image_spp")),
-            f"{value(agreement, 'rejected')} of {value(agreement, 'tests')}", number(value(agreement, "largest_z")),
+            f"{value(agreement, 'rejected')} of {value(agreement, 'tests')}", str(agreement.get("unconfirmed", 0)),
+            number(value(agreement, "largest_z")),
             interval(value(agreement, "relative_difference"), 100, "{:+.4f}"), value(agreement, "equivalence"),
         ])
     return Table(f"{run.get('experiment.title')}: agreement with the reference",
-                 ["curve", "spp", "tests rejected", "largest |z|", "difference of the mean, %, 99 %", "within 0.1 %"], rows)
+                 ["curve", "spp", "tests rejected", "not confirmed", "largest |z|", "difference of the mean, %, 99 %",
+                  "within 0.1 %"], rows)
 
 
 def cost_table(run):

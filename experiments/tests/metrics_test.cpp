@@ -204,18 +204,30 @@ std::vector<Image> noisy_batches(double bias, double sigma, uint64_t seed) {
     return batches;
 }
 
-TEST(Agreement, RarePathsThatAllBatchesLackRejectNothing) {
-    // The reference knows a standard error of 0.05 per pixel for as many samples: 0.003 of a block, 0.0008 of the whole. The
-    // batches show a tenth of it.
-    const double samples_ratio = 25;
+TEST(Agreement, FreshBatchesConfirmWhatRejects) {
     const Image reference = noisy(1, 0, 0.01, 7);
-    const std::vector<Image> dark = noisy_batches(-0.002, 0.005, 100), wrong = noisy_batches(-0.02, 0.005, 100);
-    EXPECT_GT(test_agreement(dark, reference).rejected, 0u);
-    const Agreement forgiven = test_agreement(dark, reference, {}, samples_ratio);
-    EXPECT_EQ(forgiven.rejected, 0u);
-    EXPECT_EQ(forgiven.tests + forgiven.undecided, 51u);
-    EXPECT_GT(forgiven.undecided, 0u);
-    EXPECT_EQ(test_agreement(wrong, reference, {}, samples_ratio).rejected, 51u);
+    int asked = 0;
+    const auto fresh = [&](double bias) {
+        return [&, bias] {
+            ++asked;
+            return noisy_batches(bias, 0.03, 300);
+        };
+    };
+    const std::vector<Image> clean = noisy_batches(0, 0.05, 100), dark = noisy_batches(-0.02, 0.005, 100);
+    EXPECT_TRUE(test_agreement(clean, reference, {}, fresh(-0.02)).agrees());
+    EXPECT_EQ(asked, 0) << "nothing rejects";
+
+    const Agreement alone = test_agreement(dark, reference);
+    EXPECT_EQ(alone.rejected, 51u);
+    const Agreement by_chance = test_agreement(dark, reference, {}, fresh(0));
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(by_chance.rejected, 0u);
+    EXPECT_EQ(by_chance.unconfirmed, 51u);
+    EXPECT_EQ(by_chance.tests, 51u);
+    EXPECT_LT(by_chance.largest_z, 5);
+    const Agreement wrong = test_agreement(dark, reference, {}, fresh(-0.02));
+    EXPECT_EQ(wrong.rejected, 51u);
+    EXPECT_EQ(wrong.unconfirmed, 0u);
 }
 
 TEST(Agreement, OfBatchesFindsABiasAndNothingElse) {
