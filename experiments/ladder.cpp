@@ -119,6 +119,14 @@ LadderResult render_ladders(const LadderTask &task) {
     return result;
 }
 
+void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device) {
+    if (settings.light_paths == LIGHT_PATHS_AUTO) {
+        settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
+    }
+    RenderSession session(scene, settings, device);
+    render_whole(session, 0, 1);
+}
+
 std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp, uint64_t batches) {
     std::vector<Image> images;
     for (uint64_t batch = 0; batch < batches; ++batch) {

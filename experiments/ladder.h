@@ -55,6 +55,10 @@ void render_whole(Renderer &renderer, uint64_t begin, uint64_t end) {
     }
 }
 
+/// Renders a sample of each pixel, so that all kernels are in the cache, those for long paths too where it meets some. Not
+/// by the pilot of `LIGHT_PATHS_AUTO`, which takes the same ones and its time. Throws as above.
+void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device);
+
 /// Images of independent samples, [0, spp) in `batches` equal parts, by whose scatter variances are told:
 /// splats of a path fall on several pixels, and rare bright paths show only so. The session ends with the
 /// last of them. Throws as above.

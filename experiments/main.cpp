@@ -53,7 +53,7 @@ void declare(CLI::App &app, Arguments &arguments) {
     run->add_option("--out", arguments.run.out, "output folder; NAME.PROFILE by default");
     run->add_option("--device", arguments.run.device, "OpenCL device, as for rtrays-render");
     run->add_flag("--dry-run", arguments.run.dry_run, "check everything, print the plan, render nothing");
-    run->add_flag("--compile", arguments.run.compile, "compile the kernels, render nothing (curves and stability suites)");
+    run->add_flag("--compile", arguments.run.compile, "compile the kernels, measure nothing (curves and stability suites)");
     run->add_flag("--quiet", arguments.run.quiet, "no progress");
 
     auto *compare = app.add_subcommand("compare", "error of image A against reference B");

@@ -186,7 +186,7 @@ fs::path run_experiment(const RunOptions &options) {
     DeviceContext device(options.device);
     if (options.compile) {
         for (const CurveDescription &curve : experiment.curves) {
-            RenderSession(scene, settings_of(experiment, curve), device);
+            compile_kernels(scene, settings_of(experiment, curve), device);
         }
         return {};
     }

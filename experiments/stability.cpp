@@ -380,7 +380,7 @@ ExitCode run_stability(const RunOptions &options) {
         for (const StabilityCase &tested : suite.cases) {
             const Scene scene = tested.scene.load();
             for (const StabilityRun &run : tested.runs) {
-                RenderSession(scene, run.settings, device);
+                compile_kernels(scene, run.settings, device);
             }
         }
         return ExitCode::ok;
