@@ -19,7 +19,7 @@ const char *to_string(Equivalence equivalence);
 
 struct Agreement {
     size_t tests = 0;                ///< channels x (blocks + whole image), less those undecided
-    size_t undecided = 0;            ///< left out: the batches are too skewed for a t test, or too sure of themselves
+    size_t undecided = 0;            ///< left out: the batches are too skewed for a t test
     size_t rejected = 0;             ///< tests with adjusted p <= alpha
     size_t unconfirmed = 0;          ///< tests that rejected at first, and not again with fresh batches
     double largest_z = 0;            ///< largest |z| of all tests

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stages that keep the counters of the streams.
+// Stages that keep the counters of the streams. They know nothing of paths, so one program serves all scenes.
 
 #include "renderer/kernels/stream.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// Stage reset_streams: all slots free, work taken up to `first_work`. Ray counts and errors are kept.
 __kernel void reset_streams(uint first_work, STREAM_PARAMETERS) {

@@ -12,6 +12,7 @@
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/light_vertex.h"
+#include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
 /// What one end of a join has to do with it.

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "renderer/shared/compat.h"
-#include "renderer/shared/path_state.h"
 #include "renderer/shared/stream_counters.h"
 
 // Queue numbers within the buffer: active queues 0 and 1 take turns. The free and the shadow queue share their
@@ -69,13 +68,6 @@ DEVICE uint active_count(GLOBAL const StreamCounters *counters) { return counter
 
 DEVICE GLOBAL const uint *active_queue(GLOBAL const uint *queues, GLOBAL const StreamCounters *counters, uint capacity) {
     return queues + counters->parity * capacity;
-}
-
-/// The slot of the path that is entry i of a queue, in FOR_EACH_ENTRY, where `end` is i_end. Asks for the path three entries on:
-/// on a CPU its words may be in another core's cache.
-DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uint i, MAYBE_UNUSED uint end) {
-    prefetch_path(paths, queue[min(i + 3u, end - 1u)]);
-    return queue[i];
 }
 
 DEVICE void append_active(GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity, uint parity,

@@ -88,6 +88,13 @@ DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot)
 #endif
 }
 
+/// The slot of the path that is entry i of a queue, in FOR_EACH_ENTRY, where `end` is i_end. Asks for the path three entries on:
+/// on a CPU its words may be in another core's cache.
+DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uint i, MAYBE_UNUSED uint end) {
+    prefetch_path(paths, queue[min(i + 3u, end - 1u)]);
+    return queue[i];
+}
+
 // get_<name>(paths, slot) and set_<name>(paths, slot, value) for every field.
 #define ACCESS_uint(name)                                                                          \
     DEVICE uint get_##name(PathStates paths, uint slot) { return PATH_WORD(paths, slot, PATH_##name); } \

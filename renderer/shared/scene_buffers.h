@@ -32,7 +32,7 @@
     X(FEATURE_environment, float, environment_texels)          \
     X(FEATURE_environment, uint, environment_ends)
 
-// A stage's parameters: buffers of the scene (these lists end in a comma), its own, and the stream last.
+// A stage's parameters: buffers of the scene (these lists end in a comma), its own, and the stream (stream_counters.h) last.
 #define BUFFER_PARAMETER(type, name) MAYBE_UNUSED GLOBAL const type *name,
 #define X_PARAMETER(feature, type, name) WHEN(feature, BUFFER_PARAMETER(type, name))
 #define SHAPE_COUNT_PARAMETER uint shape_count,
@@ -67,5 +67,3 @@
 #define BRANCH_BUFFER_ARGUMENT branch_words,
 #define BRANCH_PARAMETERS WHEN(FEATURE_branches, BRANCH_BUFFER_PARAMETER)
 #define BRANCH_ARGUMENTS WHEN(FEATURE_branches, BRANCH_BUFFER_ARGUMENT)
-
-#define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity

@@ -25,3 +25,6 @@ typedef struct StreamCounters {
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(StreamCounters) == 56, "layout shared with the device");
 #endif
+
+/// What a stage is given of a stream: the words of its paths (path_state.h), its queues (kernels/stream.h), its counters.
+#define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "renderer/kernels/geometry/surface_hit.h"
-#include "renderer/kernels/stream.h"
 #include "renderer/kernels/texture/texture.h"
+#include "renderer/shared/path_state.h"
 
 #if PREFETCHES && FEATURE_triangles
 
