@@ -195,7 +195,7 @@ ExitCode run(Options &options) {
         }
     }
 
-    DeviceContext device(options.device);
+    DeviceContext device(options.device, Binaries::keep);
     const bool refits = options.settings.bvh_update == "refit";
     if (refits) {
         scene.update(0);

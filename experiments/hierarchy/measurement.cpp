@@ -132,7 +132,7 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     }
     const fs::path out = options.out.empty() ? fs::path(name + "." + options.profile) : options.out;
     const RunContext context;
-    DeviceContext device(options.device);
+    DeviceContext device(options.device, Binaries::keep);
     const std::string references = settings.references.empty() ? "" : read_file(references_manifest());
     const Resumption resumption(out, "run.json",
                                 file.of_profile(options.profile) + stand_ins.dump() + absent.dump() + references,

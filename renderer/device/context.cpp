@@ -144,7 +144,7 @@ std::vector<DeviceInfo> list_devices() {
     return devices;
 }
 
-DeviceContext::DeviceContext(const std::string &spec) : info_(select_device(spec)) {
+DeviceContext::DeviceContext(const std::string &spec, Binaries binaries) : info_(select_device(spec)), binaries_(binaries) {
     cl_int status = CL_SUCCESS;
     context_ = ClContext(clCreateContext(nullptr, 1, &info_.device, nullptr, nullptr, &status));
     check_cl(status, fmt::format("creating a context on '{}'", info_.name));

@@ -29,15 +29,22 @@ struct DeviceInfo {
 /// All devices of all platforms, platform by platform; platforms that cannot list their devices have none.
 std::vector<DeviceInfo> list_devices();
 
+/// What becomes of a compiled program's binary.
+enum class Binaries {
+    keep,   ///< on disk: a later start takes 0.15 s instead of about one
+    leave,  ///< to the driver, which may keep its own: PoCL compiles every kernel once more when asked for the binary
+};
+
 /// One device with its context, an in-order profiling queue, and the account of what was launched on it.
 class DeviceContext {
   public:
     /// `spec`: "" (the first GPU, else the first device), "cpu", "gpu", "PLATFORM:DEVICE" by index, or a part
     /// of a device's name. Throws `Error` (bad usage) listing the devices when none matches, and naming the
     /// package to install when there is no device at all.
-    explicit DeviceContext(const std::string &spec = "");
+    explicit DeviceContext(const std::string &spec = "", Binaries binaries = Binaries::leave);
 
     const DeviceInfo &info() const { return info_; }
+    Binaries binaries() const { return binaries_; }
     cl_context context() const { return context_.get(); }
     cl_command_queue queue() const { return queue_.get(); }
     Profiler &profiler() { return profiler_; }
@@ -51,6 +58,7 @@ class DeviceContext {
 
   private:
     DeviceInfo info_;
+    Binaries binaries_;
     ClContext context_;
     ClQueue queue_;
     Profiler profiler_;

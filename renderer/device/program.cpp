@@ -134,6 +134,9 @@ void Program::compile(const std::string &source, const std::string &key) {
         throw run_error(fmt::format("building {}: {}\n{}", path_, cl_status_name(status),
                                     build_log(program_.get(), device_->info().device)));
     }
+    if (device_->binaries() == Binaries::leave) {
+        return;
+    }
     const std::string binary = program_binary(program_.get());
     binary_bytes_ = binary.size();
     try {

@@ -16,7 +16,8 @@ using Defines = std::map<std::string, std::string>;
 ///
 /// Binaries are kept on disk in `program_cache_directory()`, keyed by expanded source, defines, options, device
 /// and driver; each file carries a checksum, is written atomically and made under a lock, so that processes
-/// share one compilation. A file that does not load is compiled anew.
+/// share one compilation. A file that does not load is compiled anew. A device whose binaries are left to its driver
+/// loads what others have kept and adds nothing.
 class Program {
   public:
     /// Throws `Error` (run failed) with the whole build log when the compiler rejects the source.
@@ -28,7 +29,7 @@ class Program {
     const std::string &path() const { return path_; }
     double build_seconds() const { return build_seconds_; }
     bool from_cache() const { return from_cache_; }
-    size_t binary_bytes() const { return binary_bytes_; }
+    size_t binary_bytes() const { return binary_bytes_; }  ///< 0: left to the driver
 
   private:
     bool load(const std::string &key);

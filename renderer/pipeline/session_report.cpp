@@ -49,8 +49,10 @@ nlohmann::json RenderSession::report() const {
                 report["programs"].push_back({{"pass", pass.name},
                                               {"file", file},
                                               {"seconds", program.build_seconds()},
-                                              {"from_cache", program.from_cache()},
-                                              {"binary_bytes", program.binary_bytes()}});
+                                              {"from_cache", program.from_cache()}});
+                if (program.binary_bytes() > 0) {
+                    report["programs"].back()["binary_bytes"] = program.binary_bytes();
+                }
             }
         };
         add_programs(pass.stages.programs());

@@ -66,7 +66,7 @@ class Device : public testing::Test {
         return {};
     }
 
-    DeviceContext device_;
+    DeviceContext device_{"", Binaries::keep};
     fs::path directory_;
     const std::string body_ = "if (get_global_id(0) < count) values[get_global_id(0)] += (uint)(factor * FACTOR);";
 };
@@ -119,6 +119,17 @@ TEST_F(Device, RebuildsADamagedCacheFile) {
 TEST_F(Device, WorksWithoutAWritableCache) {
     setenv("RTRAYS_CACHE_DIR", "/proc/nowhere", 1);
     EXPECT_FALSE(Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_)).from_cache());
+}
+
+TEST_F(Device, KeepsNoBinaryWhereNoneIsWanted) {
+    const auto build = [&](DeviceContext &device) {
+        return Program(device, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_));
+    };
+    DeviceContext leaving;
+    EXPECT_EQ(build(leaving).binary_bytes(), 0u);
+    EXPECT_EQ(binary(), fs::path());
+    EXPECT_GT(build(device_).binary_bytes(), 0u);
+    EXPECT_TRUE(build(leaving).from_cache()) << "what others keep is loaded";
 }
 
 TEST_F(Device, ShowsTheBuildLogWithTheRealFileName) {
