@@ -16,8 +16,8 @@ using Defines = std::map<std::string, std::string>;
 ///
 /// Binaries are kept on disk in `program_cache_directory()`, keyed by expanded source, defines, options, device
 /// and driver; each file carries a checksum, is written atomically and made under a lock, so that processes
-/// share one compilation. A file that does not load is compiled anew. A device whose binaries are left to its driver
-/// loads what others have kept and adds nothing.
+/// share one compilation. A file that does not load is compiled anew. Where the device's binaries are left to its driver,
+/// what others have kept is loaded and nothing is added.
 class Program {
   public:
     /// Throws `Error` (run failed) with the whole build log when the compiler rejects the source.
