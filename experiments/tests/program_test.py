@@ -77,7 +77,8 @@ class Program(unittest.TestCase):
 
     def test_compile_fills_the_cache_and_renders_nothing(self):
         experiment, cache = self.experiment(), self.folder / "cache"
-        done = self.call("run", experiment, "--profile", "ci", "--compile", POCL_CACHE_DIR=str(cache))
+        done = self.call("run", experiment, "--profile", "ci", "--compile", "--device", "pthread",
+                         POCL_CACHE_DIR=str(cache))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(entry.name for entry in self.folder.iterdir()), ["cache", "experiment.json"])
         self.assertTrue(list(cache.rglob("*.so")))

@@ -11,7 +11,7 @@
 namespace rtrays {
 namespace {
 
-/// Code that is never run need not be good: without optimizing, PoCL takes two thirds of the time. What it keeps of it is
+/// Code that is never run need not be good: without optimizing, PoCL takes less than two thirds of the time. What it keeps of it is
 /// kept apart.
 DeviceContext &device() {
     static const bool in_haste = setenv("POCL_EXTRA_BUILD_FLAGS", "-cl-opt-disable", 1) == 0 &&

@@ -3,7 +3,6 @@
 // is silent, from Mitsuba 3.9 itself.
 #include <Eigen/Geometry>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 #include "renderer/base/files.h"
@@ -436,8 +435,8 @@ TEST(MitsubaNotices, NameWhatIsReplaced) {
 /// Scenes of others, where RTRAYS_MESHES says that they are: see scenes/README.md.
 TEST(MitsubaScenesOfOthers, Load) {
     const char *meshes = std::getenv("RTRAYS_MESHES");
-    if (meshes == nullptr || !std::filesystem::exists(meshes)) {
-        GTEST_SKIP() << "RTRAYS_MESHES names no folder";
+    if (meshes == nullptr) {
+        GTEST_SKIP() << "RTRAYS_MESHES is not set";
     }
     const Notices silent;
     const Scene box = load_scene(std::string(meshes) + "/cornell-box-bitterli/scene.xml");
