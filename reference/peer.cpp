@@ -27,7 +27,7 @@ struct PeerKind {
     uint64_t samples_per_step;  ///< enough that starting a render is small beside it, few enough for memory
     std::vector<std::string> version, render;  ///< command lines; the arguments of the driver follow
     const char *version_prefix;  ///< before what the version command prints first
-    std::string version_suffix;
+    std::string version_suffix;  ///< and what else the image depends on
 };
 
 const char *const python = RTRAYS_SOURCE "/build/peers/bin/python";
@@ -39,7 +39,7 @@ PeerKind kind_of(const std::string &name) {
     }
     return {"cycles", "scene.blender.json", 256, {"blender", "--version"},
             {"blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-             RTRAYS_SOURCE "/scripts/cycles_driver.py", "--"}, "Cycles of ", ""};
+             RTRAYS_SOURCE "/scripts/cycles_driver.py", "--"}, "Cycles of ", ", Sobol"};
 }
 
 std::string version_of(const PeerKind &kind) {

@@ -25,7 +25,7 @@ class PeerRenderer {
                  std::filesystem::path folder);
     ~PeerRenderer();
 
-    /// "Mitsuba 3.9.1 llvm_ad_rgb", "Cycles of Blender 3.4.1".
+    /// "Mitsuba 3.9.1 llvm_ad_rgb", "Cycles of Blender 3.4.1, Sobol".
     const std::string &engine() const;
 
     /// Samples per pixel of a step.

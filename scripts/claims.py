@@ -4,6 +4,7 @@
 Rules are in that file; figures come from the folders of finished runs. A run that is not there is a line, not an error.
 """
 
+import collections
 import json
 import pathlib
 
@@ -14,6 +15,7 @@ from tables import Table
 
 CLAIMS = pathlib.Path(__file__).resolve().parent.parent / "experiments/claims.json"
 NOT_MEASURED = "not measured"
+VERDICTS = ("holds", "holds partly", "does not hold here", "undecided", NOT_MEASURED)
 
 
 def place(figure, bounds):
@@ -117,15 +119,24 @@ def claim_tables(folder):
     yield "Runs", Table("Runs", ["run", "profile", "commit", "device", "finished"], list(run_rows(document, folder)))
 
 
-def claims_page(folder):
+def verdict_counts(table):
+    """{verdict: number of claims of a section}."""
+    return collections.Counter(row[-1].partition(",")[0] for row in table.rows)
+
+
+def claims_page(tables):
     """claims.md: every claim with its verdict."""
-    tables = list(claim_tables(folder))
-    counts = {}
-    for _, table in tables[:-1]:
-        for row in table.rows:
-            counts[row[-1].partition(",")[0]] = counts.get(row[-1].partition(",")[0], 0) + 1
-    summary = ", ".join(f"{count} × {word}" for word, count in sorted(counts.items(), key=lambda item: -item[1]))
-    head = (f"# The thesis' claims and their verdicts\n\n{sum(counts.values())} claims of chapter 4: {summary}. Rules are those of "
+    counts = sum((verdict_counts(table) for _, table in tables[:-1]), collections.Counter())
+    summary = ", ".join(f"{counts[word]} × {word}" for word in VERDICTS if counts[word])
+    head = (f"# The thesis' claims and their verdicts\n\n{counts.total()} claims of chapter 4: {summary}. Rules are those of "
             "experiments/claims.json, which states them before the results; intervals are of 95 % unless said otherwise. Figures "
             "of the thesis are of its hardware, which its tables name; ours of the runs below.")
     return "\n\n".join([head, *(f"## {title}\n\n{table.markdown()}" for title, table in tables)])
+
+
+def overview(tables):
+    """How many claims of each section got which verdict."""
+    counts = {title: verdict_counts(table) for title, table in tables[:-1]}
+    verdicts = [word for word in VERDICTS if any(word in found for found in counts.values())]
+    rows = [[title, *(str(found[word] or "") for word in verdicts)] for title, found in counts.items()]
+    return Table("Claims by verdict", ["claims of the thesis", *verdicts], rows)

@@ -233,6 +233,9 @@ def set_up(scene, film, spp, max_depth):
     cycles = film.cycles
     cycles.device = "CPU"
     cycles.samples = spp
+    # 3.4's progressive multi-jittered points, the default, are biased where there is much to choose from: of three lamps of
+    # 16,000 triangles each at 256 samples one came out 2.6 % too dark, whatever the seed.
+    cycles.sampling_pattern = "SOBOL"
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.time_limit = 0
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0

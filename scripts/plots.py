@@ -132,8 +132,9 @@ def save(figure, stem, *extensions):
 
 
 def write_plots(run, folder):
-    """All figures of a run; returns {file: caption}."""
+    """All figures of a run, and its reference as a picture for the index; returns {file: caption} of the former."""
     folder.mkdir(parents=True, exist_ok=True)
+    pyplot.imsave(folder / "reference.png", to_display(run.image(run.get("reference.image"))), metadata=FORMS[".png"])
     figures = {}
     for x_key, axis in AXES.items():
         save(curves_figure(run, x_key), folder / f"rmse_{x_key}", ".svg", ".png")

@@ -3,6 +3,7 @@
 
 import html
 import os
+import re
 
 from efficiency import base_curve, explanation, gain
 from run_document import agreement_verdict, gain_verdict, is_blind, is_stratified, label, slope_verdict, value, write_text
@@ -19,6 +20,15 @@ th, td { padding: .25rem .8rem .25rem 0; font-variant-numeric: tabular-nums; ver
 .controls label { margin-right: 1rem; font: 13px system-ui, sans-serif; white-space: nowrap; }
 .frame { overflow: auto; margin-top: .5rem; } canvas { image-rendering: pixelated; cursor: col-resize; }
 .readout { font: 12px ui-monospace, monospace; min-height: 1.5em; white-space: pre; }
+td[data-verdict] { white-space: nowrap; } td[data-verdict]::before { margin-right: .4em; }
+td[data-verdict="holds"]::before { content: "●"; color: #009e73; }
+td[data-verdict="holds partly"]::before { content: "◐"; color: #e69f00; }
+td[data-verdict="does not hold here"]::before { content: "○"; color: #d55e00; }
+td[data-verdict="undecided"]::before { content: "?"; color: #777; }
+.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(13rem, 1fr)); gap: 1rem; }
+.cards a { border: 1px solid #ccc; color: inherit; text-decoration: none; font-size: .9rem; line-height: 1.3; }
+.cards img { display: block; width: 100%; height: 10rem; object-fit: contain; background: #f6f6f6; }
+.cards span { display: block; padding: .6rem .8rem; } .cards a:hover span { text-decoration: underline; }
 figure { margin: 1.5rem 0; } img { max-width: 100%; } figcaption, footer { color: #555; font-size: .85rem; }
 footer { border-top: 1px solid #ccc; margin-top: 3rem; }
 """
@@ -100,7 +110,11 @@ def html_table(table):
             + "\n".join(cells("td", row) for row in table.rows) + "</tbody></table></div>")
 
 
+VERDICT_CELL = re.compile("<td>(?=(holds partly|holds|does not hold here|undecided)(<|,))")
+
+
 def html_document(heading, body):
+    body = VERDICT_CELL.sub(r'<td data-verdict="\1">', body)
     return (f"<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>{html.escape(heading)}</title>"
             f"<style>{STYLE}</style></head>\n<body><h1>{html.escape(heading)}</h1>\n{body}\n</body></html>\n")
 
@@ -135,12 +149,17 @@ def markdown_pages(folder):
             yield heading.lstrip("# "), page
 
 
-def html_index(folder, runs):
-    """Links to the reports of several runs with their verdicts, and to the pages of measurements beside them."""
-    parts = []
-    for heading, page in markdown_pages(folder):
-        parts.append(f'<h2><a href="{html.escape(os.path.relpath(page, folder))}">{html.escape(heading)}</a></h2>')
-    for run in runs:
-        link = html.escape(os.path.relpath(run.folder.resolve() / "index.html", folder))
-        parts.append(f'<h2><a href="{link}">{html.escape(title(run))}</a></h2>{html_table(verdict_table(run))}')
-    return html_document("RTRays: chapter 4", "\n".join(parts))
+def card(folder, heading, page, picture):
+    """A link to a page with one of its pictures, where it has any."""
+    shown = f'<img src="{html.escape(os.path.relpath(picture, folder))}" alt="">' if picture else ""
+    return f'<a href="{html.escape(os.path.relpath(page, folder))}">{shown}<span>{html.escape(heading)}</span></a>'
+
+
+def html_index(folder, runs, overview):
+    """How many claims hold, section by section, and links to all pages: those of curves, then those of measurements."""
+    (claims, claims_page), *measured = markdown_pages(folder)
+    cards = [card(folder, title(run), run.folder.resolve() / "index.html", run.folder.resolve() / "plots/reference.png") for run in runs]
+    cards += [card(folder, heading, page, next(iter(sorted(page.parent.glob("*.svg"))), None)) for heading, page in measured]
+    return html_document("RTRays: chapter 4", "\n".join([
+        f'<h2><a href="{html.escape(os.path.relpath(claims_page, folder))}">{html.escape(claims)}</a></h2>', html_table(overview),
+        "<h2>Experiments</h2>", f"<div class=cards>{''.join(cards)}</div>"]))

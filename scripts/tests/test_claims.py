@@ -14,7 +14,7 @@ sys.path[:0] = [str(SCRIPTS), str(SCRIPTS / "tests")]
 import numpy
 
 import claim_figures
-from claims import CLAIMS, claim_row, claims_page, figure_verdict, verdict
+from claims import CLAIMS, claim_row, claim_tables, claims_page, figure_verdict, overview, verdict
 from run_document import RunError
 from test_report import made_up_run
 
@@ -190,11 +190,14 @@ class Page(Folders):
             self.assertEqual((rules[name, "spp"], rules[name, "seconds"]), (expected["samples"], expected["time"]), name)
 
     def test_missing_runs_are_lines(self):
-        text = claims_page(self.folder)
+        tables = list(claim_tables(self.folder))
+        text = claims_page(tables)
         self.assertNotIn("holds |", text)
         count = sum(len(section["claims"]) for section in json.loads(CLAIMS.read_text())["sections"])
         self.assertIn(f"{count} claims of chapter 4: {count} × not measured", text)
         self.assertEqual(text.count(": not measured | not measured |"), count)
+        self.assertEqual(overview(tables).columns[1:], ["not measured"])
+        self.assertEqual(sum(int(row[1]) for row in overview(tables).rows), count)
 
     def test_what_was_measured_is_judged(self):
         self.write("cornell_diffuse", made_up_run())
