@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Plots of what frames take."""
 
+import textwrap
+
 import numpy
 from matplotlib import pyplot
 
@@ -49,7 +51,7 @@ def samples_per_second(run):
             panel.bar(numpy.arange(len(depths)) + width * (i - (len(names) - 1) / 2), middle, 0.93 * width, yerr=reach, color=COLOURS[i], label=contestant,
                       error_kw={"linewidth": 0.8})
         panel.set_xticks(range(len(depths)), [f"{value(depth, 'bounces')}" for depth in depths])
-        panel.set(title=mesh_name(run, row["mesh"]), xlabel="bounces", ylabel="Msamples/s")
+        panel.set(title=textwrap.fill(mesh_name(run, row["mesh"]), 40), xlabel="bounces", ylabel="Msamples/s")
         panel.title.set_fontsize(8)
     handles, labels = panels[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3)

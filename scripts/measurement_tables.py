@@ -134,6 +134,7 @@ def stages(run):
 
 
 CACHED = 4e6  # bytes: what fits the second-level caches of two or more cores
+FEWEST_FOR_COSTS = 8  # meshes x kinds: three numbers are fitted
 
 
 def costs(run, ours):
@@ -145,14 +146,14 @@ def costs(run, ours):
         entries = [next(c for c in value(kind, "contestants") if c["name"] == layout)
                    for row in run.get("rows") for kind in value(row, "kinds")]
         entries = [entry for entry in entries if (value(entry, "bytes") <= CACHED) == cached]
-        if len(entries) < 4:
+        if len(entries) < FEWEST_FOR_COSTS:
             continue
         ns = numpy.array([value(c, "processor_ns.value") for c in entries])
         work = numpy.array([[1, value(c, "nodes_per_ray"), value(c, "triangles_per_ray")] for c in entries])
         fit, *_ = numpy.linalg.lstsq(work / ns[:, None], numpy.ones(len(ns)), rcond=None)
         off = numpy.abs(work @ fit / ns - 1)
         rows.append([name(layout), f"{'up to' if cached else 'above'} {1e-6 * CACHED:g} MB", f"{len(entries)}", *(f"{x:.1f}" for x in fit), f"{100 * numpy.median(off):.0f}", f"{100 * off.max():.0f}"])
-    return Table("What limits it: processor ns per ray = a + b · nodes + c · triangles, by size of the hierarchy",
+    return rows and Table("What limits it: processor ns per ray = a + b · nodes + c · triangles, by size of the hierarchy",
                  ["layout", "hierarchy", "meshes × kinds", "a, ns", "b, ns per node", "c, ns per triangle", "median residual, %", "largest, %"], rows)
 
 
@@ -183,7 +184,7 @@ def ray_rates(run):
                *(f"{name(c)} / Embree 1" for c in ours), "Embree 16 / Embree 1", "stackless / stack", "others' load, %"], rates),
         Table("Work", ["mesh", "rays", *(f"nodes, triangles per ray: {name(c)}" for c in ours),
                        *(f"processor ns per ray: {name(c)}" for c in ours), *(f"MB: {name(c)}" for c in ours)], work),
-        costs(run, ours),
+        *filter(None, [costs(run, ours)]),
     )
     what = ("Medians of turns with 95 % intervals, the same rays in the same order by all, on as many threads as the device "
             "has compute units. Embree: ROBUST, the instruction set that is fastest on these rays (in brackets); 1: "
