@@ -29,6 +29,10 @@ void export_images(const fs::path &folder) {
                                       folder.string(), folder.string()));
     }
     const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
+    if (!fs::exists(folder / "images") && fs::exists(folder / "index.html")) {
+        fmt::print(stderr, "{}: has no images, its pages stay as they are\n", folder.string());
+        return;
+    }
     const auto export_image = [&](const std::string &name, const Json &layers) {
         const Image image = read_exr(folder / name);
         write_array(image, (folder / name).replace_extension(".npy"));

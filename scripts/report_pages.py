@@ -151,7 +151,7 @@ def markdown_pages(folder):
 
 def card(folder, heading, page, picture):
     """A link to a page with one of its pictures, where it has any."""
-    shown = f'<img src="{html.escape(os.path.relpath(picture, folder))}" alt="">' if picture else ""
+    shown = f'<img src="{html.escape(os.path.relpath(picture, folder))}" alt="">' if picture and picture.exists() else ""
     return f'<a href="{html.escape(os.path.relpath(page, folder))}">{shown}<span>{html.escape(heading)}</span></a>'
 
 

@@ -44,6 +44,9 @@ class Run:
         except RunError as error:
             raise RunError(f"{self.folder / 'run.json'}: {error}") from error
 
+    def has_images(self):
+        return (self.folder / self.get("reference.image")).with_suffix(".npy").exists()
+
     def image(self, relative):
         """Linear R, G, B of an image named in run.json, shape (height, width, 3)."""
         return self._array((self.folder / relative).with_suffix(".npy"))

@@ -281,6 +281,18 @@ class Reports(RunFolder):
             self.assertLess(abs(drawn[..., :3] - bytes_of(linear)).max(), 0.51, key)
         self.assertTrue(told["readout"].startswith(f"({width - 1}, {height - 1})  left "), told["readout"])
 
+    def test_a_run_without_images_keeps_its_pages(self):
+        self.run_object()
+        other = self.folder.parent / "other"
+        shutil.copytree(self.folder, other)
+        shutil.rmtree(other / "images")
+        self.assertNotEqual(self.script("report", self.folder, other).returncode, 0, "neither images nor pages")
+        (other / "index.html").write_text("made before")
+        done = self.script("report", self.folder, other)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((other / "index.html").read_text(), "made before")
+        self.assertIn('<a href="other/index.html">', pathlib.Path(done.stdout.strip()).read_text())
+
     def test_several_runs_get_an_index(self):
         self.run_object()
         other = self.folder.parent / "other"
