@@ -4,8 +4,9 @@
 import csv
 import io
 
+from edges import edge_errors
 from efficiency import Cost, base_curve, gain
-from run_document import label, value, write_text
+from run_document import label, shown_curves, value, write_text
 
 POINT_METRICS = ("l2", "rmse", "mae", "relmse", "mse", "mse_unbiased")
 
@@ -176,6 +177,16 @@ def throughput_table(run):
                  [[value(throughput, "curve"), *row]])
 
 
+def edges_table(run):
+    """Where the error lies."""
+    rows = []
+    for curve in shown_curves(run):
+        ratio = edge_errors(run, curve)
+        if ratio:
+            rows.append([value(curve, "id"), *(number(value(ratio, key)) for key in ("value", "low", "high"))])
+    return Table("Mean squared error at edges of the image over that elsewhere, 95 % interval", ["curve", "value", "low", "high"], rows)
+
+
 def repetitions_table(run):
     """Every raw measurement, one row each, with all digits."""
     keys = ("seconds_device", "seconds_wall", "l2", "rmse", "mae", "relmse", "mse")
@@ -196,6 +207,7 @@ TABLES = {
     "agreement": agreement_table,
     "cost": cost_table,
     "throughput": throughput_table,
+    "edges": edges_table,
 }
 
 

@@ -15,7 +15,8 @@ import numpy
 
 import claim_figures
 from claims import CLAIMS, claim_row, claim_tables, claims_page, figure_verdict, overview, verdict
-from run_document import RunError
+from run_document import Run, RunError
+from tables import edges_table
 from test_report import made_up_run
 
 
@@ -99,10 +100,13 @@ class Readers(Folders):
         ours[:, 3:5] += 0.1  # either side of the edge
         numpy.save(folder / "images/reference.npy", reference)
         numpy.save(folder / "images/ours.npy", ours)
+        self.assertEqual(self.figures("edge_errors", "box"), {})
+        (folder / "tables").mkdir()
+        edges_table(Run(folder)).write(folder / "tables", "edges")
         (figure,) = self.figures("edge_errors", "box").values()
         self.assertAlmostEqual(figure["value"], 4, places=4)
         numpy.save(folder / "images/reference.npy", numpy.ones((8, 8, 3)))
-        self.assertEqual(self.figures("edge_errors", "box"), {})
+        self.assertEqual(edges_table(Run(folder)).rows, [])
 
     def test_convergence_control_takes_the_best_error(self):
         rows = [{"scene": scene, "algorithm": "path_tracing", "error": error, "seconds": interval(low, high)}
