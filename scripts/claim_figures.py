@@ -69,7 +69,7 @@ def edge_errors(folder, curve="path_tracing.mis"):
     """Mean squared error at edges over that elsewhere, of the mean image: the table that was made of the images."""
     path = folder / "tables/edges.csv"
     if path.exists():
-        for row in csv.DictReader(path.open()):
+        for row in csv.DictReader(path.read_text().splitlines()):
             if row["curve"] == curve:
                 yield "squared error at edges over elsewhere", {key: float(row[key]) for key in ("value", "low", "high")}
 
