@@ -29,10 +29,6 @@ void export_images(const fs::path &folder) {
                                       folder.string(), folder.string()));
     }
     const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
-    if (!fs::exists(folder / "images") && fs::exists(folder / "index.html")) {
-        fmt::print(stderr, "{}: has no images, its pages stay as they are\n", folder.string());
-        return;
-    }
     const auto export_image = [&](const std::string &name, const Json &layers) {
         const Image image = read_exr(folder / name);
         write_array(image, (folder / name).replace_extension(".npy"));
@@ -40,7 +36,12 @@ void export_images(const fs::path &folder) {
             write_array(image, (folder / name).replace_extension("." + layer + ".npy"), layer);
         }
     };
-    export_image(run.at("reference").at("image"), Json::array());
+    const std::string reference = run.at("reference").at("image");
+    if (!fs::exists(folder / reference) && fs::exists(folder / "index.html")) {  // a clone, which has the pages alone
+        fmt::print(stderr, "{}: has no images, its pages stay as they are\n", folder.string());
+        return;
+    }
+    export_image(reference, Json::array());
     for (const Json &curve : run.at("curves")) {
         export_image(curve.at("image"), curve.at("layers"));
         for (const Json &early : curve.at("early_images")) {

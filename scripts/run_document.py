@@ -45,6 +45,7 @@ class Run:
             raise RunError(f"{self.folder / 'run.json'}: {error}") from error
 
     def has_images(self):
+        """Whether they are there; a clone has the pages that were made of them."""
         return (self.folder / self.get("reference.image")).with_suffix(".npy").exists()
 
     def image(self, relative):
