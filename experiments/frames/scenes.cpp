@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "experiments/hierarchy/meshes.h"
+#include "experiments/hierarchy/san_miguel.h"
 #include "renderer/base/error.h"
 #include "renderer/base/notice.h"
 #include "renderer/import/model_file.h"
@@ -37,7 +38,7 @@ struct Lights {
 /// What a scene consists of: either a model with materials or a mesh, and perhaps a dragon in front.
 struct Place {
     std::string name;
-    std::string model;  ///< a file of the models' folder
+    std::string model;  ///< a file of the models' folder; of San Miguel the list of instances
     std::string mesh;   ///< of load_measured_mesh
     View view;          ///< its angle is that across the image
     Lights lights;
@@ -77,13 +78,13 @@ const std::vector<Place> &models() {
          {{-15, -9, 0}, {1, -0.05f, 0}, 75},
          {{}, {{-8, 6, 0}, {4, 6, 0}}, 6}},
         {"san_miguel_ground",
+         "san-miguel/san-miguel.instances",
          "",
-         "san_miguel",
          {{27.6255f, 1.49616f, 2.42353f}, {-0.967323f, -0.0081302f, -0.253416f}, 75},
          {high_sun, {}}},
         {"san_miguel_upper",
+         "san-miguel/san-miguel.instances",
          "",
-         "san_miguel",
          {{26.6878f, 7.31451f, -2.71626f}, {-0.821536f, 0.0630028f, 0.566665f}, 79},
          {high_sun, {}}},
     };
@@ -235,7 +236,10 @@ Scene make_scene(const Place &place) {
     // Of cameras and lights that models have not, which are replaced.
     const NoticeReceiver silence([](const std::string &) {});
     if (!place.model.empty()) {
-        return load_scene(measured_file(place.model).string());
+        const fs::path file = measured_file(place.model);
+        return file.extension() == ".instances"
+                   ? load_san_miguel_scene(fs::path(file).replace_extension(".ply.gz"), file, fs::path(file).replace_extension(".mtl"))
+                   : load_scene(file.string());
     }
     Scene scene;
     add_mesh(scene, load_measured_mesh(place.mesh).mesh, Eigen::Matrix4d::Identity());

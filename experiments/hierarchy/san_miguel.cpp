@@ -5,19 +5,25 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <fstream>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
-#include "renderer/import/model_file.h"
+#include "renderer/import/model_file_geometry.h"
+#include "renderer/import/model_file_ply.h"
+#include "renderer/import/model_file_scene.h"
+#include "renderer/scene/cores/mesh.h"
+#include "renderer/scene/graph.h"
 
 namespace rtrays {
 
 namespace fs = std::filesystem;
+using Geometry = MeshCore::Geometry;
 
 namespace {
 
@@ -39,14 +45,74 @@ std::string read_gzip(const fs::path &path) {
 }
 
 /// The model is read as any PLY file is, from a copy that lives as long as that takes.
-std::shared_ptr<MeshCore> load_gzipped_ply(const fs::path &path) {
+Geometry read_gzipped_ply(const fs::path &path, ModelNotes &notes) {
     const fs::path copy = fs::temp_directory_path() / (content_hash(path.string()) + ".rtrays.ply");
     write_file(copy, read_gzip(path));
-    MeshFileOptions options;
-    options.normals = MeshFileOptions::Normals::none;
-    std::shared_ptr<MeshCore> mesh = load_mesh_file(copy, "san_miguel", options);
+    Geometry geometry = read_ply(copy, notes, true).geometry;
     fs::remove(copy);
-    return mesh;
+    return geometry;
+}
+
+struct Object {
+    std::string name;
+    size_t first, count;  ///< triangles of the model
+    size_t material;
+};
+
+struct Instance {
+    size_t object;
+    Eigen::Matrix4d to_world;
+};
+
+struct Layout {
+    std::vector<Object> objects;
+    std::vector<Instance> instances;
+};
+
+/// Reads the list of a model that has so many triangles.
+Layout read_layout(const fs::path &path, size_t triangles) {
+    std::istringstream file(read_file(path));
+    Layout layout;
+    size_t number = 1;
+    for (std::string line; std::getline(file, line); ++number) {
+        std::istringstream words(line);
+        std::string what;
+        words >> what;
+        if (what.empty() || what.front() == '#') {
+            continue;
+        }
+        size_t id = 0;
+        words >> id;
+        bool right = false;
+        if (what == "object") {
+            Object object{};
+            words >> object.name >> object.first >> object.count >> object.material;
+            right = !words.fail() && id == layout.objects.size() && object.first <= triangles &&
+                    object.count <= triangles - object.first;
+            layout.objects.push_back(std::move(object));
+        } else {
+            Instance instance{id, Eigen::Matrix4d::Identity()};
+            for (int i = 0; i < 12; ++i) {
+                words >> instance.to_world(i / 4, i % 4);
+            }
+            right = what == "instance" && !words.fail() && id < layout.objects.size();
+            layout.instances.push_back(instance);
+        }
+        if (!right) {
+            throw input_error(fmt::format("{}:{}: neither an object of a model of {} triangles nor an instance of one above: {}",
+                                          path.string(), number, triangles, line));
+        }
+    }
+    return layout;
+}
+
+/// The triangles of every object that has any, by its place in `objects`; -1: of none.
+std::map<int64_t, Geometry> cut_out(const Geometry &model, const std::vector<Object> &objects) {
+    std::vector<int64_t> owner(model.triangles.size(), -1);
+    for (size_t i = 0; i < objects.size(); ++i) {
+        std::fill_n(owner.begin() + static_cast<std::ptrdiff_t>(objects[i].first), objects[i].count, static_cast<int64_t>(i));
+    }
+    return split_geometry(model, owner);
 }
 
 bool belongs_to(const std::string &object, SanMiguelPart part) {
@@ -64,81 +130,59 @@ bool belongs_to(const std::string &object, SanMiguelPart part) {
     }
 }
 
-/// One object with vertices of its own, empty where it is not wanted.
-test::Mesh cut_out(const MeshCore &model, size_t first, size_t count) {
-    test::Mesh object;
-    std::vector<uint32_t> used;
-    for (size_t i = first; i < first + count; ++i) {
-        for (const uint32_t vertex : model.triangles()[i]) {
-            used.push_back(vertex);
-        }
-    }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (const uint32_t vertex : used) {
-        object.positions.push_back(model.vertices()[vertex].cast<float>());
-    }
-    for (size_t i = first; i < first + count; ++i) {
-        const auto place = [&](size_t corner) {
-            const uint32_t vertex = model.triangles()[i][corner];
-            return static_cast<uint32_t>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
-        };
-        object.triangles.push_back({place(0), place(1), place(2)});
-    }
-    return object;
-}
-
-void add_instance(test::Mesh &mesh, const test::Mesh &object, const Eigen::Matrix<double, 3, 4> &to_world) {
-    const auto first = static_cast<uint32_t>(mesh.positions.size());
-    for (const Eigen::Vector3f &p : object.positions) {
-        mesh.positions.push_back((to_world * p.cast<double>().homogeneous()).cast<float>());
-    }
-    for (const auto &[a, b, c] : object.triangles) {
-        mesh.triangles.push_back({first + a, first + b, first + c});
-    }
-}
-
 }  // namespace
 
 test::Mesh load_san_miguel(const fs::path &model_file, const fs::path &instances, SanMiguelPart part) {
-    const std::shared_ptr<MeshCore> model = load_gzipped_ply(model_file);
-    std::istringstream file(read_file(instances));
-    std::vector<test::Mesh> objects;
-    test::Mesh mesh{"san_miguel", {}, {}};
-    size_t number = 1;
-    for (std::string line; std::getline(file, line); ++number) {
-        std::istringstream words(line);
-        std::string what, name;
-        size_t object = 0, first = 0, count = 0;
-        words >> what;
-        if (what.empty() || what.front() == '#') {
-            continue;
-        }
-        words >> object;
-        bool right = !words.fail();
-        if (what == "object") {
-            words >> name >> first >> count;
-            right = right && !words.fail() && object == objects.size() &&
-                    first + count <= model->triangles().size();
-            if (right) {
-                objects.push_back(belongs_to(name, part) ? cut_out(*model, first, count) : test::Mesh{});
-            }
-        } else {
-            Eigen::Matrix<double, 3, 4> to_world;
-            for (int i = 0; i < 12; ++i) {
-                words >> to_world(i / 4, i % 4);
-            }
-            right = right && what == "instance" && !words.fail() && object < objects.size();
-            if (right) {
-                add_instance(mesh, objects[object], to_world);
-            }
-        }
-        if (!right) {
-            throw input_error(fmt::format("{}:{}: neither an object of {} nor an instance of one above: {}",
-                                          instances.string(), number, model_file.string(), line));
+    ModelNotes notes(model_file.string());
+    Geometry model = read_gzipped_ply(model_file, notes);
+    model.normals.clear();
+    model.uvs.clear();
+    const Layout layout = read_layout(instances, model.triangles.size());
+    const std::map<int64_t, Geometry> parts = cut_out(model, layout.objects);
+    Geometry whole;
+    for (const auto &[object, to_world] : layout.instances) {
+        const auto found = parts.find(static_cast<int64_t>(object));
+        if (found != parts.end() && belongs_to(layout.objects[object].name, part)) {
+            append_geometry(whole, found->second, to_world);
         }
     }
+    test::Mesh mesh{"san_miguel", {}, {}};
+    mesh.positions.reserve(whole.vertices.size());
+    for (const Eigen::Vector3d &vertex : whole.vertices) {
+        mesh.positions.push_back(vertex.cast<float>());
+    }
+    mesh.triangles.assign(whole.triangles.begin(), whole.triangles.end());
     return mesh;
+}
+
+Scene load_san_miguel_scene(const fs::path &model_file, const fs::path &instances, const fs::path &materials_file) {
+    ModelNotes notes(model_file.string());
+    Scene scene;
+    const std::vector<std::shared_ptr<MaterialCore>> materials = read_model_materials(materials_file, scene, notes);
+    const Geometry model = read_gzipped_ply(model_file, notes);
+    const Layout layout = read_layout(instances, model.triangles.size());
+    for (const Object &object : layout.objects) {
+        if (object.material >= materials.size()) {
+            throw input_error(fmt::format("{}: object '{}' is of material {}, but {} has only {}", instances.string(),
+                                          object.name, object.material, materials_file.string(), materials.size()));
+        }
+    }
+    const std::map<int64_t, Geometry> parts = cut_out(model, layout.objects);
+    std::map<size_t, Geometry> by_material;
+    for (const auto &[object, to_world] : layout.instances) {
+        const auto found = parts.find(static_cast<int64_t>(object));
+        if (found != parts.end()) {
+            append_geometry(by_material[layout.objects[object].material], found->second, to_world);
+        }
+    }
+    for (auto &[index, geometry] : by_material) {
+        const std::string &name = materials[index]->name();
+        Node &node = add_model_node(scene.graph().root(), name, Eigen::Matrix4d::Identity());
+        node.set_core(materials[index]);
+        node.set_core(std::make_shared<MeshCore>(name, std::move(geometry)));
+    }
+    notes.tell();
+    return scene;
 }
 
 }  // namespace rtrays
