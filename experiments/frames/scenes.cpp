@@ -238,7 +238,8 @@ Scene make_scene(const Place &place) {
     if (!place.model.empty()) {
         const fs::path file = measured_file(place.model);
         return file.extension() == ".instances"
-                   ? load_san_miguel_scene(fs::path(file).replace_extension(".ply.gz"), file, fs::path(file).replace_extension(".mtl"))
+                   ? load_san_miguel_scene(fs::path(file).replace_extension(".ply.gz"), file,
+                                           fs::path(file).replace_extension(".mtl"))
                    : load_scene(file.string());
     }
     Scene scene;

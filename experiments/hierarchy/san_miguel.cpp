@@ -99,8 +99,9 @@ Layout read_layout(const fs::path &path, size_t triangles) {
             layout.instances.push_back(instance);
         }
         if (!right) {
-            throw input_error(fmt::format("{}:{}: neither an object of a model of {} triangles nor an instance of one above: {}",
-                                          path.string(), number, triangles, line));
+            throw input_error(fmt::format(
+                "{}:{}: neither an object of a model of {} triangles nor an instance of one above: {}",
+                path.string(), number, triangles, line));
         }
     }
     return layout;
@@ -110,7 +111,8 @@ Layout read_layout(const fs::path &path, size_t triangles) {
 std::map<int64_t, Geometry> cut_out(const Geometry &model, const std::vector<Object> &objects) {
     std::vector<int64_t> owner(model.triangles.size(), -1);
     for (size_t i = 0; i < objects.size(); ++i) {
-        std::fill_n(owner.begin() + static_cast<std::ptrdiff_t>(objects[i].first), objects[i].count, static_cast<int64_t>(i));
+        std::fill_n(owner.begin() + static_cast<std::ptrdiff_t>(objects[i].first), objects[i].count,
+                    static_cast<int64_t>(i));
     }
     return split_geometry(model, owner);
 }
@@ -155,16 +157,19 @@ test::Mesh load_san_miguel(const fs::path &model_file, const fs::path &instances
     return mesh;
 }
 
-Scene load_san_miguel_scene(const fs::path &model_file, const fs::path &instances, const fs::path &materials_file) {
+Scene load_san_miguel_scene(const fs::path &model_file, const fs::path &instances,
+                            const fs::path &materials_file) {
     ModelNotes notes(model_file.string());
     Scene scene;
-    const std::vector<std::shared_ptr<MaterialCore>> materials = read_model_materials(materials_file, scene, notes);
+    const std::vector<std::shared_ptr<MaterialCore>> materials =
+        read_model_materials(materials_file, scene, notes);
     const Geometry model = read_gzipped_ply(model_file, notes);
     const Layout layout = read_layout(instances, model.triangles.size());
     for (const Object &object : layout.objects) {
         if (object.material >= materials.size()) {
-            throw input_error(fmt::format("{}: object '{}' is of material {}, but {} has only {}", instances.string(),
-                                          object.name, object.material, materials_file.string(), materials.size()));
+            throw input_error(fmt::format("{}: object '{}' is of material {}, but {} has only {}",
+                                          instances.string(), object.name, object.material,
+                                          materials_file.string(), materials.size()));
         }
     }
     const std::map<int64_t, Geometry> parts = cut_out(model, layout.objects);

@@ -83,7 +83,8 @@ TEST(TimedScenes, OthersAreRefused) {
     }
 }
 
-/// Two triangles with normals and texture coordinates, each an object; read as they are, since they are not packed.
+/// Two triangles with normals and texture coordinates, each an object; read as they are, since they are not
+/// packed.
 class SanMiguelFiles : public testing::Test {
   protected:
     void SetUp() override {
@@ -107,21 +108,26 @@ class SanMiguelFiles : public testing::Test {
         return loaded;
     }
 
-    const fs::path folder = fs::path(testing::TempDir()) / "san_miguel";
-    const fs::path model = folder / "model.ply.gz", instances = folder / "model.instances", materials = folder / "model.mtl";
+    const fs::path folder =
+        fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    const fs::path model = folder / "model.ply.gz", instances = folder / "model.instances",
+                   materials = folder / "model.mtl";
 };
 
 TEST_F(SanMiguelFiles, HaveAMeshForEachMaterial) {
-    place("object 0 sanmiguel_1 0 1 1\nobject 1 hojas_1 1 1 0\n"
-          "instance 0 1 0 0 0 0 1 0 0 0 0 1 0\n"
-          "instance 1 1 0 0 0 0 1 0 0 0 0 1 0\n"
-          "instance 0 -2 0 0 5 0 1 0 0 0 0 1 0\n");
+    place(
+        "object 0 sanmiguel_1 0 1 1\nobject 1 hojas_1 1 1 0\n"
+        "instance 0 1 0 0 0 0 1 0 0 0 0 1 0\n"
+        "instance 1 1 0 0 0 0 1 0 0 0 0 1 0\n"
+        "instance 0 -2 0 0 5 0 1 0 0 0 0 1 0\n");
     const Scene loaded = scene();
     ASSERT_EQ(loaded.meshes().name, (std::vector<std::string>{"stone", "leaf"}));
     ASSERT_EQ(loaded.meshes().triangle.size(), 3u);
     EXPECT_EQ(loaded.meshes().triangle_mesh, (std::vector<uint32_t>{0, 1, 1}));
     const std::vector<Triangle> &triangles = loaded.meshes().triangle;
-    const auto corner = [&](size_t i, size_t k) { return Eigen::Vector3f(loaded.meshes().position[triangles[i][k]]); };
+    const auto corner = [&](size_t i, size_t k) {
+        return Eigen::Vector3f(loaded.meshes().position[triangles[i][k]]);
+    };
     // Mirrored, it still faces +z: its corners run the other way.
     const Eigen::Vector3f normal = (corner(2, 1) - corner(2, 0)).cross(corner(2, 2) - corner(2, 0));
     EXPECT_EQ(corner(2, 0), Eigen::Vector3f(5, 0, 0));
@@ -147,7 +153,8 @@ TEST_F(SanMiguelFiles, AreRefusedByLine) {
     };
     EXPECT_NE(complaint("object 0 a 1 2 0\n").find("model.instances:2"), std::string::npos);
     EXPECT_NE(complaint("object 1 a 0 1 0\n").find("model.instances:2"), std::string::npos);
-    EXPECT_NE(complaint("object 0 a 0 1 0\ninstance 1 1 0 0 0 0 1 0 0 0 0 1 0\n").find("model.instances:3"), std::string::npos);
+    EXPECT_NE(complaint("object 0 a 0 1 0\ninstance 1 1 0 0 0 0 1 0 0 0 0 1 0\n").find("model.instances:3"),
+              std::string::npos);
     EXPECT_NE(complaint("object 0 a 0 1 0\ninstance 0 1 0 0\n").find("model.instances:3"), std::string::npos);
     EXPECT_NE(complaint("object 0 a 0 1 2\n").find("material 2"), std::string::npos);
 }
