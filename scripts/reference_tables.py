@@ -35,18 +35,19 @@ def reference_agreement(run):
                           f"{percent['value']:+.3f} [{percent['low']:+.3f}, {percent['high']:+.3f}]",
                           f"{value(result, 'rejected')} of {value(result, 'tests')}", f"{value(result, 'largest_z'):.2f}",
                           value(result, "largest_z_at"), value(result, "equivalence")])
-        notes += [f"{name(scene)} by {engine}: {text}" for (where, engine), text in KNOWN.items() if where == scene]
+        notes += [[name(scene), engine, text] for (where, engine), text in KNOWN.items() if where == scene]
     width, height = run.get("experiment.settings.size")
     tables = (
         Table("Images against each other", ["scene", "image", "against", "difference of the mean, % [99 %]", "block tests that reject",
                                             "largest z", "at", "within 0.1 %"], pairs),
+        Table("Where they differ, and why", ["scene", "renderer", "what was found"], notes),
         Table("What there is", ["scene", "renderer", "samples per pixel", f"noise, RMSE at {width} x {height}"], renderers),
     )
     what = (f"References of results/references/ averaged to {width} x {height} pixels, and an image of ours, tested pair by pair: means "
             "of blocks of 16 x 16 pixels and of the image, by channel, Holm's correction at 0.01 within a pair. What the noise of "
             "both images says of a difference is its standard error; for Mitsuba and Cycles that is the scatter of their "
             "batches. A dash: there is none.")
-    return " ".join([what, *notes]), tables
+    return what, tables
 
 
 REFERENCE_TABLES = {"reference_agreement": reference_agreement}
