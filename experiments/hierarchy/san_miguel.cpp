@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -107,14 +108,25 @@ Layout read_layout(const fs::path &path, size_t triangles) {
     return layout;
 }
 
-/// The triangles of every object that has any, by its place in `objects`; -1: of none.
-std::map<int64_t, Geometry> cut_out(const Geometry &model, const std::vector<Object> &objects) {
+/// All instances in world space, joined by what `group_of(object)` says: a number, or nothing to leave it
+/// out.
+template <class GroupOf>
+std::map<size_t, Geometry> place(const Geometry &model, const Layout &layout, const GroupOf &group_of) {
     std::vector<int64_t> owner(model.triangles.size(), -1);
-    for (size_t i = 0; i < objects.size(); ++i) {
-        std::fill_n(owner.begin() + static_cast<std::ptrdiff_t>(objects[i].first), objects[i].count,
-                    static_cast<int64_t>(i));
+    for (size_t i = 0; i < layout.objects.size(); ++i) {
+        std::fill_n(owner.begin() + static_cast<std::ptrdiff_t>(layout.objects[i].first),
+                    layout.objects[i].count, static_cast<int64_t>(i));
     }
-    return split_geometry(model, owner);
+    const std::map<int64_t, Geometry> parts = split_geometry(model, owner);
+    std::map<size_t, Geometry> placed;
+    for (const auto &[object, to_world] : layout.instances) {
+        const auto part = parts.find(static_cast<int64_t>(object));  // none of an object without triangles
+        const std::optional<size_t> group = group_of(layout.objects[object]);
+        if (part != parts.end() && group) {
+            append_geometry(placed[*group], part->second, to_world);
+        }
+    }
+    return placed;
 }
 
 bool belongs_to(const std::string &object, SanMiguelPart part) {
@@ -140,14 +152,9 @@ test::Mesh load_san_miguel(const fs::path &model_file, const fs::path &instances
     model.normals.clear();
     model.uvs.clear();
     const Layout layout = read_layout(instances, model.triangles.size());
-    const std::map<int64_t, Geometry> parts = cut_out(model, layout.objects);
-    Geometry whole;
-    for (const auto &[object, to_world] : layout.instances) {
-        const auto found = parts.find(static_cast<int64_t>(object));
-        if (found != parts.end() && belongs_to(layout.objects[object].name, part)) {
-            append_geometry(whole, found->second, to_world);
-        }
-    }
+    const Geometry whole = place(model, layout, [&](const Object &object) {
+        return belongs_to(object.name, part) ? std::optional<size_t>(0) : std::nullopt;
+    })[0];
     test::Mesh mesh{"san_miguel", {}, {}};
     mesh.positions.reserve(whole.vertices.size());
     for (const Eigen::Vector3d &vertex : whole.vertices) {
@@ -172,15 +179,8 @@ Scene load_san_miguel_scene(const fs::path &model_file, const fs::path &instance
                                           materials_file.string(), materials.size()));
         }
     }
-    const std::map<int64_t, Geometry> parts = cut_out(model, layout.objects);
-    std::map<size_t, Geometry> by_material;
-    for (const auto &[object, to_world] : layout.instances) {
-        const auto found = parts.find(static_cast<int64_t>(object));
-        if (found != parts.end()) {
-            append_geometry(by_material[layout.objects[object].material], found->second, to_world);
-        }
-    }
-    for (auto &[index, geometry] : by_material) {
+    const auto material_of = [](const Object &object) { return std::optional<size_t>(object.material); };
+    for (auto &[index, geometry] : place(model, layout, material_of)) {
         const std::string &name = materials[index]->name();
         Node &node = add_model_node(scene.graph().root(), name, Eigen::Matrix4d::Identity());
         node.set_core(materials[index]);
