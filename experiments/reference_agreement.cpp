@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The references of other renderers, Embree's and our own image against each other, pair by pair.
+// The references of other renderers, Embree's and our own image against each other, pair by pair; and where they differ, scenes
+// that show why.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "experiments/agreement.h"
@@ -12,6 +15,8 @@
 #include "experiments/hierarchy/kinds.h"
 #include "experiments/ladder.h"
 #include "experiments/references.h"
+#include "reference/peer.h"
+#include "reference/renderer.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
@@ -25,65 +30,130 @@ namespace fs = std::filesystem;
 constexpr const char *engines[] = {"embree", "mitsuba", "cycles"};
 
 struct Contender {
-    Json description;  ///< {"engine", "spp", "noise_rmse"}
+    Json description;  ///< {"name", "engine", "spp", "noise_rmse"}; of probes "mean" and its "standard_error" too
     Image image;
 };
 
-Contender rendered(const Scene &scene, const MeasurementSettings &wanted, uint32_t seed, DeviceContext &device) {
+/// What an image's layers of variance say, pixels being independent. The standard error of the mean over channels is bounded
+/// by the mean of theirs.
+Contender described(const char *name, const std::string &engine, uint64_t spp, Image image) {
+    double mean = 0, variance = 0, standard_error = 0;
+    const double values = 3.0 * static_cast<double>(image.pixel_count());
+    for (size_t c = 0; c < 3; ++c) {
+        double of_channel = 0;
+        for (const float value : image.channel(rgb_names("variance")[c])) {
+            of_channel += static_cast<double>(value);
+        }
+        for (const float value : image.channel(rgb_names()[c])) {
+            mean += static_cast<double>(value) / values;
+        }
+        variance += of_channel;
+        standard_error += std::sqrt(of_channel) / values;
+    }
+    return {{{"name", name},
+             {"engine", engine},
+             {"spp", spp},
+             {"noise_rmse", std::sqrt(variance / values)},
+             {"mean", mean},
+             {"standard_error", standard_error}},
+            std::move(image)};
+}
+
+Contender rendered(const Scene &scene, uint64_t spp, uint32_t seed, DeviceContext &device) {
     RenderSettings settings;
     settings.seed = seed;
-    settings.width = wanted.width;
-    settings.height = wanted.height;
+    settings.width = scene.film_width();
+    settings.height = scene.film_height();
     RenderSession session(scene, settings, device);
-    render_whole(session, 0, wanted.spp);
-    Contender contender{{{"name", "renderer"}, {"engine", "RTRays, path tracing (MIS)"}, {"spp", wanted.spp}}, session.develop()};
-    double variance = 0;
-    for (const std::string &name : rgb_names("variance")) {
-        for (const float value : contender.image.channel(name)) {
-            variance += static_cast<double>(value);
-        }
-    }
-    contender.description["noise_rmse"] = std::sqrt(variance / (3.0 * wanted.width * wanted.height));
-    return contender;
+    render_whole(session, 0, spp);
+    return described("renderer", "RTRays, path tracing (MIS)", spp, session.develop());
 }
+
+/// A scene's renderings, and who made none.
+struct Contenders {
+    std::vector<Contender> there;
+    Json absent = Json::array();
+
+    /// All pairs, tested.
+    Json row(const char *kind, const std::string &name) const {
+        const AgreementPolicy policy;
+        Json descriptions = Json::array(), pairs = Json::array();
+        for (size_t i = 0; i < there.size(); ++i) {
+            descriptions.push_back(there[i].description);
+            for (size_t j = 0; j < i; ++j) {
+                pairs.push_back({{"image", there[i].description.at("name")},
+                                 {"against", there[j].description.at("name")},
+                                 {"agreement", to_json(test_agreement(there[i].image, there[j].image, policy), policy)}});
+            }
+        }
+        return {{kind, name}, {"renderers", descriptions}, {"absent", absent}, {"pairs", pairs}};
+    }
+};
 
 const fs::path root = RTRAYS_SOURCE;
 
-/// All pairs of a scene, and which references it has none of.
 Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, uint32_t seed, DeviceContext &device) {
     const fs::path path = root / "scenes" / name / "scene.json";
-    const Scene scene = load_scene(path.string());
-    std::vector<Contender> contenders;
-    Json absent = Json::array();
+    Scene scene = load_scene(path.string());
+    Contenders contenders;
     for (const char *engine : engines) {
         try {
             StoredReference stored = load_reference({references_manifest().parent_path(), scene.name(), scene.hash(), engine,
                                                      wanted.width, wanted.height, path.string()});
-            contenders.push_back({{{"name", engine},
-                                   {"engine", stored.description.at("engine")},
-                                   {"spp", stored.description.at("spp")},
-                                   {"noise_rmse", stored.description.at("noise_floor").at("rmse")}},
-                                  std::move(stored.reference.image)});
+            contenders.there.push_back({{{"name", engine},
+                                         {"engine", stored.description.at("engine")},
+                                         {"spp", stored.description.at("spp")},
+                                         {"noise_rmse", stored.description.at("noise_floor").at("rmse")}},
+                                        std::move(stored.reference.image)});
         } catch (const Error &error) {
             if (error.exit_code() != ExitCode::reference_missing) {
                 throw;
             }
-            absent.push_back(engine);
+            contenders.absent.push_back(engine);
         }
     }
-    contenders.push_back(rendered(scene, wanted, seed, device));
+    scene.set_film_size(wanted.width, wanted.height);
+    contenders.there.push_back(rendered(scene, wanted.spp, seed, device));
+    return contenders.row("scene", name);
+}
 
-    const AgreementPolicy policy;
-    Json described = Json::array(), pairs = Json::array();
-    for (size_t i = 0; i < contenders.size(); ++i) {
-        described.push_back(contenders[i].description);
-        for (size_t j = 0; j < i; ++j) {
-            pairs.push_back({{"image", contenders[i].description.at("name")},
-                             {"against", contenders[j].description.at("name")},
-                             {"agreement", to_json(test_agreement(contenders[i].image, contenders[j].image, policy), policy)}});
+Contender rendered_by_embree(const Scene &scene, const ReferenceSettings &settings, uint64_t spp) {
+    ReferenceRenderer renderer(scene.arrays(), settings);
+    render_whole(renderer, 0, spp);
+    return described("embree", renderer.stats().engine, spp, renderer.develop());
+}
+
+/// The samples are rounded up to whole steps.
+Contender rendered_by_peer(const Scene &scene, const ReferenceSettings &settings, const char *name, uint64_t spp) {
+    const fs::path folder = fs::temp_directory_path() / fmt::format("rtrays-probe-{}", getpid());
+    reference::PeerRenderer renderer(scene, settings, name, folder);
+    const uint64_t steps = renderer.steps_for(spp);
+    renderer.plan(steps);
+    render_whole(renderer, 0, steps);
+    return described(name, renderer.engine(), steps * renderer.samples_per_step(), renderer.develop());
+}
+
+/// A small scene that shows why renderers differ, rendered by all of them now.
+Json row_of_probe(const std::string &name, uint64_t spp, DeviceContext &device) {
+    const Scene scene = load_scene((root / "scenes/probes" / (name + ".json")).string());
+    ReferenceSettings settings;
+    settings.width = scene.film_width();
+    settings.height = scene.film_height();
+    settings.camera = static_cast<size_t>(scene.active_camera());
+    Contenders contenders;
+    contenders.there.push_back(rendered_by_embree(scene, settings, spp));
+    for (const char *peer : {"mitsuba", "cycles"}) {
+        try {
+            contenders.there.push_back(rendered_by_peer(scene, settings, peer, spp));
+        } catch (const Error &error) {
+            if (error.exit_code() != ExitCode::skipped) {
+                throw;
+            }
+            contenders.absent.push_back(peer);
         }
     }
-    return {{"scene", name}, {"renderers", described}, {"absent", absent}, {"pairs", pairs}};
+    contenders.there.push_back(rendered(scene, spp, 1, device));
+    return contenders.row("probe", name);
 }
 
 }  // namespace
@@ -98,6 +168,9 @@ MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings, De
     for (const std::string &name : settings.references) {
         ++seed;
         plan.tasks.push_back({name, [=, &device] { return row_of_scene(name, settings, seed, device); }});
+    }
+    for (const std::string &name : settings.probes) {
+        plan.tasks.push_back({name, [=, &device] { return row_of_probe(name, settings.probe_spp, device); }});
     }
     plan.summarise = [](const Json &) { return Json::object(); };
     return plan;

@@ -169,7 +169,7 @@ ExitCode render_by_peer(Options options, Scene &scene) {
     scene.set_film_size(options.settings.width, options.settings.height);
     PeerRenderer renderer(scene, options.settings, options.engine, options.state + ".scene");
     const uint64_t samples = renderer.samples_per_step();
-    const Steps steps{0, std::max<uint64_t>(2, (options.end + samples - 1) / samples), samples};  // two: they scatter
+    const Steps steps{0, renderer.steps_for(options.end), samples};
     options.end = samples * steps.end;
     renderer.plan(steps.end);
     Json config = make_config(scene.name(), scene.hash(), options.settings, renderer.engine());

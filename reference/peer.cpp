@@ -130,6 +130,10 @@ uint64_t PeerRenderer::samples_per_step() const {
     return state_->kind.samples_per_step;
 }
 
+uint64_t PeerRenderer::steps_for(uint64_t samples) const {
+    return std::max<uint64_t>(2, (samples + samples_per_step() - 1) / samples_per_step());
+}
+
 uint64_t PeerRenderer::batch_size() const {
     return 1;
 }

@@ -31,6 +31,9 @@ class PeerRenderer {
     /// Samples per pixel of a step.
     uint64_t samples_per_step() const;
 
+    /// Steps that make at least so many samples per pixel; two or more, so that they scatter.
+    uint64_t steps_for(uint64_t samples) const;
+
     /// Where the program is to end, before the first `render`: it is started once.
     void plan(uint64_t last_step) { last_step_ = last_step; }
 

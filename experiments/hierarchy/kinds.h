@@ -47,7 +47,8 @@ MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext 
 /// setting changed at a time, in turns with the defaults; speeds over those by processor time.
 MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContext &device);
 
-/// Stored references by every renderer that made some, and an image of ours, tested against each other pair by pair.
+/// Stored references by every renderer that made some, and an image of ours, tested against each other pair by pair;
+/// likewise renderings of probes, made now, with the mean of each.
 MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings, DeviceContext &device);
 std::filesystem::path references_manifest();  ///< what it depends on
 

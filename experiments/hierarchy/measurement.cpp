@@ -88,6 +88,8 @@ MeasurementSettings settings_of(const Json &description, const Json &profile, Js
     settings.scenes =
         present(profile.value("scenes", none), has_timed_scene, replacements, stand_ins, absent);
     settings.references = profile.value("references", std::vector<std::string>());
+    settings.probes = profile.value("probes", std::vector<std::string>());
+    settings.probe_spp = profile.value("probe_spp", uint64_t{0});
     const Json size = profile.value("size", Json{0, 0});
     settings.width = size.at(0);
     settings.height = size.at(1);

@@ -2,6 +2,7 @@
 // Experiments on speed, thesis 4.4: what they measure is named in their file, mesh by mesh or scene by scene.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -23,6 +24,8 @@ struct MeasurementSettings {
     std::vector<std::string> meshes;
     std::vector<std::string> scenes;
     std::vector<std::string> references;  ///< scenes of this repository that have some
+    std::vector<std::string> probes;      ///< of scenes/probes
+    uint64_t probe_spp = 0;
     int width = 0, height = 0;          ///< pixels of a frame
     uint64_t spp = 0;                   ///< of a frame
     std::vector<std::string> peers;     ///< variants of Mitsuba 3, "cycles"
