@@ -114,7 +114,7 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
         const auto comparison = compare_images(arguments.image, arguments.reference);
         fmt::print("{}", arguments.json ? comparison.dump(2) + "\n" : comparison_text(comparison));
     } else if (app.got_subcommand("average")) {
-        require_writable(arguments.average);
+        require_exr_output(arguments.average);
         std::vector<Image> images;
         for (const fs::path &path : arguments.runs) {
             images.push_back(read_exr(path));

@@ -27,7 +27,8 @@ using namespace rtrays::reference;
 namespace fs = std::filesystem;
 
 void check_outputs(const Options &options) {
-    for (const std::string &path : {options.output, options.state, options.stats, options.manifest}) {
+    require_exr_output(options.output);
+    for (const std::string &path : {options.state, options.stats, options.manifest}) {
         if (!path.empty()) {
             require_writable(path);
         }

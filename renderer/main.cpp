@@ -141,7 +141,10 @@ ExitCode run(Options &options) {
     if (!options.exported.empty()) {
         require_export_name(options.exported);
     }
-    for (const std::string &path : {options.output, options.state, options.stats, options.exported}) {
+    if (!options.output.empty()) {
+        require_exr_output(options.output);
+    }
+    for (const std::string &path : {options.state, options.stats, options.exported}) {
         if (!path.empty()) {
             require_writable(path);
         }
@@ -236,7 +239,7 @@ ExitCode run(Options &options) {
 }
 
 ExitCode merge(const std::vector<std::string> &inputs, const std::string &output, const std::string &state) {
-    require_writable(output);
+    require_exr_output(output);
     FilmState film = load_film(inputs.front());
     for (size_t i = 1; i < inputs.size(); ++i) {
         try {

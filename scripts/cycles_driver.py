@@ -117,9 +117,6 @@ def add_geometry(scene, folder, images, scale):
         if "radiance" in mesh:
             surface = cycles_geometry.split(surface, LONGEST_BRIGHT_EDGE / scale)
         add_mesh(mesh["name"], surface, material_of(mesh), scale)
-    for shape in scene["shapes"]:
-        surface = cycles_geometry.tessellate(shape["kind"], shape["flare"], "radiance" in shape)
-        add_mesh(shape["name"], cycles_geometry.place(surface, shape["world_from_object"]), material_of(shape), scale)
 
 
 def add_camera(scene, film, scale):

@@ -135,6 +135,14 @@ Image read_exr(const std::filesystem::path &path) {
     }
 }
 
+void require_exr_output(const std::filesystem::path &path) {
+    require_writable(path);
+    if (path.extension() != ".exr") {
+        throw input_error(fmt::format("{}: images are OpenEXR; name it {}", path.string(),
+                                      std::filesystem::path(path).replace_extension(".exr").string()));
+    }
+}
+
 void write_exr(const Image &image, const std::filesystem::path &path) {
     try {
         write_atomically(path, [&](const std::filesystem::path &temporary) {

@@ -68,4 +68,8 @@ Image read_exr(const std::filesystem::path &path);
 /// with the standard `chromaticities` of Rec. 709. Throws `Error` (run failed) naming the file.
 void write_exr(const Image &image, const std::filesystem::path &path);
 
+/// The check of a name that a user gave, for before there is an image. Throws `Error` (bad input) unless `write_exr` can write
+/// it and it ends in .exr: other endings would lie about what is in the file.
+void require_exr_output(const std::filesystem::path &path);
+
 }  // namespace rtrays

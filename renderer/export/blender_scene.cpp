@@ -11,9 +11,9 @@
 #include "renderer/base/files.h"
 #include "renderer/export/data_folder.h"
 #include "renderer/export/ply_file.h"
+#include "renderer/export/tessellation.h"
 #include "renderer/import/texture_file.h"
 #include "renderer/scene/cores/composite.h"
-#include "renderer/scene/cores/shape.h"
 #include "renderer/scene/cores/texture.h"
 #include "renderer/scene/graph.h"
 
@@ -62,6 +62,11 @@ std::string missing_in_cycles(const BxdfComponent &part) {
     throw run_error("unknown kind of component");
 }
 
+/// What shines is coarser: Cycles chooses among triangles by a float, and the more there are the darker it renders them. Three
+/// spheres (scenes/analytic/three_lamps.json) come out up to 0.02 % too dark where each has 64 columns, 0.1 % with 128, 0.4 %
+/// with 256. Seen from any side a sphere of 64 has the disc it should to within 9e-4, 2e-4 in the root mean square.
+constexpr TessellationGrid bright_grid{32, 64};
+
 template <typename Vector>
 Json numbers(const Vector &vector) {
     Json array = Json::array();
@@ -88,10 +93,14 @@ class SceneWriter {
     Json write(const ExportSettings &settings) {
         // Before any file: what cannot be expressed leaves none behind.
         Json materials = write_materials();
-        Json shapes = write_shapes();
+        require_triangles();
         Json meshes = Json::array(), textures = Json::array(), lights = Json::array();
         for (uint32_t mesh = 0; mesh < arrays_.meshes.name.size(); ++mesh) {
-            meshes.push_back(write_mesh(mesh));
+            meshes.push_back(write_mesh(arrays_.meshes, mesh));
+        }
+        for (uint32_t shape = 0; shape < arrays_.shapes.name.size(); ++shape) {
+            const bool is_bright = arrays_.shapes.light[shape] != no_index;
+            meshes.push_back(write_mesh(tessellated(arrays_.shapes, shape, is_bright ? bright_grid : TessellationGrid()), 0));
         }
         for (uint32_t texture = 0; texture < arrays_.textures.name.size(); ++texture) {
             textures.push_back(write_texture(texture));
@@ -112,7 +121,6 @@ class SceneWriter {
                 {"materials", std::move(materials)},
                 {"textures", std::move(textures)},
                 {"meshes", std::move(meshes)},
-                {"shapes", std::move(shapes)},
                 {"lights", std::move(lights)}};
     }
 
@@ -225,15 +233,7 @@ class SceneWriter {
         return file;
     }
 
-    /// Radiance of the front of a surface; nothing where it does not shine.
-    void add_emission(Json &surface, uint32_t light) const {
-        if (light != no_index) {
-            surface["radiance"] = numbers(arrays_.lights.radiance[light]);
-        }
-    }
-
-    Json write_mesh(uint32_t i) {
-        const MeshArrays &meshes = arrays_.meshes;
+    Json write_mesh(const MeshArrays &meshes, uint32_t i) {
         const std::filesystem::path file = folder_.new_file(meshes.name[i], ".ply");
         write_ply(meshes, i, file);
         Json mesh = {{"name", meshes.name[i]},
@@ -243,33 +243,21 @@ class SceneWriter {
                      {"has_normals", meshes.has_normals[i] != 0},
                      {"has_uv", meshes.has_uv[i] != 0},
                      {"material", meshes.material[i]}};
-        add_emission(mesh, meshes.light[i]);
+        if (meshes.light[i] != no_index) {
+            mesh["radiance"] = numbers(arrays_.lights.radiance[meshes.light[i]]);
+        }
         return mesh;
     }
 
-    Json write_shapes() const {
+    void require_triangles() const {
         const ShapeArrays &shapes = arrays_.shapes;
-        Json list = Json::array();
-        for (uint32_t i = 0; i < shapes.name.size(); ++i) {
-            const ShapeArrays::Kind kind = shapes.kind[i];
-            const auto type =
-                std::find_if(shape_types().begin(), shape_types().end(),
-                             [&](const ShapeType &candidate) { return candidate.kind == kind; });
-            const std::string kind_name = type->name;  // every kind has a type
-            if (kind == ShapeArrays::Kind::plane || kind == ShapeArrays::Kind::julia) {
+        for (size_t i = 0; i < shapes.name.size(); ++i) {
+            if (!can_be_tessellated(shapes.kind[i])) {
                 throw input_error(
                     fmt::format("'{}': Cycles has triangles, and they make no {}", shapes.name[i],
-                                kind == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
+                                shapes.kind[i] == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
             }
-            Json shape = {{"name", shapes.name[i]},
-                          {"kind", kind_name},
-                          {"world_from_object", matrix(shapes.world_from_object[i])},
-                          {"flare", shapes.flare[i]},
-                          {"material", shapes.material[i]}};
-            add_emission(shape, shapes.light[i]);
-            list.push_back(std::move(shape));
         }
-        return list;
     }
 
     Json write_light(uint32_t i) {

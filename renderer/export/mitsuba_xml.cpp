@@ -9,6 +9,7 @@
 #include "renderer/export/mitsuba_bsdf.h"
 #include "renderer/export/mitsuba_writer.h"
 #include "renderer/export/ply_file.h"
+#include "renderer/export/tessellation.h"
 #include "renderer/import/mitsuba_envmap.h"
 #include "renderer/import/texture_file.h"
 #include "renderer/scene/cores/shape.h"
@@ -45,7 +46,7 @@ class SceneWriter {
         reserve_names();
         write_camera();
         for (uint32_t mesh = 0; mesh < arrays_.meshes.name.size(); ++mesh) {
-            write_mesh(mesh);
+            write_mesh(arrays_.meshes, mesh);
         }
         for (uint32_t shape = 0; shape < arrays_.shapes.name.size(); ++shape) {
             write_shape(shape);
@@ -126,8 +127,7 @@ class SceneWriter {
         return shape;
     }
 
-    void write_mesh(uint32_t mesh) {
-        const MeshArrays &meshes = arrays_.meshes;
+    void write_mesh(const MeshArrays &meshes, uint32_t mesh) {
         const bool has_uv = meshes.has_uv[mesh] != 0;
         const pugi::xml_node shape =
             add_shape("ply", meshes.name[mesh], meshes.material[mesh], meshes.light[mesh],
@@ -153,25 +153,30 @@ class SceneWriter {
         };
         switch (shapes.kind[index]) {
             case ShapeArrays::Kind::sphere:
-                if (similarity_scale(world) == 0) {
-                    throw input_error(fmt::format("'{}': Mitsuba has spheres, but no ellipsoids", name));
+                if (similarity_scale(world) > 0) {
+                    add_transform(add("sphere", UvConvention::flipped), world);
+                    return;
                 }
-                add_transform(add("sphere", UvConvention::flipped), world);
-                return;
+                break;
             case ShapeArrays::Kind::cylinder:
-                write_cylinder(name, world, [&] { return add("cylinder", UvConvention::same); });
-                return;
-            case ShapeArrays::Kind::disc:
-                if (!is_orthogonal(world.col(0).head<3>(), world.col(1).head<3>())) {
-                    throw input_error(fmt::format("'{}': Mitsuba's disks cannot be sheared", name));
+                if (is_upright_circle(world)) {
+                    write_cylinder(add("cylinder", UvConvention::same), world);
+                    return;
                 }
-                add_transform(add("disk", UvConvention::none), world);
-                return;
+                break;
+            case ShapeArrays::Kind::disc:
+                if (is_orthogonal(world.col(0).head<3>(), world.col(1).head<3>())) {
+                    add_transform(add("disk", UvConvention::none), world);
+                    return;
+                }
+                break;
             default:
-                throw input_error(
-                    fmt::format("'{}': Mitsuba has no {}; it has meshes, spheres, cylinders and disks", name,
-                                kind_name(shapes.kind[index])));
+                break;
         }
+        if (!can_be_tessellated(shapes.kind[index])) {
+            throw input_error(fmt::format("'{}': Mitsuba has no {}, and triangles make none", name, kind_name(shapes.kind[index])));
+        }
+        write_mesh(tessellated(shapes, index), 0);
     }
 
     static std::string kind_name(ShapeArrays::Kind kind) {
@@ -184,19 +189,15 @@ class SceneWriter {
         return std::abs(a.normalized().dot(b.normalized())) < 1e-6;
     }
 
-    template <typename Add>
-    void write_cylinder(const std::string &name, const Matrix4d &world, const Add &add) {
-        const Vector3d x = world.col(0).head<3>();
-        const Vector3d y = world.col(1).head<3>();
-        const Vector3d z = world.col(2).head<3>();
-        if (std::abs(x.norm() - y.norm()) > 1e-6 * x.norm() || !is_orthogonal(x, y) || !is_orthogonal(x, z) ||
-            !is_orthogonal(y, z)) {
-            throw input_error(fmt::format("'{}': Mitsuba's cylinders are circular and upright", name));
-        }
-        const pugi::xml_node shape = add();
-        add_number(shape, "radius", x.norm());
+    static bool is_upright_circle(const Matrix4d &world) {
+        const Vector3d x = world.col(0).head<3>(), y = world.col(1).head<3>(), z = world.col(2).head<3>();
+        return std::abs(x.norm() - y.norm()) <= 1e-6 * x.norm() && is_orthogonal(x, y) && is_orthogonal(x, z) && is_orthogonal(y, z);
+    }
+
+    static void write_cylinder(const pugi::xml_node &shape, const Matrix4d &world) {
+        add_number(shape, "radius", world.col(0).norm());
         add_point(shape, "p0", Vector3d::Zero());
-        add_point(shape, "p1", Vector3d(0, 0, z.norm()));
+        add_point(shape, "p1", Vector3d(0, 0, world.col(2).norm()));
         Matrix4d rigid = world;
         rigid.topLeftCorner<3, 3>().colwise().normalize();
         add_transform(shape, rigid);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Scenes written for Mitsuba and read back are the scenes they were.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "renderer/base/files.h"
 #include "renderer/export/mitsuba_xml.h"
+#include "renderer/export/tessellation.h"
 #include "renderer/import/scene_json.h"
 #include "renderer/scene/cores/texture.h"
 #include "renderer/tests/mitsuba_scenes.h"
@@ -147,20 +150,19 @@ TEST_F(MitsubaExport, TheCornellBoxComesBack) {
     EXPECT_EQ(through_mitsuba(back).hash(), back.hash());
 }
 
-/// What Mitsuba has not got of the scenes that show one feature each.
+/// Scenes that show one feature each, a shape which becomes a mesh.
+const std::set<std::string> tessellated_shapes = {"cone", "ellipsoid", "hyperboloid", "paraboloid"};
+
+/// What Mitsuba has not got of them.
 const std::map<std::string, const char *> &beyond_mitsuba() {
     static const std::map<std::string, const char *> reasons = {
         {"blinn_64", "no BSDF for blinn * conductor;"},
         {"car_paint_thesis", "no BSDF for ideal_reflection * dielectric + lambert * (1 - dielectric of wo);"},
         {"conductor_approximate", "no BSDF for ideal_reflection * conductor_approximate;"},
-        {"cone", "'object': Mitsuba has no cone; it has meshes, spheres, cylinders and disks"},
-        {"ellipsoid", "'object': Mitsuba has spheres, but no ellipsoids"},
-        {"hyperboloid", "no hyperboloid"},
         {"julia", "no julia"},
         {"lambert_blinn", "no BSDF for lambert + blinn;"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},
-        {"paraboloid", "no paraboloid"},
-        {"plane", "'ground': Mitsuba has no plane"},
+        {"plane", "'ground': Mitsuba has no plane, and triangles make none"},
         {"refraction_13", "no BSDF for ideal_refraction;"},
         {"rough_plastic", "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},
         {"schlick", "no BSDF for ideal_reflection * schlick;"},
@@ -185,6 +187,9 @@ TEST_F(MitsubaExport, ScenesOfSingleFeaturesComeBackOrAreErrors) {
             expect_input_error(reason->second, [&] { through_mitsuba(scene); });
             continue;
         }
+        if (tessellated_shapes.count(name) > 0) {
+            continue;
+        }
         try {
             expect_same_scene(scene, through_mitsuba(scene));
             ++back;
@@ -193,6 +198,29 @@ TEST_F(MitsubaExport, ScenesOfSingleFeaturesComeBackOrAreErrors) {
         }
     }
     EXPECT_GE(back, 30);
+}
+
+TEST_F(MitsubaExport, ShapesThatMitsubaLacksComeBackAsMeshes) {
+    for (const std::string &name : tessellated_shapes) {
+        SCOPED_TRACE(name);
+        const Scene scene = load_scene(scenes + "/features/" + name + ".json");
+        const Scene back = through_mitsuba(scene);
+        const ShapeArrays &shapes = scene.arrays().shapes;
+        const MeshArrays &meshes = back.meshes();
+        const auto shape = static_cast<size_t>(std::find(shapes.name.begin(), shapes.name.end(), "object") - shapes.name.begin());
+        const auto mesh = static_cast<size_t>(std::find(meshes.name.begin(), meshes.name.end(), "object") - meshes.name.begin());
+        ASSERT_LT(shape, shapes.name.size());
+        ASSERT_LT(mesh, meshes.name.size());
+        const MeshArrays wanted = tessellated(shapes, static_cast<uint32_t>(shape));
+        ASSERT_EQ(meshes.vertex_count[mesh], wanted.vertex_count[0]);
+        ASSERT_EQ(meshes.triangle_count[mesh], wanted.triangle_count[0]);
+        for (uint32_t i = 0; i < wanted.vertex_count[0]; ++i) {
+            ASSERT_EQ(meshes.position[meshes.first_vertex[mesh] + i], wanted.position[i]);
+            ASSERT_LE((meshes.normal[meshes.first_vertex[mesh] + i] - wanted.normal[i]).cwiseAbs().maxCoeff(), 1.2e-7f);
+            ASSERT_EQ(meshes.uv[meshes.first_vertex[mesh] + i], wanted.uv[i]);
+        }
+        expect_same_material(scene.arrays(), shapes.material[shape], back.arrays(), meshes.material[mesh]);
+    }
 }
 
 TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
@@ -229,8 +257,8 @@ TEST_F(MitsubaExport, FarScenesStayWhereTheyAre) {
 }
 
 TEST_F(MitsubaExport, WritesNothingOfWhatItCannotExpress) {
-    const Scene scene = load_scene(scenes + "/features/cone.json");
-    expect_input_error("Mitsuba has no cone", [&] { export_mitsuba_xml(scene, folder_ / "out.xml"); });
+    const Scene scene = load_scene(scenes + "/features/julia.json");
+    expect_input_error("Mitsuba has no julia", [&] { export_mitsuba_xml(scene, folder_ / "out.xml"); });
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.xml"));
     expect_input_error("", [&] { export_mitsuba_xml(scene, folder_ / "none" / "out.xml"); });
 }

@@ -80,6 +80,10 @@ class Program(unittest.TestCase):
     def test_output_that_is_a_directory(self):
         self.expect_error(2, ["directory"], CORNELL, "-o", self.path)
 
+    def test_output_of_another_format(self):
+        self.expect_error(2, ["images are OpenEXR", "out.exr"], CORNELL, "-o", self.path / "out.png")
+        self.assertFalse((self.path / "out.png").exists())
+
     def test_full_disk(self):
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
