@@ -3,6 +3,7 @@
 
 import numpy
 
+
 class Triangles:
     """positions (n, 3), normals (n, 3) or None, uv (n, 2) or None; triangles (m, 3), counter-clockwise seen from the
     front."""
