@@ -5,6 +5,7 @@ from measurement_tables import NONE, name
 from run_document import value
 from tables import Table
 
+
 def mean_difference(agreement):
     percent = {end: 100 * value(agreement, f"relative_difference.{end}") for end in ("value", "low", "high")}
     return f"{percent['value']:+.3f} [{percent['low']:+.3f}, {percent['high']:+.3f}]"
@@ -19,6 +20,8 @@ def probe_rows(row):
                f"{value(renderer, 'mean'):.5f} ± {value(renderer, 'standard_error'):.5f}",
                mean_difference(result) if result else NONE,
                f"{value(result, 'rejected')} of {value(result, 'tests')}" if result else NONE]
+    for missing in value(row, "absent"):
+        yield [name(value(row, "probe")), missing, *[NONE] * 4]
 
 
 def reference_agreement(run):
@@ -39,18 +42,19 @@ def reference_agreement(run):
     findings = [[name(value(finding, "scene")), value(finding, "renderer"), value(finding, "what")]
                 for finding in run.get("experiment").get("findings", [])]
     width, height = run.get("experiment.settings.size")
-    tables = (
+    tables = [
         Table("Images against each other", ["scene", "image", "against", "difference of the mean, % [99 %]", "block tests that reject",
                                             "largest z", "at", "within 0.1 %"], pairs),
         Table("Where they differ, and why", ["scene", "renderer", "what was found"], findings),
-        Table("Probes", ["probe", "renderer", "samples per pixel", "mean ± standard error", "difference from embree, % [99 %]",
-                         "block tests that reject"], probes),
         Table("What there is", ["scene", "renderer", "samples per pixel", f"noise, RMSE at {width} x {height}"], renderers),
-    )
+    ]
+    if probes:
+        tables.insert(2, Table("Probes", ["probe", "renderer", "samples per pixel", "mean ± standard error",
+                                          "difference from embree, % [99 %]", "block tests that reject"], probes))
     what = (f"References of results/references/ averaged to {width} x {height} pixels, and an image of ours, tested pair by pair: means "
             "of blocks of 16 x 16 pixels and of the image, by channel, Holm's correction at 0.01 within a pair. What the noise of "
             "both images says of a difference is its standard error; for Mitsuba and Cycles that is the scatter of their "
-            "batches. Probes (scenes/probes) are rendered anew by all that are installed. A dash: there is none.")
+            "batches. Probes (scenes/probes) are rendered anew by all that are installed, in the profile full. A dash: there is none.")
     return what, tables
 
 
