@@ -14,6 +14,7 @@ sys.path.insert(0, str(SCRIPTS))
 
 import cycles_geometry  # noqa: E402
 
+
 def face_normals(surface):
     a, b, c = (surface.positions[surface.triangles[:, i]] for i in range(3))
     return numpy.cross(b - a, c - a)
