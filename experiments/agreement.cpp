@@ -202,9 +202,12 @@ std::vector<size_t> chosen(const std::vector<size_t> &among, const Predicate &pr
     return result;
 }
 
-/// `fresh_sums`, where rejections are to be confirmed, makes the sums of fresh batches.
+/// The same tests by other samples, given the pixels of every block.
+using TestsAgain = std::function<std::vector<BlockTest>(const std::vector<double> &)>;
+
+/// `again` is asked where there is something to confirm.
 Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape, const AgreementPolicy &policy,
-                    const std::function<Sums()> &fresh_sums = {}) {
+                    const TestsAgain &again = {}) {
     const std::vector<double> pixels = block_pixels(shape, policy.block_size);
     std::vector<BlockTest> tests = block_tests(image_sums, reference_sums, pixels);
     const auto is_decided = [&](size_t i) { return tests[i].skewness <= policy.largest_skewness; };
@@ -226,10 +229,10 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
     decided = chosen(decided, is_decided);
     adjust(tests, decided);
     const std::vector<size_t> suspects = chosen(decided, rejects);
-    if (fresh_sums && !suspects.empty()) {
-        const std::vector<BlockTest> fresh = block_tests(fresh_sums(), reference_sums, pixels);
+    if (again && !suspects.empty()) {
+        const std::vector<BlockTest> others = again(pixels);
         for (const size_t i : suspects) {
-            tests[i] = fresh[i];
+            tests[i] = others[i];
         }
         adjust(tests, chosen(suspects, is_decided));
         result.unconfirmed = suspects.size() - chosen(suspects, rejects).size();
@@ -260,6 +263,23 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
     return result;
 }
 
+/// Of two tests of the same, what both say.
+BlockTest weaker(const BlockTest &a, const BlockTest &b) {
+    BlockTest result = std::abs(a.z) < std::abs(b.z) ? a : b;
+    if (a.z * b.z < 0) {
+        result.z = 0;
+        result.p_value = 1;
+    }
+    return result;
+}
+
+void require_testable(const Image &image, const Image &other) {
+    require_same_size(image, other);
+    if (!has_variance(image)) {
+        throw input_error("both images need the layers variance.* (variance of the mean) to be tested");
+    }
+}
+
 Sums sums_of(const Image &image, const AgreementPolicy &policy) {
     return [&](size_t channel) { return sums_by_layer(image, channel, policy.block_size); };
 }
@@ -271,10 +291,8 @@ Sums sums_of(const std::vector<Image> &batches, const AgreementPolicy &policy) {
 }  // namespace
 
 Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy) {
-    require_same_size(image, reference);
-    if (!has_variance(image) || !has_variance(reference)) {
-        throw input_error("both images need the layers variance.* (variance of the mean) to be tested");
-    }
+    require_testable(image, reference);
+    require_testable(reference, image);
     return test_sums(sums_of(image, policy), sums_of(reference, policy), image, policy);
 }
 
@@ -286,13 +304,26 @@ Agreement test_agreement(const std::vector<Image> &batches, const Image &referen
     for (const Image &batch : batches) {
         require_same_size(batch, reference);
     }
-    std::vector<Image> others;
-    const auto fresh_sums = [&] {
-        others = fresh();
-        return sums_of(others, policy);
+    const auto again = [&](const std::vector<double> &pixels) {
+        const std::vector<Image> others = fresh();
+        return block_tests(sums_of(others, policy), sums_of(reference, policy), pixels);
     };
-    return test_sums(sums_of(batches, policy), sums_of(reference, policy), reference, policy,
-                     fresh ? std::function<Sums()>(fresh_sums) : nullptr);
+    return test_sums(sums_of(batches, policy), sums_of(reference, policy), reference, policy, fresh ? again : TestsAgain());
+}
+
+Agreement test_agreement(const Halves &image, const Halves &reference, const AgreementPolicy &policy) {
+    for (const Halves &halves : {image, reference}) {
+        require_testable(halves[0], image[0]);
+        require_testable(halves[1], image[0]);
+    }
+    const auto again = [&](const std::vector<double> &pixels) {
+        std::vector<BlockTest> first = block_tests(sums_of(image[0], policy), sums_of(reference[0], policy), pixels);
+        const std::vector<BlockTest> second = block_tests(sums_of(image[1], policy), sums_of(reference[1], policy), pixels);
+        std::transform(first.begin(), first.end(), second.begin(), first.begin(), weaker);
+        return first;
+    };
+    const Image whole = average_images({image[0], image[1]}), other = average_images({reference[0], reference[1]});
+    return test_sums(sums_of(whole, policy), sums_of(other, policy), whole, policy, again);
 }
 
 Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others, const AgreementPolicy &policy) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "experiments/document.h"
 #include "experiments/hierarchy/kinds.h"
 #include "experiments/ladder.h"
+#include "experiments/metrics.h"
 #include "experiments/references.h"
 #include "reference/peer.h"
 #include "reference/renderer.h"
@@ -30,13 +32,14 @@ namespace fs = std::filesystem;
 constexpr const char *engines[] = {"embree", "mitsuba", "cycles"};
 
 struct Contender {
-    Json description;  ///< {"name", "engine", "spp", "noise_rmse"}; of probes "mean" and its "standard_error" too
-    Image image;
+    Json description;  ///< {"name", "engine", "spp", "noise_rmse"}; of those rendered now "mean" and its "standard_error" too
+    Halves halves;
 };
 
 /// What an image's layers of variance say, pixels being independent. The standard error of the mean over channels is bounded
 /// by the mean of theirs.
-Contender described(const char *name, const std::string &engine, uint64_t spp, Image image) {
+Contender described(const char *name, const std::string &engine, uint64_t spp, Halves halves) {
+    const Image image = average_images({halves[0], halves[1]});
     double mean = 0, variance = 0, standard_error = 0;
     const double values = 3.0 * static_cast<double>(image.pixel_count());
     for (size_t c = 0; c < 3; ++c) {
@@ -56,17 +59,26 @@ Contender described(const char *name, const std::string &engine, uint64_t spp, I
              {"noise_rmse", std::sqrt(variance / values)},
              {"mean", mean},
              {"standard_error", standard_error}},
-            std::move(image)};
+            std::move(halves)};
 }
 
-Contender rendered(const Scene &scene, uint64_t spp, uint32_t seed, DeviceContext &device) {
+/// Half of the samples with each of two seeds, `render` being given a seed. Scenes of another `number`, from 0, share none.
+template <class Render>
+Halves in_halves(uint32_t number, const Render &render) {
+    return {render(2 * number + 1), render(2 * number + 2)};
+}
+
+Contender rendered(const Scene &scene, uint64_t spp, uint32_t number, DeviceContext &device) {
     RenderSettings settings;
-    settings.seed = seed;
     settings.width = scene.film_width();
     settings.height = scene.film_height();
     RenderSession session(scene, settings, device);
-    render_whole(session, 0, spp);
-    return described("renderer", "RTRays, path tracing (MIS)", spp, session.develop());
+    const auto render = [&](uint32_t seed) {
+        session.restart(seed);
+        render_whole(session, 0, spp / 2);
+        return session.develop();
+    };
+    return described("renderer", "RTRays, path tracing (MIS)", spp / 2 * 2, in_halves(number, render));
 }
 
 /// A scene's renderings, and who made none.
@@ -83,7 +95,7 @@ struct Contenders {
             for (size_t j = 0; j < i; ++j) {
                 pairs.push_back({{"image", there[i].description.at("name")},
                                  {"against", there[j].description.at("name")},
-                                 {"agreement", to_json(test_agreement(there[i].image, there[j].image, policy), policy)}});
+                                 {"agreement", to_json(test_agreement(there[i].halves, there[j].halves, policy), policy)}});
             }
         }
         return {{kind, name}, {"renderers", descriptions}, {"absent", absent}, {"pairs", pairs}};
@@ -92,7 +104,7 @@ struct Contenders {
 
 const fs::path root = RTRAYS_SOURCE;
 
-Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, uint32_t seed, DeviceContext &device) {
+Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, uint32_t number, DeviceContext &device) {
     const fs::path path = root / "scenes" / name / "scene.json";
     Scene scene = load_scene(path.string());
     Contenders contenders;
@@ -104,7 +116,7 @@ Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, ui
                                          {"engine", stored.description.at("engine")},
                                          {"spp", stored.description.at("spp")},
                                          {"noise_rmse", stored.description.at("noise_floor").at("rmse")}},
-                                        std::move(stored.reference.image)});
+                                        std::move(stored.halves)});
         } catch (const Error &error) {
             if (error.exit_code() != ExitCode::reference_missing) {
                 throw;
@@ -113,24 +125,40 @@ Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, ui
         }
     }
     scene.set_film_size(wanted.width, wanted.height);
-    contenders.there.push_back(rendered(scene, wanted.spp, seed, device));
+    contenders.there.push_back(rendered(scene, wanted.spp, number, device));
     return contenders.row("scene", name);
 }
 
-Contender rendered_by_embree(const Scene &scene, const ReferenceSettings &settings, uint64_t spp) {
-    ReferenceRenderer renderer(scene.arrays(), settings);
-    render_whole(renderer, 0, spp);
-    return described("embree", renderer.stats().engine, spp, renderer.develop());
+Contender rendered_by_embree(const Scene &scene, ReferenceSettings settings, uint64_t spp) {
+    std::string engine;
+    const auto render = [&](uint32_t seed) {
+        settings.seed = seed;
+        ReferenceRenderer renderer(scene.arrays(), settings);
+        render_whole(renderer, 0, spp / 2);
+        engine = renderer.stats().engine;
+        return renderer.develop();
+    };
+    Halves halves = in_halves(0, render);
+    return described("embree", engine, spp / 2 * 2, std::move(halves));
 }
 
-/// The samples are rounded up to whole steps.
-Contender rendered_by_peer(const Scene &scene, const ReferenceSettings &settings, const char *name, uint64_t spp) {
+/// The samples of a half are rounded up to whole steps.
+Contender rendered_by_peer(const Scene &scene, ReferenceSettings settings, const char *name, uint64_t spp) {
     const fs::path folder = fs::temp_directory_path() / fmt::format("rtrays-probe-{}", getpid());
-    reference::PeerRenderer renderer(scene, settings, name, folder);
-    const uint64_t steps = renderer.steps_for(spp);
-    renderer.plan(steps);
-    render_whole(renderer, 0, steps);
-    return described(name, renderer.engine(), steps * renderer.samples_per_step(), renderer.develop());
+    std::string engine;
+    uint64_t samples = 0;
+    const auto render = [&](uint32_t seed) {
+        settings.seed = seed;
+        reference::PeerRenderer renderer(scene, settings, name, folder);
+        const uint64_t steps = renderer.steps_for(spp / 2);
+        renderer.plan(steps);
+        render_whole(renderer, 0, steps);
+        engine = renderer.engine();
+        samples += steps * renderer.samples_per_step();
+        return renderer.develop();
+    };
+    Halves halves = in_halves(0, render);
+    return described(name, engine, samples, std::move(halves));
 }
 
 /// A small scene that shows why renderers differ, rendered by all of them now.
@@ -152,7 +180,7 @@ Json row_of_probe(const std::string &name, uint64_t spp, DeviceContext &device) 
             contenders.absent.push_back(peer);
         }
     }
-    contenders.there.push_back(rendered(scene, spp, 1, device));
+    contenders.there.push_back(rendered(scene, spp, 0, device));
     return contenders.row("probe", name);
 }
 
@@ -164,10 +192,10 @@ fs::path references_manifest() {
 
 MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings, DeviceContext &device) {
     MeasurementPlan plan;
-    uint32_t seed = 0;  // another of each: the boxes would be lit by the same paths
+    uint32_t number = 0;  // with seeds of their own: the boxes would be lit by the same paths
     for (const std::string &name : settings.references) {
-        ++seed;
-        plan.tasks.push_back({name, [=, &device] { return row_of_scene(name, settings, seed, device); }});
+        plan.tasks.push_back({name, [=, &device] { return row_of_scene(name, settings, number, device); }});
+        ++number;
     }
     for (const std::string &name : settings.probes) {
         plan.tasks.push_back({name, [=, &device] { return row_of_probe(name, settings.probe_spp, device); }});

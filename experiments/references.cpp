@@ -97,7 +97,8 @@ StoredReference load_reference(const ReferenceRequest &request) {
     const Image b = read_exr(request.folder / file_name(request, 1));
     const int factor = reduction(a, request);
     StoredReference result;
-    result.reference = combine_halves(downsample(a, factor), downsample(b, factor));
+    result.halves = {downsample(a, factor), downsample(b, factor)};
+    result.reference = combine_halves(result.halves[0], result.halves[1]);
     const double noise = result.reference.noise_mse;
     const double values = 3.0 * request.width * request.height;
     result.description = {

@@ -2,6 +2,7 @@
 // Finding and checking the stored reference of a scene.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -24,6 +25,7 @@ struct ReferenceRequest {
 
 struct StoredReference {
     Reference reference;
+    std::array<Image, 2> halves;
     /// "reference" of run.json: engine, files, spp of both halves, reduced_by, scene_hash, noise_floor.
     nlohmann::json description;
 };

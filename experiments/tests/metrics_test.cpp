@@ -230,6 +230,27 @@ TEST(Agreement, FreshBatchesConfirmWhatRejects) {
     EXPECT_EQ(wrong.unconfirmed, 0u);
 }
 
+TEST(Agreement, CountsWhatBothHalvesReject) {
+    const auto halves = [](double bias_a, double bias_b, uint32_t seed) {
+        return Halves{noisy(1, bias_a, 0.05, seed), noisy(1, bias_b, 0.05, seed + 1)};
+    };
+    const Halves reference = halves(0, 0, 30);
+    EXPECT_TRUE(test_agreement(halves(0, 0, 10), reference).agrees());
+
+    const Agreement one = test_agreement(halves(0.1, 0, 10), reference);
+    EXPECT_EQ(one.rejected, 0u);
+    EXPECT_GT(one.unconfirmed, 40u);
+    EXPECT_EQ(one.tests, 51u);
+    const Agreement opposite = test_agreement(halves(0.2, -0.1, 10), reference);
+    EXPECT_EQ(opposite.rejected, 0u);
+    EXPECT_GT(opposite.unconfirmed, 40u);
+
+    const Agreement both = test_agreement(halves(0.05, 0.05, 10), reference);
+    EXPECT_EQ(both.rejected, 51u);
+    EXPECT_EQ(both.unconfirmed, 0u);
+    EXPECT_NEAR(both.relative_difference.value, 0.05, 0.002);
+}
+
 TEST(Agreement, OfBatchesFindsABiasAndNothingElse) {
     const Image reference = noisy(1, 0, 0.01, 7);
     const Agreement clean = test_agreement(noisy_batches(0, 0.05, 100), reference);
