@@ -41,13 +41,14 @@ def figure_verdict(figure, rule):
 
 
 def verdict(verdicts):
-    """Of a claim on several figures: their common one; partly where it holds for some; undecided where that can still be."""
+    """Of a claim on several figures, which is made of all of them: partly where it holds for some and not for others, and
+    undecided only where none fails."""
     kinds = set(verdicts)
     if len(kinds) == 1:
         return kinds.pop()
     if kinds & {"holds", "holds partly"}:
-        return "undecided" if kinds <= {"holds", "undecided"} else "holds partly"
-    return "undecided"
+        return "undecided" if kinds == {"holds", "undecided"} else "holds partly"
+    return "does not hold here"
 
 
 def rule_text(rule):

@@ -41,7 +41,7 @@ class Rules(unittest.TestCase):
     def test_several_figures(self):
         for verdicts, expected in ((["holds", "holds"], "holds"), (["holds", "does not hold here"], "holds partly"),
                                    (["holds", "undecided"], "undecided"), (["holds partly", "undecided"], "holds partly"),
-                                   (["does not hold here", "undecided"], "undecided")):
+                                   (["does not hold here", "undecided"], "does not hold here")):
             self.assertEqual(verdict(verdicts), expected, verdicts)
 
 
