@@ -9,6 +9,7 @@
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -30,13 +31,10 @@ DEVICE float explicit_over_light(PathStates paths, uint slot, SURFACE_PARAMETERS
     }
 #endif
     const float cosine = fabs(dot(hit.point.normal, get_ray_direction(paths, slot)));
-    float log_facing = log2(cosine);
-    if (light.kind < LIGHT_DIRECTIONAL) {
-        const float3 way = hit.point.position - start.position;
-        log_facing -= log2(dot(way, way));
-    }
-    return get_log_arrival(paths, slot) - log_facing +
-           log2(sampling_over_emission(SURFACE_ARGUMENTS light, hit.point.position, start));
+    const float3 way = hit.point.position - start.position;
+    const float squared = light.kind < LIGHT_DIRECTIONAL ? dot(way, way) : 1.0f;
+    return get_log_arrival(paths, slot) +
+           log2_quotient(sampling_over_emission(SURFACE_ARGUMENTS light, hit.point.position, start) * squared, cosine);
 }
 
 #endif
@@ -100,8 +98,8 @@ DEVICE bool join_hit(PathStates paths, uint slot,
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L and p_E / p_L: what the vertices before gave, and this one's densities (kernels/light/mis.h).
-        const float log_first = log2(camera_pdf_a) - log2(light_paths);
-        const float log_back = log2(bsdf.pdf_w) - log2(cos_wi);
+        const float log_first = log2_quotient(camera_pdf_a, light_paths);
+        const float log_back = log2_quotient(bsdf.pdf_w, cos_wi);
         const float log_arrival = get_log_arrival(paths, slot);
 #if FEATURE_vertex_joins
         if (all_strategies(settings, depth + 1u)) {

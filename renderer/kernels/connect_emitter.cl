@@ -7,6 +7,7 @@
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
+#include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
@@ -43,7 +44,7 @@ DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PAR
 #if FEATURE_light_emitters
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L of a path of one edge, kernels/light/mis.h.
-        radiance *= camera_path_weight(0.0f, log2(camera_pdf_a) - log2(start.pdf_origin) - log2((float)settings.light_paths),
+        radiance *= camera_path_weight(0.0f, log2_quotient(camera_pdf_a, start.pdf_origin * (float)settings.light_paths),
                                        settings.beta);
     }
 #endif

@@ -8,6 +8,7 @@
 #include "renderer/kernels/bsdf/shading_frame.h"
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
@@ -33,7 +34,7 @@ DEVICE JoinEnd join_end(MATERIAL_PARAMETERS SurfaceHit hit, float3 before, float
     JoinEnd end;
     end.f_cos = from_camera ? onwards.f_cos : back.f_cos;
     end.pdf_w = onwards.pdf_w;
-    const float log_back = log2(back.pdf_w) - log2(fabs(dot(hit.point.normal, before)));
+    const float log_back = log2_quotient(back.pdf_w, fabs(dot(hit.point.normal, before)));
     end.log_strategies = strategies_before(log_strategies, log_arrival, log_back, beta);
     return end;
 }
@@ -98,8 +99,8 @@ DEVICE bool join_to_vertex(
         return false;
     }
     // With which a path from either end arrives at the other, per area.
-    const float log_here = log2(there.pdf_w) + log2(cos_here) - log2(squared);
-    const float log_there = log2(here.pdf_w) + log2(cos_there) - log2(squared);
+    const float log_here = log2_quotient(there.pdf_w, squared) + log2_of(cos_here);
+    const float log_there = log2_quotient(here.pdf_w, squared) + log2_of(cos_there);
     const float weight =
         join_weight(log_here + here.log_strategies, log_there + there.log_strategies, settings.beta);
     // As in connect_camera: f_cos there holds the cosine with the shading normal where the area measure of

@@ -6,6 +6,7 @@
 
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
@@ -84,8 +85,8 @@ DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSet
         const SurfacePoint hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot)).point;
         const float3 way = hit.position - get_ray_origin(paths, slot);
         const float cosine = fabs(dot(hit.normal, get_ray_direction(paths, slot)));
-        log_arrival = log_inverse_pdf_a(get_pdf_w(paths, slot), cosine, dot(way, way));
-        log_arrival += first ? log2((float)settings.light_paths) : 0.0f;
+        const float strategies = first ? (float)settings.light_paths : 1.0f;
+        log_arrival = log_inverse_pdf_a(get_pdf_w(paths, slot), cosine, strategies * dot(way, way));
     }
     if (first) {
         set_log_ratio(paths, slot, log_arrival);
@@ -148,7 +149,7 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
             log_light = get_log_strategies(paths, slot);
         }
 #endif
-        log_light += log2(met.line_pdf);  // p_L / p_I
+        log_light += log2_of(met.line_pdf);  // p_L / p_I
         radiance *= camera_path_weight(by_explicit, log_light, settings.beta);
     } else
 #endif

@@ -5,6 +5,7 @@
 #include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
+#include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/integrator_settings.h"
 #if FEATURE_vertex_joins
@@ -33,12 +34,12 @@ DEVICE void start_path(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PAR
     // Directions leave surfaces in proportion to the cosine: p_d per projected solid angle is 1 / pi there. What cannot
     // be hit no implicit path finds.
     const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
-    const float log_ratio = emission.is_delta != 0u ? -INFINITY : -log2(emission.pdf_origin) - log2(p_d);
+    const float log_ratio = emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
     set_log_ratio(paths, slot, log_ratio);
 #if FEATURE_vertex_joins
     set_log_strategies(paths, slot, log_ratio);
 #endif
-    set_log_arrival(paths, slot, -log2(emission.pdf_direction));  // distance and cosine of the first hit follow there
+    set_log_arrival(paths, slot, log2_quotient(1.0f, emission.pdf_direction));  // distance and cosine of the first hit follow there
 #endif
 }
 

@@ -8,6 +8,7 @@
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -26,8 +27,8 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETER
     if (!(cos_wo > 0.0f)) {
         return -INFINITY;
     }
-    const float log_arrive = log2(light.arrival_pdf_a) + log2(light.emission_over_sampling) +
-                             log2(fabs(dot(hit.point.normal, light.wi)));
+    const float log_arrive =
+        log2_quotient(light.arrival_pdf_a * fabs(dot(hit.point.normal, light.wi)), light.sampling_over_emission);
     const float log_ratio = get_log_ratio(paths, slot);
 #if FEATURE_vertex_joins
     const bool all = all_strategies(settings, depth + 1u);
@@ -39,7 +40,7 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETER
         return log_ratio + log_arrive;
     }
     const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, light.wi);
-    const float log_back = log2(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w) - log2(cos_wo);
+    const float log_back = log2_quotient(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w, cos_wo);
 #if FEATURE_vertex_joins
     if (all) {
         return log_arrive + strategies_before(get_log_strategies(paths, slot), get_log_arrival(paths, slot), log_back,

@@ -133,7 +133,6 @@ DEVICE float3 min(float3 a, float3 b) { return {min(a.x, b.x), min(a.y, b.y), mi
 DEVICE float3 max(float3 a, float3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
 
 DEVICE float sinpi(float x) { return static_cast<float>(sin(3.14159265358979323846 * static_cast<double>(x))); }
-DEVICE float cospi(float x) { return static_cast<float>(cos(3.14159265358979323846 * static_cast<double>(x))); }
 
 DEVICE uint as_uint(float x) {
     uint bits;

@@ -321,9 +321,7 @@ TEST(SurfaceFrame, PutsBothNormalsOnTheViewersSide) {
     for (uint32_t i = 0; i < 10'000; ++i) {
         const uint4 a = bsdf_words(i, 1005), b = bsdf_words(i, 1006);
         const auto direction = [](uint x, uint y) {
-            const float z = 2.0f * uniform_float(x) - 1.0f, r = std::sqrt(std::max(1.0f - z * z, 0.0f));
-            return normalize(
-                make_float3(r * cospi(2.0f * uniform_float(y)), r * sinpi(2.0f * uniform_float(y)), z));
+            return normalize(sample_uniform_sphere(uniform_float(x), uniform_float(y)));
         };
         const float3 ng = direction(a.x, a.y), ns = direction(a.z, a.w), wo = direction(b.x, b.y);
         const float3 tangent = i % 3 == 0   ? make_float3(0, 0, 0)

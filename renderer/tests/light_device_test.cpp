@@ -42,7 +42,7 @@ __kernel void test(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera, GLOB
     PUT1(s.pdf_w);
     PUT3(any ? s.wi : from);
     PUT3(any ? s.radiance : from);
-    PUT1(any ? s.emission_over_sampling : 0.0f);
+    PUT1(any ? s.sampling_over_emission : 0.0f);
     PUT1(any ? s.arrival_pdf_a : 0.0f);
     const CameraJoin join = join_camera(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
     PUT3(join.lens_point);
@@ -103,7 +103,7 @@ std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &
         list.push_back(s.pdf_w);
         append(list, any ? s.wi : from);
         append(list, any ? s.radiance : from);
-        list.insert(list.end(), {any ? s.emission_over_sampling : 0.0f, any ? s.arrival_pdf_a : 0.0f});
+        list.insert(list.end(), {any ? s.sampling_over_emission : 0.0f, any ? s.arrival_pdf_a : 0.0f});
         const CameraJoin join = join_camera(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
         append(list, join.lens_point);
         list.push_back(join.pdf_w);

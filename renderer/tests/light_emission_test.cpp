@@ -479,7 +479,7 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                     continue;
                 }
                 const auto emission = static_cast<double>(light.emission_selection);
-                const auto ratio = static_cast<double>(sample.emission_over_sampling);
+                const auto ratio = 1 / static_cast<double>(sample.sampling_over_emission);
                 const auto pdf_w = static_cast<double>(sample.pdf_w);
                 const Eigen::Vector3d way = to_double(sample.target) - to_double(from);
                 const double spread = light.kind < LIGHT_DIRECTIONAL ? way.squaredNorm() : 1;

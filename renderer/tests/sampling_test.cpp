@@ -66,6 +66,23 @@ TEST(Random, UniformFloatsPassChiSquareInPairs) {
     EXPECT_GT(chi_square_p(observed, std::vector<double>(bins * bins, sample_count / double(bins * bins))), level);
 }
 
+TEST(Circle, PointsAreThoseOfTheirAngles) {
+    double largest = 0;
+    for (uint32_t i = 0; i < 1u << 24; i += 5) {
+        const float v = static_cast<float>(i) * 0x1p-24f;
+        const float2 point = point_on_circle(v);
+        const double angle = 2 * pi * static_cast<double>(v);
+        largest = std::max({largest, std::abs(static_cast<double>(point.x) - std::cos(angle)),
+                            std::abs(static_cast<double>(point.y) - std::sin(angle))});
+    }
+    EXPECT_LT(largest, 8.6e-8);
+    const float2 east = point_on_circle(0.0f), north = point_on_circle(0.25f), west = point_on_circle(0.5f), round = point_on_circle(1.0f);
+    EXPECT_EQ(std::pair(east.x, east.y), std::pair(1.0f, 0.0f));
+    EXPECT_EQ(std::pair(north.x, north.y), std::pair(0.0f, 1.0f));
+    EXPECT_EQ(std::pair(west.x, west.y), std::pair(-1.0f, 0.0f));
+    EXPECT_EQ(std::pair(round.x, round.y), std::pair(1.0f, 0.0f));
+}
+
 // The direction numbers from the primitive polynomials and initial values of Joe & Kuo's table (new-joe-kuo-6).
 TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
     struct Row {
@@ -176,11 +193,9 @@ TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
 TEST(Frame, IsOrthonormalInAllDirections) {
     for (uint32_t i = 0; i < 10000; ++i) {
         const uint4 w = words(i, 3);
-        const float z = 2.0f * uniform_float(w.x) - 1.0f;
-        const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
         const float3 n = i == 0   ? make_float3(0, 0, -1)
                          : i == 1 ? make_float3(0, 0, 1)
-                                  : normalize(make_float3(r * cospi(2 * uniform_float(w.y)), r * sinpi(2 * uniform_float(w.y)), z));
+                                  : normalize(sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y)));
         const Frame f = frame_from_z(n);
         EXPECT_NEAR(dot(f.x, f.y), 0.0f, 1e-6f);
         EXPECT_NEAR(dot(f.x, f.z), 0.0f, 1e-6f);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "renderer/kernels/bsdf/lobe.h"
+#include "renderer/kernels/math/circle.h"
 #include "renderer/shared/compat.h"
 
 #if FEATURE_blinn
@@ -35,7 +36,8 @@ DEVICE Lobe blinn_evaluate(float3 wo, float3 wi, float exponent) {
 DEVICE float3 blinn_direction(float3 wo, float exponent, float u, float v) {
     // cos = (1 - u)^(1 / (e + 1)), hence tan^2 = cos^-2 - 1 = expm1(...); its argument is at most 34.
     const float slope = sqrt(expm1(-2.0f * log1p(-u) / (exponent + 1.0f)));
-    const float3 h = normalize(make_float3(slope * cospi(2.0f * v), slope * sinpi(2.0f * v), 1.0f));
+    const float2 around = point_on_circle(v);
+    const float3 h = normalize(make_float3(slope * around.x, slope * around.y, 1.0f));
     return reflect_about(wo, h);
 }
 

@@ -11,7 +11,7 @@
 // cosine, so that it holds from normal to grazing incidence.
 #pragma once
 
-#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/kernels/math/circle.h"
 #include "renderer/shared/compat.h"
 
 /// The shape of a distribution.
@@ -49,8 +49,8 @@ DEVICE float3 ggx_visible_normal(float3 wo, Roughness r, float u, float v) {
     const float one_plus = 1.0f + w.z;
     const float one_minus = (w.x * w.x + w.y * w.y) / one_plus;
     const float radius = sqrt(u * one_plus * (t * one_plus + one_minus));
-    const float3 sum =
-        make_float3(w.x + radius * cospi(2.0f * v), w.y + radius * sinpi(2.0f * v), t * one_plus);
+    const float2 around = point_on_circle(v);
+    const float3 sum = make_float3(w.x + radius * around.x, w.y + radius * around.y, t * one_plus);
     return normalize(make_float3(r.alpha_x * sum.x, r.alpha_y * sum.y, sum.z));
 }
 

@@ -7,6 +7,7 @@
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
+#include "renderer/kernels/math/logarithm.h"
 
 #if FEATURE_light_strategy || FEATURE_from_light
 
@@ -75,7 +76,7 @@ DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, 
 #endif
         const float probability = delta_probability(MATERIAL_ARGUMENTS hit.material, back, sample.component);
         // n^2 |cos| dw is the same on both sides of a boundary.
-        both.log_ratio = log2(probability) - log2(sample.probability) + log2(bend) + log2(sample.scale);
+        both.log_ratio = log2_quotient(probability, sample.probability) + log2_of(bend) + log2_of(sample.scale);
         if (probability > 0.0f) {
             both.importance = sample.weight / sample.scale * bend;
         }
@@ -83,8 +84,8 @@ DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, 
     }
 #endif
     const BsdfValue value = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, frame.wo);
-    both.log_forward = log2(sample.pdf_w) - log2(cos_wi);  // the quotient might overflow
-    both.log_ratio = log2(value.pdf_w) - log2(cos_wo) - both.log_forward;
+    both.log_forward = log2_quotient(sample.pdf_w, cos_wi);
+    both.log_ratio = log2_quotient(value.pdf_w, cos_wo) - both.log_forward;
     both.importance = value.f_cos * (cos_wi / cos_wo / sample.pdf_w);
     return both;
 }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "renderer/kernels/bsdf/lobe.h"
+#include "renderer/kernels/math/circle.h"
 #include "renderer/shared/compat.h"
 
 #if FEATURE_ward || FEATURE_ward_original
@@ -44,9 +45,8 @@ DEVICE Lobe ward_evaluate(float3 wo, float3 wi, float alpha_x, float alpha_y, bo
 /// u, v in [0, 1). A direction below the horizon is none.
 DEVICE float3 ward_direction(float3 wo, float alpha_x, float alpha_y, float u, float v) {
     const float slope = sqrt(-log1p(-u));
-    const float x = alpha_x * slope * cospi(2.0f * v);
-    const float y = alpha_y * slope * sinpi(2.0f * v);
-    return reflect_about(wo, normalize(make_float3(x, y, 1.0f)));
+    const float2 around = point_on_circle(v);
+    return reflect_about(wo, normalize(make_float3(alpha_x * slope * around.x, alpha_y * slope * around.y, 1.0f)));
 }
 
 #endif

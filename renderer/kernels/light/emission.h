@@ -10,6 +10,7 @@
 #pragma once
 
 #include "renderer/kernels/light/light.h"
+#include "renderer/kernels/math/circle.h"
 
 #if FEATURE_lights && FEATURE_from_light
 
@@ -129,10 +130,11 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
         case LIGHT_SPOT: {
             const SpotDirection spot = sample_spot(light, u);
             const float sine = sqrt(spot.versine * (2.0f - spot.versine));
+            const float2 around = point_on_circle(v);
             sample.origin = make_float3(light.position[0], light.position[1], light.position[2]);
             sample.direction =
-                make_float3(light.axis_x[0], light.axis_x[1], light.axis_x[2]) * (sine * cospi(2.0f * v)) +
-                make_float3(light.axis_y[0], light.axis_y[1], light.axis_y[2]) * (sine * sinpi(2.0f * v)) +
+                make_float3(light.axis_x[0], light.axis_x[1], light.axis_x[2]) * (sine * around.x) +
+                make_float3(light.axis_y[0], light.axis_y[1], light.axis_y[2]) * (sine * around.y) +
                 light_axis_z(light) * (spot.versine - 1.0f);
             sample.pdf_direction = spot_pdf_w(light, spot);
             sample.weight *= spot_share(light, spot) / sample.pdf_direction;

@@ -8,6 +8,7 @@
 // radiance in it is 0.
 #pragma once
 
+#include "renderer/kernels/math/circle.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/kernels/sampling/select.h"
 #include "renderer/shared/compat.h"
@@ -110,8 +111,8 @@ DEVICE EnvironmentSample sample_environment(GLOBAL const uint *ends, LightingRec
     const float sin_theta = 2.0f * sqrt(square * (1.0f - square));
     const float cos_theta = 1.0f - 2.0f * square;
     EnvironmentSample sample;
-    sample.direction = make_float3(sin_theta * sinpi(2.0f * u), south > 0.0f ? -cos_theta : cos_theta,
-                                   -sin_theta * cospi(2.0f * u));
+    const float2 around = point_on_circle(u);
+    sample.direction = make_float3(sin_theta * around.y, south > 0.0f ? -cos_theta : cos_theta, -sin_theta * around.x);
     sample.pdf_w = cell_pdf_w(ends, lighting, column, row);
     return sample;
 }

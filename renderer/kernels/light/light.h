@@ -26,7 +26,7 @@ typedef struct LightSample {
     uint is_delta;    ///< point, spot, directional: cannot be hit
 #if FEATURE_light_strategy
     // What light paths would have needed to come this way (EmissionSample).
-    float emission_over_sampling;  ///< density of their origin, over that of this sample's
+    float sampling_over_emission;  ///< density of this sample's origin, over that of theirs
     float arrival_pdf_a;           ///< with which they then arrive here, per area across their way; at infinity 0 where
                                    ///< the disc does not reach
 #endif
@@ -126,8 +126,7 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
     sample->radiance = light_radiance(light);
     sample->is_delta = 0u;
 #if FEATURE_light_strategy
-    // Where pdf_a is 0 there is no sample; the ratio is left infinite.
-    sample->emission_over_sampling *= uniform_pdf_a / pdf_a;
+    sample->sampling_over_emission *= pdf_a / uniform_pdf_a;
     sample->arrival_pdf_a = max(-dot(point.normal, sample->wi), 0.0f) * INV_PI / dot(way, way);
 #endif
 }
@@ -137,7 +136,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     sample.pdf_w = 0.0f;
     sample.is_delta = 0u;
 #if FEATURE_light_strategy
-    sample.emission_over_sampling = light.emission_selection / light.selection;
+    sample.sampling_over_emission = light.selection / light.emission_selection;
     sample.arrival_pdf_a = 0.0f;
 #endif
     switch (light.kind) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "renderer/kernels/math/logarithm.h"
 #include "renderer/shared/compat.h"
 
 /// ratio^beta, from 0 to infinity.
@@ -49,12 +50,12 @@ DEVICE float power_heuristic(float other_over_own, float beta) {
 // so that none is lost.
 
 /// (2^x)^beta.
-DEVICE float power_of(float log_ratio, float beta) { return exp2(beta * log_ratio); }
+DEVICE float power_of(float log_ratio, float beta) { return power_of_two(beta * log_ratio); }
 
 /// log2(2^x + 2^y), x and y below INFINITY.
 DEVICE float log_sum(float x, float y) {
     const float larger = max(x, y);
-    return larger > -INFINITY ? larger + log2(1.0f + exp2(min(x, y) - larger)) : larger;
+    return larger > -INFINITY ? larger + log2_of(1.0f + power_of_two(min(x, y) - larger)) : larger;
 }
 
 /// The weight of an implicit or explicit path, given the density of the other over its own and log2 of p_L over its own.
@@ -89,7 +90,7 @@ DEVICE float light_path_weight(float log_ratio, float log_explicit, uint depth, 
                                float beta) {
     const float others = depth == 0u ? power_of(log_ratio + log_back + log_first, beta) +
                                            power_of(log_explicit + log_first, beta)
-                                     : exp2(log_ratio + beta * (log_back + log_first));
+                                     : power_of_two(log_ratio + beta * (log_back + log_first));
     return 1.0f / (1.0f + others);
 }
 
@@ -99,7 +100,7 @@ DEVICE float log_norm(float x, float y, float beta) { return log_sum(beta * x, b
 /// log2 of 1 / E of a hit after a way of that square, under that cosine, in a direction of density `pdf_w` per solid
 /// angle: -INFINITY after a delta event, and for a hit in the plane of the surface, which is none in exact arithmetic.
 DEVICE float log_inverse_pdf_a(float pdf_w, float cosine, float squared) {
-    return pdf_w < INFINITY && cosine > 0.0f ? log2(squared) - log2(cosine) - log2(pdf_w) : -INFINITY;
+    return pdf_w < INFINITY && cosine > 0.0f ? log2_quotient(squared, cosine * pdf_w) : -INFINITY;
 }
 
 /// log2 of S_i from that of S_{i-1} and of A_i; the others as above.

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "renderer/kernels/geometry/shape_point.h"
+#include "renderer/kernels/math/circle.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
@@ -62,6 +63,7 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
 DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from,
                                            float u, float v) {
     GLOBAL const ShapeRecord *shape = shapes + light.first_triangle;
+    const float2 around = point_on_circle(v);
     float3 object_point;
     if (light.kind != LIGHT_DISC) {
         const float sin2 = sphere_cone(light, shape, from);
@@ -80,14 +82,13 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
             cos_alpha = 1.0f - 2.0f * u;
             sin_alpha = 2.0f * sqrt(u * (1.0f - u));
         }
-        const float3 normal =
-            to_world(frame, make_float3(sin_alpha * cospi(2.0f * v), sin_alpha * sinpi(2.0f * v), cos_alpha));
+        const float3 normal = to_world(frame, make_float3(sin_alpha * around.x, sin_alpha * around.y, cos_alpha));
         const float3 scaled = vector_to_object(shape, normal);
         // Its length is 1 / radius; squares stay in range for radii in [1e-12, 1e12].
         object_point = scaled / length(scaled);
     } else {
         const float r = sqrt(u);
-        object_point = make_float3(r * cospi(2.0f * v), r * sinpi(2.0f * v), 0.0f);
+        object_point = make_float3(r * around.x, r * around.y, 0.0f);
     }
     ShapeLightSample sample;
     sample.point = shape_point(shape, object_point);

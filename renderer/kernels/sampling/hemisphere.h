@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "renderer/kernels/math/circle.h"
 #include "renderer/shared/compat.h"
 
 /// An orthonormal frame whose z axis is a unit vector.
@@ -26,20 +27,23 @@ DEVICE float3 to_world(Frame frame, float3 v) { return frame.x * v.x + frame.y *
 /// at least 2^-12: the density is never zero.
 DEVICE float3 sample_cosine_hemisphere(float u, float v) {
     const float radius = sqrt(u);
-    return make_float3(radius * cospi(2.0f * v), radius * sinpi(2.0f * v), sqrt(1.0f - u));
+    const float2 around = point_on_circle(v);
+    return make_float3(radius * around.x, radius * around.y, sqrt(1.0f - u));
 }
 
 /// Uniform direction. Density per solid angle: 1 / (4 pi).
 DEVICE float3 sample_uniform_sphere(float u, float v) {
     const float z = 1.0f - 2.0f * u;
     const float radius = 2.0f * sqrt(u * (1.0f - u));  // sqrt(1 - z^2) without cancellation
-    return make_float3(radius * cospi(2.0f * v), radius * sinpi(2.0f * v), z);
+    const float2 around = point_on_circle(v);
+    return make_float3(radius * around.x, radius * around.y, z);
 }
 
 /// Uniform point of the unit disc; density per area 1 / pi.
 DEVICE float2 sample_disc(float u, float v) {
     const float radius = sqrt(u);
-    return make_float2(radius * cospi(2.0f * v), radius * sinpi(2.0f * v));
+    const float2 around = point_on_circle(v);
+    return make_float2(radius * around.x, radius * around.y);
 }
 
 /// Uniform barycentrics (b1, b2) of a triangle; density per area 1 / A. Osada et al. 2002.
