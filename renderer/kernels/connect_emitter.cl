@@ -40,12 +40,12 @@ DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PAR
     }
     // P_1, the density of camera paths per area here; L P_1 / (p_o n_L) is what the path adds.
     const float camera_pdf_a = join.pdf_w * (facing / sqrt(squared)) / squared;
-    float3 radiance = light_radiance(lights[start.light]) * (camera_pdf_a / (start.pdf_origin * (float)settings.light_paths));
+    const float light_pdf_a = start.pdf_origin * (float)settings.light_paths;  // p_o n_L
+    float3 radiance = light_radiance(lights[start.light]) * (camera_pdf_a / light_pdf_a);
 #if FEATURE_light_emitters
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L of a path of one edge, kernels/light/mis.h.
-        radiance *= camera_path_weight(0.0f, log2_quotient(camera_pdf_a, start.pdf_origin * (float)settings.light_paths),
-                                       settings.beta);
+        radiance *= camera_path_weight(0.0f, log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
     }
 #endif
     set_shadow_vector(paths, slot, join.lens_point - start.origin);

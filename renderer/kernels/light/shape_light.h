@@ -63,7 +63,6 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
 DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from,
                                            float u, float v) {
     GLOBAL const ShapeRecord *shape = shapes + light.first_triangle;
-    const float2 around = point_on_circle(v);
     float3 object_point;
     if (light.kind != LIGHT_DISC) {
         const float sin2 = sphere_cone(light, shape, from);
@@ -82,13 +81,14 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
             cos_alpha = 1.0f - 2.0f * u;
             sin_alpha = 2.0f * sqrt(u * (1.0f - u));
         }
+        const float2 around = point_on_circle(v);
         const float3 normal = to_world(frame, make_float3(sin_alpha * around.x, sin_alpha * around.y, cos_alpha));
         const float3 scaled = vector_to_object(shape, normal);
         // Its length is 1 / radius; squares stay in range for radii in [1e-12, 1e12].
         object_point = scaled / length(scaled);
     } else {
-        const float r = sqrt(u);
-        object_point = make_float3(r * around.x, r * around.y, 0.0f);
+        const float2 on_disc = sample_disc(u, v);
+        object_point = make_float3(on_disc.x, on_disc.y, 0.0f);
     }
     ShapeLightSample sample;
     sample.point = shape_point(shape, object_point);

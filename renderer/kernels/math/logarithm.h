@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Logarithms and powers of the densities in MIS weights: a quarter of the time of a library's, and the same bits on every device.
+// Logarithms and powers of the densities in MIS weights, by polynomials as exact as the weights need.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -27,7 +27,7 @@ DEVICE float log2_quotient(float a, float b) {
 /// log2 of a density, as above.
 DEVICE float log2_of(float a) { return log2_quotient(a, 1.0f); }
 
-/// 2^x, off by 1e-7 of it; 0 below 2^-126, INFINITY above 2^127.
+/// 2^x, off by 1e-7 of it for x in [-126, 127]; at most 2^-126 below, at least 2^127 above and INFINITY from 127.5 on.
 DEVICE float power_of_two(float x) {
     const float bounded = min(max(x, -127.0f), 128.0f);
     const float whole = (bounded + 0x1.8p23f) - 0x1.8p23f;  // the nearest integer
