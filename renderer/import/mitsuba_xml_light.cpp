@@ -54,9 +54,9 @@ PlacedLight read_directional(Object &object, TextureFiles &) {
         if (!(direction->stableNorm() > 0)) {
             throw object.property("direction").error("has no direction");
         }
-        world.topLeftCorner<3, 3>() =
-            Eigen::Quaterniond::FromTwoVectors(-Vector3d::UnitZ(), direction->stableNormalized())
-                .toRotationMatrix();
+        // Shines along -z; any turn about that is as good.
+        const Vector3d z = -direction->stableNormalized(), x = z.unitOrthogonal();
+        world.topLeftCorner<3, 3>() << x, z.cross(x), z;
     }
     return {make_light(object, "directional", {{"irradiance", object.emission("irradiance", 1)}}), world};
 }

@@ -37,7 +37,7 @@ AnimatedTransform::AnimatedTransform(std::string name, const std::vector<Keyfram
     for (size_t i = 0; i < keyframes.size(); ++i) {
         const TransformCore checked("", keyframes[i].parent_from_object);
         const Eigen::Matrix3d linear = checked.matrix().topLeftCorner<3, 3>();
-        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
         // M = (U V^T) (V S V^T); where M mirrors, both factors change sign, so that the first is a rotation.
         const double sign = linear.determinant() < 0 ? -1 : 1;
         const Eigen::Matrix3d rotation = sign * svd.matrixU() * svd.matrixV().transpose();
