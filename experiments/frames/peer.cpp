@@ -55,7 +55,7 @@ Seconds Peer::render(uint32_t max_depth, uint64_t spp) {
     process_.write(fmt::format("{} {} {}\n", max_depth, frames_ * spp, ++seed_));
     const std::string answer = next_record();
     if (answer.empty()) {
-        throw run_error(fmt::format("{} ended before its image was done", engine_));
+        throw run_error(fmt::format("{} ended before its image was done, by exit code {}", engine_, process_.wait()));
     }
     const nlohmann::json seconds = nlohmann::json::parse(answer);
     const auto frames = static_cast<double>(frames_);
