@@ -13,7 +13,8 @@ class Triangles:
 
 
 def read_ply(path, mesh):
-    """A mesh as renderer/export/ply_file.cpp writes it; `mesh` is its entry of the description."""
+    """A mesh as renderer/export/ply_file.cpp writes it; `mesh` is its entry of the description. Without the triangles that
+    name a vertex twice: they have no area, and Blender 3.4 crashes on smooth normals there."""
     with open(path, "rb") as file:
         data = file.read()
     begin = data.index(b"end_header\n") + len(b"end_header\n")
@@ -23,9 +24,10 @@ def read_ply(path, mesh):
     faces = numpy.frombuffer(data, numpy.dtype([("count", "u1"), ("vertices", "<u4", 3)]), mesh["triangles"], begin)
     if begin + faces.nbytes != len(data) or not (faces["count"] == 3).all():
         raise ValueError(f"{path}: not the mesh of {mesh['vertices']} vertices that the description names")
+    triangles = faces["vertices"].astype(numpy.int32)
     return Triangles(
         vertices[:, :3],
-        faces["vertices"].astype(numpy.int32),
+        triangles[(triangles != triangles[:, [1, 2, 0]]).all(1)],
         vertices[:, 3:6] if mesh["has_normals"] else None,
         vertices[:, -2:] if mesh["has_uv"] else None,
     )

@@ -24,6 +24,20 @@ def area(surface):
     return 0.5 * numpy.linalg.norm(face_normals(surface), axis=1).sum()
 
 
+class Reading(unittest.TestCase):
+    def test_leaves_out_triangles_that_name_a_vertex_twice(self):
+        positions = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
+        faces = [[0, 1, 2], [0, 0, 2], [0, 1, 1], [2, 1, 2], [2, 1, 0]]
+        packed = numpy.array([(3, face) for face in faces], numpy.dtype([("count", "u1"), ("vertices", "<u4", 3)]))
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "mesh.ply"
+            file.write_bytes(b"ply\nend_header\n" + positions.tobytes() + packed.tobytes())
+            entry = {"vertices": 3, "triangles": 5, "has_normals": False, "has_uv": False}
+            read = cycles_geometry.read_ply(file, entry)
+        numpy.testing.assert_array_equal(read.triangles, [faces[0], faces[4]])
+        numpy.testing.assert_array_equal(read.positions, positions)
+
+
 class Splitting(unittest.TestCase):
     def test_keeps_area_and_front(self):
         whole = cycles_geometry.Triangles(numpy.array([[0.0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 1]]),
