@@ -63,12 +63,17 @@ const StageDescription &stage_description(const std::string &name) {
     return *found;
 }
 
+Defines stage_defines(FeatureMask features, const StreamLayout &layout) {
+    Defines defines = features.defines();
+    defines["STREAM_CHUNK"] = std::to_string(layout.chunk);
+    defines["PATH_STATE_INTERLEAVED"] = layout.interleaved ? "1" : "0";
+    defines["BVH_LAYOUT"] = std::to_string(static_cast<uint32_t>(layout.bvh));
+    return defines;
+}
+
 StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features,
                    const StreamLayout &layout, const SourceOverlays &overlays)
-    : device_(&device), defines_(features.defines()), group_size_(layout.group_size), overlays_(overlays) {
-    defines_["STREAM_CHUNK"] = std::to_string(layout.chunk);
-    defines_["PATH_STATE_INTERLEAVED"] = layout.interleaved ? "1" : "0";
-    defines_["BVH_LAYOUT"] = std::to_string(static_cast<uint32_t>(layout.bvh));
+    : device_(&device), defines_(stage_defines(features, layout)), group_size_(layout.group_size), overlays_(overlays) {
     add(names);
 }
 

@@ -45,6 +45,9 @@ struct StreamLayout {
     BvhLayout bvh = BvhLayout::bvh2;
 };
 
+/// What the stages' programs are specialised by.
+Defines stage_defines(FeatureMask features, const StreamLayout &layout);
+
 /// The compiled programs and kernels of some stages under one feature mask.
 class StageSet {
   public:

@@ -93,6 +93,7 @@ TEST_P(BvhRefit, HitsEqualThoseOfEmbree) {
         ASSERT_TRUE(refit(bvh, moved));
         const HostBvh tree(bvh);
         const EmbreeScene embree(moved);
+        const DoubleJudge judge(moved);
         const float tolerance = 1e-5f * moved.box().diagonal().norm();
         size_t wrong = 0, hits = 0;
         const std::vector<RayRecord> rays = fuzzed_rays(moved, 30000, 17);
@@ -101,8 +102,7 @@ TEST_P(BvhRefit, HitsEqualThoseOfEmbree) {
             const float theirs = embree.nearest(ray);
             hits += ours.triangle != NO_HIT ? 1 : 0;
             const bool same = (ours.t == INFINITY && theirs == INFINITY) || std::abs(ours.t - theirs) <= tolerance;
-            wrong += same || hit_is_right(moved, ray_origin(ray), ray_direction(ray), ours.t, ours.triangle,
-                                          static_cast<double>(tolerance))
+            wrong += same || judge.is_right(ray_origin(ray), ray_direction(ray), ours.t, ours.triangle, static_cast<double>(tolerance))
                          ? 0
                          : 1;
         }

@@ -35,9 +35,9 @@ std::vector<int64_t> render_words(const std::string &scene, const RenderSettings
 }
 
 TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
-    for (const char *scene : {"/cornell_mirrors/scene.json", "/features/point_light.json"}) {
-        const Pilot pilot = choose_light_paths(load_scene(RTRAYS_SCENES + std::string(scene)), settings_of(LIGHT_PATHS_AUTO), device());
-        ASSERT_GE(pilot.trials.size(), 4u);
+    const auto choose = [](const std::string &scene) {
+        const Pilot pilot = choose_light_paths(load_scene(RTRAYS_SCENES + scene), settings_of(LIGHT_PATHS_AUTO), device());
+        EXPECT_GE(pilot.trials.size(), 4u);
         const PilotTrial *best = &pilot.trials.front();
         for (const PilotTrial &trial : pilot.trials) {
             EXPECT_GT(trial.variance, 0);
@@ -46,16 +46,11 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
         }
         EXPECT_EQ(pilot.light_paths, static_cast<uint32_t>(best->per_pixel * 32 * 32)) << scene;
         EXPECT_GT(pilot.seconds, 0);
-    }
-}
-
-// Caustics of mirrors are for light paths, what a point light shows of diffuse surfaces is not.
-TEST(Pilot, TakesLightPathsWhereTheyPay) {
-    const auto chosen = [](const char *scene) {
-        return choose_light_paths(load_scene(RTRAYS_SCENES + std::string(scene)), settings_of(LIGHT_PATHS_AUTO), device()).light_paths;
+        return pilot.light_paths;
     };
-    EXPECT_GT(chosen("/cornell_mirrors/scene.json"), 0u);
-    EXPECT_EQ(chosen("/features/point_light.json"), 0u);
+    // Caustics of mirrors are for light paths, what a point light shows of diffuse surfaces is not.
+    EXPECT_GT(choose("/cornell_mirrors/scene.json"), 0u);
+    EXPECT_EQ(choose("/features/point_light.json"), 0u);
 }
 
 TEST(Pilot, ChoosesTheSameWhateverTheStreams) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hits against Embree 3 (ROBUST), 1e6 fuzzed rays for each layout: same hit or miss, |dt| <= 1e-5 of the scale. Where
-// they differ, brute force in double decides whether ours is right.
+// they differ, double precision decides whether ours is right.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,6 +26,7 @@ using Differences = std::array<size_t, 3>;
 size_t count_wrong(const Mesh &mesh, TreeKind kind, size_t count, Differences *differences) {
     const HostBvh bvh = build_bvh(mesh, kind);
     const EmbreeScene embree(mesh);
+    const DoubleJudge judge(mesh);
     const float tolerance = 1e-5f * mesh.box().diagonal().norm();
     const std::vector<RayRecord> rays = fuzzed_rays(mesh, count, 13);
     size_t wrong = 0, hits = 0;
@@ -38,10 +39,7 @@ size_t count_wrong(const Mesh &mesh, TreeKind kind, size_t count, Differences *d
             continue;
         }
         (*differences)[i % 3] += 1;
-        wrong += hit_is_right(mesh, ray_origin(ray), ray_direction(ray), ours.t, ours.triangle,
-                              static_cast<double>(tolerance))
-                     ? 0
-                     : 1;
+        wrong += judge.is_right(ray_origin(ray), ray_direction(ray), ours.t, ours.triangle, static_cast<double>(tolerance)) ? 0 : 1;
     }
     EXPECT_GT(hits, count / 10) << mesh.name << ": rays must hit something to mean anything";
     return wrong;
