@@ -73,7 +73,7 @@ TEST(Convergence, GivesTheSameBitsHoweverTheWorkIsCut) {
         const FilmState whole = render(controlled({}, algorithm), {{0, end}});
         const std::set<uint64_t> stops(whole.convergence->stopped_at.begin(), whole.convergence->stopped_at.end());
         ASSERT_EQ(stops.size(), (end - start) / interval + 2) << "pixels stop at every check, and some not at all";
-        // All at once: each makes other programs of every stage, and what any of them changed would show.
+        // All at once, for most make other programs of every stage; what any of them changed would show.
         std::vector<std::string> cut = {"device.group_size=16", "device.stream_capacity=3000"};
         if (algorithm == std::string("path_tracing")) {  // the camera pass of both
             cut.insert(cut.end(), {"device.stream_chunk=7", "device.path_layout=arrays"});

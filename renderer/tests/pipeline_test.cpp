@@ -90,7 +90,7 @@ TEST_P(Algorithms, GiveTheSameBitsHoweverTheWorkIsCut) {
     EXPECT_NE(std::count(words.begin(), words.end(), 0), static_cast<long>(words.size()));
     EXPECT_EQ(render_words(with({})), words) << "a second run";
     EXPECT_EQ(render_words(with({}), 1), words) << "a batch split";
-    // All at once: each makes other programs of every stage, and what any of them changed would show.
+    // All at once, for most make other programs of every stage; what any of them changed would show.
     EXPECT_EQ(render_words(with({"device.group_size=16", "device.stream_capacity=3000", "device.stream_chunk=7",
                                  "device.path_layout=arrays"}), 1), words)
         << "other group size, stream capacity, chunk of work, layout";
