@@ -52,6 +52,7 @@ report:
 
 # The renderer's host code under address and undefined-behaviour sanitizers, then everything; the last lines are ctest's summary.
 test: build test-asan lint
+	scripts/install --tests
 	ctest --test-dir build --output-on-failure -j $(JOBS)
 
 test-asan: install
