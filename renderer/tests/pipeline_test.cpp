@@ -103,6 +103,23 @@ TEST_P(Algorithms, GiveTheSameBitsHoweverTheWorkIsCut) {
     EXPECT_EQ(render_words(with({"integrator.sampler=sobol", "device.features=all"}), 1), sobol);
 }
 
+/// Both passes of some see the lamp, and nothing else is left to weigh.
+TEST_P(Algorithms, GiveTheImageOfEverythingCompiledInWhereNothingScatters) {
+    const Scene lamp = load_scene(RTRAYS_SCENES "/extreme/bright_lamp.json");
+    RenderSettings settings = small();
+    settings.algorithm = GetParam();
+    const auto render = [&](const char *features) {
+        settings.features = features;
+        RenderSession session(lamp, settings, device());
+        session.render(0, 4);
+        return develop_film(session.film());
+    };
+    const Image image = render("scene"), other = render("all");
+    for (const char *channel : {"R", "G", "B", "variance.R"}) {
+        EXPECT_EQ(image.channel(channel), other.channel(channel)) << channel;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Algorithms, testing::ValuesIn(algorithm_names()),
                          [](const auto &algorithm) { return algorithm.param; });
 
