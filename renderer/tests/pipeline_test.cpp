@@ -422,9 +422,10 @@ TEST(Features, AreNamedAndClosed) {
     EXPECT_TRUE(forward.has(Feature::point_lights));
     EXPECT_TRUE(forward.has(Feature::many_lights));
     EXPECT_FALSE(forward.with(Feature::from_light, false).closed().has(Feature::point_lights));
-    // Where nothing scatters there is nothing to weigh, but light tracing still sees the emitters.
+    // Where nothing scatters nothing is joined, but both ends still see the emitters and weigh them.
     const FeatureMask bare = FeatureMask::all().with(Feature::scattering, false).closed();
-    EXPECT_FALSE(bare.has(Feature::light_strategy));
+    EXPECT_FALSE(bare.has(Feature::vertex_joins));
+    EXPECT_TRUE(bare.has(Feature::light_emitters));
     EXPECT_TRUE(bare.has(Feature::from_light));
 }
 
