@@ -7,6 +7,7 @@
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -18,7 +19,6 @@
 #if FEATURE_scattering
 
 #include "renderer/kernels/bsdf/reverse.h"
-#include "renderer/kernels/light/mis.h"
 
 /// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
 DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
