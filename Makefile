@@ -61,8 +61,8 @@ test-asan: install
 	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L host
 
 # The heavy versions, hours, resumable: 1e7 rays on every mesh and layout beside Embree's and 1e8 out of closed shapes; all
-# feature scenes by renderer and reference, with a contact sheet, and by every algorithm. What they print is evidence and
-# is kept in results/.
+# feature scenes by renderer and reference, with a contact sheet, and by every algorithm; every scene with what it needs
+# compiled in and with everything. What they print is evidence and is kept in results/.
 test-full: programs
 	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/chapter4/traversal
 	/usr/bin/python3 scripts/measurements results/chapter4/traversal
@@ -72,6 +72,8 @@ test-full: programs
 	    cp build/$$agreement/agreement.json build/$$agreement/agreement.md results/$$agreement/; \
 	done
 	scripts/contact_sheet build/feature_scenes results/feature_scenes/contact_sheet.png
+	scripts/same_bits build/bin features > results/same_bits.txt.new
+	mv results/same_bits.txt.new results/same_bits.txt
 
 # Mitsuba 3 and Blender's Cycles (scripts/install --peers) against the Embree reference, resumable; exit code 77 where they
 # are not installed. RTRAYS_MESHES adds scene files of others.
