@@ -62,7 +62,8 @@ test-asan: install
 
 # The heavy versions, hours, resumable: 1e7 rays on every mesh and layout beside Embree's and 1e8 out of closed shapes; all
 # feature scenes by renderer and reference, with a contact sheet, and by every algorithm; every scene with what it needs
-# compiled in and with everything. What they print is evidence and is kept in results/.
+# compiled in and with everything (that goes through all of them again, but with kernels from the cache). What they print is
+# evidence and is kept in results/.
 test-full: programs
 	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/chapter4/traversal
 	/usr/bin/python3 scripts/measurements results/chapter4/traversal
