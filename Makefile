@@ -10,7 +10,7 @@ STIFFNESS ?= results/chapter4/stiffness
 STIFF_CASES = $(PROFILE:quick=ci)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors samplers mirror_ring glass_goblets door_ajar floor_lamps
-MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces ablations
+MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces binning ablations
 
 .PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
 

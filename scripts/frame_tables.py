@@ -160,10 +160,8 @@ def ablations(run):
     )
     what = (f"{size_of(run)}, {run.get('experiment.settings').get('spp', 1)} sample(s) per pixel and frame, path tracing by MIS "
             "with roulette. Speeds by processor time, turn by turn, medians with 95 % intervals; a setting that is this "
-            "device's default says how far apart equal things are measured. Compaction has no switch: queues are lists of "
-            "what is in flight, refilled as paths end; what has none of that is the megakernel, where a work-item follows its "
-            "path to the end. Every frame is of a session made for its turn: a session keeps its memory, and what was made first is "
-            "up to 7 % slower. Compiling takes less where kernels are in a cache.")
+            "device's default says how far apart equal things are measured. Every frame is of a session made for its turn: a session "
+            "keeps its memory, and what was made first is up to 7 % slower. Compiling takes less where kernels are in a cache.")
     return what, tables
 
 

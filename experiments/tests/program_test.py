@@ -266,15 +266,16 @@ class Program(unittest.TestCase):
 
     def test_ablations(self):
         """Every setting has its figures; other bins make another tree, and the same ones the same."""
-        run, text = self.frames("ablations", "speeds_over_defaults")
-        for row in run["rows"]:
-            frames, builds = ({entry["name"]: entry for entry in row[what]} for what in ("frames", "builds"))
-            for name in (*frames, *builds):
-                self.assertIn(f"| {name} |", text)
-            self.assertEqual(list(frames), ["defaults", *run["experiment"]["settings"]["settings"]])
-            self.assertEqual(builds["device.bvh_bins=16"]["sah"], builds["defaults"]["sah"])
-            for other in ("device.bvh_bins=4", "device.bvh_axes=widest"):
-                self.assertGreater(builds[other]["sah"], builds["defaults"]["sah"])
+        for name in ("ablations", "binning"):
+            run, text = self.frames(name, "speeds_over_defaults")
+            for row in run["rows"]:
+                frames, builds = ({entry["name"]: entry for entry in row[what]} for what in ("frames", "builds"))
+                self.assertEqual(list(frames), ["defaults", *run["experiment"]["settings"]["settings"]])
+                for setting in (*frames, *builds):
+                    self.assertIn(f"| {setting} |", text)
+        self.assertEqual(builds["device.bvh_bins=16"]["sah"], builds["defaults"]["sah"])
+        for other in ("device.bvh_bins=4", "device.bvh_axes=widest"):
+            self.assertGreater(builds[other]["sah"], builds["defaults"]["sah"])
 
     def test_measurement_is_refused(self):
         self.refused(2, "ray_rates", "run", self.measurement("bvh_build", measures="colours"))
