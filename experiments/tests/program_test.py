@@ -264,15 +264,22 @@ class Program(unittest.TestCase):
             self.assertEqual(len(peers) + len(row["absent_peers"]), 2)
             self.assertTrue(set(peers) <= set(depth["wavefront_over"]))
 
+    def settings_in_turn(self, name):
+        """Builds by setting, of a run where every setting has its figures."""
+        run, text = self.frames(name, "speeds_over_defaults")
+        (row,) = run["rows"]
+        frames, builds = ({entry["name"]: entry for entry in row[what]} for what in ("frames", "builds"))
+        self.assertEqual(list(frames), ["defaults", *run["experiment"]["settings"]["settings"]])
+        for setting in (*frames, *builds):
+            self.assertIn(f"| {setting} |", text)
+        return builds
+
     def test_ablations(self):
-        """Every setting has its figures; other bins make another tree, and the same ones the same."""
-        for name in ("ablations", "binning"):
-            run, text = self.frames(name, "speeds_over_defaults")
-            for row in run["rows"]:
-                frames, builds = ({entry["name"]: entry for entry in row[what]} for what in ("frames", "builds"))
-                self.assertEqual(list(frames), ["defaults", *run["experiment"]["settings"]["settings"]])
-                for setting in (*frames, *builds):
-                    self.assertIn(f"| {setting} |", text)
+        self.settings_in_turn("ablations")
+
+    def test_binning(self):
+        """Other bins make another tree, and the same ones the same."""
+        builds = self.settings_in_turn("binning")
         self.assertEqual(builds["device.bvh_bins=16"]["sah"], builds["defaults"]["sah"])
         for other in ("device.bvh_bins=4", "device.bvh_axes=widest"):
             self.assertGreater(builds[other]["sah"], builds["defaults"]["sah"])
