@@ -129,9 +129,10 @@ def bounces(run):
     return what, tables
 
 
-def question(run, setting):
-    """What NAME=VALUE is about; nothing for the defaults."""
-    return run.get("experiment.questions").get(setting.split("=")[0], "") if "=" in setting else ""
+def questions(run):
+    """What each setting that this profile changes is about."""
+    changed = {entry["name"].split("=")[0] for entry in value(run.get("rows")[0], "frames")}
+    return [[setting, question] for setting, question in run.get("experiment.questions").items() if setting in changed]
 
 
 def ablations(run):
@@ -139,24 +140,25 @@ def ablations(run):
     for row in run.get("rows"):
         head = [mesh_name(run, row["mesh"]), f"{value(row, 'triangles')}"]
         for entry in value(row, "frames"):
-            frames.append(head + [question(run, entry["name"]), entry["name"], interval(value(entry, "speed_over_defaults")),
+            frames.append(head + [entry["name"], interval(value(entry, "speed_over_defaults")),
                                   interval(value(entry, "wall_ms")), number(value(entry, "processor_ms.value")),
                                   f"{value(entry, 'features')}", f"{value(entry, 'binary_bytes') / 1024:.0f}",
                                   f"{value(entry, 'bytes_per_path')}", f"{value(entry, 'launches')}",
                                   number(value(entry, "compile_ms"))])
         usual = value(row, "builds")[0]
         for entry in value(row, "builds"):
-            builds.append(head + [question(run, entry["name"]), entry["name"], interval(value(entry, "speed_over_defaults")),
+            builds.append(head + [entry["name"], interval(value(entry, "speed_over_defaults")),
                                   interval(value(entry, "wall_ms")), f"{value(entry, 'sah'):.2f}",
                                   f"{value(entry, 'sah') / value(usual, 'sah'):.3f}", f"{value(entry, 'depth')}",
                                   f"{value(entry, 'bytes_peak') / value(row, 'triangles'):.0f}"])
     tables = (
+        Table("What is changed", ["setting", "question"], questions(run)),
         Table("Frames with one setting changed", [
-            "scene", "triangles", "question", "setting", "speed / defaults", "frame, ms", "processor ms", "features",
-            "binaries, KiB", "bytes per path", "launches", "compiling, ms"], frames),
+            "scene", "triangles", "setting", "speed / defaults", "frame, ms", "processor ms", "features", "binaries, KiB",
+            "bytes per path", "launches", "compiling, ms"], frames),
         Table("Building the hierarchy with one setting changed", [
-            "scene", "triangles", "question", "setting", "speed / defaults", "ms", "SAH", "/ defaults", "depth",
-            "peak bytes per triangle"], builds),
+            "scene", "triangles", "setting", "speed / defaults", "ms", "SAH", "/ defaults", "depth", "peak bytes per triangle"],
+            builds),
     )
     what = (f"{size_of(run)}, {run.get('experiment.settings').get('spp', 1)} sample(s) per pixel and frame, path tracing by MIS "
             "with roulette. Speeds by processor time, turn by turn, medians with 95 % intervals; a setting that is this "

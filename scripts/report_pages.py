@@ -16,7 +16,7 @@ h1, h2 { font-weight: normal; line-height: 1.2; }
 table { border-collapse: collapse; font: 13px/1.4 system-ui, sans-serif; border-top: 2px solid; border-bottom: 2px solid; }
 th { border-bottom: 1px solid; text-align: left; }
 th, td { padding: .25rem .8rem .25rem 0; font-variant-numeric: tabular-nums; vertical-align: top; }
-.wide { overflow-x: auto; }
+.wide { overflow-x: auto; width: max-content; max-width: min(84rem, 100vw - 3rem, 50vw + 28rem); }
 .controls label { margin-right: 1rem; font: 13px system-ui, sans-serif; white-space: nowrap; }
 .frame { overflow: auto; margin-top: .5rem; } canvas { image-rendering: pixelated; cursor: col-resize; }
 .readout { font: 12px ui-monospace, monospace; min-height: 1.5em; white-space: pre; }
@@ -111,10 +111,11 @@ def html_table(table):
 
 
 VERDICT_CELL = re.compile("<td>(?=(holds partly|holds|does not hold here|undecided)(<|,))")
+INTERVAL = re.compile(r"(\[[-+\d.e]+,) ([-+\d.e]+\])")
 
 
 def html_document(heading, body):
-    body = VERDICT_CELL.sub(r'<td data-verdict="\1">', body)
+    body = INTERVAL.sub("\\1\N{NO-BREAK SPACE}\\2", VERDICT_CELL.sub(r'<td data-verdict="\1">', body))
     return (f"<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>{html.escape(heading)}</title>"
             f"<style>{STYLE}</style></head>\n<body><h1>{html.escape(heading)}</h1>\n{body}\n</body></html>\n")
 
