@@ -41,7 +41,7 @@ struct Description {
 
 Description load(const fs::path &path, const std::string &profile) {
     Description description{{}, load_description(path, "control.schema.json"), {}, {}, {}, 0, 0, 0};
-    const Json &json = description.file.json, &chosen = json.at("profiles").at(profile);
+    const Json &json = description.file.json, &chosen = description.file.profile(profile);
     json.at("name").get_to(description.name);
     json.at("errors").get_to(description.errors);
     chosen.at("size").get_to(description.size);

@@ -2,6 +2,7 @@
 #include "experiments/description.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -18,9 +19,21 @@ std::filesystem::path DescriptionFile::resolve(const Json &relative) const {
     return (path.parent_path() / relative.get<std::string>()).lexically_normal();
 }
 
+const Json &DescriptionFile::profile(const std::string &name) const {
+    const Json &profiles = json.at("profiles");
+    if (!profiles.contains(name)) {
+        std::vector<std::string> names;
+        for (const auto &[known, value] : profiles.items()) {
+            names.push_back(known);
+        }
+        throw input_error(fmt::format("{}: there is no profile '{}'; there are: {}", path.string(), name, fmt::join(names, ", ")));
+    }
+    return profiles.at(name);
+}
+
 std::string DescriptionFile::of_profile(const std::string &name) const {
     Json alone = json;
-    alone["profiles"] = {{name, json.at("profiles").at(name)}};
+    alone["profiles"] = {{name, profile(name)}};
     return alone.dump();
 }
 
@@ -120,15 +133,16 @@ std::string CurveDescription::id() const {
     return id;
 }
 
+void apply_settings(RenderSettings &settings, const Json &named) {
+    for (const auto &[name, value] : named.items()) {
+        apply_setting(settings, name + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
+    }
+}
+
 RenderSettings parse_render_settings(const Json &curve) {
     RenderSettings settings;
     settings.algorithm = curve.at("algorithm").get<std::string>();
-    if (curve.contains("settings")) {
-        for (const auto &[name, value] : curve.at("settings").items()) {
-            apply_setting(settings,
-                          name + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
-        }
-    }
+    apply_settings(settings, curve.value("settings", Json::object()));
     require_consistent(settings);
     return settings;
 }
@@ -136,12 +150,7 @@ RenderSettings parse_render_settings(const Json &curve) {
 ExperimentDescription load_experiment(const std::filesystem::path &path, const std::string &profile) {
     const DescriptionFile file = load_description(path, "experiment.schema.json");
     const Json &json = file.json;
-    if (!json.at("profiles").contains(profile)) {
-        throw input_error(
-            fmt::format("{}: there is no profile '{}'; there are: quick, full, ci", path.string(), profile));
-    }
-
-    const Json &chosen = json.at("profiles").at(profile);
+    const Json &chosen = file.profile(profile);
     ExperimentDescription experiment;
     json.at("name").get_to(experiment.name);
     json.at("title").get_to(experiment.title);
@@ -152,6 +161,7 @@ ExperimentDescription load_experiment(const std::filesystem::path &path, const s
     experiment.expected_gain = json.value("expected_gain", Json());
     read_measured_scene(file, chosen.at("size"), experiment);
     experiment.profile = profile;
+    experiment.settings = chosen.value("settings", Json::object());
     read_ladders(file, "/profiles/" + profile, chosen, experiment.curves);
     chosen.at("throughput").at("repetitions").get_to(experiment.throughput.repetitions);
     chosen.at("throughput").at("spp").get_to(experiment.throughput.spp);

@@ -48,10 +48,11 @@ struct ExperimentDescription : MeasuredScene {
     // of the chosen profile
     std::string profile;
     ThroughputDescription throughput;
+    Json settings;       ///< {"integrator.beta": 2, ...} of all curves, besides their own
     std::string source;  ///< the file as written, of the chosen profile
 };
 
-/// Reads and checks an experiment; `profile` is "quick", "full" or "ci". Throws `Error` (bad input) naming
+/// Reads and checks an experiment; `profile` is "quick", "full", "ci" or "gpu". Throws `Error` (bad input) naming
 /// file, key and alternatives.
 ExperimentDescription load_experiment(const std::filesystem::path &path, const std::string &profile);
 
@@ -65,6 +66,9 @@ struct DescriptionFile {
     std::string location(const std::string &pointer) const {
         return json_location(path.string(), text, pointer);
     }
+
+    /// Throws `Error` (bad input) listing the profiles when there is none of that name.
+    const Json &profile(const std::string &name) const;
 
     /// All that the file says of one profile: a run of it does not depend on the others.
     std::string of_profile(const std::string &name) const;
@@ -83,6 +87,9 @@ void read_measured_scene(const DescriptionFile &file, const Json &size, Measured
 
 /// Throws `Error` (bad input), its message beginning with `location`, unless the sample counts increase.
 void require_increasing(const std::vector<uint64_t> &spp, const std::string &location);
+
+/// Applies {"integrator.beta": 2, ...}. Throws as `parse_render_settings` does.
+void apply_settings(RenderSettings &settings, const Json &named);
 
 /// Render settings from {"algorithm", "settings": {"integrator.beta": 2, ...}} with the names of `--set`.
 /// What is not named keeps the renderer's default. Throws `Error` (bad usage) naming the alternatives.

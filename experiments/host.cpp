@@ -92,8 +92,13 @@ CpuUse CpuMeter::use() const {
             (now.steal - start_.steal) / total};
 }
 
+uint32_t host_threads(const DeviceInfo &device) {
+    return device.is_cpu ? device.compute_units : std::max(1u, std::thread::hardware_concurrency());
+}
+
 Json describe_device(const DeviceInfo &device) {
     return {{"name", device.name},
+            {"type", device.is_cpu ? "cpu" : "gpu"},
             {"platform", device.platform_name},
             {"driver", device.driver},
             {"c_version", device.c_version},
@@ -110,7 +115,7 @@ Json RunContext::finish(const DeviceInfo &device) const {
             {"finished_at", utc_now()},
             {"host", describe_host()},
             {"device", describe_device(device)},
-            {"kernel_options", program_options},
+            {"kernel_options", program_options(device)},
             {"load_average_start", load_average_},
             {"load_average_end", load_average()},
             {"cpu_use", {{"own", use.own}, {"foreign", use.foreign}, {"steal", use.steal}}}};

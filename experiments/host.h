@@ -42,7 +42,10 @@ class CpuMeter {
     Ticks start_;
 };
 
-/// {"name", "platform", "driver", "c_version", "compute_units"}.
+/// Threads of what runs on the host beside a device: as many as a CPU has compute units, all beside a GPU.
+uint32_t host_threads(const DeviceInfo &device);
+
+/// {"name", "type", "platform", "driver", "c_version", "compute_units"}.
 Json describe_device(const DeviceInfo &device);
 
 /// "context" of run.json: what ran where, when and beside what else, from construction to `finish`.

@@ -47,8 +47,8 @@ void declare(CLI::App &app, Arguments &arguments) {
 
     auto *run = app.add_subcommand("run", "measure an experiment and write OUT/run.json; a stability suite: exit 3 if a case fails");
     run->add_option("FILE", arguments.run.experiment, "experiment (JSON)")->required();
-    run->add_option("--profile", arguments.run.profile, "quick, full or ci")
-        ->check(CLI::IsMember({"quick", "full", "ci"}))
+    run->add_option("--profile", arguments.run.profile, "quick, full, ci, or gpu, which not all have: what a GPU does in minutes")
+        ->check(CLI::IsMember({"quick", "full", "ci", "gpu"}))
         ->capture_default_str();
     run->add_option("--out", arguments.run.out, "output folder; NAME.PROFILE by default");
     run->add_option("--device", arguments.run.device, "OpenCL device, as for rtrays-render");

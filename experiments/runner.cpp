@@ -35,6 +35,9 @@ Json describe_experiment(const ExperimentDescription &experiment) {
         {"expected_slope", {{"value", experiment.expected_slope}, {"tolerance", experiment.slope_tolerance}}},
         {"profile", experiment.profile},
         {"size", {experiment.width, experiment.height}}};
+    if (!experiment.settings.empty()) {
+        described["settings"] = experiment.settings;
+    }
     if (!experiment.expected_gain.is_null()) {
         described["expected_gain"] = experiment.expected_gain;
     }
@@ -62,6 +65,7 @@ RenderSettings settings_of(const ExperimentDescription &experiment, const CurveD
     RenderSettings settings = curve.settings;
     settings.width = experiment.width;
     settings.height = experiment.height;
+    apply_settings(settings, experiment.settings);
     return settings;
 }
 
@@ -127,7 +131,7 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     curve["scene"] = task.scene.name();
     curve["algorithm"] = description.settings.algorithm;
     curve["strategies"] = description.settings.strategies;
-    curve["settings"] = image_settings(description.settings);
+    curve["settings"] = image_settings(task.settings);
     // By batches also where pixels state their variance: with few samples that is as wrong as its rarest paths are missed,
     // and a normal test too sure.
     const Agreement agreement =

@@ -52,7 +52,7 @@ Description load(const fs::path &path, const std::string &profile) {
     const DescriptionFile file = load_description(path, "agreement.schema.json");
     Description description;
     file.json.at("name").get_to(description.name);
-    const Json &chosen = file.json.at("profiles").at(profile);
+    const Json &chosen = file.profile(profile);
     for (const Json &scene : chosen.at("scenes")) {
         const fs::path named = file.resolve(file.json.at("folder")) / scene.get<std::string>();
         if (named.filename() != "*") {

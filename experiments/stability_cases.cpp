@@ -178,7 +178,7 @@ Scene SceneVariant::load() const {
 
 StabilitySuite load_stability(const std::filesystem::path &path, const std::string &profile) {
     const DescriptionFile file = load_description(path, "stability.schema.json");
-    const Json &chosen = file.json.at("profiles").at(profile);
+    const Json &chosen = file.profile(profile);
     StabilitySuite suite{file.json.at("name"), profile, file.json.at("defaults").at("bound"), file.json.value("survey", false), {}};
     std::set<std::string> names;
     for (const Json &json : file.json.at("cases")) {

@@ -79,7 +79,9 @@ class Ablations {
         : name_(scene),
           settings_(settings),
           device_(&device),
-          timed_(load_timed_scene(scene, Surfaces::own)) {
+          timed_(load_timed_scene(scene, Surfaces::own)),
+          frames_(clock_of(device.info())),
+          builds_(clock_of(device.info())) {
         add(defaults);
         for (const std::string &setting : settings.settings) {
             add(setting);

@@ -97,7 +97,7 @@ class Bounces {
 
     Json at_depth(uint32_t depth) {
         ReferenceRenderer reference(timed_.scene.arrays(), reference_settings(settings_, timed_, depth));
-        Contest contest;
+        Contest contest(clock_of(device_->info()));
         add(contest, ours, wavefront_, depth);
         add(contest, megakernel, megakernel_, depth);
         uint64_t done = reference.render(0, settings_.spp);

@@ -10,6 +10,7 @@
 #include "experiments/hierarchy/kinds.h"
 #include "experiments/hierarchy/meshes.h"
 #include "experiments/hierarchy/tracers.h"
+#include "experiments/host.h"
 #include "renderer/bvh/refit.h"
 
 namespace rtrays {
@@ -73,7 +74,7 @@ class Animation {
             static_cast<float>(frame) / (second_ ? 1.0f : static_cast<float>(settings_.frames));
         const test::Mesh mesh = at_time(first_.mesh, second_.get(), time);
         const DeviceMesh on_device(*device_, mesh);
-        Contest updates;
+        Contest updates(clock_of(device_->info()));
         std::vector<std::unique_ptr<DeviceTracer>> built;
         for (Variant &variant : builders_) {
             built.push_back(std::make_unique<DeviceTracer>(
@@ -93,11 +94,11 @@ class Animation {
         }
         run_turns(updates, settings_.repetitions);
 
-        const uint32_t threads = device_->info().compute_units;
+        const uint32_t threads = host_threads(device_->info());
         const test::EmbreeScene embree(mesh, fmt::format("threads={}", threads));
         const DeviceRays rays(*device_, make_rays("diffuse", mesh, first_.view, embree, settings_.rays),
                               Query::nearest);
-        Contest traces;
+        Contest traces(clock_of(device_->info()));
         Json work = Json::array();
         const auto add = [&](const std::string &name, const DeviceTracer &tracer) {
             tracer.trace(rays);

@@ -7,6 +7,7 @@
 
 #include "experiments/document.h"
 #include "experiments/hierarchy/kinds.h"
+#include "experiments/host.h"
 #include "renderer/tests/full_sweep.h"
 
 namespace rtrays {
@@ -75,9 +76,10 @@ Builders::Builders(DeviceContext &device) : device_(&device) {
 
 BuildContest::BuildContest(Builders &builders, const std::string &mesh, size_t ray_count)
     : mesh_(load_measured_mesh(mesh)),
-      on_device_(std::make_unique<DeviceMesh>(builders.device(), mesh_.mesh)) {
+      on_device_(std::make_unique<DeviceMesh>(builders.device(), mesh_.mesh)),
+      contest_(clock_of(builders.device().info())) {
     DeviceContext &device = builders.device();
-    const uint32_t threads = device.info().compute_units;
+    const uint32_t threads = host_threads(device.info());
     {
         const DeviceRays rays(device, diffuse_rays(mesh_, threads, ray_count), Query::nearest);
         for (Builders::Named &named : builders.all()) {

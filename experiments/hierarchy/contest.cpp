@@ -66,7 +66,7 @@ Interval Contest::speed_over(const std::string &name, const std::string &other) 
     const std::vector<Seconds> &ours = find(name).times, &theirs = find(other).times;
     std::vector<double> ratios;
     for (size_t i = 0; i < ours.size(); ++i) {
-        ratios.push_back(theirs[i].processor / ours[i].processor);
+        ratios.push_back(clock_ == Clock::wall ? theirs[i].wall / ours[i].wall : theirs[i].processor / ours[i].processor);
     }
     return median_interval(ratios);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/statistics.h"
+#include "renderer/device/context.h"
 
 namespace rtrays {
 
@@ -26,8 +27,18 @@ Seconds time_of(const Work &work) {
             static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
 }
 
+/// What speeds compare.
+enum class Clock {
+    processor,  ///< of all threads: other load on the machine hardly changes it
+    wall        ///< where a GPU works
+};
+
+inline Clock clock_of(const DeviceInfo &device) { return device.is_cpu ? Clock::processor : Clock::wall; }
+
 class Contest {
   public:
+    explicit Contest(Clock clock = Clock::processor) : clock_(clock) {}
+
     /// `run` does the work once and says what it took; what it prepares before need not be timed.
     void add(const std::string &name, const std::function<Seconds()> &run);
 
@@ -42,8 +53,7 @@ class Contest {
     Interval wall_seconds(const std::string &name) const;
     Interval processor_seconds(const std::string &name) const;
 
-    /// How many times faster `name` is than `other`, by processor time, turn by turn: other load on the
-    /// machine hardly changes it.
+    /// How many times faster `name` is than `other` by this clock, turn by turn.
     Interval speed_over(const std::string &name, const std::string &other) const;
 
     /// Share of the machine's processor time that others used during the turns, what the hypervisor took
@@ -58,6 +68,7 @@ class Contest {
     };
     const Contestant &find(const std::string &name) const;
 
+    Clock clock_;
     std::vector<Contestant> contestants_;
     size_t turns_ = 0;
     std::vector<double> foreign_;

@@ -50,7 +50,7 @@ const Kind &kind_of(const DescriptionFile &file, const std::string &profile) {
     const Kind &kind =
         *std::find_if(kinds().begin(), kinds().end(), [&](const Kind &k) { return k.name == measures; });
     for (const char *key : kind.needs) {
-        if (!file.json.at("profiles").at(profile).contains(key)) {
+        if (!file.profile(profile).contains(key)) {
             throw input_error(fmt::format("{}: missing key '{}': {} needs it",
                                           file.location("/profiles/" + profile), key, measures));
         }
@@ -119,7 +119,7 @@ bool is_measurement(const fs::path &experiment) {
 
 fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     const DescriptionFile file = load_description(options.experiment, "measurement.schema.json");
-    const Json &profile = file.json.at("profiles").at(options.profile);
+    const Json &profile = file.profile(options.profile);
     const Kind &kind = kind_of(file, options.profile);
     const std::string name = file.json.at("name"), measures = file.json.at("measures");
     Json stand_ins = Json::object(), absent = Json::array();

@@ -9,6 +9,7 @@
 
 #include "experiments/document.h"
 #include "experiments/hierarchy/kinds.h"
+#include "experiments/host.h"
 
 namespace rtrays {
 
@@ -37,7 +38,7 @@ const EmbreeTracer &fastest(const TracedMesh &mesh, const std::vector<RayRecord>
 TracedMesh::TracedMesh(DeviceContext &device, const std::string &name)
     : device_(&device),
       mesh_(load_measured_mesh(name)),
-      embree_(embree_tracers(mesh_.mesh, device.info().compute_units)) {
+      embree_(embree_tracers(mesh_.mesh, host_threads(device.info()))) {
     const DeviceMesh on_device(device, mesh_.mesh);
     for (const HierarchyVariant &variant : hierarchy_variants(device.info())) {
         BvhBuilder builder(device, variant.parameters);
@@ -51,6 +52,7 @@ RayContest::RayContest(const TracedMesh &mesh, const RayKind &kind, size_t count
       kind_(kind),
       rays_(make_rays(kind.name, mesh.mesh().mesh, mesh.mesh().view, mesh.embree().front()->scene(), count)),
       on_device_(std::make_unique<DeviceRays>(mesh.device(), rays_, kind.query)),
+      contest_(clock_of(mesh.device().info())),
       baseline_(name_of(EmbreeCall::single, kind.query)) {
     const size_t expected =
         mesh.embree().front()->trace(rays_, kind.query, EmbreeCall::single, kind.coherent);

@@ -11,6 +11,7 @@
 #include "experiments/hierarchy/kinds.h"
 #include "experiments/hierarchy/meshes.h"
 #include "experiments/hierarchy/tracers.h"
+#include "experiments/host.h"
 #include "renderer/base/progress.h"
 #include "renderer/tests/double_intersector.h"
 #include "renderer/tests/ray_sets.h"
@@ -81,7 +82,7 @@ struct Verdict {
 
 Json compare_hits(DeviceContext &device, const std::string &name, size_t ray_count) {
     const test::Mesh mesh = load_measured_mesh(name).mesh;
-    const uint32_t threads = device.info().compute_units;
+    const uint32_t threads = host_threads(device.info());
     const EmbreeTracer embree(mesh, threads, embree_isas().back());
     const test::DoubleJudge judge(mesh);
     std::vector<std::string> names;

@@ -25,7 +25,7 @@ uint32_t divide_up(uint32_t a, uint32_t b) {
 /// leaves may be, which bounds nodes and subtrees of the large phase.
 struct Capacities {
     uint32_t tasks, chunks, top_nodes, subtrees;
-    size_t bin_sets;  ///< a BinSet is one of the usual number of bins and axes
+    size_t chunk_bins, task_bins;  ///< a BinSet is one of the usual number of bins and axes
 
     Capacities(uint32_t triangles, const BvhBuildParameters &parameters) {
         tasks = triangles / parameters.subtree_size + 1;
@@ -33,8 +33,12 @@ struct Capacities {
         top_nodes =
             static_cast<uint32_t>(std::min<uint64_t>(uint64_t{BVH_BINNED_DEPTH} * tasks, triangles + 1u));
         subtrees = top_nodes + 1;
-        const size_t usual = size_t{BVH_BINS} * BVH_BINNED_AXES;
-        bin_sets = (chunks * size_t{parameters.bins} * parameters.axes + usual - 1) / usual;
+        const auto bin_sets = [&](size_t count) {
+            const size_t usual = size_t{BVH_BINS} * BVH_BINNED_AXES;
+            return (count * parameters.bins * parameters.axes + usual - 1) / usual;
+        };
+        chunk_bins = bin_sets(chunks);
+        task_bins = bin_sets(tasks);
     }
 };
 
@@ -44,8 +48,13 @@ BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
     // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU wants many short
     // ones.
     // Layouts by measurement: `make bench`.
-    return device.is_cpu ? BvhBuildParameters{1, 1024, 1024, BvhLayout::wide8}
-                         : BvhBuildParameters{64, 256, 64, BvhLayout::bvh2};
+    if (device.is_cpu) {
+        return {1, 1024, 1024, BvhLayout::wide8};
+    }
+    BvhBuildParameters parameters{64, 256, 64, BvhLayout::bvh2};
+    parameters.one_group = static_cast<uint32_t>(std::min<size_t>(256, device.max_group_size));
+    parameters.parts = BVH_BINS * BVH_BINNED_AXES;
+    return parameters;
 }
 
 /// The primitives of the input, and the first task or subtree: the range of all of them.
@@ -77,14 +86,15 @@ struct BvhBuilder::Workspace {
                      Buffer<PrimitiveRef>(device, "bvh primitives 1", gathered.triangle_count)},
           tasks{std::move(gathered.tasks), Buffer<BuildTask>(device, "bvh tasks 1", capacities.tasks)},
           chunks{std::move(gathered.chunks), Buffer<BuildChunk>(device, "bvh chunks 1", capacities.chunks)},
-          bins(device, "bvh chunk bins", capacities.bin_sets),
+          chunk_bins(device, "bvh chunk bins", capacities.chunk_bins),
+          task_bins(device, "bvh task bins", capacities.task_bins),
           top_nodes(device, "bvh top nodes", capacities.top_nodes),
           subtrees(gathered.subtrees),
           scratch_nodes(device, "bvh scratch nodes", gathered.triangle_count) {}
 
     uint64_t bytes() const {
-        return state.bytes() + 2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) + bins.bytes() +
-               top_nodes.bytes() + subtrees.bytes() + scratch_nodes.bytes();
+        return state.bytes() + 2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) + chunk_bins.bytes() +
+               task_bins.bytes() + top_nodes.bytes() + subtrees.bytes() + scratch_nodes.bytes();
     }
 
     BuildState read_state() const { return state.read().front(); }
@@ -93,7 +103,7 @@ struct BvhBuilder::Workspace {
     Buffer<PrimitiveRef> primitives[2];
     Buffer<BuildTask> tasks[2];
     Buffer<BuildChunk> chunks[2];
-    Buffer<BinSet> bins;
+    Buffer<BinSet> chunk_bins, task_bins;
     Buffer<BvhNode> top_nodes;
     const Buffer<BuildSubtree> &subtrees;
     Buffer<BvhNode> scratch_nodes;
@@ -111,25 +121,33 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
                         "subtree size {} at least {}",
                         group, parameters.chunk_size, parameters.subtree_size, BVH_LEAF_SIZE));
     }
+    if (parameters.one_group == 0 || (parameters.one_group & (parameters.one_group - 1)) != 0 || parameters.parts == 0) {
+        throw input_error(fmt::format("BVH build parameters: one group of {} is no power of two, or {} parts are none",
+                                      parameters.one_group, parameters.parts));
+    }
     if (parameters.bins < 2 || parameters.bins > 64 || (parameters.axes != 1 && parameters.axes != 3)) {
         throw input_error(fmt::format("BVH build parameters: {} bins must be 2 to 64, {} axes 1 or 3", parameters.bins,
                                       parameters.axes));
     }
-    const Defines binning = {{"BVH_BINS", fmt::format("{}u", parameters.bins)},
-                             {"BVH_BINNED_AXES", fmt::format("{}u", parameters.axes)}};
-    const Program gather(device, "kernels/bvh/gather_primitives.cl");
+    const Defines numbering = {{"ONE_GROUP", fmt::format("{}u", parameters.one_group)}};
+    Defines binning = numbering;
+    binning["BVH_BINS"] = fmt::format("{}u", parameters.bins);
+    binning["BVH_BINNED_AXES"] = fmt::format("{}u", parameters.axes);
+    const Program gather(device, "kernels/bvh/gather_primitives.cl", numbering);
     check_triangles_ = Kernel(gather, "check_triangles", group);
-    begin_build_ = Kernel(gather, "begin_build", 1);
+    begin_build_ = Kernel(gather, "begin_build", parameters.one_group);
     gather_primitives_ = Kernel(gather, "gather_primitives", group);
     const Program split(device, "kernels/bvh/split_level.cl", binning);
     bin_primitives_ = Kernel(split, "bin_primitives", group);
+    merge_bins_ = Kernel(split, "merge_bins", group);
     choose_splits_ = Kernel(split, "choose_splits", group);
     partition_primitives_ = Kernel(split, "partition_primitives", group);
-    emit_children_ = Kernel(split, "emit_children", 1);
+    merge_children_ = Kernel(split, "merge_children", group);
+    emit_children_ = Kernel(split, "emit_children", parameters.one_group);
     const Program subtrees(device, "kernels/bvh/build_subtrees.cl", binning);
     build_subtrees_ = Kernel(subtrees, "build_subtrees", group);
-    const Program place(device, "kernels/bvh/place_subtrees.cl");
-    place_subtrees_ = Kernel(place, "place_subtrees", 1);
+    const Program place(device, "kernels/bvh/place_subtrees.cl", numbering);
+    place_subtrees_ = Kernel(place, "place_subtrees", parameters.one_group);
     copy_top_nodes_ = Kernel(place, "copy_top_nodes", group);
     copy_subtrees_ = Kernel(place, "copy_subtrees", group);
     if (parameters.method == BvhMethod::hploc) {
@@ -173,7 +191,7 @@ BuildState BvhBuilder::gather(Gathered &gathered, uint32_t subtree_size, const B
     check_triangles_.enqueue(chunks);
     begin_build_.bind({gathered.input_chunks, chunks, chunk_size, subtree_size, gathered.state, gathered.tasks,
                        gathered.chunks, gathered.subtrees});
-    begin_build_.enqueue(1);
+    begin_build_.enqueue(parameters_.one_group);
     gather_primitives_.bind({positions, vertex_count, indices, count, chunk_size, gathered.input_chunks,
                              gathered.primitives});
     gather_primitives_.enqueue(chunks);
@@ -191,17 +209,21 @@ void BvhBuilder::split_levels(Workspace &work) {
         const uint32_t now = level % 2;
         const uint32_t next = 1 - now;
         bin_primitives_.bind(
-            {work.tasks[now], work.chunks[now], state.chunk_count, work.primitives[now], work.bins});
+            {work.tasks[now], work.chunks[now], state.chunk_count, work.primitives[now], work.chunk_bins});
         bin_primitives_.enqueue(state.chunk_count);
-        choose_splits_.bind({work.tasks[now], state.task_count, work.chunks[now], work.bins});
+        merge_bins_.bind({work.tasks[now], state.task_count, parameters_.parts, work.chunk_bins, work.task_bins});
+        merge_bins_.enqueue(uint64_t{state.task_count} * parameters_.parts);
+        choose_splits_.bind({work.tasks[now], state.task_count, work.task_bins});
         choose_splits_.enqueue(state.task_count);
-        partition_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count,
+        partition_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count, work.chunk_bins,
                                     work.primitives[now], work.primitives[next]});
         partition_primitives_.enqueue(state.chunk_count);
-        emit_children_.bind({work.state, work.tasks[now], work.chunks[now], state.task_count,
-                             parameters_.chunk_size, parameters_.subtree_size, next, work.top_nodes,
-                             work.tasks[next], work.chunks[next], work.subtrees});
-        emit_children_.enqueue(1);
+        merge_children_.bind({work.tasks[now], state.task_count, work.chunks[now]});
+        merge_children_.enqueue(2 * uint64_t{state.task_count});
+        emit_children_.bind({work.state, work.tasks[now], state.task_count, parameters_.chunk_size,
+                             parameters_.subtree_size, next, work.top_nodes, work.tasks[next], work.chunks[next],
+                             work.subtrees});
+        emit_children_.enqueue(parameters_.one_group);
         state = work.read_state();
     }
 }
@@ -270,7 +292,7 @@ Bvh BvhBuilder::build_by_binning(const Buffer<float> &positions, const Buffer<ui
                           work.state, work.scratch_nodes});
     build_subtrees_.enqueue(state.subtree_count);
     place_subtrees_.bind({work.state, work.subtrees, state.subtree_count, work.top_nodes});
-    place_subtrees_.enqueue(1);
+    place_subtrees_.enqueue(parameters_.one_group);
     state = work.read_state();
 
     Buffer<BvhNode> nodes(*device_, "bvh nodes", state.node_count);

@@ -25,13 +25,15 @@ struct BvhBuildParameters {
     BvhMethod method = BvhMethod::binned_sah;
     uint32_t bins = 16;  ///< on an axis, from 2 to 64; of binned_sah
     uint32_t axes = 3;   ///< that are binned: 3, or 1, the one along which centroids lie widest
+    uint32_t one_group = 1;  ///< work-items of stages that number things in order, all in one work-group: 2^n
+    uint32_t parts = 1;      ///< work-items that share the bins of a node
 
     static BvhBuildParameters for_device(const DeviceInfo &device);
 };
 
 /// Device memory of a build at its peak, whatever the method, the layout and the triangles: at most so much for each of
 /// them and so much besides, the input apart. Reached only where leaves hold one triangle each, in blocks of eight;
-/// ordinary meshes take less than half.
+/// ordinary meshes take less than half on a CPU, less than three quarters on a GPU.
 constexpr uint64_t bvh_peak_bytes_per_triangle = 640;
 constexpr uint64_t bvh_peak_bytes = 1 << 20;
 
@@ -87,7 +89,7 @@ class BvhBuilder {
     DeviceContext *device_;
     BvhBuildParameters parameters_;
     Kernel check_triangles_, begin_build_, gather_primitives_;
-    Kernel bin_primitives_, choose_splits_, partition_primitives_, emit_children_;
+    Kernel bin_primitives_, merge_bins_, choose_splits_, partition_primitives_, merge_children_, emit_children_;
     Kernel build_subtrees_;
     Kernel place_subtrees_, copy_top_nodes_, copy_subtrees_;
     std::optional<HplocBuilder> hploc_;

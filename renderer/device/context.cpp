@@ -46,6 +46,7 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
             device_text(device, CL_DEVICE_OPENCL_C_VERSION),
             (device_value<cl_device_type>(device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0,
             extensions.find("cl_khr_int64_base_atomics") != std::string::npos,
+            (device_value<cl_device_fp_config>(device, CL_DEVICE_SINGLE_FP_CONFIG) & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0,
             device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS),
             device_value<size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE),
             device_value<cl_ulong>(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE),

@@ -20,6 +20,7 @@ struct DeviceInfo {
     std::string c_version;        ///< "OpenCL C 1.2 PoCL"
     bool is_cpu;
     bool has_int64_atomics;       ///< cl_khr_int64_base_atomics
+    bool rounds_division;         ///< divisions and square roots are correctly rounded where that is asked for
     uint32_t compute_units;
     uint64_t max_group_size;
     uint64_t max_allocation;      ///< bytes

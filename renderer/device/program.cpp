@@ -6,9 +6,11 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
@@ -16,8 +18,6 @@
 namespace rtrays {
 
 namespace fs = std::filesystem;
-
-const char *const program_options = "-cl-std=CL1.2 -cl-kernel-arg-info";
 
 namespace {
 
@@ -42,12 +42,26 @@ class FileLock {
     int fd_;
 };
 
-std::string build_log(cl_program program, cl_device_id device) {
+/// NVIDIA's compiler takes no notice of #line: it counts the lines of the whole text.
+std::string with_file_names(const std::string &log, const std::string &source) {
+    const std::regex place("<kernel>:([0-9]+)");
+    std::string named;
+    auto rest = log.begin();
+    for (std::sregex_iterator match(log.begin(), log.end(), place), end; match != end; ++match) {
+        named.append(rest, (*match)[0].first);
+        named += source_place(source, std::stoul((*match)[1]));
+        rest = (*match)[0].second;
+    }
+    return named.append(rest, log.end());
+}
+
+std::string build_log(cl_program program, cl_device_id device, const std::string &source) {
     size_t size = 0;
     clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size);
     std::string log(size, '\0');
     clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr);
-    return log;
+    log.resize(std::min(log.find('\0'), log.size()));
+    return with_file_names(log, source);
 }
 
 std::string program_binary(cl_program program) {
@@ -62,6 +76,11 @@ std::string program_binary(cl_program program) {
 std::string cache_file(const std::string &key) { return (fs::path(program_cache_directory()) / (key + ".clbin")).string(); }
 
 }  // namespace
+
+std::string program_options(const DeviceInfo &device) {
+    const std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
+    return device.is_cpu || !device.rounds_division ? options : options + " -cl-fp32-correctly-rounded-divide-sqrt";
+}
 
 std::string program_cache_directory() {
     const auto variable = [](const char *name) {
@@ -92,7 +111,7 @@ Program::Program(DeviceContext &device, const std::string &path, const Defines &
     source += text;
     const DeviceInfo &info = device.info();
     const std::string key =
-        content_hash(fmt::format("{}\n{}\n{}\n{}\n{}", info.platform_name, info.name, info.driver, program_options, source));
+        content_hash(fmt::format("{}\n{}\n{}\n{}\n{}", info.platform_name, info.name, info.driver, program_options(info), source));
 
     std::error_code ignored;  // a cache that cannot be created only costs time
     fs::create_directories(program_cache_directory(), ignored);
@@ -121,7 +140,8 @@ bool Program::load(const std::string &key) {
     program_ = ClProgram(clCreateProgramWithBinary(device_->context(), 1, &device_->info().device, &binary_bytes_, &binary,
                                                    &loaded, &status));
     return status == CL_SUCCESS && loaded == CL_SUCCESS &&
-           clBuildProgram(program_.get(), 1, &device_->info().device, program_options, nullptr, nullptr) == CL_SUCCESS;
+           clBuildProgram(program_.get(), 1, &device_->info().device, program_options(device_->info()).c_str(), nullptr, nullptr) ==
+               CL_SUCCESS;
 }
 
 void Program::compile(const std::string &source, const std::string &key) {
@@ -129,10 +149,11 @@ void Program::compile(const std::string &source, const std::string &key) {
     cl_int status = CL_SUCCESS;
     program_ = ClProgram(clCreateProgramWithSource(device_->context(), 1, &text, nullptr, &status));
     check_cl(status, "creating program " + path_);
-    status = clBuildProgram(program_.get(), 1, &device_->info().device, program_options, nullptr, nullptr);
+    const std::string options = program_options(device_->info());
+    status = clBuildProgram(program_.get(), 1, &device_->info().device, options.c_str(), nullptr, nullptr);
     if (status != CL_SUCCESS) {
         throw run_error(fmt::format("building {}: {}\n{}", path_, cl_status_name(status),
-                                    build_log(program_.get(), device_->info().device)));
+                                    build_log(program_.get(), device_->info().device, source)));
     }
     if (device_->binaries() == Binaries::leave) {
         return;

@@ -46,7 +46,8 @@ class Program {
 /// $RTRAYS_CACHE_DIR, else $XDG_CACHE_HOME/rtrays, else ~/.cache/rtrays.
 std::string program_cache_directory();
 
-/// The compiler options of every program: strict floating point, no contraction by the sources' own pragma.
-extern const char *const program_options;
+/// The compiler options of every program: strict floating point, no contraction by the sources' own pragma. CPUs round
+/// divisions correctly without being asked.
+std::string program_options(const DeviceInfo &device);
 
 }  // namespace rtrays

@@ -120,6 +120,21 @@ class Expander {
 
 std::string device_source(const std::string &path) { return required_source(path, {}); }
 
+std::string source_place(const std::string &expanded, size_t line) {
+    std::istringstream stream(expanded);
+    std::string file = "defines", text;
+    size_t number = 1;  // of the line to come, in its file
+    for (size_t i = 1; i < line && std::getline(stream, text); ++i) {
+        number += 1;
+        if (text.compare(0, 6, "#line ") == 0) {
+            const size_t open = text.find('"');
+            number = std::stoul(text.substr(6));
+            file = text.substr(open + 1, text.rfind('"') - open - 1);
+        }
+    }
+    return fmt::format("{}:{}", file, number);
+}
+
 std::string expand_source(const std::string &path, const SourceOverlays &overlays) { return Expander(overlays).run(path); }
 
 }  // namespace rtrays

@@ -21,4 +21,7 @@ std::string device_source(const std::string &path);
 /// unless it stands in a branch that is not compiled. Throws `Error` (run failed) when `path` itself does not exist.
 std::string expand_source(const std::string &path, const SourceOverlays &overlays = {});
 
+/// "FILE:LINE" of a line, counted from 1, of what `expand_source` returned; "defines:LINE" before its first `#line`.
+std::string source_place(const std::string &expanded, size_t line);
+
 }  // namespace rtrays

@@ -109,7 +109,7 @@ Image RenderSession::develop() const {
     describe_image(image, state);
     image.attributes()["rtrays:device"] = state_->device.info().name;
     image.attributes()["rtrays:driver"] = state_->device.info().platform_name + " " + state_->device.info().driver;
-    image.attributes()["rtrays:buildOptions"] = std::string(program_options);
+    image.attributes()["rtrays:buildOptions"] = program_options(state_->device.info());
     image.attributes()["rtrays:sceneHash"] = state_->scene_hash;
     image.attributes()["rtrays:settings"] = image_settings(state_->settings).dump();
     return image;

@@ -13,9 +13,9 @@ namespace rtrays {
 
 namespace {
 
-/// Samples of one batch: about this many paths, so that progress shows and an interrupt is heeded within seconds. The
-/// work counter has 32 bits.
-constexpr uint64_t batch_paths = 1u << 21;
+/// Paths of one batch: few enough that progress shows and an interrupt is heeded within seconds, and many times as many as
+/// are in flight, for the last paths of a batch leave a device nearly idle. The work counter has 32 bits.
+uint64_t batch_paths(const DeviceInfo &device) { return device.is_cpu ? 1u << 21 : 1u << 26; }
 
 /// Rounds enqueued between two looks at the counters.
 constexpr int rounds_per_check = 8;
@@ -38,7 +38,7 @@ void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
 }  // namespace
 
 uint64_t RenderSession::State::batch_size(uint64_t begin, uint64_t end) const {
-    const uint64_t batch = batch_paths / std::max<uint64_t>(1, live_paths_per_sample());
+    const uint64_t batch = batch_paths(device.info()) / std::max<uint64_t>(1, live_paths_per_sample());
     uint64_t count = std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_BETWEEN_CARRIES), end - begin);
     if (convergence != nullptr && convergence->live_count() > 0) {
         count = std::min(count, convergence->rule().next_check(begin) - begin);

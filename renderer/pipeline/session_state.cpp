@@ -19,10 +19,11 @@ namespace rtrays {
 namespace {
 
 /// On a CPU the path states should stay in cache and a work-item should do enough to be worth its call; a GPU needs
-/// enough paths to hide latency, and neighbouring work-items that read neighbouring words.
+/// enough paths to hide latency, though no more than its second cache holds, and neighbouring work-items that read
+/// neighbouring words.
 StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &info) {
     const BvhLayout bvh = BvhBuildParameters::for_device(info).layout;
-    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh} : StreamLayout{128, 1u << 20, 1, false, bvh};
+    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh} : StreamLayout{128, 1u << 18, 1, false, bvh};
     layout.group_size = settings.group_size > 0 ? settings.group_size : layout.group_size;
     layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
     if (has_light_pass(settings)) {

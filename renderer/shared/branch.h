@@ -23,7 +23,7 @@
 
 enum BranchLayout {
 #define FIELD_WORDS(type, name) BRANCH_##name, BRANCH_LAST_##name = BRANCH_##name + WORDS_##type - 1,
-#define X(feature, type, name) WHEN(feature, FIELD_WORDS(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_WORDS(type, name))
     BRANCH_FIELDS(X)
 #undef X
 #undef FIELD_WORDS
@@ -32,7 +32,7 @@ enum BranchLayout {
 
 typedef struct Branch {
 #define FIELD_MEMBER(type, name) type name;
-#define X(feature, type, name) WHEN(feature, FIELD_MEMBER(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_MEMBER(type, name))
     BRANCH_FIELDS(X)
 #undef X
 #undef FIELD_MEMBER
@@ -41,7 +41,7 @@ typedef struct Branch {
 DEVICE Branch load_branch(WordPlace place) {
     Branch branch;
 #define FIELD_LOAD(type, name) branch.name = load_##type(place, BRANCH_##name);
-#define X(feature, type, name) WHEN(feature, FIELD_LOAD(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_LOAD(type, name))
     BRANCH_FIELDS(X)
 #undef X
 #undef FIELD_LOAD
@@ -50,7 +50,7 @@ DEVICE Branch load_branch(WordPlace place) {
 
 DEVICE void store_branch(WordPlace place, Branch branch) {
 #define FIELD_STORE(type, name) store_##type(place, BRANCH_##name, branch.name);
-#define X(feature, type, name) WHEN(feature, FIELD_STORE(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_STORE(type, name))
     BRANCH_FIELDS(X)
 #undef X
 #undef FIELD_STORE

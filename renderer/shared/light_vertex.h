@@ -26,7 +26,7 @@
 
 enum LightVertexLayout {
 #define FIELD_WORDS(type, name) VERTEX_##name, VERTEX_LAST_##name = VERTEX_##name + WORDS_##type - 1,
-#define X(feature, type, name) WHEN(feature, FIELD_WORDS(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_WORDS(type, name))
     LIGHT_VERTEX_FIELDS(X)
 #undef X
 #undef FIELD_WORDS
@@ -35,7 +35,7 @@ enum LightVertexLayout {
 
 typedef struct LightVertex {
 #define FIELD_MEMBER(type, name) type name;
-#define X(feature, type, name) WHEN(feature, FIELD_MEMBER(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_MEMBER(type, name))
     LIGHT_VERTEX_FIELDS(X)
 #undef X
 #undef FIELD_MEMBER
@@ -58,7 +58,7 @@ DEVICE bool has_light_vertex(WordPlace place) { return load_uint(place, VERTEX_h
 DEVICE LightVertex load_light_vertex(WordPlace place) {
     LightVertex vertex;
 #define FIELD_LOAD(type, name) vertex.name = load_##type(place, VERTEX_##name);
-#define X(feature, type, name) WHEN(feature, FIELD_LOAD(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_LOAD(type, name))
     LIGHT_VERTEX_FIELDS(X)
 #undef X
 #undef FIELD_LOAD
@@ -67,7 +67,7 @@ DEVICE LightVertex load_light_vertex(WordPlace place) {
 
 DEVICE void store_light_vertex(WordPlace place, LightVertex vertex) {
 #define FIELD_STORE(type, name) store_##type(place, VERTEX_##name, vertex.name);
-#define X(feature, type, name) WHEN(feature, FIELD_STORE(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_STORE(type, name))
     LIGHT_VERTEX_FIELDS(X)
 #undef X
 #undef FIELD_STORE

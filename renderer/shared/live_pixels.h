@@ -12,13 +12,13 @@
 
 // Parameters of a stage; each ends in a comma.
 #define LIVE_LIST_PARAMETER GLOBAL const uint *live_pixels, uint live_count,
-#define LIVE_PIXELS_PARAMETERS WHEN(FEATURE_convergence, LIVE_LIST_PARAMETER)
+#define LIVE_PIXELS_PARAMETERS WHEN(FEATURE_convergence)(LIVE_LIST_PARAMETER)
 #define LIVE_LIST_ARGUMENT live_pixels, live_count,
-#define LIVE_PIXELS_ARGUMENTS WHEN(FEATURE_convergence, LIVE_LIST_ARGUMENT)
+#define LIVE_PIXELS_ARGUMENTS WHEN(FEATURE_convergence)(LIVE_LIST_ARGUMENT)
 #define HALF_FILM_PARAMETER GLOBAL long *half_film,
-#define HALF_FILM_PARAMETERS WHEN(FEATURE_convergence, HALF_FILM_PARAMETER)
+#define HALF_FILM_PARAMETERS WHEN(FEATURE_convergence)(HALF_FILM_PARAMETER)
 #define HALF_FILM_ARGUMENT half_film,
-#define HALF_FILM_ARGUMENTS WHEN(FEATURE_convergence, HALF_FILM_ARGUMENT)
+#define HALF_FILM_ARGUMENTS WHEN(FEATURE_convergence)(HALF_FILM_ARGUMENT)
 
 /// The number of live pixels of so many, and the pixel at a place of their list.
 #ifdef __OPENCL_VERSION__

@@ -60,7 +60,7 @@
 // Word offset of each field: an enumerator per field, stepping over the words of the fields before.
 enum PathStateLayout {
 #define FIELD_OFFSET(type, name) PATH_##name, PATH_LAST_##name = PATH_##name + WORDS_##type - 1,
-#define X(feature, type, name) WHEN(feature, FIELD_OFFSET(type, name))
+#define X(feature, type, name) WHEN(feature)(FIELD_OFFSET(type, name))
     PATH_STATE_FIELDS(X)
 #undef X
 #undef FIELD_OFFSET
@@ -117,7 +117,7 @@ DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uin
         PATH_WORD(paths, slot, PATH_##name + 1) = as_uint(value.y);                                \
         PATH_WORD(paths, slot, PATH_##name + 2) = as_uint(value.z);                                \
     }
-#define X(feature, type, name) WHEN(feature, ACCESS_##type(name))
+#define X(feature, type, name) WHEN(feature)(ACCESS_##type(name))
 PATH_STATE_FIELDS(X)
 #undef X
 

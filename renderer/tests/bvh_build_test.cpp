@@ -73,7 +73,7 @@ TEST_P(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
         return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
     };
     for (const BvhBuildParameters &parameters :
-         {BvhBuildParameters{8, 1024, 256}, {64, 1024, 256}, {1, 100, 256}, {7, 333, 256}}) {
+         {BvhBuildParameters{8, 1024, 256}, {64, 1024, 256}, {1, 100, 256}, {7, 333, 256}, {4, 1, 256}}) {
         const HostBvh bvh = build(mesh, parameters);
         EXPECT_TRUE(same_bytes(bvh.nodes, expected.nodes))
             << parameters.group_size << ' ' << parameters.chunk_size;
@@ -81,6 +81,14 @@ TEST_P(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
             << parameters.group_size << ' ' << parameters.chunk_size;
         EXPECT_EQ(bvh.report.sah_cost, expected.report.sah_cost);
     }
+    // As on a GPU: costs are summed in another order.
+    BvhBuildParameters of_groups{64, 100, 256};
+    of_groups.one_group = 32;
+    of_groups.parts = 5;
+    const HostBvh by_groups = build(mesh, of_groups);
+    EXPECT_TRUE(same_bytes(by_groups.nodes, expected.nodes));
+    EXPECT_TRUE(same_bytes(by_groups.triangles, expected.triangles));
+    EXPECT_NEAR(by_groups.report.sah_cost, expected.report.sah_cost, 1e-5 * expected.report.sah_cost);
     // The subtree size moves the nodes of binned_sah in memory, but the tree is the same.
     const TreeFacts tree = inspect_tree(expected, mesh);
     for (const uint32_t subtree_size : {4u, 50u, 5000u, 100000u}) {
@@ -239,6 +247,9 @@ TEST(BvhBuildInput, WrongInputIsAnError) {
     bad.bins = 16;
     bad.axes = 2;
     expect_input_error("2 axes", [&] { BvhBuilder(test_device(), bad); });
+    bad = {1, 1024, 1024};
+    bad.one_group = 3;
+    expect_input_error("one group of 3 is no power of two", [&] { BvhBuilder(test_device(), bad); });
 }
 
 TEST(BvhBuildInput, TooManyTrianglesAreRefusedBeforeAllocation) {

@@ -20,6 +20,9 @@ TEST(Source, ExpandsIncludesOnceWithLineDirectives) {
     EXPECT_EQ(expand_source("kernels/a.cl", files),
               "#line 1 \"kernels/a.cl\"\n#line 1 \"kernels/b.h\"\n\nint b;\n#line 2 \"kernels/a.cl\"\n"
               "#line 3 \"kernels/a.cl\"\nint a;\n");
+    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 5), "kernels/b.h:2");
+    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 8), "kernels/a.cl:3");
+    EXPECT_EQ(source_place("#define X 1\n", 1), "defines:1");
 }
 
 TEST(Source, ResolvesRelativeToTheIncludingFileFirst) {

@@ -14,6 +14,9 @@
 #define BVH_BINNED_AXES 3u
 #endif
 
+/// Chunks of a task at most: those of large tasks are longer, for some stages go through all chunks of a task one by one.
+#define BVH_CHUNKS_PER_TASK 1024u
+
 /// Coordinates beyond this count as not finite: sums of two and products of three of them stay in float's
 /// range.
 #define BVH_COORDINATE_LIMIT 1.0e12f
@@ -52,14 +55,14 @@ typedef struct BuildTask {
     uint first_chunk;  ///< its chunks in this level's list
     uint chunk_count;
     RangeBounds bounds;
-    Split split;  ///< set by choose_splits
+    Split split;              ///< set by choose_splits
+    RangeBounds children[2];  ///< of what goes left and right, set by merge_children
 } BuildTask;
 
 /// A piece of a task's primitives, the work of one work-item.
 typedef struct BuildChunk {
     uint task;
     uint begin, end;
-    uint left_before;       ///< primitives of the task's earlier chunks that go left (set by choose_splits)
     RangeBounds bounds[2];  ///< of what this chunk sends left and right (set by partition_primitives)
 } BuildChunk;
 
@@ -119,7 +122,7 @@ typedef struct BinSet {
 #ifdef __cplusplus
 static_assert(sizeof(PrimitiveRef) == 32 && sizeof(RangeBounds) == 48 && sizeof(Split) == 12,
               "as in OpenCL C");
-static_assert(sizeof(BuildTask) == 84 && sizeof(BuildChunk) == 112 && sizeof(BuildSubtree) == 96,
+static_assert(sizeof(BuildTask) == 180 && sizeof(BuildChunk) == 108 && sizeof(BuildSubtree) == 96,
               "as in OpenCL C");
 static_assert(sizeof(InputChunk) == 72 && sizeof(BuildState) == 56 && sizeof(BinSet) == 1728,
               "as in OpenCL C");

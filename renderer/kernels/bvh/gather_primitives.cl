@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Input of the builder: which triangles can be hit, their boxes in input order, the first task.
-// Three stages: check_triangles (a work-item per chunk of the input), begin_build (one work-item),
+// Three stages: check_triangles (a work-item per chunk of the input), begin_build (one work-group),
 // gather_primitives (per chunk). Order is kept, so what follows does not depend on scheduling.
 #include "renderer/kernels/bvh/input_triangle.h"
+#include "renderer/kernels/bvh/one_group.h"
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/kernels/bvh/tasks.h"
 
@@ -31,26 +32,50 @@ __kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, 
     chunks[chunk].bad_index = faults[TRIANGLE_BAD_INDEX];
 }
 
-/// One work-item: prefix sums over the chunks, and the root as task or subtree.
+/// One work-group: prefix sums over the chunks, and the root as task or subtree.
 __kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint chunk_size,
                           uint subtree_size, GLOBAL BuildState *state, GLOBAL BuildTask *tasks,
                           GLOBAL BuildChunk *chunks, GLOBAL BuildSubtree *subtrees) {
-    if (get_global_id(0) != 0) {
-        return;
-    }
+    __local uint shared[ONE_GROUP];
+    const uint item = (uint)get_local_id(0);
     BuildState total = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0f, 0.0f, 0.0f};
     RangeBounds bounds = empty_bounds();
-    for (uint i = 0; i < input_chunk_count; ++i) {
-        input[i].accepted_before = total.primitive_count;
-        total.primitive_count += input[i].accepted;
-        total.not_finite += input[i].not_finite;
-        total.degenerate += input[i].degenerate;
-        total.bad_index += input[i].bad_index;
+    uint faults[3] = {0, 0, 0};
+    for (uint first = 0; first < input_chunk_count; first += ONE_GROUP) {
+        const uint i = first + item;
+        const bool is_chunk = i < input_chunk_count;
+        uint accepted;
+        const uint before = sum_before(shared, is_chunk ? input[i].accepted : 0u, &accepted);
+        if (is_chunk) {
+            input[i].accepted_before = total.primitive_count + before;
+            faults[0] += input[i].not_finite;
+            faults[1] += input[i].degenerate;
+            faults[2] += input[i].bad_index;
+            merge_bounds(&bounds, &input[i].bounds);
+        }
+        total.primitive_count += accepted;
+    }
+    sum_before(shared, faults[0], &total.not_finite);
+    sum_before(shared, faults[1], &total.degenerate);
+    sum_before(shared, faults[2], &total.bad_index);
+    if (item < input_chunk_count) {
+        input[item].bounds = bounds;  // of this chunk and every ONE_GROUP-th after it
+    }
+    barrier(CLK_GLOBAL_MEM_FENCE);
+    if (item != 0) {
+        return;
+    }
+    for (uint i = 1; i < min(ONE_GROUP, input_chunk_count); ++i) {
         merge_bounds(&bounds, &input[i].bounds);
     }
     total.inverse_extent = inverse_extent(&bounds);
     total.root_area = half_area_of(&bounds, total.inverse_extent);
-    emit_range(&total, tasks, chunks, subtrees, chunk_size, subtree_size, 0, total.primitive_count, 0,
+    total.chunk_count = chunks_of(total.primitive_count, chunk_size, subtree_size);
+    total.task_count = total.chunk_count > 0u ? 1u : 0u;
+    total.top_node_count = total.task_count;
+    total.subtree_count = 1u - total.task_count;
+    const Numbers numbers = {0, 0, 0, 0};
+    emit_range(&numbers, tasks, chunks, subtrees, chunk_size, subtree_size, 0, total.primitive_count, 0,
                BVH_NO_PARENT, 0, 0, &bounds);
     *state = total;
 }

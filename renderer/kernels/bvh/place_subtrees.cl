@@ -1,47 +1,72 @@
 // SPDX-License-Identifier: MIT
-// The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-item) numbers them
+// The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-group) numbers them
 // and links them to the top nodes, copy_top_nodes and copy_subtrees (a work-item per subtree) write the
 // compact arrays.
 #include "renderer/kernels/bvh/finished_tree.h"
+#include "renderer/kernels/bvh/one_group.h"
 
 /// Without top nodes the root is a subtree; when that is a single leaf, or nothing at all, it is given a node
 /// here.
 __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subtrees, uint subtree_count,
                              GLOBAL BvhNode *top_nodes) {
-    if (get_global_id(0) != 0) {
-        return;
-    }
+    __local uint shared[ONE_GROUP];
+    __local float shared_cost[ONE_GROUP];
+    const uint item = (uint)get_local_id(0);
     BuildState total = *state;
     const bool root_is_leaf = total.top_node_count == 0 && subtrees[0].node_count == 0;
     if (root_is_leaf) {
-        const RangeBounds all = subtrees[0].bounds;
-        const RangeBounds nothing = empty_bounds();
-        write_child(top_nodes, 0, &all, total.primitive_count, bvh_leaf(0, total.primitive_count));
-        write_child(top_nodes, 1, &nothing, 0, BVH_EMPTY_LEAF);
         total.top_node_count = 1;
+        if (item == 0) {
+            const RangeBounds all = subtrees[0].bounds;
+            const RangeBounds nothing = empty_bounds();
+            write_child(top_nodes, 0, &all, total.primitive_count, bvh_leaf(0, total.primitive_count));
+            write_child(top_nodes, 1, &nothing, 0, BVH_EMPTY_LEAF);
+        }
     }
     total.node_count = total.top_node_count;
-    float cost = total.root_area;
-    for (uint i = 0; i < subtree_count; ++i) {
+    float cost = item == 0 ? total.root_area : 0.0f;
+    uint leaves = 0;
+    uint depth = total.depth;
+    for (uint first = 0; first < subtree_count; first += ONE_GROUP) {
+        const uint i = first + item;
         GLOBAL BuildSubtree *subtree = subtrees + i;
-        subtree->node_offset = total.node_count;
-        if (subtree->parent != BVH_NO_PARENT) {
-            top_nodes[subtree->parent].child[subtree->side] =
-                subtree->node_count > 0 ? total.node_count
-                                        : bvh_leaf(subtree->begin, subtree->end - subtree->begin);
+        const uint nodes = i < subtree_count ? subtree->node_count : 0u;
+        uint new_nodes;
+        const uint offset = total.node_count + sum_before(shared, nodes, &new_nodes);
+        if (i < subtree_count) {
+            subtree->node_offset = offset;
+            if (subtree->parent != BVH_NO_PARENT) {
+                top_nodes[subtree->parent].child[subtree->side] =
+                    nodes > 0 ? offset : bvh_leaf(subtree->begin, subtree->end - subtree->begin);
+            }
+            leaves += subtree->leaf_count;
+            depth = max(depth, root_is_leaf ? 1u : subtree->deepest_leaf);
+            cost += subtree->cost;
         }
-        total.node_count += subtree->node_count;
-        total.leaf_count += subtree->leaf_count;
-        total.depth = max(total.depth, root_is_leaf ? 1u : subtree->deepest_leaf);
-        cost += subtree->cost;
+        total.node_count += new_nodes;
     }
-    for (uint node = 0; node < total.top_node_count; ++node) {
+    uint new_leaves;
+    sum_before(shared, leaves, &new_leaves);
+    total.leaf_count += new_leaves;
+    barrier(CLK_GLOBAL_MEM_FENCE);  // links of top nodes
+    for (uint node = item; node < total.top_node_count; node += ONE_GROUP) {
         for (uint side = 0; side < 2; ++side) {
             const uint link = top_nodes[node].child[side];
             const float triangles = (link & BVH_LEAF_BIT) != 0 ? (float)bvh_leaf_count(link) : 1.0f;
             cost += node_child_area(top_nodes + node, side, total.inverse_extent) * triangles;
         }
     }
+    shared[item] = depth;
+    shared_cost[item] = cost;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (item != 0) {
+        return;
+    }
+    for (uint i = 1; i < ONE_GROUP; ++i) {
+        depth = max(depth, shared[i]);
+        cost += shared_cost[i];
+    }
+    total.depth = depth;
     total.cost = total.root_area > 0.0f ? cost / total.root_area : 0.0f;
     *state = total;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One level of the large phase: every node above the subtree size, whatever its size, is split by all
-// work-items together (thesis 3.1). bin_primitives (a work-item per chunk) -> choose_splits (per task) ->
-// partition_primitives (per chunk, from one primitive buffer to the other) -> emit_children (one work-item).
+// work-items together (thesis 3.1). bin_primitives (a work-item per chunk) -> merge_bins (several per task) ->
+// choose_splits (per task) -> partition_primitives (per chunk, from one primitive buffer to the other) ->
+// merge_children (per child) -> emit_children (one work-group).
 // Departure from the thesis: offsets are prefix sums over chunks instead of atomic counters, so that the
 // partition is stable and the tree the same whatever the order of execution.
 #include "renderer/kernels/bvh/binned_sah.h"
+#include "renderer/kernels/bvh/one_group.h"
 #include "renderer/kernels/bvh/tasks.h"
 
 __kernel void bin_primitives(GLOBAL const BuildTask *tasks, GLOBAL const BuildChunk *chunks, uint chunk_count,
@@ -25,9 +27,35 @@ __kernel void bin_primitives(GLOBAL const BuildTask *tasks, GLOBAL const BuildCh
     chunk_bins[chunk] = bins;
 }
 
-/// Sums a task's bins, chooses its split, and counts for each of its chunks what goes left before it.
-__kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL BuildChunk *chunks,
-                            GLOBAL const BinSet *chunk_bins) {
+/// Sums each bin over a task's chunks, whose counts become those of the chunks before them. `parts` work-items
+/// share the bins of a task.
+__kernel void merge_bins(GLOBAL const BuildTask *tasks, uint task_count, uint parts, GLOBAL BinSet *chunk_bins,
+                         GLOBAL BinSet *task_bins) {
+    const uint index = (uint)get_global_id(0) / parts;
+    const uint part = (uint)get_global_id(0) % parts;
+    if (index >= task_count) {
+        return;
+    }
+    const uint bins = BVH_BINNED_AXES * BVH_BINS;
+    const uint first_chunk = tasks[index].first_chunk;
+    const uint end_chunk = first_chunk + tasks[index].chunk_count;
+    for (uint i = bins * part / parts; i < bins * (part + 1u) / parts; ++i) {
+        const uint place = i / BVH_BINS;
+        const uint bin = i % BVH_BINS;
+        float8 box = splat_float8(INFINITY);
+        uint count = 0;
+        for (uint chunk = first_chunk; chunk < end_chunk; ++chunk) {
+            box = enclosing(box, vload8(0, chunk_bins[chunk].box[place][bin]));
+            const uint in_chunk = chunk_bins[chunk].count[place][bin];
+            chunk_bins[chunk].count[place][bin] = count;
+            count += in_chunk;
+        }
+        vstore8(box, 0, task_bins[index].box[place][bin]);
+        task_bins[index].count[place][bin] = count;
+    }
+}
+
+__kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL const BinSet *task_bins) {
     const uint index = (uint)get_global_id(0);
     if (index >= task_count) {
         return;
@@ -35,36 +63,25 @@ __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL Bui
     GLOBAL BuildTask *task = tasks + index;
     const RangeBounds bounds = task->bounds;
     const Binning binning = make_binning(&bounds);
-    BinSet bins;
-    clear_bins(&bins);
-    for (uint chunk = task->first_chunk; chunk < task->first_chunk + task->chunk_count; ++chunk) {
-        for (uint place = 0; place < BVH_BINNED_AXES; ++place) {
-            for (uint bin = 0; bin < BVH_BINS; ++bin) {
-                vstore8(enclosing(vload8(0, bins.box[place][bin]), vload8(0, chunk_bins[chunk].box[place][bin])), 0,
-                        bins.box[place][bin]);
-                bins.count[place][bin] += chunk_bins[chunk].count[place][bin];
-            }
-        }
+    const BinSet bins = task_bins[index];
+    task->split = choose_split(&bins, &binning, task->end - task->begin, task->depth, inverse_extent(&bounds));
+}
+
+/// Primitives of the task's earlier chunks that go left.
+DEVICE uint left_before(PRIVATE const Split *split, uint before, GLOBAL const BinSet *bins) {
+    if (split->axis == BVH_SPLIT_BY_COUNT) {
+        return min(before, split->left_count);
     }
-    const Split split =
-        choose_split(&bins, &binning, task->end - task->begin, task->depth, inverse_extent(&bounds));
-    task->split = split;
     uint left = 0;
-    for (uint chunk = task->first_chunk; chunk < task->first_chunk + task->chunk_count; ++chunk) {
-        if (split.axis == BVH_SPLIT_BY_COUNT) {
-            left = min(chunks[chunk].begin - task->begin, split.left_count);
-        }
-        chunks[chunk].left_before = left;
-        if (split.axis != BVH_SPLIT_BY_COUNT) {
-            for (uint bin = 0; bin <= split.last_left_bin; ++bin) {
-                left += chunk_bins[chunk].count[PLACE_OF_AXIS(split.axis)][bin];
-            }
-        }
+    for (uint bin = 0; bin <= split->last_left_bin; ++bin) {
+        left += bins->count[PLACE_OF_AXIS(split->axis)][bin];
     }
+    return left;
 }
 
 __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildChunk *chunks, uint chunk_count,
-                                   GLOBAL const PrimitiveRef *source, GLOBAL PrimitiveRef *target) {
+                                   GLOBAL const BinSet *chunk_bins, GLOBAL const PrimitiveRef *source,
+                                   GLOBAL PrimitiveRef *target) {
     const uint index = (uint)get_global_id(0);
     if (index >= chunk_count) {
         return;
@@ -78,9 +95,11 @@ __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildCh
     bounds[0] = empty_signed_bounds();
     bounds[1] = empty_signed_bounds();
     const uint task_begin = task->begin;
+    const uint before = chunk->begin - task_begin;
+    const uint left = left_before(&split, before, chunk_bins + index);
     uint next[2];
-    next[0] = task_begin + chunk->left_before;
-    next[1] = task_begin + split.left_count + (chunk->begin - task_begin - chunk->left_before);
+    next[0] = task_begin + left;
+    next[1] = task_begin + split.left_count + (before - left);
     const uint end = chunk->end;
     for (uint i = chunk->begin; i < end; ++i) {
         const PrimitiveRef ref = source[i];
@@ -93,33 +112,62 @@ __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildCh
     chunk->bounds[1] = range_bounds(&bounds[1]);
 }
 
-/// One work-item: writes this level's nodes and books their children for the next level or the small phase.
+__kernel void merge_children(GLOBAL BuildTask *tasks, uint task_count, GLOBAL const BuildChunk *chunks) {
+    const uint child = (uint)get_global_id(0);
+    if (child >= 2u * task_count) {
+        return;
+    }
+    GLOBAL BuildTask *task = tasks + child / 2u;
+    const uint end_chunk = task->first_chunk + task->chunk_count;
+    RangeBounds bounds = empty_bounds();
+    for (uint chunk = task->first_chunk; chunk < end_chunk; ++chunk) {
+        merge_bounds(&bounds, &chunks[chunk].bounds[child % 2u]);
+    }
+    task->children[child % 2u] = bounds;
+}
+
+/// One work-group: writes this level's nodes and books their children for the next level or the small phase.
 /// `buffer` is the index of the buffer that partition_primitives wrote.
-__kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *tasks,
-                            GLOBAL const BuildChunk *chunks, uint task_count, uint chunk_size,
+__kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *tasks, uint task_count, uint chunk_size,
                             uint subtree_size, uint buffer, GLOBAL BvhNode *nodes,
                             GLOBAL BuildTask *next_tasks, GLOBAL BuildChunk *next_chunks,
                             GLOBAL BuildSubtree *subtrees) {
-    if (get_global_id(0) != 0) {
-        return;
-    }
+    __local uint shared[ONE_GROUP];
     BuildState next = *state;
     next.task_count = 0;
     next.chunk_count = 0;
-    for (uint t = 0; t < task_count; ++t) {
-        const BuildTask task = tasks[t];
-        const uint middle = task.begin + task.split.left_count;
-        for (uint side = 0; side < 2; ++side) {
-            RangeBounds bounds = empty_bounds();
-            for (uint chunk = task.first_chunk; chunk < task.first_chunk + task.chunk_count; ++chunk) {
-                merge_bounds(&bounds, &chunks[chunk].bounds[side]);
-            }
-            const uint begin = side == 0 ? task.begin : middle;
-            const uint end = side == 0 ? middle : task.end;
-            const uint link = emit_range(&next, next_tasks, next_chunks, subtrees, chunk_size, subtree_size, begin, end,
-                                         task.depth + 1u, task.node, side, buffer, &bounds);
-            write_child(nodes + task.node, side, &bounds, end - begin, link);
+    for (uint first = 0; first < 2u * task_count; first += ONE_GROUP) {
+        const uint child = first + (uint)get_local_id(0);
+        const uint side = child % 2u;
+        uint begin = 0, end = 0;
+        if (child < 2u * task_count) {
+            GLOBAL const BuildTask *task = tasks + child / 2u;
+            const uint middle = task->begin + task->split.left_count;
+            begin = side == 0 ? task->begin : middle;
+            end = side == 0 ? middle : task->end;
         }
+        const uint chunks = chunks_of(end - begin, chunk_size, subtree_size);
+        uint new_tasks, new_chunks, new_subtrees;
+        const uint tasks_before = sum_before(shared, chunks > 0u ? 1u : 0u, &new_tasks);
+        Numbers numbers;
+        numbers.task = next.task_count + tasks_before;
+        numbers.node = next.top_node_count + tasks_before;
+        numbers.chunk = next.chunk_count + sum_before(shared, chunks, &new_chunks);
+        // Both sides of a split hold something.
+        numbers.subtree = next.subtree_count + sum_before(shared, chunks == 0u && end > begin ? 1u : 0u, &new_subtrees);
+        if (end > begin) {
+            GLOBAL const BuildTask *task = tasks + child / 2u;
+            const RangeBounds bounds = task->children[side];
+            const uint link = emit_range(&numbers, next_tasks, next_chunks, subtrees, chunk_size, subtree_size, begin, end,
+                                         task->depth + 1u, task->node, side, buffer, &bounds);
+            write_child(nodes + task->node, side, &bounds, end - begin, link);
+        }
+        next.task_count += new_tasks;
+        next.top_node_count += new_tasks;
+        next.chunk_count += new_chunks;
+        next.subtree_count += new_subtrees;
     }
-    *state = next;
+    if (get_local_id(0) == 0) {
+        *state = next;
+    }
 }

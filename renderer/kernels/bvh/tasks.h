@@ -3,17 +3,31 @@
 
 #include "renderer/kernels/bvh/build_records.h"
 
+/// The numbers of the next task, its first chunk and its node, and of the next subtree.
+typedef struct Numbers {
+    uint task, chunk, node, subtree;
+} Numbers;
+
+/// Primitives in each chunk of a task of `count`, but the last.
+DEVICE uint chunk_length(uint count, uint chunk_size) {
+    return max(chunk_size, (count - 1u) / BVH_CHUNKS_PER_TASK + 1u);
+}
+
+/// Chunks of a range of `count` primitives: none where it is small enough for one work-item.
+DEVICE uint chunks_of(uint count, uint chunk_size, uint subtree_size) {
+    return count <= subtree_size ? 0u : (count - 1u) / chunk_length(count, chunk_size) + 1u;
+}
+
 /// Books the range [begin, end), child `side` of top node `parent`, as the next level's task or, when it is
-/// small enough for one work-item, as a subtree. Called by single work-items in a fixed order: numbering is
-/// deterministic. Returns the index of the task's node, or BVH_EMPTY_LEAF for a subtree (place_subtrees links
-/// it).
-DEVICE uint emit_range(PRIVATE BuildState *state, GLOBAL BuildTask *tasks, GLOBAL BuildChunk *chunks,
+/// small enough for one work-item, as a subtree, under these numbers, which the caller gives out in a fixed order.
+/// Returns the index of the task's node, or BVH_EMPTY_LEAF for a subtree (place_subtrees links it).
+DEVICE uint emit_range(PRIVATE const Numbers *numbers, GLOBAL BuildTask *tasks, GLOBAL BuildChunk *chunks,
                        GLOBAL BuildSubtree *subtrees, uint chunk_size, uint subtree_size, uint begin,
                        uint end, uint depth, uint parent, uint side, uint buffer,
                        PRIVATE const RangeBounds *bounds) {
-    if (end - begin <= subtree_size) {
-        GLOBAL BuildSubtree *subtree = subtrees + state->subtree_count;
-        state->subtree_count += 1u;
+    const uint chunk_count = chunks_of(end - begin, chunk_size, subtree_size);
+    if (chunk_count == 0u) {
+        GLOBAL BuildSubtree *subtree = subtrees + numbers->subtree;
         subtree->begin = begin;
         subtree->end = end;
         subtree->depth = depth;
@@ -24,22 +38,20 @@ DEVICE uint emit_range(PRIVATE BuildState *state, GLOBAL BuildTask *tasks, GLOBA
         subtree->padding = 0;
         return BVH_EMPTY_LEAF;
     }
-    GLOBAL BuildTask *task = tasks + state->task_count;
+    GLOBAL BuildTask *task = tasks + numbers->task;
     task->begin = begin;
     task->end = end;
     task->depth = depth;
-    task->node = state->top_node_count;
-    task->first_chunk = state->chunk_count;
-    task->chunk_count = (end - begin + chunk_size - 1u) / chunk_size;
+    task->node = numbers->node;
+    task->first_chunk = numbers->chunk;
+    task->chunk_count = chunk_count;
     task->bounds = *bounds;
-    for (uint i = 0; i < task->chunk_count; ++i) {
-        GLOBAL BuildChunk *chunk = chunks + state->chunk_count + i;
-        chunk->task = state->task_count;
-        chunk->begin = begin + i * chunk_size;
-        chunk->end = min(begin + (i + 1u) * chunk_size, end);
+    const uint length = chunk_length(end - begin, chunk_size);
+    for (uint i = 0; i < chunk_count; ++i) {
+        GLOBAL BuildChunk *chunk = chunks + numbers->chunk + i;
+        chunk->task = numbers->task;
+        chunk->begin = begin + i * length;
+        chunk->end = min(begin + (i + 1u) * length, end);
     }
-    state->chunk_count += task->chunk_count;
-    state->task_count += 1u;
-    state->top_node_count += 1u;
-    return task->node;
+    return numbers->node;
 }
