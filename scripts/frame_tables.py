@@ -112,7 +112,7 @@ def bounces(run):
     tables = (
         Table("How many times faster the wavefront is: geometric means over the scenes", ["bounces", *rivals], means),
         Table("Msamples/s, wall", ["thesis", "measured here", "bounces", *names], rates),
-        Table("How many times faster the wavefront is, processor time", [
+        Table(f"How many times faster the wavefront is, {run.clock} time", [
             "scene", "bounces", "triangles", *rivals, "rays per sample, at most", "wavefront, rays per sample",
             "Embree, rays per sample", "turns", "others' load, %"], ratios),
     )
@@ -161,7 +161,7 @@ def ablations(run):
             builds),
     )
     what = (f"{size_of(run)}, {run.get('experiment.settings').get('spp', 1)} sample(s) per pixel and frame, path tracing by MIS "
-            "with roulette. Speeds by processor time, turn by turn, medians with 95 % intervals; a setting that is this "
+            f"with roulette. Speeds by {run.clock} time, turn by turn, medians with 95 % intervals; a setting that is this "
             "device's default says how far apart equal things are measured. Every frame is of a session made for its turn: a session "
             "keeps its memory, and what was made first is up to 7 % slower. Compiling takes less where kernels are in a cache.")
     return what, tables

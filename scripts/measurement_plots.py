@@ -23,7 +23,7 @@ def build_time(run):
     rows = sorted(run.get("rows"), key=lambda row: value(row, "triangles"))
     triangles = numpy.array([value(row, "triangles") for row in rows], dtype=float)
     for i, contestant in enumerate(value(rows[0], "contestants")):
-        times = [next(c for c in value(row, "contestants") if c["name"] == contestant["name"])["processor_ms"] for row in rows]
+        times = [next(c for c in value(row, "contestants") if c["name"] == contestant["name"])[f"{run.clock}_ms"] for row in rows]
         middle = numpy.array([value(time, "value") for time in times])
         reach = [middle - [value(time, "low") for time in times], [value(time, "high") for time in times] - middle]
         exponent = run.get("summary.exponents").get(contestant["name"])
@@ -32,11 +32,11 @@ def build_time(run):
             label += f", k = {value(exponent, 'value'):.3f} [{value(exponent, 'low'):.3f}, {value(exponent, 'high'):.3f}]"
         axes.errorbar(triangles, middle, yerr=reach, color=COLOURS[i % len(COLOURS)], marker=MARKERS[i % len(MARKERS)],
                       markersize=4, linewidth=1.0, linestyle="-" if contestant["side"] == "ours" else "--", label=label)
-    axes.set(xscale="log", yscale="log", xlabel="triangles", ylabel="processor time of a build, ms (all threads)",
+    axes.set(xscale="log", yscale="log", xlabel="triangles", ylabel=f"{run.clock} time of a build, ms (all threads)",
              title=f"{run.get('experiment.title')}: medians with 95 % intervals, time = c · triangles$^k$")
     axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2)
     save(figure, run, "build_time")
-    return {"build_time": "Processor time of a build against triangles, with the exponents of power laws and their 95 % "
+    return {"build_time": f"{run.clock.capitalize()} time of a build against triangles, with the exponents of power laws and their 95 % "
                           "intervals over the meshes; dashed: Embree."}
 
 
@@ -59,15 +59,16 @@ def speeds(run):
                            marker=MARKERS[i % len(MARKERS)], markersize=4, linewidth=1.0, label=label)
         panel.axvline(1, color="black", linewidth=0.8, linestyle=":")
         panel.set(title=name(kind), xscale="log", xlabel="speed / Embree ray by ray")
-        ticks = [0.2, 0.5, 1, 2, 5]
-        panel.set_xticks(ticks, [f"{tick:g}" for tick in ticks], minor=False)
-        panel.minorticks_off()
+        if run.clock == "processor":
+            ticks = [0.2, 0.5, 1, 2, 5]
+            panel.set_xticks(ticks, [f"{tick:g}" for tick in ticks], minor=False)
+            panel.minorticks_off()
     panels[0].set_yticks(range(len(meshes)), meshes)
     panels[0].invert_yaxis()
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=len(labels))
     save(figure, run, "speeds")
-    return {"speeds": "Rays per processor second over Embree's, ray by ray (1), by mesh and kind of ray, medians with 95 % "
+    return {"speeds": f"Rays per {run.clock} second over Embree's, ray by ray (1), by mesh and kind of ray, medians with 95 % "
                       "intervals."}
 
 
@@ -79,7 +80,7 @@ def animation(run):
     for column, row in zip(panels.T, rows):
         frames = value(row, "frames")
         x = [value(frame, "frame") for frame in frames]
-        for panel, what, key in zip(column, ("updates", "rays"), ("processor_ms", "speed_over_build")):
+        for panel, what, key in zip(column, ("updates", "rays"), (f"{run.clock}_ms", "speed_over_build")):
             for i, entry in enumerate(value(frames[0], what)):
                 found = [value(next(e for e in frame[what] if e["name"] == entry["name"]), key) for frame in frames]
                 middle = numpy.array([value(f, "value") for f in found])
@@ -88,12 +89,12 @@ def animation(run):
                 place = [u["name"] for u in value(frames[0], "updates")].index(entry["name"])
                 panel.errorbar(x, middle, yerr=reach, color=COLOURS[place], marker=MARKERS[place], markersize=4, linewidth=1.0,
                                label=name(entry["name"]))
-        column[0].set(title=f"{name(row['mesh'])}, {value(row, 'triangles')} triangles", yscale="log", ylabel="processor ms of an update")
+        column[0].set(title=f"{name(row['mesh'])}, {value(row, 'triangles')} triangles", yscale="log", ylabel=f"{run.clock} ms of an update")
         column[1].set(xlabel="frame", ylabel="speed of diffuse rays")
     handles, labels = panels[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=2)
     save(figure, run, "animation")
-    return {"animation": "Processor time of an update by frame, and the rate of diffuse rays after it over that of the usual "
+    return {"animation": f"{run.clock.capitalize()} time of an update by frame, and the rate of diffuse rays after it over that of the usual "
                          "builder's tree, built anew."}
 
 

@@ -45,9 +45,11 @@ def mesh_name(run, mesh):
 
 def heading(run, what):
     context = run.get("context")
+    host = f"{value(context, 'host.cpu')}, {value(context, 'host.cores')} cores"
+    units = "threads" if run.clock == "processor" else f"compute units, beside {host}"
     load = ", ".join(f"{average:.1f}" for average in value(context, "load_average_start"))
     text = (f"# {run.get('experiment.title')} ({run.get('experiment.thesis')})\n\n{what}\n\n"
-            f"{value(context, 'device.name')}, {value(context, 'device.compute_units')} threads, {value(context, 'host.compiler')}; "
+            f"{value(context, 'device.name')}, {value(context, 'device.compute_units')} {units}, {value(context, 'host.compiler')}; "
             f"commit {value(context, 'commit')}{', changed' if value(context, 'dirty') else ''}, profile "
             f"{run.get('experiment.profile')}, {value(context, 'finished_at')}; load average at the start {load}, others "
             f"used {100 * value(context, 'cpu_use.foreign'):.0f} % of the processors.")
@@ -108,11 +110,11 @@ def bvh_build(run):
         "mesh", "triangles", "builder", "ms", "processor ms", "Mtris/s (wall)", "Mtris per processor s", "speed / Embree medium", "SAH", "/ full sweep",
         "nodes per ray", "triangles per ray", "bytes per triangle", "peak", "peak, MB", "turns", "others' load, %"],
         list(build_rows(run)))
-    exponents = Table("Time = c · triangles^k (processor time; least squares on logarithms, 95 % intervals over the meshes)",
+    exponents = Table(f"Time = c · triangles^k ({run.clock} time; least squares on logarithms, 95 % intervals over the meshes)",
                       ["builder", "k"],
                       [[name(c), interval(k)] for c, k in run.get("summary.exponents").items()])
     what = ("Medians of turns with 95 % intervals. ms: on the wall, all threads of the device; processor ms: of all threads "
-            "together, of which *speed* is the ratio, turn by turn, and which other load hardly changes. Embree's low, medium "
+            f"of the host together; *speed* is the ratio of {run.clock} times, turn by turn. Embree's low, medium "
             "and high quality, not ROBUST. SAH: K_T = K_I = 1, of the two-wide tree below every layout, also over that of a "
             "full sweep on the host; nodes and triangles: of diffuse rays. Peak: all that a build holds, vertices, indices and "
             f"the result included. {GIVING_UP}")
@@ -179,7 +181,7 @@ def ray_rates(run):
     tables = (
         Table("Geometric means of the speeds over Embree, ray by ray",
               ["rays", *map(name, ours), "stackless / stack"], means),
-        Table("Mrays/s (wall), and speeds over Embree ray by ray (processor time)",
+        Table(f"Mrays/s (wall), and speeds over Embree ray by ray ({run.clock} time)",
               ["mesh", "rays", *(f"{name(c)}, Mrays/s" for c in ours), "Embree 1", "Embree 16",
                *(f"{name(c)} / Embree 1" for c in ours), "Embree 16 / Embree 1", "stackless / stack", "others' load, %"], rates),
         Table("Work", ["mesh", "rays", *(f"nodes, triangles per ray: {name(c)}" for c in ours),
@@ -232,7 +234,7 @@ def bvh_animation(run):
     tables = (
         Table("An update: wall ms [95 % interval]; processor ms",
               ["mesh", "frame", *(name(u["name"]) for u in value(first, "updates")), "others' load, %"], updates),
-        Table(f"Diffuse rays: speed over '{traced[0]}' (processor time), and work",
+        Table(f"Diffuse rays: speed over '{traced[0]}' ({run.clock} time), and work",
               ["mesh", "frame", *traced[1:], *(f"nodes, triangles per ray: {t}" for t in traced)], rays),
     )
     motions = "; ".join(f"{name(row['mesh'])} ({value(row, 'triangles')} triangles): {value(row, 'motion')}" for row in run.get("rows"))

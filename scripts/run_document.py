@@ -44,6 +44,11 @@ class Run:
         except RunError as error:
             raise RunError(f"{self.folder / 'run.json'}: {error}") from error
 
+    @property
+    def clock(self):
+        """The time that speeds compare: "wall" where a GPU works, else "processor", of all threads together."""
+        return "wall" if value(self.document, "context.device").get("type") == "gpu" else "processor"
+
     def has_images(self):
         """Whether they are there; a clone has the pages that were made of them."""
         return (self.folder / self.get("reference.image")).with_suffix(".npy").exists()

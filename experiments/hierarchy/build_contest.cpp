@@ -132,14 +132,15 @@ MeasurementPlan plan_bvh_build(const MeasurementSettings &settings, DeviceContex
                                   return row;
                               }});
     }
-    plan.summarise = [](const Json &rows) {
+    const char *const time = clock_of(device.info()) == Clock::processor ? "processor_ms" : "wall_ms";
+    plan.summarise = [time](const Json &rows) {
         // Exponents of milliseconds over triangles, by contestant.
         Json exponents = Json::object();
         for (size_t i = 0; rows.size() > 2 && i < rows.at(0).at("contestants").size(); ++i) {
             std::vector<double> triangles, milliseconds;
             for (const Json &row : rows) {
                 triangles.push_back(row.at("triangles"));
-                milliseconds.push_back(row.at("contestants").at(i).at("processor_ms").at("value"));
+                milliseconds.push_back(row.at("contestants").at(i).at(time).at("value"));
             }
             exponents[rows.at(0).at("contestants").at(i).at("name").get<std::string>()] =
                 to_json(power_law_exponent(triangles, milliseconds));
