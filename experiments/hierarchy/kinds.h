@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kinds of measurement, by the names that "measures" gives them.
+// The kinds of measurement, by the names that "measures" gives them. Speeds compare processor time, or wall time where the
+// device is a GPU (contest.h).
 #pragma once
 
 #include "experiments/hierarchy/contest.h"
@@ -10,7 +11,8 @@ namespace rtrays {
 /// Building by every builder and layout, and by Embree's low, medium and high quality (thesis table 4.1).
 ///
 /// A turn builds from buffers that are on the device to a hierarchy that can be traced; Embree's from a scene
-/// that holds the buffers (rtcCommitScene, not ROBUST); on as many threads as the device has compute units.
+/// that holds the buffers (rtcCommitScene, not ROBUST); on as many threads as a CPU device has compute units, beside a
+/// GPU on all of the host.
 /// Rows hold milliseconds, SAH cost (K_T = K_I = 1) also over that of a full sweep on the host, the work of a
 /// diffuse ray, bytes, and device milliseconds by stage of one build. The summary holds the exponents of time
 /// over triangles.
@@ -40,11 +42,11 @@ MeasurementPlan plan_frame_times(const MeasurementSettings &settings, DeviceCont
 /// Samples per second of paths of 1, 4 and 8 bounces on diffuse surfaces, roulette off, one explicit
 /// connection at every hit (thesis figure 4.22): the wavefront, one kernel for whole paths, the Embree
 /// reference and, where wanted and installed, Mitsuba 3 and Cycles, in turns. Rows hold, by depth, rates on the wall, rays per
-/// sample, and by processor time how many times faster the wavefront is.
+/// sample, and how many times faster the wavefront is.
 MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext &device);
 
 /// Frames of path tracing (MIS, roulette), one sample per pixel, and builds of the hierarchy, with one
-/// setting changed at a time, in turns with the defaults; speeds over those by processor time.
+/// setting changed at a time, in turns with the defaults; speeds over those.
 MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContext &device);
 
 /// Stored references by every renderer that made some, and an image of ours, tested against each other pair by pair;
