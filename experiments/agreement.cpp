@@ -23,15 +23,17 @@ namespace {
 
 /// Sums of a channel over the pixels of every block, the whole image last.
 std::vector<double> block_sums(const Image &image, const std::string &channel, int size) {
-    const int columns = (image.width() + size - 1) / size, rows = (image.height() + size - 1) / size;
+    const int columns = (image.width() + size - 1) / size,
+              rows = (image.height() + size - 1) / size;
     std::vector<double> sums(static_cast<size_t>(columns * rows) + 1);
     const std::vector<float> &values = image.channel(channel);
     for (size_t i = 0; i < values.size(); ++i) {
         const int x = static_cast<int>(i) % image.width(), y = static_cast<int>(i) / image.width();
         const auto value = static_cast<double>(values[i]);
         if (!std::isfinite(value) || (value < 0 && channel.rfind("variance", 0) == 0)) {
-            throw input_error(fmt::format("pixel ({}, {}), channel {}: value {}; all must be finite, variances not negative",
-                                          x, y, channel, value));
+            throw input_error(fmt::format(
+                "pixel ({}, {}), channel {}: value {}; all must be finite, variances not negative",
+                x, y, channel, value));
         }
         sums[static_cast<size_t>(y / size * columns + x / size)] += value;
         sums.back() += value;
@@ -48,13 +50,15 @@ std::vector<double> block_pixels(const Image &image, int size) {
 
 /// "(16, 0)", its corner, or "whole image".
 std::string name_of(size_t block, const Image &image, int size) {
-    const int columns = (image.width() + size - 1) / size, rows = (image.height() + size - 1) / size;
+    const int columns = (image.width() + size - 1) / size,
+              rows = (image.height() + size - 1) / size;
     const int i = static_cast<int>(block);
-    return i == columns * rows ? "whole image" : fmt::format("({}, {})", i % columns * size, i / columns * size);
+    return i == columns * rows ? "whole image"
+                               : fmt::format("({}, {})", i % columns * size, i / columns * size);
 }
 
-/// An estimate of a sum with its variance, which is known from so many degrees of freedom, and the skewness of what
-/// it was made of.
+/// An estimate of a sum with its variance, which is known from so many degrees of freedom, and the
+/// skewness of what it was made of.
 struct NoisySum {
     double value = 0;
     double variance = 0;
@@ -62,7 +66,8 @@ struct NoisySum {
     double skewness = 0;
 };
 
-/// Of every block and the whole; variances from the layer, which stands for as many samples as there are.
+/// Of every block and the whole; variances from the layer, which stands for as many samples as
+/// there are.
 std::vector<NoisySum> sums_by_layer(const Image &image, size_t channel, int size) {
     const std::vector<double> values = block_sums(image, rgb_names()[channel], size);
     const std::vector<double> variances = block_sums(image, rgb_names("variance")[channel], size);
@@ -106,25 +111,32 @@ struct BlockTest {
     double skewness = 0;        ///< the larger one of both, absolute
     double p_value = 1;
     double adjusted_p = 1;
-    double z = 0;               ///< of a normal variable with the p-value
+    double z = 0;  ///< of a normal variable with the p-value
 };
 
 /// Degrees of freedom of Welch's test; infinity where both variances are known.
 double welch_freedom(const NoisySum &a, const NoisySum &b) {
-    const auto share = [](const NoisySum &sum) { return sum.variance * sum.variance / sum.freedom; };
+    const auto share = [](const NoisySum &sum) {
+        return sum.variance * sum.variance / sum.freedom;
+    };
     const double variance = a.variance + b.variance, shares = share(a) + share(b);
     return shares > 0 ? variance * variance / shares : std::numeric_limits<double>::infinity();
 }
 
 /// The third cumulant of a mean of as many batches as there are degrees of freedom, and one.
 double third_cumulant(const NoisySum &sum) {
-    return std::isfinite(sum.freedom) ? sum.skewness * std::pow(sum.variance, 1.5) / std::sqrt(sum.freedom + 1) : 0;
+    return std::isfinite(sum.freedom)
+               ? sum.skewness * std::pow(sum.variance, 1.5) / std::sqrt(sum.freedom + 1)
+               : 0;
 }
 
-/// Student's t of skewed data without the first-order effect of the skewness `q` of the mean: where bright batches are
-/// rare, both mean and scatter are low without them, and large negative t are common. Rises with t. P. Hall, On the
-/// removal of skewness by transformation, J. R. Statist. Soc. B 54 (1992), 221-228, equation (2.4) with a = 1/3, b = 1/6.
-double without_skewness(double t, double q) { return t + q * t * t / 3 + q * q * t * t * t / 27 + q / 6; }
+/// Student's t of skewed data without the first-order effect of the skewness `q` of the mean: where
+/// bright batches are rare, both mean and scatter are low without them, and large negative t are
+/// common. Rises with t. P. Hall, On the removal of skewness by transformation, J. R. Statist. Soc.
+/// B 54 (1992), 221-228, equation (2.4) with a = 1/3, b = 1/6.
+double without_skewness(double t, double q) {
+    return t + q * t * t / 3 + q * q * t * t * t / 27 + q / 6;
+}
 
 BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pixels) {
     BlockTest test;
@@ -132,8 +144,8 @@ BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pi
     test.skewness = std::max(std::abs(image.skewness), std::abs(reference.skewness));
     test.difference = (image.value - reference.value) / pixels;
     // Pixels are rounded to float32: half an ulp each, in the worst case all the same way.
-    const double rounding =
-        std::numeric_limits<float>::epsilon() * std::max(std::abs(image.value), std::abs(reference.value)) / pixels;
+    const double rounding = std::numeric_limits<float>::epsilon() *
+                            std::max(std::abs(image.value), std::abs(reference.value)) / pixels;
     const double variance = image.variance + reference.variance;
     test.standard_error = std::sqrt(variance) / pixels + rounding;
     // Black in both images: no difference and nothing to divide by.
@@ -142,12 +154,16 @@ BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pi
     const double freedom = welch_freedom(image, reference);
     if (std::isfinite(freedom)) {
         // Below the rounding of float32 pixels there is no telling what is skewed.
-        const double q = variance > 0 ? (third_cumulant(image) - third_cumulant(reference)) / std::pow(variance, 1.5) : 0;
+        const double q = variance > 0 ? (third_cumulant(image) - third_cumulant(reference)) /
+                                            std::pow(variance, 1.5)
+                                      : 0;
         const double t = without_skewness(test.z, q);
         const boost::math::students_t student(freedom);
         test.p_value = 2 * boost::math::cdf(boost::math::complement(student, std::abs(t)));
         const boost::math::normal normal;
-        test.z = test.p_value > 0 ? boost::math::quantile(boost::math::complement(normal, 0.5 * test.p_value)) : test.z;
+        test.z = test.p_value > 0
+                     ? boost::math::quantile(boost::math::complement(normal, 0.5 * test.p_value))
+                     : test.z;
     }
     return test;
 }
@@ -172,7 +188,8 @@ namespace {
 using Sums = std::function<std::vector<NoisySum>(size_t)>;
 
 /// Channel by channel the blocks and, last, the whole image.
-std::vector<BlockTest> block_tests(const Sums &image_sums, const Sums &reference_sums, const std::vector<double> &pixels) {
+std::vector<BlockTest> block_tests(const Sums &image_sums, const Sums &reference_sums,
+                                   const std::vector<double> &pixels) {
     std::vector<BlockTest> tests;
     for (size_t c = 0; c < rgb_names().size(); ++c) {
         const std::vector<NoisySum> image = image_sums(c), reference = reference_sums(c);
@@ -206,8 +223,8 @@ std::vector<size_t> chosen(const std::vector<size_t> &among, const Predicate &pr
 using TestsAgain = std::function<std::vector<BlockTest>(const std::vector<double> &)>;
 
 /// `again` is asked where there is something to confirm.
-Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape, const AgreementPolicy &policy,
-                    const TestsAgain &again = {}) {
+Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape,
+                    const AgreementPolicy &policy, const TestsAgain &again = {}) {
     const std::vector<double> pixels = block_pixels(shape, policy.block_size);
     std::vector<BlockTest> tests = block_tests(image_sums, reference_sums, pixels);
     const auto is_decided = [&](size_t i) { return tests[i].skewness <= policy.largest_skewness; };
@@ -221,7 +238,8 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
         mean_reference += tests[i].reference / 3;
     }
     if (!(mean_reference > 0)) {
-        throw input_error("the reference is black: a relative difference of the mean is not defined");
+        throw input_error(
+            "the reference is black: a relative difference of the mean is not defined");
     }
 
     std::vector<size_t> decided(tests.size());
@@ -246,7 +264,8 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
         result.smallest_adjusted_p = std::min(result.smallest_adjusted_p, tests[i].adjusted_p);
         if (std::abs(tests[i].z) >= result.largest_z) {
             result.largest_z = std::abs(tests[i].z);
-            result.largest_z_at = rgb_names()[i / pixels.size()] + " " + name_of(i % pixels.size(), shape, policy.block_size);
+            result.largest_z_at = rgb_names()[i / pixels.size()] + " " +
+                                  name_of(i % pixels.size(), shape, policy.block_size);
         }
     }
 
@@ -276,7 +295,8 @@ BlockTest weaker(const BlockTest &a, const BlockTest &b) {
 void require_testable(const Image &image, const Image &other) {
     require_same_size(image, other);
     if (!has_variance(image)) {
-        throw input_error("both images need the layers variance.* (variance of the mean) to be tested");
+        throw input_error(
+            "both images need the layers variance.* (variance of the mean) to be tested");
     }
 }
 
@@ -290,16 +310,19 @@ Sums sums_of(const std::vector<Image> &batches, const AgreementPolicy &policy) {
 
 }  // namespace
 
-Agreement test_agreement(const Image &image, const Image &reference, const AgreementPolicy &policy) {
+Agreement test_agreement(const Image &image, const Image &reference,
+                         const AgreementPolicy &policy) {
     require_testable(image, reference);
     require_testable(reference, image);
     return test_sums(sums_of(image, policy), sums_of(reference, policy), image, policy);
 }
 
-Agreement test_agreement(const std::vector<Image> &batches, const Image &reference, const AgreementPolicy &policy,
-                         const FreshBatches &fresh) {
+Agreement test_agreement(const std::vector<Image> &batches, const Image &reference,
+                         const AgreementPolicy &policy, const FreshBatches &fresh) {
     if (batches.size() < 2 || !has_variance(reference)) {
-        throw input_error("two batches at least, and a reference with the layers variance.*, are needed for a test");
+        throw input_error(
+            "two batches at least, and a reference with the layers variance.*, are needed for a "
+            "test");
     }
     for (const Image &batch : batches) {
         require_same_size(batch, reference);
@@ -308,25 +331,31 @@ Agreement test_agreement(const std::vector<Image> &batches, const Image &referen
         const std::vector<Image> others = fresh();
         return block_tests(sums_of(others, policy), sums_of(reference, policy), pixels);
     };
-    return test_sums(sums_of(batches, policy), sums_of(reference, policy), reference, policy, fresh ? again : TestsAgain());
+    return test_sums(sums_of(batches, policy), sums_of(reference, policy), reference, policy,
+                     fresh ? again : TestsAgain());
 }
 
-Agreement test_agreement(const Halves &image, const Halves &reference, const AgreementPolicy &policy) {
+Agreement test_agreement(const Halves &image, const Halves &reference,
+                         const AgreementPolicy &policy) {
     for (const Halves &halves : {image, reference}) {
         require_testable(halves[0], image[0]);
         require_testable(halves[1], image[0]);
     }
     const auto again = [&](const std::vector<double> &pixels) {
-        std::vector<BlockTest> first = block_tests(sums_of(image[0], policy), sums_of(reference[0], policy), pixels);
-        const std::vector<BlockTest> second = block_tests(sums_of(image[1], policy), sums_of(reference[1], policy), pixels);
+        std::vector<BlockTest> first =
+            block_tests(sums_of(image[0], policy), sums_of(reference[0], policy), pixels);
+        const std::vector<BlockTest> second =
+            block_tests(sums_of(image[1], policy), sums_of(reference[1], policy), pixels);
         std::transform(first.begin(), first.end(), second.begin(), first.begin(), weaker);
         return first;
     };
-    const Image whole = average_images({image[0], image[1]}), other = average_images({reference[0], reference[1]});
+    const Image whole = average_images({image[0], image[1]}),
+                other = average_images({reference[0], reference[1]});
     return test_sums(sums_of(whole, policy), sums_of(other, policy), whole, policy, again);
 }
 
-Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others, const AgreementPolicy &policy) {
+Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others,
+                         const AgreementPolicy &policy) {
     if (batches.size() < 2 || others.size() < 2) {
         throw input_error("two batches of either side at least are needed for a test");
     }

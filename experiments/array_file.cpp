@@ -11,9 +11,11 @@
 namespace rtrays {
 
 void write_array(const Image &image, const std::filesystem::path &path, const std::string &layer) {
-    std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}",
-                                     image.height(), image.width());
-    // Magic (6), version (2), length (2) and header end on a multiple of 64 bytes, the last a newline.
+    std::string header =
+        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}",
+                    image.height(), image.width());
+    // Magic (6), version (2), length (2) and header end on a multiple of 64 bytes, the last a
+    // newline.
     header.append(63 - (10 + header.size()) % 64, ' ');
     header += '\n';
 

@@ -24,7 +24,8 @@ nlohmann::json compare_images(const std::filesystem::path &image_path,
     const Image image = read_exr(image_path), reference = read_exr(reference_path);
     nlohmann::json comparison = to_json(compute_metrics(image, reference));
     for (const std::string &name : rgb_names()) {
-        comparison["mean_ratio"].push_back(mean_of(image.channel(name)) / mean_of(reference.channel(name)));
+        comparison["mean_ratio"].push_back(mean_of(image.channel(name)) /
+                                           mean_of(reference.channel(name)));
     }
     comparison["image"] = image_path.string();
     comparison["reference"] = reference_path.string();
@@ -45,14 +46,15 @@ std::string comparison_text(const nlohmann::json &comparison) {
     }
     const auto &agreement = comparison.at("agreement");
     const auto &difference = agreement.at("relative_difference");
-    text += fmt::format("blocks   {} of {} tests rejected at {} (Holm), largest |z| {:.2f} at {}\n",
-                        agreement.at("rejected").get<int>(), agreement.at("tests").get<int>(),
-                        agreement.at("alpha").get<double>(), agreement.at("largest_z").get<double>(),
-                        agreement.at("largest_z_at").get<std::string>());
     text +=
-        fmt::format("mean     {:+.4f} % [{:+.4f}, {:+.4f}]: {}\n", 100 * difference.at("value").get<double>(),
-                    100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
-                    agreement.at("equivalence").get<std::string>());
+        fmt::format("blocks   {} of {} tests rejected at {} (Holm), largest |z| {:.2f} at {}\n",
+                    agreement.at("rejected").get<int>(), agreement.at("tests").get<int>(),
+                    agreement.at("alpha").get<double>(), agreement.at("largest_z").get<double>(),
+                    agreement.at("largest_z_at").get<std::string>());
+    text += fmt::format(
+        "mean     {:+.4f} % [{:+.4f}, {:+.4f}]: {}\n", 100 * difference.at("value").get<double>(),
+        100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
+        agreement.at("equivalence").get<std::string>());
     return text;
 }
 

@@ -48,8 +48,8 @@ Description load(const fs::path &path, const std::string &profile) {
     chosen.at("spp").get_to(description.spp);
     chosen.at("seeds").get_to(description.seeds);
     for (const Json &scene : chosen.at("scenes")) {
-        description.scenes.push_back(description.file.resolve(json.at("folder")) / scene.get<std::string>() /
-                                     "scene.json");
+        description.scenes.push_back(description.file.resolve(json.at("folder")) /
+                                     scene.get<std::string>() / "scene.json");
     }
     for (const Json &curve : json.at("curves")) {
         RenderSettings settings = parse_render_settings(curve);
@@ -156,37 +156,46 @@ Json measure(const Description &description, const Scene &scene, const RenderSet
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
-        "# Convergence control (thesis 3.3.7)\n\nAgainst the same renders without it, {0} x {0} pixels, at most "
+        "# Convergence control (thesis 3.3.7)\n\nAgainst the same renders without it, {0} x {0} "
+        "pixels, at most "
         "{1} "
         "samples each, {2} seeds.\n\n"
-        "*live*: pixels that went on to the end, %. *paths*, *rays*, *time*: camera paths, all rays, device "
+        "*live*: pixels that went on to the end, %. *paths*, *rays*, *time*: camera paths, all "
+        "rays, device "
         "seconds, "
-        "with over without, %. *gain*: how many times fewer rays than samples spread evenly need for the "
+        "with over without, %. *gain*: how many times fewer rays than samples spread evenly need "
+        "for the "
         "RMSE that "
-        "is reached, with its 99 % interval; below 1 is a loss. A pixel that stops by its own estimate is "
+        "is reached, with its 99 % interval; below 1 is a loss. A pixel that stops by its own "
+        "estimate is "
         "biased: "
-        "*bias* is the difference of the mean, %, with its 99 % interval; *blocks*: how many of the tests by "
+        "*bias* is the difference of the mean, %, with its 99 % interval; *blocks*: how many of "
+        "the tests by "
         "blocks of "
         "16 x 16 pixels and channel see it (Holm, 0.01), and how many are too skewed to tell.\n\n"
-        "| scene | algorithm | error | live | paths | rays | time | RMSE | without | gain | from | to | bias "
+        "| scene | algorithm | error | live | paths | rays | time | RMSE | without | gain | from | "
+        "to | bias "
         "| from "
         "| to | blocks |\n"
-        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | "
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: "
+        "| ---: | "
         "---: | --- "
         "|\n",
         document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
         document.at("seeds").get<uint32_t>());
-    const auto number = [](const Json &json, const char *key) { return json.at(key).get<double>(); };
+    const auto number = [](const Json &json, const char *key) {
+        return json.at(key).get<double>();
+    };
     for (const Json &row : document.at("rows")) {
         const Json &gain = row.at("efficiency"), &bias = row.at("bias"), &mean = bias.at("mean");
         table += fmt::format("| {} | {} | {} ", row.at("scene").get<std::string>(),
                              row.at("algorithm").get<std::string>(), number(row, "error"));
         table += fmt::format("| {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.3g} | {:.3g} ",
-                             100 * number(row, "live"), 100 * number(row, "paths"), 100 * number(row, "rays"),
-                             100 * number(row.at("seconds"), "value"), number(row, "rmse"),
-                             number(row, "rmse_without"));
-        table += fmt::format("| {:.2f} | {:.2f} | {:.2f} ", number(gain, "value"), number(gain, "low"),
-                             number(gain, "high"));
+                             100 * number(row, "live"), 100 * number(row, "paths"),
+                             100 * number(row, "rays"), 100 * number(row.at("seconds"), "value"),
+                             number(row, "rmse"), number(row, "rmse_without"));
+        table += fmt::format("| {:.2f} | {:.2f} | {:.2f} ", number(gain, "value"),
+                             number(gain, "low"), number(gain, "high"));
         table += fmt::format("| {:+.3f} | {:+.3f} | {:+.3f} ", 100 * number(mean, "value"),
                              100 * number(mean, "low"), 100 * number(mean, "high"));
         table += fmt::format("| {} of {}, {} |\n", bias.at("rejected").get<size_t>(),
@@ -198,17 +207,20 @@ std::string table_of(const Json &document) {
 }  // namespace
 
 nlohmann::json compare_control(const std::vector<ControlledRender> &with,
-                               const std::vector<ControlledRender> &without, const Image &reference) {
+                               const std::vector<ControlledRender> &without,
+                               const Image &reference) {
     if (with.size() != without.size() || with.size() < 8) {
-        throw run_error(fmt::format("a bias is told from at least 8 pairs of renders; there are {} and {}",
-                                    with.size(), without.size()));
+        throw run_error(
+            fmt::format("a bias is told from at least 8 pairs of renders; there are {} and {}",
+                        with.size(), without.size()));
     }
     const auto n = static_cast<double>(with.size());
     const Image base = mean_of(without);
     const double scale = sum_of(base);
     std::vector<Image> batches;
     std::vector<double> seconds, bias, cost_with, cost_without;
-    double paths = 0, paths_without = 0, rays = 0, rays_without = 0, live = 0, mse = 0, mse_without = 0;
+    double paths = 0, paths_without = 0, rays = 0, rays_without = 0, live = 0, mse = 0,
+           mse_without = 0;
     for (size_t i = 0; i < with.size(); ++i) {
         const double own = compute_metrics(with[i].image, reference).mse,
                      other = compute_metrics(without[i].image, reference).mse;
@@ -226,7 +238,8 @@ nlohmann::json compare_control(const std::vector<ControlledRender> &with,
         batches.push_back(shifted(base, with[i].image, without[i].image));
     }
     const Agreement blocks = test_agreement(batches, base);
-    const Interval change = paired_error_ratio(cost_without, cost_with, 0.995);  // both ends together: 99 %
+    const Interval change =
+        paired_error_ratio(cost_without, cost_with, 0.995);  // both ends together: 99 %
     return {{"paths", paths / paths_without},
             {"rays", rays / rays_without},
             {"live", live},
@@ -254,8 +267,9 @@ fs::path run_control(const ControlOptions &options) {
     for (const fs::path &path : description.scenes) {
         scenes.push_back(load_scene(path.string()));
         StoredReference reference =
-            load_reference({description.file.resolve(wanted.at("folder")), scenes.back().name(), scenes.back().hash(),
-                            wanted.at("engine"), description.size, description.size, path.string()});
+            load_reference({description.file.resolve(wanted.at("folder")), scenes.back().name(),
+                            scenes.back().hash(), wanted.at("engine"), description.size,
+                            description.size, path.string()});
         references.push_back(std::move(reference.reference.image));
         inputs += reference.description.dump();
     }
@@ -265,24 +279,29 @@ fs::path run_control(const ControlOptions &options) {
     if (!resumption.finished([&](const Json &) { return fs::exists(table); }).is_null()) {
         return table;
     }
-    Json document = {
-        {"schema_version", 1},          {"commit", commit()},         {"dirty", built_from_changed_sources()},
-        {"device", device.info().name}, {"profile", options.profile}, {"size", description.size},
-        {"spp", description.spp},       {"seeds", description.seeds}, {"load_average_start", load_average()},
-        {"rows", Json::array()}};
+    Json document = {{"schema_version", 1},
+                     {"commit", commit()},
+                     {"dirty", built_from_changed_sources()},
+                     {"device", device.info().name},
+                     {"profile", options.profile},
+                     {"size", description.size},
+                     {"spp", description.spp},
+                     {"seeds", description.seeds},
+                     {"load_average_start", load_average()},
+                     {"rows", Json::array()}};
     const uint64_t renders_of_row = description.seeds * (description.errors.size() + 1);
-    Progress progress(description.name, renders_of_row * scenes.size() * description.curves.size(), "renders",
-                      options.quiet);
+    Progress progress(description.name, renders_of_row * scenes.size() * description.curves.size(),
+                      "renders", options.quiet);
     uint64_t finished = 0;
     progress.update(finished);
     for (size_t scene = 0; scene < scenes.size(); ++scene) {
         for (const RenderSettings &curve : description.curves) {
             const uint64_t before = finished;
-            const fs::path done =
-                resumption.parts() / fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm);
+            const fs::path done = resumption.parts() /
+                                  fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm);
             if (!fs::exists(done)) {
-                write_file(done, Json(measure(description, scenes[scene], curve, references[scene], device,
-                                              [&] { progress.update(++finished); }))
+                write_file(done, Json(measure(description, scenes[scene], curve, references[scene],
+                                              device, [&] { progress.update(++finished); }))
                                          .dump(1) +
                                      "\n");
             }

@@ -26,7 +26,8 @@ const Json &DescriptionFile::profile(const std::string &name) const {
         for (const auto &[known, value] : profiles.items()) {
             names.push_back(known);
         }
-        throw input_error(fmt::format("{}: there is no profile '{}'; there are: {}", path.string(), name, fmt::join(names, ", ")));
+        throw input_error(fmt::format("{}: there is no profile '{}'; there are: {}", path.string(),
+                                      name, fmt::join(names, ", ")));
     }
     return profiles.at(name);
 }
@@ -40,8 +41,8 @@ std::string DescriptionFile::of_profile(const std::string &name) const {
 DescriptionFile load_description(const std::filesystem::path &path, const std::string &schema) {
     DescriptionFile file{path, read_file(path), {}};
     file.json = parse_json(file.text, path.string());
-    validate_json(file.json, std::string(embedded::experiment_schemas().text(schema)), path.string(),
-                  file.text);
+    validate_json(file.json, std::string(embedded::experiment_schemas().text(schema)),
+                  path.string(), file.text);
     return file;
 }
 
@@ -55,8 +56,9 @@ void read_measured_scene(const DescriptionFile &file, const Json &size, Measured
     for (const Json &curve : file.json.at("curves")) {
         scene.curves.push_back({parse_render_settings(curve)});
         if (const std::string id = scene.curves.back().id(); !ids.insert(id).second) {
-            throw input_error(fmt::format("{}: two curves are both {}; algorithm or settings must differ",
-                                          file.location("/curves"), id));
+            throw input_error(
+                fmt::format("{}: two curves are both {}; algorithm or settings must differ",
+                            file.location("/curves"), id));
         }
     }
 }
@@ -64,29 +66,38 @@ void read_measured_scene(const DescriptionFile &file, const Json &size, Measured
 void require_increasing(const std::vector<uint64_t> &spp, const std::string &location) {
     for (size_t i = 1; i < spp.size(); ++i) {
         if (spp[i] <= spp[i - 1]) {
-            throw input_error(fmt::format("{}: must increase; {} follows {}", location, spp[i], spp[i - 1]));
+            throw input_error(
+                fmt::format("{}: must increase; {} follows {}", location, spp[i], spp[i - 1]));
         }
     }
 }
 
 namespace {
 
-/// The rungs up to one of them. Throws `Error` (bad input) when it is none, or fewer than three are left.
-std::vector<uint64_t> rungs_up_to(const std::vector<uint64_t> &spp, uint64_t last, const std::string &location) {
+/// The rungs up to one of them. Throws `Error` (bad input) when it is none, or fewer than three are
+/// left.
+std::vector<uint64_t> rungs_up_to(const std::vector<uint64_t> &spp, uint64_t last,
+                                  const std::string &location) {
     const auto found = std::find(spp.begin(), spp.end(), last);
     if (found == spp.end() || found - spp.begin() < 2) {
-        throw input_error(fmt::format("{}: {} is none of \"spp\" from the third on", location, last));
+        throw input_error(
+            fmt::format("{}: {} is none of \"spp\" from the third on", location, last));
     }
     return {spp.begin(), found + 1};
 }
 
-/// What `key` of a profile says of single curves, by id. Throws `Error` (bad input) for an id that is none of theirs.
-std::map<std::string, uint64_t> read_by_curve(const DescriptionFile &file, const std::string &pointer, const Json &profile,
-                                              const std::string &key, const std::vector<CurveDescription> &curves) {
+/// What `key` of a profile says of single curves, by id. Throws `Error` (bad input) for an id that
+/// is none of theirs.
+std::map<std::string, uint64_t> read_by_curve(const DescriptionFile &file,
+                                              const std::string &pointer, const Json &profile,
+                                              const std::string &key,
+                                              const std::vector<CurveDescription> &curves) {
     auto counts = profile.value(key, std::map<std::string, uint64_t>());
     for (const auto &[id, count] : counts) {
-        if (std::none_of(curves.begin(), curves.end(), [&, &id = id](const auto &curve) { return curve.id() == id; })) {
-            throw input_error(fmt::format("{}: there is no curve '{}'", file.location(pointer + "/" + key), id));
+        if (std::none_of(curves.begin(), curves.end(),
+                         [&, &id = id](const auto &curve) { return curve.id() == id; })) {
+            throw input_error(
+                fmt::format("{}: there is no curve '{}'", file.location(pointer + "/" + key), id));
         }
     }
     return counts;
@@ -100,20 +111,25 @@ void read_ladders(const DescriptionFile &file, const std::string &pointer, const
     const auto early = profile.value("early_images", std::vector<uint64_t>());
     for (const uint64_t wanted : early) {
         if (std::find(spp.begin(), spp.end(), wanted) == spp.end()) {
-            throw input_error(fmt::format("{}: {} is none of \"spp\"", file.location(pointer + "/early_images"), wanted));
+            throw input_error(fmt::format("{}: {} is none of \"spp\"",
+                                          file.location(pointer + "/early_images"), wanted));
         }
     }
     const auto seeds = profile.at("seeds").get<uint32_t>();
     const auto most = read_by_curve(file, pointer, profile, "most_spp", curves);
     const auto more = read_by_curve(file, pointer, profile, "more_seeds", curves);
     for (CurveDescription &curve : curves) {
-        curve.seeds = more.count(curve.id()) > 0 ? static_cast<uint32_t>(more.at(curve.id())) : seeds;
+        curve.seeds =
+            more.count(curve.id()) > 0 ? static_cast<uint32_t>(more.at(curve.id())) : seeds;
         const auto limit = most.find(curve.id());
-        curve.spp = limit == most.end() ? spp
-                                        : rungs_up_to(spp, limit->second, file.location(pointer + "/most_spp"));
+        curve.spp = limit == most.end()
+                        ? spp
+                        : rungs_up_to(spp, limit->second, file.location(pointer + "/most_spp"));
         if (curve.spp.back() % batches_per_seed != 0) {
-            throw input_error(fmt::format("{}: {} is no multiple of {}: so many batches of each seed are tested for agreement",
-                                          file.location(pointer + "/spp"), curve.spp.back(), batches_per_seed));
+            throw input_error(
+                fmt::format("{}: {} is no multiple of {}: so many batches of each seed are tested "
+                            "for agreement",
+                            file.location(pointer + "/spp"), curve.spp.back(), batches_per_seed));
         }
         std::copy_if(early.begin(), early.end(), std::back_inserter(curve.early_images),
                      [&](uint64_t wanted) { return wanted <= curve.spp.back(); });
@@ -135,7 +151,8 @@ std::string CurveDescription::id() const {
 
 void apply_settings(RenderSettings &settings, const Json &named) {
     for (const auto &[name, value] : named.items()) {
-        apply_setting(settings, name + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
+        apply_setting(settings,
+                      name + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
     }
 }
 
@@ -147,7 +164,8 @@ RenderSettings parse_render_settings(const Json &curve) {
     return settings;
 }
 
-ExperimentDescription load_experiment(const std::filesystem::path &path, const std::string &profile) {
+ExperimentDescription load_experiment(const std::filesystem::path &path,
+                                      const std::string &profile) {
     const DescriptionFile file = load_description(path, "experiment.schema.json");
     const Json &json = file.json;
     const Json &chosen = file.profile(profile);

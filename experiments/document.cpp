@@ -58,12 +58,14 @@ json slope_of(const std::vector<Repetition> &repetitions, size_t count, double n
     for (const auto &repetition : repetitions) {
         errors.emplace_back();
         for (size_t p = 0; p < count; ++p) {
-            errors.back().push_back(std::sqrt(unbiased_mse(repetition.points[p].error.mse, noise_mse)));
+            errors.back().push_back(
+                std::sqrt(unbiased_mse(repetition.points[p].error.mse, noise_mse)));
         }
     }
     json slope = to_json(convergence_slope(spp, errors, slope_confidence));
     slope["confidence"] = slope_confidence;
-    slope["spp"] = {repetitions.front().points.front().spp, repetitions.front().points[count - 1].spp};
+    slope["spp"] = {repetitions.front().points.front().spp,
+                    repetitions.front().points[count - 1].spp};
     return slope;
 }
 
@@ -134,10 +136,10 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
     });
     const auto usable = static_cast<size_t>(first_noisy - points.begin());
     if (usable < 3) {
-        throw run_error(
-            fmt::format("the reference (RMSE of its own noise {:.3g}) is too noisy: only {} of {} points lie "
-                        "above its floor; make a reference with more samples per pixel (make references)",
-                        std::sqrt(noise_mse), usable, points.size()));
+        throw run_error(fmt::format(
+            "the reference (RMSE of its own noise {:.3g}) is too noisy: only {} of {} points lie "
+            "above its floor; make a reference with more samples per pixel (make references)",
+            std::sqrt(noise_mse), usable, points.size()));
     }
     return {{"points", points},
             {"slope", slope_of(repetitions, usable, 0)},
@@ -146,7 +148,8 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
 
 json parse_run(const std::string &text, const std::string &source) {
     json run = parse_json(text, source);
-    validate_json(run, std::string(embedded::experiment_schemas().text("run.schema.json")), source, text);
+    validate_json(run, std::string(embedded::experiment_schemas().text("run.schema.json")), source,
+                  text);
     return run;
 }
 

@@ -38,13 +38,14 @@ nlohmann::json to_json(const Agreement &agreement, const AgreementPolicy &policy
 nlohmann::json to_json(const Repetition &repetition);
 Repetition parse_repetition(const nlohmann::json &json);
 
-/// "points" (medians over seeds, raw repetitions, MSE less the reference's noise, whether that noise
-/// dominates), "slope" over the points before it dominates, and "slope_unbiased", the slope with the noise
-/// taken off. Throws `Error` (run failed) when fewer than three points are left, naming the remedy.
+/// "points" (medians over seeds, raw repetitions, MSE less the reference's noise, whether that
+/// noise dominates), "slope" over the points before it dominates, and "slope_unbiased", the slope
+/// with the noise taken off. Throws `Error` (run failed) when fewer than three points are left,
+/// naming the remedy.
 nlohmann::json summarise_curve(const std::vector<Repetition> &repetitions, double noise_mse);
 
-/// The run.json of `text`. Throws `Error` (bad input) naming `source`, line and key when it does not match
-/// run.schema.json; a number that is not finite was written as null and does not.
+/// The run.json of `text`. Throws `Error` (bad input) naming `source`, line and key when it does
+/// not match run.schema.json; a number that is not finite was written as null and does not.
 nlohmann::json parse_run(const std::string &text, const std::string &source);
 
 }  // namespace rtrays

@@ -108,7 +108,8 @@ class Parser {
             return name();
         }
         double value = 0;
-        const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+        const auto [end, error] =
+            std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
         if (error != std::errc()) {
             fail("a number, a name or a parenthesis was expected");
         }
@@ -118,12 +119,14 @@ class Parser {
 
     double name() {
         const size_t begin = at_;
-        while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
+        while (at_ < text_.size() &&
+               (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
             ++at_;
         }
         const std::string word = text_.substr(begin, at_ - begin);
         if (accept('(')) {
-            const auto *function = std::find_if(functions.begin(), functions.end(), [&](const Function &f) { return word == f.name; });
+            const auto *function = std::find_if(functions.begin(), functions.end(),
+                                                [&](const Function &f) { return word == f.name; });
             if (function == functions.end()) {
                 fail(fmt::format("there is no function '{}'", word));
             }

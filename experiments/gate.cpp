@@ -32,7 +32,8 @@ StageErrors parse_stage(const Json &json) {
     return stage;
 }
 
-/// Whether a curve was measured with these settings. What the renderer could not yet be told then is at its default.
+/// Whether a curve was measured with these settings. What the renderer could not yet be told then
+/// is at its default.
 bool same_settings(const Json &stored, const RenderSettings &settings) {
     Json before = image_settings(RenderSettings());
     before.update(stored);
@@ -46,17 +47,19 @@ std::string update_command(const GateDescription &gate) {
 Json load_baseline(const GateDescription &gate, const Scene &scene) {
     if (!fs::exists(gate.baseline)) {
         throw Error(ExitCode::reference_missing,
-                    fmt::format("the baseline {} does not exist; make it with:\n  {}", gate.baseline.string(),
-                                update_command(gate)));
+                    fmt::format("the baseline {} does not exist; make it with:\n  {}",
+                                gate.baseline.string(), update_command(gate)));
     }
     const std::string source = gate.baseline.string(), text = read_file(gate.baseline);
     const Json baseline = parse_json(text, source);
-    validate_json(baseline, std::string(embedded::experiment_schemas().text("baseline.schema.json")), source,
+    validate_json(baseline,
+                  std::string(embedded::experiment_schemas().text("baseline.schema.json")), source,
                   text);
-    if (baseline.at("scene_hash") != scene.hash() || baseline.at("size") != Json{gate.width, gate.height}) {
-        throw input_error(
-            fmt::format("{} was measured on another version of the scene or another size; update it:\n  {}",
-                        source, update_command(gate)));
+    if (baseline.at("scene_hash") != scene.hash() ||
+        baseline.at("size") != Json{gate.width, gate.height}) {
+        throw input_error(fmt::format(
+            "{} was measured on another version of the scene or another size; update it:\n  {}",
+            source, update_command(gate)));
     }
     return baseline;
 }
@@ -72,9 +75,9 @@ std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredRefe
         }
         const Json &stored = baseline.at("curves").at(curve.id());
         if (!same_settings(stored.at("settings"), curve.settings)) {
-            throw input_error(fmt::format("{}: {} was measured with other settings; update it:\n  {}",
-                                          bench.gate.baseline.string(), curve.id(),
-                                          update_command(bench.gate)));
+            throw input_error(
+                fmt::format("{}: {} was measured with other settings; update it:\n  {}",
+                            bench.gate.baseline.string(), curve.id(), update_command(bench.gate)));
         }
         const CurveBaseline errors{parse_stage(stored.at("first_stage")),
                                    parse_stage(stored.at("second_stage"))};
@@ -94,8 +97,8 @@ void print_change(const std::string &id, const std::string &spp, const std::vect
         return;
     }
     const auto before = previous.at(place).get<std::vector<double>>();
-    fmt::print("{} at {} spp: RMSE {:.5g} -> {:.5g} ({:+.2f} %)\n", id, spp, median(before), median(now),
-               100 * paired_error_ratio(now, before).value);
+    fmt::print("{} at {} spp: RMSE {:.5g} -> {:.5g} ({:+.2f} %)\n", id, spp, median(before),
+               median(now), 100 * paired_error_ratio(now, before).value);
 }
 
 /// What a baseline held and the new one does not.
@@ -103,7 +106,8 @@ void print_dropped(const Json &baseline, const Json &previous) {
     const Json curves = previous.value("curves", Json::object());
     for (const auto &[id, curve] : curves.items()) {
         for (const auto &stage : curve.at("first_stage").items()) {
-            if (!baseline.contains(Json::json_pointer("/curves/" + id + "/first_stage/" + stage.key()))) {
+            if (!baseline.contains(
+                    Json::json_pointer("/curves/" + id + "/first_stage/" + stage.key()))) {
                 fmt::print("{} at {} spp: dropped\n", id, stage.key());
             }
         }
@@ -121,8 +125,8 @@ void update_baseline(const GateBench &bench, const StoredReference &reference) {
                      {"reference_spp", reference.description.at("spp")},
                      {"size", {gate.width, gate.height}}};
     for (const auto &curve : gate.curves) {
-        const auto first =
-            measure_errors(bench, curve, reference.reference, first_stage_seed, gate.convergence.renders);
+        const auto first = measure_errors(bench, curve, reference.reference, first_stage_seed,
+                                          gate.convergence.renders);
         const auto second = measure_errors(bench, curve, reference.reference, second_stage_seed,
                                            gate.convergence.second_stage_renders);
         baseline["curves"][curve.id()] = {{"settings", image_settings(curve.settings)},
@@ -142,7 +146,9 @@ void update_baseline(const GateBench &bench, const StoredReference &reference) {
 ExitCode run_gate(const GateOptions &options) {
     const GateDescription gate = load_gate(options.gate);
     const Scene scene = load_scene(gate.scene.string());
-    const auto wants = [&](const char *check) { return options.check == "all" || options.check == check; };
+    const auto wants = [&](const char *check) {
+        return options.check == "all" || options.check == check;
+    };
     StoredReference reference;
     if (options.update_baseline || wants("convergence") || wants("planted_errors")) {
         reference = load_reference(gate, scene);  // before anything is rendered

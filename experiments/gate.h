@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The gate: bits that may not change with scheduling, errors that may not grow, planted errors that must be
-// found.
+// The gate: bits that may not change with scheduling, errors that may not grow, planted errors that
+// must be found.
 #pragma once
 
 #include <cstdint>

@@ -19,8 +19,8 @@ bool same_bits(const Image &a, const Image &b) {
     }
     for (size_t c = 0; c < a.channels().size(); ++c) {
         const auto &left = a.channels()[c], &right = b.channels()[c];
-        if (left.name != right.name ||
-            std::memcmp(left.values.data(), right.values.data(), left.values.size() * sizeof(float)) != 0) {
+        if (left.name != right.name || std::memcmp(left.values.data(), right.values.data(),
+                                                   left.values.size() * sizeof(float)) != 0) {
             return false;
         }
     }
@@ -53,8 +53,8 @@ class BitwiseCheck {
         compare_merges();
         RenderSettings other = curve_.settings;
         other.seed += 1;
-        lines_.push_back(
-            {curve_.id() + ": another seed gives another image", !same_bits(original_, render(other, spp_))});
+        lines_.push_back({curve_.id() + ": another seed gives another image",
+                          !same_bits(original_, render(other, spp_))});
         return lines_;
     }
 
@@ -96,9 +96,11 @@ class BitwiseCheck {
 
 CheckLine describe(const std::string &pair, const Interval &change, const char *stage,
                    GateDecision decision) {
-    return {fmt::format("{}: error {:+.2f} % of the baseline, 99.9 % bounds [{:+.2f}, {:+.2f}], {}: {}", pair,
-                        100 * change.value, 100 * change.low, 100 * change.high, stage, to_string(decision)),
-            decision == GateDecision::pass};
+    return {
+        fmt::format("{}: error {:+.2f} % of the baseline, 99.9 % bounds [{:+.2f}, {:+.2f}], {}: {}",
+                    pair, 100 * change.value, 100 * change.low, 100 * change.high, stage,
+                    to_string(decision)),
+        decision == GateDecision::pass};
 }
 
 const std::vector<double> &stored(const StageErrors &stage, uint64_t spp, int renders,
@@ -106,17 +108,20 @@ const std::vector<double> &stored(const StageErrors &stage, uint64_t spp, int re
     const auto found = stage.find(spp);
     if (found == stage.end() || found->second.size() != static_cast<size_t>(renders)) {
         throw input_error(fmt::format(
-            "the baseline does not hold {} errors for {}; update it (--update-baseline)", renders, pair));
+            "the baseline does not hold {} errors for {}; update it (--update-baseline)", renders,
+            pair));
     }
     return found->second;
 }
 
 /// By seed and point, less the reference's noise.
-std::vector<std::vector<double>> unbiased_ladders(const StageErrors &stage, const Reference &reference) {
+std::vector<std::vector<double>> unbiased_ladders(const StageErrors &stage,
+                                                  const Reference &reference) {
     std::vector<std::vector<double>> ladders(stage.begin()->second.size());
     for (const auto &[spp, errors] : stage) {
         for (size_t k = 0; k < ladders.size(); ++k) {
-            ladders[k].push_back(std::sqrt(unbiased_mse(errors.at(k) * errors.at(k), reference.noise_mse)));
+            ladders[k].push_back(
+                std::sqrt(unbiased_mse(errors.at(k) * errors.at(k), reference.noise_mse)));
         }
     }
     return ladders;
@@ -132,17 +137,19 @@ std::vector<double> ladder_spp(const StageErrors &stage) {
 
 }  // namespace
 
-CheckLine check_slope(const std::string &curve, const StageErrors &errors, const StageErrors &baseline,
-                      const Reference &reference) {
-    const double bias = slope_bias_of_scatter(ladder_spp(baseline), unbiased_ladders(baseline, reference));
-    const Interval slope = convergence_slope(ladder_spp(errors), unbiased_ladders(errors, reference),
-                                             slope_confidence, slope_resamples);
+CheckLine check_slope(const std::string &curve, const StageErrors &errors,
+                      const StageErrors &baseline, const Reference &reference) {
+    const double bias =
+        slope_bias_of_scatter(ladder_spp(baseline), unbiased_ladders(baseline, reference));
+    const Interval slope = convergence_slope(
+        ladder_spp(errors), unbiased_ladders(errors, reference), slope_confidence, slope_resamples);
     const bool judged = std::abs(bias) <= largest_slope_bias,
                passed = slope.low <= -0.5 && -0.5 <= slope.high;
-    std::string text =
-        fmt::format("{}: slope {:.4f} [{:.4f}, {:.4f}], ", curve, slope.value, slope.low, slope.high);
+    std::string text = fmt::format("{}: slope {:.4f} [{:.4f}, {:.4f}], ", curve, slope.value,
+                                   slope.low, slope.high);
     text += judged ? (passed ? "holds -1/2" : "misses -1/2")
-                   : fmt::format("not judged: the scatter of the baseline alone moves it by {:+.2f}", bias);
+                   : fmt::format(
+                         "not judged: the scatter of the baseline alone moves it by {:+.2f}", bias);
     return {text, passed || !judged};
 }
 
@@ -164,8 +171,8 @@ std::vector<CheckLine> check_bitwise(const GateBench &bench) {
     return lines;
 }
 
-StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve, const Reference &reference,
-                           uint32_t first_seed, int renders) {
+StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve,
+                           const Reference &reference, uint32_t first_seed, int renders) {
     StageErrors errors;
     RenderSession session = bench.session(curve.settings);
     Progress progress(curve.id(), static_cast<uint64_t>(renders), "renders", bench.quiet);
@@ -177,10 +184,11 @@ StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve
             done = spp;
             const ErrorMetrics error = compute_metrics(session.develop(), reference.image);
             if (noise_dominates(error.mse, reference.noise_mse)) {
-                throw run_error(fmt::format(
-                    "{} at {} spp: the reference's own noise passes 10 % of the error; it needs more "
-                    "samples (make references)",
-                    curve.id(), spp));
+                throw run_error(
+                    fmt::format("{} at {} spp: the reference's own noise passes 10 % of the error; "
+                                "it needs more "
+                                "samples (make references)",
+                                curve.id(), spp));
             }
             errors[spp].push_back(error.rmse);
         }
@@ -190,16 +198,20 @@ StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve
 }
 
 std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDescription &curve,
-                                         const Reference &reference, const CurveBaseline &baseline) {
+                                         const Reference &reference,
+                                         const CurveBaseline &baseline) {
     const auto &rule = bench.gate.convergence;
-    const auto pair_name = [&](uint64_t spp) { return fmt::format("{} at {} spp", curve.id(), spp); };
+    const auto pair_name = [&](uint64_t spp) {
+        return fmt::format("{} at {} spp", curve.id(), spp);
+    };
     std::vector<CheckLine> lines;
     std::vector<uint64_t> undecided;
-    const StageErrors first = measure_errors(bench, curve, reference, first_stage_seed, rule.renders);
+    const StageErrors first =
+        measure_errors(bench, curve, reference, first_stage_seed, rule.renders);
     for (uint64_t spp : rule.spp) {
         const auto pair = pair_name(spp);
-        const Interval change =
-            paired_error_ratio(first.at(spp), stored(baseline.first_stage, spp, rule.renders, pair));
+        const Interval change = paired_error_ratio(
+            first.at(spp), stored(baseline.first_stage, spp, rule.renders, pair));
         const GateDecision decision = decide_gate(change);
         if (decision == GateDecision::undecided) {
             undecided.push_back(spp);
@@ -214,12 +226,14 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
         for (uint64_t spp : undecided) {
             const auto pair = pair_name(spp);
             const Interval change = paired_error_ratio(
-                second.at(spp), stored(baseline.second_stage, spp, rule.second_stage_renders, pair));
+                second.at(spp),
+                stored(baseline.second_stage, spp, rule.second_stage_renders, pair));
             lines.push_back(describe(pair, change, "second stage", decide_gate(change)));
         }
         if (!slope.passed) {
             lines.push_back({slope.text + " in the first stage", true});
-            slope = check_slope(curve.id() + ", second stage", second, baseline.second_stage, reference);
+            slope = check_slope(curve.id() + ", second stage", second, baseline.second_stage,
+                                reference);
         }
     }
     lines.push_back(slope);

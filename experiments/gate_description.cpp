@@ -22,8 +22,9 @@ GateDescription load_gate(const std::filesystem::path &path) {
         gate.bitwise = {bitwise.at("spp"), bitwise.at("split"), bitwise.at("group_sizes"),
                         bitwise.at("stream_capacities")};
         if (gate.bitwise->split >= gate.bitwise->spp) {
-            throw input_error(fmt::format("{}: {} is not below spp {}", file.location("/bitwise/split"),
-                                          gate.bitwise->split, gate.bitwise->spp));
+            throw input_error(fmt::format("{}: {} is not below spp {}",
+                                          file.location("/bitwise/split"), gate.bitwise->split,
+                                          gate.bitwise->spp));
         }
     }
     convergence.at("spp").get_to(gate.convergence.spp);
@@ -32,9 +33,9 @@ GateDescription load_gate(const std::filesystem::path &path) {
     convergence.at("second_stage_renders").get_to(gate.convergence.second_stage_renders);
     planted.at("spp").get_to(gate.planted.spp);
     for (const Json &error : planted.at("errors")) {
-        gate.planted.errors.push_back({error.at("name"), parse_render_settings(error), error.at("file"),
-                                       error.at("search"), error.at("replacement"),
-                                       error.value("caught_by", "agreement") == "slope"});
+        gate.planted.errors.push_back(
+            {error.at("name"), parse_render_settings(error), error.at("file"), error.at("search"),
+             error.at("replacement"), error.value("caught_by", "agreement") == "slope"});
     }
     return gate;
 }

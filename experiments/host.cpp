@@ -87,7 +87,8 @@ CpuUse CpuMeter::use() const {
     // /proc/stat counts whole ticks: an interval below one tick has no total.
     const double total = std::max(now.total - start_.total, 0.01);
     const double own = now.own - start_.own;
-    // The process' own time is finer than ticks: of an idle machine a fraction of one may be left below zero.
+    // The process' own time is finer than ticks: of an idle machine a fraction of one may be left
+    // below zero.
     return {own / total, std::max(0.0, now.busy - start_.busy - own) / total,
             (now.steal - start_.steal) / total};
 }

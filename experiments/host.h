@@ -26,7 +26,8 @@ struct CpuUse {
     double steal = 0;    ///< taken by the hypervisor
 };
 
-/// Reads /proc/stat and this process' CPU time; throws `Error` (run failed) where there is no /proc/stat.
+/// Reads /proc/stat and this process' CPU time; throws `Error` (run failed) where there is no
+/// /proc/stat.
 class CpuMeter {
   public:
     CpuMeter() { start(); }
@@ -42,7 +43,8 @@ class CpuMeter {
     Ticks start_;
 };
 
-/// Threads of what runs on the host beside a device: as many as a CPU has compute units, all beside a GPU.
+/// Threads of what runs on the host beside a device: as many as a CPU has compute units, all beside
+/// a GPU.
 uint32_t host_threads(const DeviceInfo &device);
 
 /// {"name", "type", "platform", "driver", "c_version", "compute_units"}.

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path partial_file(const LadderTask &task, uint32_t seed, const std::string &extension) {
-    return task.partial / fmt::format("{}.seed{}.{}", CurveDescription{task.settings}.id(), seed, extension);
+    return task.partial /
+           fmt::format("{}.seed{}.{}", CurveDescription{task.settings}.id(), seed, extension);
 }
 
 constexpr uint32_t first_seed = 1;
@@ -67,8 +68,8 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
         const RenderStats stats = session.stats();
         const Image image = session.develop();
         if (is_in(task.spp, spp)) {
-            repetition.points.push_back(
-                {spp, stats.device_seconds, stats.wall_seconds, compute_metrics(image, task.reference)});
+            repetition.points.push_back({spp, stats.device_seconds, stats.wall_seconds,
+                                         compute_metrics(image, task.reference)});
         }
         if (seed == first_seed && is_in(task.early_images, spp)) {
             write_exr(image, early_file(task, spp));
@@ -90,7 +91,8 @@ LadderResult render_ladders(const LadderTask &task) {
     LadderResult result;
     LazySession session(task);
     for (uint32_t seed = first_seed; seed < first_seed + task.seeds; ++seed) {
-        const fs::path numbers = partial_file(task, seed, "json"), picture = partial_file(task, seed, "exr");
+        const fs::path numbers = partial_file(task, seed, "json"),
+                       picture = partial_file(task, seed, "exr");
         // The numbers are written last: where they are, the pictures are.
         if (fs::exists(numbers)) {
             const Json stored = load_json(numbers);
@@ -106,8 +108,9 @@ LadderResult render_ladders(const LadderTask &task) {
                            {"render_report", session.get().report()}};
             result.images.push_back(session.get().develop());
             write_exr(result.images.back(), picture);
-            write_file(numbers,
-                       Json{{"repetition", to_json(result.repetitions.back())}, {"cost", result.cost}}.dump());
+            write_file(numbers, Json{{"repetition", to_json(result.repetitions.back())},
+                                     {"cost", result.cost}}
+                                    .dump());
         }
         for (uint64_t batch = 0; batch < batches_per_seed; ++batch) {
             result.batches.push_back(read_exr(batch_file(task, seed, batch)));
@@ -127,7 +130,8 @@ void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext 
     render_whole(session, 0, 1);
 }
 
-std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp, uint64_t batches) {
+std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp,
+                                  uint64_t batches) {
     std::vector<Image> images;
     for (uint64_t batch = 0; batch < batches; ++batch) {
         session.restart(seed);
@@ -139,7 +143,8 @@ std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_
 
 std::vector<Image> render_fresh_batches(const LadderTask &task) {
     RenderSession session(task.scene, task.settings, task.device);
-    return render_batches(session, first_seed + task.seeds, 2 * task.spp.back() * task.seeds, batches_per_seed * task.seeds);
+    return render_batches(session, first_seed + task.seeds, 2 * task.spp.back() * task.seeds,
+                          batches_per_seed * task.seeds);
 }
 
 }  // namespace rtrays

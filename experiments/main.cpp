@@ -45,15 +45,20 @@ void declare(CLI::App &app, Arguments &arguments) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "rtrays-experiment " + version());
 
-    auto *run = app.add_subcommand("run", "measure an experiment and write OUT/run.json; a stability suite: exit 3 if a case fails");
+    auto *run = app.add_subcommand(
+        "run",
+        "measure an experiment and write OUT/run.json; a stability suite: exit 3 if a case fails");
     run->add_option("FILE", arguments.run.experiment, "experiment (JSON)")->required();
-    run->add_option("--profile", arguments.run.profile, "quick, full, ci, or gpu, which not all have: what a GPU does in minutes")
+    run->add_option("--profile", arguments.run.profile,
+                    "quick, full, ci, or gpu, which not all have: what a GPU does in minutes")
         ->check(CLI::IsMember({"quick", "full", "ci", "gpu"}))
         ->capture_default_str();
     run->add_option("--out", arguments.run.out, "output folder; NAME.PROFILE by default");
     run->add_option("--device", arguments.run.device, "OpenCL device, as for rtrays-render");
-    run->add_flag("--dry-run", arguments.run.dry_run, "check everything, print the plan, render nothing");
-    run->add_flag("--compile", arguments.run.compile, "compile the kernels, measure nothing (curves and stability suites)");
+    run->add_flag("--dry-run", arguments.run.dry_run,
+                  "check everything, print the plan, render nothing");
+    run->add_flag("--compile", arguments.run.compile,
+                  "compile the kernels, measure nothing (curves and stability suites)");
     run->add_flag("--quiet", arguments.run.quiet, "no progress");
 
     auto *compare = app.add_subcommand("compare", "error of image A against reference B");
@@ -61,15 +66,18 @@ void declare(CLI::App &app, Arguments &arguments) {
     compare->add_option("B", arguments.reference, "reference (OpenEXR)")->required();
     compare->add_flag("--json", arguments.json, "print JSON with the keys of run.json");
 
-    auto *average = app.add_subcommand("average", "mean of renders that differ in their seed, with the variance of that mean");
-    average->add_option("IMAGE", arguments.runs, "at least two images (OpenEXR) of equal sample count")->required();
+    auto *average = app.add_subcommand(
+        "average", "mean of renders that differ in their seed, with the variance of that mean");
+    average
+        ->add_option("IMAGE", arguments.runs, "at least two images (OpenEXR) of equal sample count")
+        ->required();
     average->add_option("-o,--output", arguments.average, "image to write (OpenEXR)")->required();
 
     auto *report = app.add_subcommand("report", "tables, plots and report of finished runs");
     report->add_option("DIR", arguments.folders, "folders of finished runs")->required();
 
-    auto *gate =
-        app.add_subcommand("gate", "check the renderer against its stored baseline; exit 3 on a regression");
+    auto *gate = app.add_subcommand(
+        "gate", "check the renderer against its stored baseline; exit 3 on a regression");
     gate->add_option("FILE", arguments.gate.gate, "gate (JSON)")->required();
     gate->add_option("--check", arguments.gate.check, "bitwise, convergence, planted_errors or all")
         ->check(CLI::IsMember({"bitwise", "convergence", "planted_errors", "all"}))
@@ -79,8 +87,10 @@ void declare(CLI::App &app, Arguments &arguments) {
     gate->add_option("--device", arguments.gate.device, "OpenCL device, as for rtrays-render");
     gate->add_flag("--quiet", arguments.gate.quiet, "no progress");
 
-    auto *agree = app.add_subcommand("agree", "render scenes by renderer and reference; exit 3 if they differ");
-    agree->add_option("FILE", arguments.agree.description, "scenes and sample counts (JSON)")->required();
+    auto *agree = app.add_subcommand(
+        "agree", "render scenes by renderer and reference; exit 3 if they differ");
+    agree->add_option("FILE", arguments.agree.description, "scenes and sample counts (JSON)")
+        ->required();
     agree->add_option("--profile", arguments.agree.profile, "quick or full")
         ->check(CLI::IsMember({"quick", "full"}))
         ->capture_default_str();
@@ -88,13 +98,17 @@ void declare(CLI::App &app, Arguments &arguments) {
     agree->add_option("--device", arguments.agree.device, "OpenCL device, as for rtrays-render");
     agree->add_flag("--quiet", arguments.agree.quiet, "no progress");
 
-    auto *control = app.add_subcommand("control", "what convergence control saves and how it biases, against renders without it");
-    control->add_option("FILE", arguments.control.description, "scenes, algorithms and errors (JSON)")->required();
+    auto *control = app.add_subcommand(
+        "control", "what convergence control saves and how it biases, against renders without it");
+    control
+        ->add_option("FILE", arguments.control.description, "scenes, algorithms and errors (JSON)")
+        ->required();
     control->add_option("--profile", arguments.control.profile, "quick or full")
         ->check(CLI::IsMember({"quick", "full"}))
         ->capture_default_str();
     control->add_option("--out", arguments.control.out, "output folder; NAME.PROFILE by default");
-    control->add_option("--device", arguments.control.device, "OpenCL device, as for rtrays-render");
+    control->add_option("--device", arguments.control.device,
+                        "OpenCL device, as for rtrays-render");
     control->add_flag("--quiet", arguments.control.quiet, "no progress");
 }
 
@@ -104,8 +118,9 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
     }
     if (app.got_subcommand("run")) {
         ExitCode exit_code = ExitCode::ok;
-        const fs::path out = is_measurement(arguments.run.experiment) ? run_measurement(arguments.run, exit_code)
-                                                                      : run_experiment(arguments.run);
+        const fs::path out = is_measurement(arguments.run.experiment)
+                                 ? run_measurement(arguments.run, exit_code)
+                                 : run_experiment(arguments.run);
         if (!out.empty()) {
             fmt::print("{}\n", (out / "run.json").string());
         }
@@ -134,7 +149,8 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
 
 ExitCode run(int argc, char **argv) {
     CLI::App app{
-        "Measures the renderer against independent references: error over samples and over time, tables, "
+        "Measures the renderer against independent references: error over samples and over time, "
+        "tables, "
         "plots and the regression gate."};
     Arguments arguments;
     declare(app, arguments);

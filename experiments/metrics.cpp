@@ -12,8 +12,8 @@ namespace rtrays {
 
 namespace {
 
-/// Makes a layer of a mean from the sums of `count` independent values: counts stay sums, and the variance of
-/// a mean falls with the square.
+/// Makes a layer of a mean from the sums of `count` independent values: counts stay sums, and the
+/// variance of a mean falls with the square.
 void set_mean(Image &image, const std::string &name, const std::vector<double> &sum, double count) {
     const bool is_variance = name.rfind("variance.", 0) == 0;
     const double divisor = name == "samples" ? 1 : is_variance ? count * count : count;
@@ -27,8 +27,8 @@ void set_mean(Image &image, const std::string &name, const std::vector<double> &
 
 void require_same_size(const Image &a, const Image &b) {
     if (a.width() != b.width() || a.height() != b.height()) {
-        throw input_error(fmt::format("images differ in size: {}x{} and {}x{}", a.width(), a.height(),
-                                      b.width(), b.height()));
+        throw input_error(fmt::format("images differ in size: {}x{} and {}x{}", a.width(),
+                                      a.height(), b.width(), b.height()));
     }
     if (a.pixel_count() == 0) {
         throw input_error("images have no pixels");
@@ -37,7 +37,8 @@ void require_same_size(const Image &a, const Image &b) {
 
 bool has_variance(const Image &image) {
     const auto names = rgb_names("variance");
-    return std::all_of(names.begin(), names.end(), [&](const auto &name) { return image.has(name); });
+    return std::all_of(names.begin(), names.end(),
+                       [&](const auto &name) { return image.has(name); });
 }
 
 ErrorMetrics compute_metrics(const Image &image, const Image &reference) {
@@ -50,10 +51,10 @@ ErrorMetrics compute_metrics(const Image &image, const Image &reference) {
             const double r = expected[i];
             const double d = values[i] - r;
             if (!std::isfinite(d)) {
-                throw input_error(
-                    fmt::format("channel {}, pixel ({}, {}): value is not finite (image {}, reference {})",
-                                name, i % static_cast<size_t>(image.width()),
-                                i / static_cast<size_t>(image.width()), values[i], expected[i]));
+                throw input_error(fmt::format(
+                    "channel {}, pixel ({}, {}): value is not finite (image {}, reference {})",
+                    name, i % static_cast<size_t>(image.width()),
+                    i / static_cast<size_t>(image.width()), values[i], expected[i]));
             }
             squares += d * d;
             absolutes += std::abs(d);
@@ -132,7 +133,8 @@ Image last_batch(const Image &before, const Image &all, uint64_t count) {
     for (const std::string &name : rgb_names()) {
         const auto &mean = all.channel(name);
         for (size_t i = 0; i < mean.size(); ++i) {
-            const double others = count > 1 ? (n - 1) * static_cast<double>(before.channel(name)[i]) : 0.0;
+            const double others =
+                count > 1 ? (n - 1) * static_cast<double>(before.channel(name)[i]) : 0.0;
             batch.channel(name)[i] = static_cast<float>(n * static_cast<double>(mean[i]) - others);
         }
     }
@@ -141,8 +143,8 @@ Image last_batch(const Image &before, const Image &all, uint64_t count) {
 
 Image downsample(const Image &image, int factor) {
     if (factor < 1 || image.width() % factor != 0 || image.height() % factor != 0) {
-        throw input_error(
-            fmt::format("an image of {}x{} cannot be reduced by {}", image.width(), image.height(), factor));
+        throw input_error(fmt::format("an image of {}x{} cannot be reduced by {}", image.width(),
+                                      image.height(), factor));
     }
     Image result = Image::rgb(image.width() / factor, image.height() / factor);
     result.attributes() = image.attributes();

@@ -14,24 +14,27 @@ namespace {
 constexpr uint64_t batches = 32;
 constexpr uint32_t seed = 1;
 
-Agreement agreement_of(const GateBench &bench, const RenderSettings &settings, const Reference &reference) {
+Agreement agreement_of(const GateBench &bench, const RenderSettings &settings,
+                       const Reference &reference) {
     RenderSession session = bench.session(settings);
     AgreementPolicy policy;
     policy.alpha /= static_cast<double>(bench.gate.curves.size());
-    return test_agreement(render_batches(session, seed, bench.gate.planted.spp, batches), reference.image,
-                          policy);
+    return test_agreement(render_batches(session, seed, bench.gate.planted.spp, batches),
+                          reference.image, policy);
 }
 
 std::string describe(const Agreement &agreement) {
     const auto &[value, low, high] = agreement.relative_difference;
     return fmt::format(
-        "{} of {} tests reject, {} undecided, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, {:+.3f}]",
-        agreement.rejected, agreement.tests, agreement.undecided, agreement.largest_z, 100 * value, 100 * low,
-        100 * high);
+        "{} of {} tests reject, {} undecided, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, "
+        "{:+.3f}]",
+        agreement.rejected, agreement.tests, agreement.undecided, agreement.largest_z, 100 * value,
+        100 * low, 100 * high);
 }
 
 /// Of the image or of the slope: the line passes if the error is found.
-CheckLine find_error(const GateBench &bench, const PlantedError &error, const Reference &reference) {
+CheckLine find_error(const GateBench &bench, const PlantedError &error,
+                     const Reference &reference) {
     RenderSettings settings = error.settings;
     settings.source_overlays[error.file] = plant(error, device_source(error.file));
     if (error.by_slope) {
@@ -42,9 +45,9 @@ CheckLine find_error(const GateBench &bench, const PlantedError &error, const Re
         return {fmt::format("planted '{}' is caught: {}", error.name, slope.text), !slope.passed};
     }
     const Agreement agreement = agreement_of(bench, settings, reference);
-    return {
-        fmt::format("planted '{}' is caught in {}: {}", error.name, settings.algorithm, describe(agreement)),
-        !agreement.agrees()};
+    return {fmt::format("planted '{}' is caught in {}: {}", error.name, settings.algorithm,
+                        describe(agreement)),
+            !agreement.agrees()};
 }
 
 }  // namespace
@@ -52,8 +55,8 @@ CheckLine find_error(const GateBench &bench, const PlantedError &error, const Re
 std::string plant(const PlantedError &error, const std::string &text) {
     const size_t at = text.find(error.search);
     if (at == std::string::npos || text.find(error.search, at + 1) != std::string::npos) {
-        throw input_error(fmt::format("planted error '{}': {} must contain exactly once: {}", error.name,
-                                      error.file, error.search));
+        throw input_error(fmt::format("planted error '{}': {} must contain exactly once: {}",
+                                      error.name, error.file, error.search));
     }
     std::string planted = text;
     planted.replace(at, error.search.size(), error.replacement);
@@ -71,8 +74,9 @@ std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Refere
     uint64_t done = 0;
     for (const auto &curve : bench.gate.curves) {
         const Agreement agreement = agreement_of(bench, curve.settings, reference);
-        lines.push_back({fmt::format("{}: agrees with the reference: {}", curve.id(), describe(agreement)),
-                         agreement.agrees() && agreement.tests > agreement.undecided});
+        lines.push_back(
+            {fmt::format("{}: agrees with the reference: {}", curve.id(), describe(agreement)),
+             agreement.agrees() && agreement.tests > agreement.undecided});
         progress.update(++done);
     }
     for (const auto &error : planted.errors) {

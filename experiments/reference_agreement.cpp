@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The references of other renderers, Embree's and our own image against each other, pair by pair; and where they differ, scenes
-// that show why.
+// The references of other renderers, Embree's and our own image against each other, pair by pair;
+// and where they differ, scenes that show why.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -32,12 +32,13 @@ namespace fs = std::filesystem;
 constexpr const char *engines[] = {"embree", "mitsuba", "cycles"};
 
 struct Contender {
-    Json description;  ///< {"name", "engine", "spp", "noise_rmse"}; of those rendered now "mean" and its "standard_error" too
+    Json description;  ///< {"name", "engine", "spp", "noise_rmse"}; of those rendered now "mean"
+                       ///< and its "standard_error" too
     Halves halves;
 };
 
-/// What an image's layers of variance say, pixels being independent. The standard error of the mean over channels is bounded
-/// by the mean of theirs.
+/// What an image's layers of variance say, pixels being independent. The standard error of the mean
+/// over channels is bounded by the mean of theirs.
 Contender described(const char *name, const std::string &engine, uint64_t spp, Halves halves) {
     const Image image = average_images({halves[0], halves[1]});
     double mean = 0, variance = 0, standard_error = 0;
@@ -62,7 +63,8 @@ Contender described(const char *name, const std::string &engine, uint64_t spp, H
             std::move(halves)};
 }
 
-/// Half of the samples with each of two seeds, `render` being given a seed. Scenes of another `number`, from 0, share none.
+/// Half of the samples with each of two seeds, `render` being given a seed. Scenes of another
+/// `number`, from 0, share none.
 template <class Render>
 Halves in_halves(uint32_t number, const Render &render) {
     return {render(2 * number + 1), render(2 * number + 2)};
@@ -78,7 +80,8 @@ Contender rendered(const Scene &scene, uint64_t spp, uint32_t number, DeviceCont
         render_whole(session, 0, spp / 2);
         return session.develop();
     };
-    return described("renderer", "RTRays, path tracing (MIS)", spp / 2 * 2, in_halves(number, render));
+    return described("renderer", "RTRays, path tracing (MIS)", spp / 2 * 2,
+                     in_halves(number, render));
 }
 
 /// A scene's renderings, and who made none.
@@ -93,9 +96,11 @@ struct Contenders {
         for (size_t i = 0; i < there.size(); ++i) {
             descriptions.push_back(there[i].description);
             for (size_t j = 0; j < i; ++j) {
-                pairs.push_back({{"image", there[i].description.at("name")},
-                                 {"against", there[j].description.at("name")},
-                                 {"agreement", to_json(test_agreement(there[i].halves, there[j].halves, policy), policy)}});
+                pairs.push_back(
+                    {{"image", there[i].description.at("name")},
+                     {"against", there[j].description.at("name")},
+                     {"agreement",
+                      to_json(test_agreement(there[i].halves, there[j].halves, policy), policy)}});
             }
         }
         return {{kind, name}, {"renderers", descriptions}, {"absent", absent}, {"pairs", pairs}};
@@ -104,19 +109,22 @@ struct Contenders {
 
 const fs::path root = RTRAYS_SOURCE;
 
-Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, uint32_t number, DeviceContext &device) {
+Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, uint32_t number,
+                  DeviceContext &device) {
     const fs::path path = root / "scenes" / name / "scene.json";
     Scene scene = load_scene(path.string());
     Contenders contenders;
     for (const char *engine : engines) {
         try {
-            StoredReference stored = load_reference({references_manifest().parent_path(), scene.name(), scene.hash(), engine,
-                                                     wanted.width, wanted.height, path.string()});
-            contenders.there.push_back({{{"name", engine},
-                                         {"engine", stored.description.at("engine")},
-                                         {"spp", stored.description.at("spp")},
-                                         {"noise_rmse", stored.description.at("noise_floor").at("rmse")}},
-                                        std::move(stored.halves)});
+            StoredReference stored =
+                load_reference({references_manifest().parent_path(), scene.name(), scene.hash(),
+                                engine, wanted.width, wanted.height, path.string()});
+            contenders.there.push_back(
+                {{{"name", engine},
+                  {"engine", stored.description.at("engine")},
+                  {"spp", stored.description.at("spp")},
+                  {"noise_rmse", stored.description.at("noise_floor").at("rmse")}},
+                 std::move(stored.halves)});
         } catch (const Error &error) {
             if (error.exit_code() != ExitCode::reference_missing) {
                 throw;
@@ -143,7 +151,8 @@ Contender rendered_by_embree(const Scene &scene, ReferenceSettings settings, uin
 }
 
 /// The samples of a half are rounded up to whole steps.
-Contender rendered_by_peer(const Scene &scene, ReferenceSettings settings, const char *name, uint64_t spp) {
+Contender rendered_by_peer(const Scene &scene, ReferenceSettings settings, const char *name,
+                           uint64_t spp) {
     const fs::path folder = fs::temp_directory_path() / fmt::format("rtrays-probe-{}", getpid());
     std::string engine;
     uint64_t samples = 0;
@@ -190,15 +199,18 @@ fs::path references_manifest() {
     return root / "results/references/manifest.json";
 }
 
-MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings, DeviceContext &device) {
+MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings,
+                                         DeviceContext &device) {
     MeasurementPlan plan;
     uint32_t number = 0;  // with seeds of their own: the boxes would be lit by the same paths
     for (const std::string &name : settings.references) {
-        plan.tasks.push_back({name, [=, &device] { return row_of_scene(name, settings, number, device); }});
+        plan.tasks.push_back(
+            {name, [=, &device] { return row_of_scene(name, settings, number, device); }});
         ++number;
     }
     for (const std::string &name : settings.probes) {
-        plan.tasks.push_back({name, [=, &device] { return row_of_probe(name, settings.probe_spp, device); }});
+        plan.tasks.push_back(
+            {name, [=, &device] { return row_of_probe(name, settings.probe_spp, device); }});
     }
     plan.summarise = [](const Json &) { return Json::object(); };
     return plan;

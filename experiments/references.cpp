@@ -24,12 +24,14 @@ std::string file_name(const ReferenceRequest &request, size_t half) {
 
 Error missing(const ReferenceRequest &request, size_t half, const std::string &what) {
     const std::string manifest = (request.folder / "manifest.json").string();
-    return {ExitCode::reference_missing,
-            // The scene's own film: smaller ones are averaged from it.
-            fmt::format("{}; make it with:\n  rtrays-reference {} -o {} --spp 16384 --seed {} --manifest {}\n"
-                        "or all of them with: make references",
-                        what, request.scene_path, (request.folder / file_name(request, half)).string(),
-                        half + 1, manifest)};
+    return {
+        ExitCode::reference_missing,
+        // The scene's own film: smaller ones are averaged from it.
+        fmt::format(
+            "{}; make it with:\n  rtrays-reference {} -o {} --spp 16384 --seed {} --manifest {}\n"
+            "or all of them with: make references",
+            what, request.scene_path, (request.folder / file_name(request, half)).string(),
+            half + 1, manifest)};
 }
 
 /// The manifest's entry of one half, checked against the request and the file.
@@ -40,20 +42,21 @@ Json checked_entry(const ReferenceRequest &request, const Json &manifest, size_t
         throw missing(request, half, fmt::format("the reference {} does not exist", path.string()));
     }
     if (!manifest.at("references").contains(name)) {
-        throw missing(request, half, fmt::format("{}: the manifest has no entry for it", path.string()));
+        throw missing(request, half,
+                      fmt::format("{}: the manifest has no entry for it", path.string()));
     }
     const Json &entry = manifest.at("references").at(name);
     if (entry.at("scene_hash") != request.scene_hash) {
-        throw input_error(
-            fmt::format("{} was made of another version of the scene (hash {}, the scene now has {}); make "
-                        "it anew (make references)",
-                        path.string(), entry.at("scene_hash").get<std::string>(), request.scene_hash));
+        throw input_error(fmt::format(
+            "{} was made of another version of the scene (hash {}, the scene now has {}); make "
+            "it anew (make references)",
+            path.string(), entry.at("scene_hash").get<std::string>(), request.scene_hash));
     }
     if (entry.at("sha256") != reference::sha256_of(path)) {
-        throw input_error(
-            fmt::format("{}: its SHA-256 is not that of the manifest: the file was changed or damaged; "
-                        "restore it or make it anew (make references)",
-                        path.string()));
+        throw input_error(fmt::format(
+            "{}: its SHA-256 is not that of the manifest: the file was changed or damaged; "
+            "restore it or make it anew (make references)",
+            path.string()));
     }
     return entry;
 }
@@ -79,7 +82,8 @@ StoredReference load_reference(const ReferenceRequest &request) {
         throw missing(request, 0, fmt::format("{} does not exist", manifest_path.string()));
     }
     const Json manifest = reference::load_manifest(manifest_path);
-    const Json entry_a = checked_entry(request, manifest, 0), entry_b = checked_entry(request, manifest, 1);
+    const Json entry_a = checked_entry(request, manifest, 0),
+               entry_b = checked_entry(request, manifest, 1);
     if (entry_a.at("seed") == entry_b.at("seed")) {
         throw input_error(
             fmt::format("{}: both halves of {} have the seed {}: they are not independent; "
@@ -87,10 +91,12 @@ StoredReference load_reference(const ReferenceRequest &request) {
                         manifest_path.string(), request.scene_name, entry_a.at("seed").dump()));
     }
     if (entry_a.at("spp") != entry_b.at("spp")) {
-        throw input_error(fmt::format(
-            "{}: the halves of {} have {} and {} spp; their noise cannot be told from their difference; "
-            "extend the shorter one (make references)",
-            manifest_path.string(), request.scene_name, entry_a.at("spp").dump(), entry_b.at("spp").dump()));
+        throw input_error(
+            fmt::format("{}: the halves of {} have {} and {} spp; their noise cannot be told from "
+                        "their difference; "
+                        "extend the shorter one (make references)",
+                        manifest_path.string(), request.scene_name, entry_a.at("spp").dump(),
+                        entry_b.at("spp").dump()));
     }
 
     const Image a = read_exr(request.folder / file_name(request, 0));
@@ -107,13 +113,15 @@ StoredReference load_reference(const ReferenceRequest &request) {
         {"spp", entry_a.at("spp").get<uint64_t>() + entry_b.at("spp").get<uint64_t>()},
         {"reduced_by", factor},
         {"scene_hash", request.scene_hash},
-        {"noise_floor", {{"mse", noise}, {"rmse", std::sqrt(noise)}, {"l2", std::sqrt(noise * values)}}}};
+        {"noise_floor",
+         {{"mse", noise}, {"rmse", std::sqrt(noise)}, {"l2", std::sqrt(noise * values)}}}};
     return result;
 }
 
 StoredReference load_reference(const MeasuredScene &wanted, const Scene &scene) {
-    return load_reference({wanted.reference_folder, scene.name(), scene.hash(), wanted.reference_engine,
-                           wanted.width, wanted.height, wanted.scene.string()});
+    return load_reference({wanted.reference_folder, scene.name(), scene.hash(),
+                           wanted.reference_engine, wanted.width, wanted.height,
+                           wanted.scene.string()});
 }
 
 }  // namespace rtrays

@@ -26,16 +26,17 @@ struct ReferenceRequest {
 struct StoredReference {
     Reference reference;
     std::array<Image, 2> halves;
-    /// "reference" of run.json: engine, files, spp of both halves, reduced_by, scene_hash, noise_floor.
+    /// "reference" of run.json: engine, files, spp of both halves, reduced_by, scene_hash,
+    /// noise_floor.
     nlohmann::json description;
 };
 
-/// Reads FOLDER/SCENE.ENGINE.{a,b}.exr, checks them against FOLDER/manifest.json (scene hash, seeds, size)
-/// and averages them; a smaller film is made by averaging whole squares of pixels.
+/// Reads FOLDER/SCENE.ENGINE.{a,b}.exr, checks them against FOLDER/manifest.json (scene hash,
+/// seeds, size) and averages them; a smaller film is made by averaging whole squares of pixels.
 ///
-/// Throws `Error` (reference missing) with the command that makes it when a half or its manifest entry is not
-/// there, and `Error` (bad input) when it was made of another scene, when its halves share a seed or when its
-/// size does not fit.
+/// Throws `Error` (reference missing) with the command that makes it when a half or its manifest
+/// entry is not there, and `Error` (bad input) when it was made of another scene, when its halves
+/// share a seed or when its size does not fit.
 StoredReference load_reference(const ReferenceRequest &request);
 
 /// The same for the scene of an experiment or a gate.

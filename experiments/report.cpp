@@ -25,8 +25,9 @@ namespace {
 
 void export_images(const fs::path &folder) {
     if (!fs::exists(folder / "run.json")) {
-        throw input_error(fmt::format("{}: there is no run.json; rtrays-experiment run ... --out {} makes it",
-                                      folder.string(), folder.string()));
+        throw input_error(
+            fmt::format("{}: there is no run.json; rtrays-experiment run ... --out {} makes it",
+                        folder.string(), folder.string()));
     }
     const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
     const auto export_image = [&](const std::string &name, const Json &layers) {
@@ -37,7 +38,8 @@ void export_images(const fs::path &folder) {
         }
     };
     const std::string reference = run.at("reference").at("image");
-    if (!fs::exists(folder / reference) && fs::exists(folder / "index.html")) {  // a clone, which has the pages alone
+    if (!fs::exists(folder / reference) &&
+        fs::exists(folder / "index.html")) {  // a clone, which has the pages alone
         fmt::print(stderr, "{}: has no images, its pages stay as they are\n", folder.string());
         return;
     }
@@ -57,11 +59,12 @@ int run_program(const std::vector<std::string> &command) {
     }
     arguments.push_back(nullptr);
     pid_t child = 0;
-    const int error = posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
+    const int error =
+        posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
     if (error != 0) {
-        throw run_error(
-            fmt::format("{} cannot be started: {}; install python3, python3-numpy and python3-matplotlib",
-                        command[0], std::strerror(error)));
+        throw run_error(fmt::format(
+            "{} cannot be started: {}; install python3, python3-numpy and python3-matplotlib",
+            command[0], std::strerror(error)));
     }
     int status = 0;
     while (waitpid(child, &status, 0) < 0) {

@@ -13,7 +13,8 @@ namespace rtrays {
 
 namespace fs = std::filesystem;
 
-Resumption::Resumption(fs::path out, std::string name, const std::string &inputs, const DeviceInfo &device)
+Resumption::Resumption(fs::path out, std::string name, const std::string &inputs,
+                       const DeviceInfo &device)
     : out_(std::move(out)),
       result_(out_ / name),
       key_(content_hash(program_hash() + inputs + device.name + device.driver)) {
@@ -21,7 +22,8 @@ Resumption::Resumption(fs::path out, std::string name, const std::string &inputs
     std::error_code error;
     fs::create_directories(parts_, error);
     if (error) {
-        throw input_error(fmt::format("{}: cannot be created: {}", parts_.string(), error.message()));
+        throw input_error(
+            fmt::format("{}: cannot be created: {}", parts_.string(), error.message()));
     }
     require_writable(result_);
 }
@@ -31,12 +33,15 @@ Json Resumption::finished(const std::function<bool(const Json &)> &is_whole) con
         return {};
     }
     Json result = load_json(result_);
-    if (!result.is_object() || result.value("made_from", "") != key_ || (is_whole && !is_whole(result))) {
+    if (!result.is_object() || result.value("made_from", "") != key_ ||
+        (is_whole && !is_whole(result))) {
         return {};
     }
     fs::remove_all(out_ / ".partial");
-    fmt::print(stderr, "{}: finished already by the same code of the same inputs; delete it to measure anew\n",
-               result_.string());
+    fmt::print(
+        stderr,
+        "{}: finished already by the same code of the same inputs; delete it to measure anew\n",
+        result_.string());
     return result;
 }
 

@@ -32,7 +32,8 @@ Json describe_experiment(const ExperimentDescription &experiment) {
         {"title", experiment.title},
         {"thesis", experiment.thesis},
         {"claim", experiment.claim},
-        {"expected_slope", {{"value", experiment.expected_slope}, {"tolerance", experiment.slope_tolerance}}},
+        {"expected_slope",
+         {{"value", experiment.expected_slope}, {"tolerance", experiment.slope_tolerance}}},
         {"profile", experiment.profile},
         {"size", {experiment.width, experiment.height}}};
     if (!experiment.settings.empty()) {
@@ -46,13 +47,14 @@ Json describe_experiment(const ExperimentDescription &experiment) {
 
 void print_plan(const ExperimentDescription &experiment, const StoredReference &reference) {
     const double pixels = static_cast<double>(experiment.width) * experiment.height;
-    const double throughput =
-        2 * pixels * static_cast<double>(experiment.throughput.spp) * experiment.throughput.repetitions;
-    fmt::print("{} ({}), profile {}: {}x{}\n", experiment.name, experiment.thesis, experiment.profile, experiment.width,
-               experiment.height);
+    const double throughput = 2 * pixels * static_cast<double>(experiment.throughput.spp) *
+                              experiment.throughput.repetitions;
+    fmt::print("{} ({}), profile {}: {}x{}\n", experiment.name, experiment.thesis,
+               experiment.profile, experiment.width, experiment.height);
     for (const auto &curve : experiment.curves) {
-        fmt::print("  {:40} {:4} to {:4} spp, {:3} seeds {:8.1f} Msamples\n", curve.id(), curve.spp.front(),
-                   curve.spp.back(), curve.seeds, 1e-6 * pixels * static_cast<double>(curve.spp.back() * curve.seeds));
+        fmt::print("  {:40} {:4} to {:4} spp, {:3} seeds {:8.1f} Msamples\n", curve.id(),
+                   curve.spp.front(), curve.spp.back(), curve.seeds,
+                   1e-6 * pixels * static_cast<double>(curve.spp.back() * curve.seeds));
     }
     fmt::print("  {:68} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
     fmt::print("  reference: {} spp ({}), noise floor RMSE {:.3g}\n",
@@ -70,8 +72,8 @@ RenderSettings settings_of(const ExperimentDescription &experiment, const CurveD
 }
 
 /// Renderer and reference in turns on the last curve's settings.
-Json run_throughput(const ExperimentDescription &experiment, const Scene &scene, DeviceContext &device,
-                    bool quiet) {
+Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
+                    DeviceContext &device, bool quiet) {
     const RenderSettings settings = settings_of(experiment, experiment.curves.back());
     RenderSession session(scene, settings, device);
 
@@ -105,16 +107,17 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
         meter.start();
         return use;
     };
-    const auto measured = measure_throughput(rules, first, second, use_since,
-                                             [&](int done) { progress.update(static_cast<uint64_t>(done)); });
+    const auto measured = measure_throughput(rules, first, second, use_since, [&](int done) {
+        progress.update(static_cast<uint64_t>(done));
+    });
     Json json = to_json(measured, rules);
     json["curve"] = experiment.curves.back().id();
     return json;
 }
 
 /// One entry of "curves"; writes the curve's image.
-Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description, LadderTask task,
-               double noise_mse, const fs::path &out) {
+Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description,
+               LadderTask task, double noise_mse, const fs::path &out) {
     task.settings = settings_of(experiment, description);
     task.spp = description.spp;
     task.early_images = description.early_images;
@@ -132,10 +135,10 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     curve["algorithm"] = description.settings.algorithm;
     curve["strategies"] = description.settings.strategies;
     curve["settings"] = image_settings(task.settings);
-    // By batches also where pixels state their variance: with few samples that is as wrong as its rarest paths are missed,
-    // and a normal test too sure.
-    const Agreement agreement =
-        test_agreement(ladder.batches, task.reference, policy, [&] { return render_fresh_batches(task); });
+    // By batches also where pixels state their variance: with few samples that is as wrong as its
+    // rarest paths are missed, and a normal test too sure.
+    const Agreement agreement = test_agreement(ladder.batches, task.reference, policy,
+                                               [&] { return render_fresh_batches(task); });
     curve["agreement"] = to_json(agreement, policy);
     curve["image"] = image;
     curve["image_spp"] = task.spp.back() * task.seeds;
@@ -147,7 +150,8 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     }
     curve["early_images"] = Json::array();
     for (size_t i = 0; i < task.early_images.size(); ++i) {
-        const std::string early = fmt::format("images/{}.{}spp.exr", description.id(), task.early_images[i]);
+        const std::string early =
+            fmt::format("images/{}.{}spp.exr", description.id(), task.early_images[i]);
         write_exr(ladder.early_images[i], out / early);
         curve["early_images"].push_back({{"spp", task.early_images[i]}, {"image", early}});
     }
@@ -169,7 +173,9 @@ void require_complete(const Json &run) {
 
 /// A repository keeps run.json without the images: such a run is measured anew.
 bool has_images(const Json &run, const fs::path &out) {
-    const auto is_there = [&](const Json &entry) { return fs::exists(out / entry.at("image").get<std::string>()); };
+    const auto is_there = [&](const Json &entry) {
+        return fs::exists(out / entry.at("image").get<std::string>());
+    };
     return is_there(run.at("reference")) &&
            std::all_of(run.at("curves").begin(), run.at("curves").end(), [&](const Json &curve) {
                return is_there(curve) && std::all_of(curve.at("early_images").begin(),
@@ -196,12 +202,14 @@ fs::path run_experiment(const RunOptions &options) {
     }
     const fs::path out = output_folder(options, experiment);
     const RunContext context;
-    const Resumption resumption(out, "run.json", experiment.source + reference.description.dump(), device.info());
+    const Resumption resumption(out, "run.json", experiment.source + reference.description.dump(),
+                                device.info());
     if (!resumption.finished([&](const Json &run) { return has_images(run, out); }).is_null()) {
         return out;
     }
     fs::create_directories(out / "images");
-    Json run = {{"schema_version", run_schema_version}, {"experiment", describe_experiment(experiment)}};
+    Json run = {{"schema_version", run_schema_version},
+                {"experiment", describe_experiment(experiment)}};
     {
         uint64_t done = 0;
         uint64_t total = 0;

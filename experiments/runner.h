@@ -16,10 +16,11 @@ struct RunOptions {
     bool quiet = false;
 };
 
-/// Runs an experiment and writes OUT/run.json and OUT/images/*.exr; returns OUT (empty where nothing was to be rendered).
+/// Runs an experiment and writes OUT/run.json and OUT/images/*.exr; returns OUT (empty where
+/// nothing was to be rendered).
 ///
-/// The same command continues a run that was stopped, and leaves a finished one as it is (`Resumption`). Throws `Error`: bad input, reference missing, run failed,
-/// interrupted.
+/// The same command continues a run that was stopped, and leaves a finished one as it is
+/// (`Resumption`). Throws `Error`: bad input, reference missing, run failed, interrupted.
 std::filesystem::path run_experiment(const RunOptions &options);
 
 }  // namespace rtrays

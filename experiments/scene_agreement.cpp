@@ -65,7 +65,8 @@ Description load(const fs::path &path, const std::string &profile) {
                 description.scenes.push_back(entry.path());
             }
         }
-        std::sort(description.scenes.begin() + static_cast<std::ptrdiff_t>(before), description.scenes.end());
+        std::sort(description.scenes.begin() + static_cast<std::ptrdiff_t>(before),
+                  description.scenes.end());
     }
     chosen.at("size").get_to(description.size);
     chosen.at("spp").get_to(description.spp);
@@ -74,11 +75,13 @@ Description load(const fs::path &path, const std::string &profile) {
     description.features = chosen.value("features", description.features);
     // Bonferroni over all rows: each algorithm against the reference, and any two.
     const size_t algorithms = description.algorithms.size();
-    description.policy.alpha /= static_cast<double>(description.scenes.size() * (algorithms + algorithms * (algorithms - 1) / 2));
+    description.policy.alpha /= static_cast<double>(
+        description.scenes.size() * (algorithms + algorithms * (algorithms - 1) / 2));
     return description;
 }
 
-/// The narrowest lobe of any material: alpha^2 of its half vectors, that of two axes being their product; infinity without.
+/// The narrowest lobe of any material: alpha^2 of its half vectors, that of two axes being their
+/// product; infinity without.
 double narrowest_lobe(const MaterialArrays &materials) {
     using Kind = BxdfComponent::Kind;
     double narrowest = std::numeric_limits<double>::infinity();
@@ -104,16 +107,19 @@ double narrowest_lobe(const MaterialArrays &materials) {
 
 /// What an algorithm does not see of a scene's light.
 struct BlindSpot {
-    std::string name;                      ///< in words; empty: it sees all
-    std::optional<JoinableLight> joinable; ///< what remains, for the reference to leave out the same
-    bool judged = true;                    ///< whether the rest can be told with these numbers of samples
+    std::string name;  ///< in words; empty: it sees all
+    std::optional<JoinableLight>
+        joinable;        ///< what remains, for the reference to leave out the same
+    bool judged = true;  ///< whether the rest can be told with these numbers of samples
 };
 
-BlindSpot blind_spot(const std::string &algorithm, const Scene &scene, const Description &description) {
+BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
+                     const Description &description) {
     if (algorithm != "light_tracing") {
         return {};
     }
-    // Its last vertex is joined to the camera, its first light from infinity falls on the scene's sphere.
+    // Its last vertex is joined to the camera, its first light from infinity falls on the scene's
+    // sphere.
     const SceneArrays &arrays = scene.arrays();
     std::vector<std::string> names;
     const auto &components = arrays.materials.component;
@@ -124,17 +130,21 @@ BlindSpot blind_spot(const std::string &algorithm, const Scene &scene, const Des
         names.emplace_back("mirrors and smooth glass");
     }
     const auto &lights = arrays.lights.kind;
-    const bool seen_at_infinity = std::any_of(lights.begin(), lights.end(), [](LightArrays::Kind kind) {
-        return kind == LightArrays::Kind::dome || kind == LightArrays::Kind::environment;
-    });
+    const bool seen_at_infinity =
+        std::any_of(lights.begin(), lights.end(), [](LightArrays::Kind kind) {
+            return kind == LightArrays::Kind::dome || kind == LightArrays::Kind::environment;
+        });
     if (seen_at_infinity) {
         names.emplace_back("what is infinitely far");
     }
     BlindSpot spot;
     const auto &shapes = arrays.shapes.kind;
-    const bool parallel = seen_at_infinity || std::find(lights.begin(), lights.end(), LightArrays::Kind::directional) != lights.end();
+    const bool parallel =
+        seen_at_infinity ||
+        std::find(lights.begin(), lights.end(), LightArrays::Kind::directional) != lights.end();
     JoinableLight joinable;
-    if (parallel && std::find(shapes.begin(), shapes.end(), ShapeArrays::Kind::plane) != shapes.end()) {
+    if (parallel &&
+        std::find(shapes.begin(), shapes.end(), ShapeArrays::Kind::plane) != shapes.end()) {
         names.emplace_back("planes beyond the scene's sphere");
         CompileSettings settings;
         settings.width = settings.height = description.size;
@@ -145,9 +155,11 @@ BlindSpot blind_spot(const std::string &algorithm, const Scene &scene, const Des
     if (!names.empty()) {
         spot.joinable = joinable;
     }
-    // A joined path cannot be drawn by the lobe: of the paths that come to a block about half of alpha^2 lie in it
-    // (the share of half vectors), and each counts for the inverse. Of fewer than 30 no t test knows the scatter.
-    const double paths = static_cast<double>(description.spp) * std::pow(description.policy.block_size, 2);
+    // A joined path cannot be drawn by the lobe: of the paths that come to a block about half of
+    // alpha^2 lie in it (the share of half vectors), and each counts for the inverse. Of fewer than
+    // 30 no t test knows the scatter.
+    const double paths =
+        static_cast<double>(description.spp) * std::pow(description.policy.block_size, 2);
     if (paths * narrowest_lobe(arrays.materials) / 2 < 30) {
         names.emplace_back("nearly mirrors, too few paths");
         spot.judged = false;
@@ -166,15 +178,17 @@ const char *verdict_of(const Agreement &agreement, const BlindSpot &blind) {
     return agreement.tests > agreement.undecided ? "agrees" : "undecided";
 }
 
-/// Two algorithms whose difference is too noisy to tell may both agree with the reference; that, each must.
+/// Two algorithms whose difference is too noisy to tell may both agree with the reference; that,
+/// each must.
 bool fails(const Json &row) {
     const auto verdict = row.at("verdict").get<std::string>();
-    return verdict == "disagrees" || (verdict == "undecided" && row.at("against").get<std::string>() == "reference");
+    return verdict == "disagrees" ||
+           (verdict == "undecided" && row.at("against").get<std::string>() == "reference");
 }
 
 /// The image in batches.
-std::vector<Image> render(const Scene &scene, const Description &description, const std::string &algorithm, uint32_t seed,
-                          DeviceContext &device) {
+std::vector<Image> render(const Scene &scene, const Description &description,
+                          const std::string &algorithm, uint32_t seed, DeviceContext &device) {
     RenderSettings settings;
     settings.algorithm = algorithm;
     settings.width = settings.height = description.size;
@@ -211,20 +225,23 @@ std::vector<Image> render_reference(const Scene &scene, const Description &descr
     std::vector<Image> images;
     for (uint64_t batch = 0; batch < batches; ++batch) {
         reference.restore(reference::Film(description.size, description.size, 0), 0);
-        render_whole(reference, batch * description.reference_spp / batches, (batch + 1) * description.reference_spp / batches);
+        render_whole(reference, batch * description.reference_spp / batches,
+                     (batch + 1) * description.reference_spp / batches);
         images.push_back(reference.develop());
     }
     return images;
 }
 
-/// Renders and tests by every algorithm, a row each; the images are kept as arrays NAME.ALGORITHM.npy,
-/// NAME.reference.npy and NAME.reference.ALGORITHM.npy, without what that cannot see, in `folder`.
-Json measure(const Scene &scene, const Description &description, DeviceContext &device, const fs::path &folder) {
+/// Renders and tests by every algorithm, a row each; the images are kept as arrays
+/// NAME.ALGORITHM.npy, NAME.reference.npy and NAME.reference.ALGORITHM.npy, without what that
+/// cannot see, in `folder`.
+Json measure(const Scene &scene, const Description &description, DeviceContext &device,
+             const fs::path &folder) {
     const std::vector<Image> whole = render_reference(scene, description, {});
     write_array(mean_of(whole), folder / (scene.name() + ".reference.npy"));
     Json rows = Json::array();
-    const auto add_row = [&](const std::string &algorithm, const std::string &against, const BlindSpot &blind,
-                             const Agreement &agreement) {
+    const auto add_row = [&](const std::string &algorithm, const std::string &against,
+                             const BlindSpot &blind, const Agreement &agreement) {
         rows.push_back({{"scene", scene.name()},
                         {"algorithm", algorithm},
                         {"against", against},
@@ -243,14 +260,18 @@ Json measure(const Scene &scene, const Description &description, DeviceContext &
         const std::vector<Image> images = render(scene, description, algorithm, seed++, device);
         write_array(mean_of(images), folder / fmt::format("{}.{}.npy", scene.name(), algorithm));
         const BlindSpot blind = blind_spot(algorithm, scene, description);
-        const std::vector<Image> reference = blind.joinable ? render_reference(scene, description, blind.joinable) : whole;
+        const std::vector<Image> reference =
+            blind.joinable ? render_reference(scene, description, blind.joinable) : whole;
         if (blind.joinable) {
-            write_array(mean_of(reference), folder / fmt::format("{}.reference.{}.npy", scene.name(), algorithm));
+            write_array(mean_of(reference),
+                        folder / fmt::format("{}.reference.{}.npy", scene.name(), algorithm));
         }
-        add_row(algorithm, "reference", blind, test_agreement(images, reference, description.policy));
+        add_row(algorithm, "reference", blind,
+                test_agreement(images, reference, description.policy));
         if (blind.name.empty()) {
             for (const auto &[other, its_images] : seeing) {
-                add_row(algorithm, other, blind, test_agreement(images, its_images, description.policy));
+                add_row(algorithm, other, blind,
+                        test_agreement(images, its_images, description.policy));
             }
             seeing[algorithm] = images;
         }
@@ -260,46 +281,57 @@ Json measure(const Scene &scene, const Description &description, DeviceContext &
 
 /// What a finished scene's result holds for.
 std::string key_of(const Scene &scene, const Description &description) {
-    return fmt::format("{} {} {} {} {} {} {}", scene.hash(), description.size, description.spp, description.reference_spp,
-                       fmt::join(description.algorithms, " "), description.features, version());
+    return fmt::format("{} {} {} {} {} {} {}", scene.hash(), description.size, description.spp,
+                       description.reference_spp, fmt::join(description.algorithms, " "),
+                       description.features, version());
 }
 
 std::string line_of(const Json &row) {
     const Json &difference = row.at("relative_difference");
     const std::string blind = row.at("blind").get<std::string>();
-    return fmt::format("{}{} {}, {}: {}, {} of {} tests reject, {} undecided, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, {:+.3f}]{}\n",
-                       fails(row) ? "FAIL " : "ok   ",
-                       row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(),
-                       row.at("against").get<std::string>(), row.at("verdict").get<std::string>(),
-                       row.at("rejected").get<size_t>(), row.at("tests").get<size_t>(),
-                       row.at("undecided").get<size_t>(), row.at("largest_z").get<double>(),
-                       100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
-                       100 * difference.at("high").get<double>(), blind.empty() ? "" : "; without " + blind);
+    return fmt::format(
+        "{}{} {}, {}: {}, {} of {} tests reject, {} undecided, largest |z| {:.1f}, mean {:+.3f} % "
+        "[{:+.3f}, {:+.3f}]{}\n",
+        fails(row) ? "FAIL " : "ok   ", row.at("scene").get<std::string>(),
+        row.at("algorithm").get<std::string>(), row.at("against").get<std::string>(),
+        row.at("verdict").get<std::string>(), row.at("rejected").get<size_t>(),
+        row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(),
+        row.at("largest_z").get<double>(), 100 * difference.at("value").get<double>(),
+        100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
+        blind.empty() ? "" : "; without " + blind);
 }
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
-        "Renderer against the Embree reference, and its algorithms against each other, {0} x {0} pixels, {1} spp, {2} of "
-        "the reference. Blocks of 16 x 16 pixels and the mean, per channel, Holm's correction, {3:.2g} over all rows; "
-        "variances from {4} batches; blocks whose batches are too skewed for a t test are undecided, and a "
-        "row is when most of its are. The last columns: difference of the mean with its 99 % interval, %; and what the "
-        "algorithm cannot see, which the reference then leaves out, too. \"Nearly mirrors\": a joined path cannot be drawn "
-        "by the lobe of its vertex, and of all that come to a block fewer than 30 lie in the narrowest one: such rows are "
+        "Renderer against the Embree reference, and its algorithms against each other, {0} x {0} "
+        "pixels, {1} spp, {2} of "
+        "the reference. Blocks of 16 x 16 pixels and the mean, per channel, Holm's correction, "
+        "{3:.2g} over all rows; "
+        "variances from {4} batches; blocks whose batches are too skewed for a t test are "
+        "undecided, and a "
+        "row is when most of its are. The last columns: difference of the mean with its 99 % "
+        "interval, %; and what the "
+        "algorithm cannot see, which the reference then leaves out, too. \"Nearly mirrors\": a "
+        "joined path cannot be drawn "
+        "by the lobe of its vertex, and of all that come to a block fewer than 30 lie in the "
+        "narrowest one: such rows are "
         "not judged.\n\n"
-        "| scene | algorithm | against | verdict | tests | undecided | rejected | largest z | difference | from | to | not "
+        "| scene | algorithm | against | verdict | tests | undecided | rejected | largest z | "
+        "difference | from | to | not "
         "seen |\n"
         "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
-        document.at("size").get<int>(), document.at("spp").get<uint64_t>(), document.at("reference_spp").get<uint64_t>(),
-        AgreementPolicy().alpha, batches);
+        document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
+        document.at("reference_spp").get<uint64_t>(), AgreementPolicy().alpha, batches);
     for (const Json &row : document.at("rows")) {
         const Json &difference = row.at("relative_difference");
-        table += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:+.3f} | {:+.3f} | {:+.3f} | {} |\n",
-                             row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(),
-                             row.at("against").get<std::string>(), row.at("verdict").get<std::string>(),
-                             row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(), row.at("rejected").get<size_t>(),
-                             row.at("largest_z").get<double>(),
-                             100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
-                             100 * difference.at("high").get<double>(), row.at("blind").get<std::string>());
+        table += fmt::format(
+            "| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:+.3f} | {:+.3f} | {:+.3f} | {} |\n",
+            row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(),
+            row.at("against").get<std::string>(), row.at("verdict").get<std::string>(),
+            row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(),
+            row.at("rejected").get<size_t>(), row.at("largest_z").get<double>(),
+            100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
+            100 * difference.at("high").get<double>(), row.at("blind").get<std::string>());
     }
     return table;
 }
@@ -308,7 +340,8 @@ std::string table_of(const Json &document) {
 
 ExitCode run_agreement(const AgreeOptions &options) {
     const Description description = load(options.description, options.profile);
-    const fs::path out = options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
+    const fs::path out =
+        options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
     const fs::path partial = out / "partial";
     fs::create_directories(partial);
     fs::create_directories(out / "images");

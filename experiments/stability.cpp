@@ -30,19 +30,21 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uint64_t batches = 32;
-constexpr int block_size = 8;         // pixels a side
+constexpr int block_size = 8;          // pixels a side
 constexpr double family_alpha = 0.01;  // of all tests of a profile together (Bonferroni)
 constexpr uint32_t renderer_seed = 31;
 constexpr uint64_t reference_seed = 32;
 
 /// Means over the pixels of every block and, last, of the image; empty channel: of all pixels one.
 std::vector<double> block_means(const Image &image, const std::string &channel) {
-    const int columns = (image.width() + block_size - 1) / block_size, rows = (image.height() + block_size - 1) / block_size;
+    const int columns = (image.width() + block_size - 1) / block_size,
+              rows = (image.height() + block_size - 1) / block_size;
     std::vector<double> sums(static_cast<size_t>(columns * rows) + 1), pixels(sums.size());
     const std::vector<float> &values = image.channel(channel);
     for (size_t i = 0; i < values.size(); ++i) {
         const int x = static_cast<int>(i) % image.width(), y = static_cast<int>(i) / image.width();
-        for (const size_t block : {static_cast<size_t>(y / block_size * columns + x / block_size), sums.size() - 1}) {
+        for (const size_t block :
+             {static_cast<size_t>(y / block_size * columns + x / block_size), sums.size() - 1}) {
             sums[block] += static_cast<double>(values[i]);
             pixels[block] += 1;
         }
@@ -90,14 +92,16 @@ Moments moments_of(const std::vector<double> &values) {
 double expected_error(const ExpectedImage &expected) {
     double sum = 0;
     for (const std::string &channel : rgb_names()) {
-        const std::vector<double> means = expected.noisy ? block_means(expected.mean, "variance." + channel) : std::vector<double>{0};
+        const std::vector<double> means = expected.noisy
+                                              ? block_means(expected.mean, "variance." + channel)
+                                              : std::vector<double>{0};
         sum += means.back() / 3;
     }
     return sum;
 }
 
-/// The mean over batches of the squared error of pixels; that of the expected image, where it has one, is taken off: on average
-/// it adds its variance.
+/// The mean over batches of the squared error of pixels; that of the expected image, where it has
+/// one, is taken off: on average it adds its variance.
 double mean_squared_error(const std::vector<Image> &images, const ExpectedImage &expected) {
     double mse = -expected_error(expected);
     for (const Image &image : images) {
@@ -113,14 +117,15 @@ size_t tests_of(int size) {
 
 }  // namespace
 
-StabilityTest test_stability(const std::vector<Image> &images, const ExpectedImage &expected, double bound, double within,
-                             double alpha) {
+StabilityTest test_stability(const std::vector<Image> &images, const ExpectedImage &expected,
+                             double bound, double within, double alpha) {
     if (images.size() < 2) {
         throw run_error("an interval takes two batches at least");
     }
     StabilityTest result;
     const double freedom = static_cast<double>(images.size() - 1);
-    const double far = student_quantile_two_sided(1 - alpha, freedom), near = student_quantile_two_sided(0.99, freedom);
+    const double far = student_quantile_two_sided(1 - alpha, freedom),
+                 near = student_quantile_two_sided(0.99, freedom);
     double error = 0;  // of the mean over channels, at most
     for (const std::string &channel : rgb_names()) {
         std::vector<std::vector<double>> by_batch;
@@ -128,16 +133,21 @@ StabilityTest test_stability(const std::vector<Image> &images, const ExpectedIma
             by_batch.push_back(block_means(image, channel));
         }
         const std::vector<double> wanted = block_means(expected.mean, channel);
-        const std::vector<double> noise = expected.noisy ? block_variances(expected.mean, "variance." + channel) : std::vector<double>(wanted.size());
+        const std::vector<double> noise =
+            expected.noisy ? block_variances(expected.mean, "variance." + channel)
+                           : std::vector<double>(wanted.size());
         for (size_t block = 0; block < wanted.size(); ++block) {
             std::vector<double> values;
             for (const auto &batch : by_batch) {
                 values.push_back(batch[block]);
             }
             const Moments moments = moments_of(values);
-            const double standard_error = std::hypot(moments.standard_error, std::sqrt(noise[block]));
-            const double off = std::abs(moments.mean - wanted[block]), allowed = bound * wanted[block];
-            if (std::abs(moments.skewness) > AgreementPolicy().largest_skewness && off + far * standard_error > allowed) {
+            const double standard_error =
+                std::hypot(moments.standard_error, std::sqrt(noise[block]));
+            const double off = std::abs(moments.mean - wanted[block]),
+                         allowed = bound * wanted[block];
+            if (std::abs(moments.skewness) > AgreementPolicy().largest_skewness &&
+                off + far * standard_error > allowed) {
                 ++result.undecided;
             } else {
                 ++result.tests;
@@ -153,11 +163,15 @@ StabilityTest test_stability(const std::vector<Image> &images, const ExpectedIma
     if (!(result.expected > 0)) {
         throw input_error("a black image is expected: a relative difference is not defined");
     }
-    const double difference = (result.measured - result.expected) / result.expected, reach = near * error / result.expected;
+    const double difference = (result.measured - result.expected) / result.expected,
+                 reach = near * error / result.expected;
     result.difference = {difference, difference - reach, difference + reach};
     result.mse = mean_squared_error(images, expected) / std::pow(result.expected, 2);
     result.mse_expected = expected_error(expected) / std::pow(result.expected, 2);
-    result.verdict = result.rejected > 0 ? "off" : result.tests <= result.undecided ? "undecided" : reach > within ? "imprecise" : "ok";
+    result.verdict = result.rejected > 0                ? "off"
+                     : result.tests <= result.undecided ? "undecided"
+                     : reach > within                   ? "imprecise"
+                                                        : "ok";
     return result;
 }
 
@@ -171,7 +185,8 @@ struct Batches {
     double seconds = 0;  ///< of the device
 };
 
-Batches render(const SceneVariant &variant, const StabilityCase &tested, const RenderSettings &settings, DeviceContext &device) {
+Batches render(const SceneVariant &variant, const StabilityCase &tested,
+               const RenderSettings &settings, DeviceContext &device) {
     const Scene scene = variant.load();
     RenderSession session(scene, settings, device);
     Batches result;
@@ -200,7 +215,8 @@ Image relabelled(const Image &image, const std::array<size_t, 3> &channels) {
 Image uniform(int size, const std::array<double, 3> &values) {
     Image image = Image::rgb(size, size);
     for (size_t c = 0; c < 3; ++c) {
-        std::fill(image.channel(rgb_names()[c]).begin(), image.channel(rgb_names()[c]).end(), static_cast<float>(values[c]));
+        std::fill(image.channel(rgb_names()[c]).begin(), image.channel(rgb_names()[c]).end(),
+                  static_cast<float>(values[c]));
     }
     return image;
 }
@@ -219,22 +235,25 @@ Image render_reference(const StabilityCase &tested, const RenderSettings &settin
 }
 
 /// By the difference of equal samples, which is small where the scenes are alike.
-std::vector<Image> paired(const std::vector<Image> &images, const std::vector<Image> &others, const Image &mean) {
+std::vector<Image> paired(const std::vector<Image> &images, const std::vector<Image> &others,
+                          const Image &mean) {
     std::vector<Image> shifted;
     for (size_t i = 0; i < images.size(); ++i) {
         shifted.push_back(Image::rgb(mean.width(), mean.height()));
         for (const std::string &channel : rgb_names()) {
             std::vector<float> &values = shifted.back().channel(channel);
             for (size_t pixel = 0; pixel < values.size(); ++pixel) {
-                values[pixel] = mean.channel(channel)[pixel] + (images[i].channel(channel)[pixel] - others[i].channel(channel)[pixel]);
+                values[pixel] = mean.channel(channel)[pixel] + (images[i].channel(channel)[pixel] -
+                                                                others[i].channel(channel)[pixel]);
             }
         }
     }
     return shifted;
 }
 
-StabilityTest test_case(const StabilityCase &tested, const RenderSettings &settings, const Batches &rendered, const Image &reference,
-                        double alpha, DeviceContext &device) {
+StabilityTest test_case(const StabilityCase &tested, const RenderSettings &settings,
+                        const Batches &rendered, const Image &reference, double alpha,
+                        DeviceContext &device) {
     if (tested.expectation == Expectation::saturates) {
         StabilityTest result;
         result.tests = 1;
@@ -243,7 +262,8 @@ StabilityTest test_case(const StabilityCase &tested, const RenderSettings &setti
     }
     if (tested.expectation != Expectation::like) {
         const bool noisy = tested.expectation == Expectation::reference;
-        const ExpectedImage expected{noisy ? reference : uniform(settings.width, tested.expected), noisy};
+        const ExpectedImage expected{noisy ? reference : uniform(settings.width, tested.expected),
+                                     noisy};
         return test_stability(rendered.images, expected, tested.bound, tested.within, alpha);
     }
     std::vector<Image> others;
@@ -251,7 +271,8 @@ StabilityTest test_case(const StabilityCase &tested, const RenderSettings &setti
         others.push_back(relabelled(image, tested.channels));
     }
     const Image mean = average_images(others);
-    StabilityTest result = test_stability(paired(rendered.images, others, mean), {mean, false}, tested.bound, tested.within, alpha);
+    StabilityTest result = test_stability(paired(rendered.images, others, mean), {mean, false},
+                                          tested.bound, tested.within, alpha);
     result.mse = mean_squared_error(rendered.images, {mean, false}) / std::pow(result.expected, 2);
     return result;
 }
@@ -271,7 +292,8 @@ const char *name_of(Expectation expectation) {
 }
 
 /// Rows of one case: an algorithm each, and those that do not see it.
-Json measure(const StabilityCase &tested, double alpha, DeviceContext &device, const fs::path &images) {
+Json measure(const StabilityCase &tested, double alpha, DeviceContext &device,
+             const fs::path &images) {
     Image reference;
     if (tested.expectation == Expectation::reference) {
         reference = render_reference(tested, tested.runs.front().settings);
@@ -280,9 +302,12 @@ Json measure(const StabilityCase &tested, double alpha, DeviceContext &device, c
     Json rows = Json::array();
     for (const auto &[name, settings] : tested.runs) {
         const Batches rendered = render(tested.scene, tested, settings, device);
-        const bool finite = rendered.non_finite == 0 && (rendered.out_of_range == 0 || tested.expectation == Expectation::saturates);
+        const bool finite =
+            rendered.non_finite == 0 &&
+            (rendered.out_of_range == 0 || tested.expectation == Expectation::saturates);
         const StabilityTest test = test_case(tested, settings, rendered, reference, alpha, device);
-        write_exr(average_images(rendered.images), images / fmt::format("{}.{}.exr", tested.name, name));
+        write_exr(average_images(rendered.images),
+                  images / fmt::format("{}.{}.exr", tested.name, name));
         rows.push_back({{"case", tested.name},
                         {"group", tested.group},
                         {"stiffness", tested.stiffness},
@@ -298,7 +323,9 @@ Json measure(const StabilityCase &tested, double alpha, DeviceContext &device, c
                         {"tests", test.tests},
                         {"undecided", test.undecided},
                         {"rejected", test.rejected},
-                        {"verdict", finite ? test.verdict : rendered.non_finite > 0 ? "not finite" : "saturated"},
+                        {"verdict", finite                    ? test.verdict
+                                    : rendered.non_finite > 0 ? "not finite"
+                                                              : "saturated"},
                         {"non_finite", rendered.non_finite},
                         {"saturated", rendered.out_of_range},
                         {"spp", tested.spp},
@@ -307,39 +334,56 @@ Json measure(const StabilityCase &tested, double alpha, DeviceContext &device, c
                         {"seconds", rendered.seconds}});
     }
     for (const auto &[algorithm, why] : tested.unseen) {
-        rows.push_back({{"case", tested.name}, {"group", tested.group}, {"title", tested.title}, {"algorithm", algorithm}, {"verdict", "out of reach"}, {"reason", why}});
+        rows.push_back({{"case", tested.name},
+                        {"group", tested.group},
+                        {"title", tested.title},
+                        {"algorithm", algorithm},
+                        {"verdict", "out of reach"},
+                        {"reason", why}});
     }
     return rows;
 }
 
 bool passes(const Json &row, bool survey) {
     const std::string verdict = row.at("verdict");
-    return survey ? verdict != "not finite" && verdict != "saturated" : verdict == "ok" || verdict == "out of reach";
+    return survey ? verdict != "not finite" && verdict != "saturated"
+                  : verdict == "ok" || verdict == "out of reach";
 }
 
 std::string cells_of(const Json &row) {
     const auto number = [&](const char *key) { return row.at(key).get<double>(); };
-    std::string cells = fmt::format("{} | {} | ", row.at("case").get<std::string>(), row.at("algorithm").get<std::string>());
+    std::string cells = fmt::format("{} | {} | ", row.at("case").get<std::string>(),
+                                    row.at("algorithm").get<std::string>());
     if (!row.contains("against")) {
-        return cells + fmt::format("| | | | | {} | | | {}", row.at("verdict").get<std::string>(), row.at("reason").get<std::string>());
+        return cells + fmt::format("| | | | | {} | | | {}", row.at("verdict").get<std::string>(),
+                                   row.at("reason").get<std::string>());
     }
     const Json &difference = row.at("difference");
-    cells += fmt::format("{} | {:.6g} | {:.6g} | {:+.1e} | {:+.1e} | **{}** | {} | {} | ", row.at("against").get<std::string>(), number("expected"),
-                         number("measured"), difference.at("low").get<double>(), difference.at("high").get<double>(),
-                         row.at("verdict").get<std::string>(), row.at("non_finite").get<uint64_t>(),
-                         row.at("saturated").get<uint64_t>());
-    return cells + (row.at("reason") == "" ? "" : fmt::format("bound {:.0e}: {}", number("bound"), row.at("reason").get<std::string>()));
+    cells += fmt::format("{} | {:.6g} | {:.6g} | {:+.1e} | {:+.1e} | **{}** | {} | {} | ",
+                         row.at("against").get<std::string>(), number("expected"),
+                         number("measured"), difference.at("low").get<double>(),
+                         difference.at("high").get<double>(), row.at("verdict").get<std::string>(),
+                         row.at("non_finite").get<uint64_t>(), row.at("saturated").get<uint64_t>());
+    return cells + (row.at("reason") == "" ? ""
+                                           : fmt::format("bound {:.0e}: {}", number("bound"),
+                                                         row.at("reason").get<std::string>()));
 }
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
         "# Stiff and extreme cases\n\nProfile {}, {} batches each, on {}.\n\n"
-        "*expected* and *measured*: mean radiance over pixels and channels; *from*, *to*: the relative difference with its 99 % interval. "
-        "A case is *off* where a block of {} x {} pixels or the whole differs in a channel from what is expected by more than its bound ({:.0e} where none is given) at a level of {:.2g} over all tests, "
-        "*imprecise* where its interval is wider than it states, *undecided* where its batches are too skewed.\n\n"
-        "| case | algorithm | against | expected | measured | from | to | verdict | not finite | saturated | |\n"
+        "*expected* and *measured*: mean radiance over pixels and channels; *from*, *to*: the "
+        "relative difference with its 99 % interval. "
+        "A case is *off* where a block of {} x {} pixels or the whole differs in a channel from "
+        "what is expected by more than its bound ({:.0e} where none is given) at a level of {:.2g} "
+        "over all tests, "
+        "*imprecise* where its interval is wider than it states, *undecided* where its batches are "
+        "too skewed.\n\n"
+        "| case | algorithm | against | expected | measured | from | to | verdict | not finite | "
+        "saturated | |\n"
         "| --- | --- | --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | --- |\n",
-        document.at("profile").get<std::string>(), batches, document.at("device").get<std::string>(), block_size, block_size,
+        document.at("profile").get<std::string>(), batches,
+        document.at("device").get<std::string>(), block_size, block_size,
         document.at("bound").get<double>(), family_alpha);
     for (const Json &row : document.at("rows")) {
         table += "| " + cells_of(row) + " |\n";
@@ -372,7 +416,8 @@ ExitCode run_stability(const RunOptions &options) {
         }
     }
     if (options.dry_run) {
-        fmt::print("{}, profile {}: {} cases, {} renders of {} batches, {} tests\n", suite.name, suite.profile, suite.cases.size(), rows, batches, tests);
+        fmt::print("{}, profile {}: {} cases, {} renders of {} batches, {} tests\n", suite.name,
+                   suite.profile, suite.cases.size(), rows, batches, tests);
         return ExitCode::ok;
     }
     DeviceContext device(options.device);
@@ -385,29 +430,44 @@ ExitCode run_stability(const RunOptions &options) {
         }
         return ExitCode::ok;
     }
-    const fs::path out = options.out.empty() ? fs::path(suite.name + "." + suite.profile) : options.out;
-    const Resumption resumption(out, "stability.json", read_file(options.experiment) + suite.profile, device.info());
+    const fs::path out =
+        options.out.empty() ? fs::path(suite.name + "." + suite.profile) : options.out;
+    const Resumption resumption(out, "stability.json",
+                                read_file(options.experiment) + suite.profile, device.info());
     const auto conclude = [&](const Json &results) {
-        const auto failed = std::count_if(results.begin(), results.end(), [&](const Json &row) { return !passes(row, suite.survey); });
-        fmt::print("{} of {} rows fail; {}\n", failed, results.size(), (out / "stability.md").string());
+        const auto failed = std::count_if(results.begin(), results.end(), [&](const Json &row) {
+            return !passes(row, suite.survey);
+        });
+        fmt::print("{} of {} rows fail; {}\n", failed, results.size(),
+                   (out / "stability.md").string());
         return failed > 0 ? ExitCode::regression : ExitCode::ok;
     };
     if (const Json document = resumption.finished(); !document.is_null()) {
         return conclude(document.at("rows"));
     }
     fs::create_directories(out / "images");
-    Json document = {{"schema_version", 1},      {"commit", commit()},       {"dirty", built_from_changed_sources()},
-                     {"device", device.info().name}, {"host", describe_host()}, {"profile", suite.profile},
-                     {"bound", suite.bound},     {"batches", batches},      {"rows", Json::array()}};
+    Json document = {{"schema_version", 1},
+                     {"commit", commit()},
+                     {"dirty", built_from_changed_sources()},
+                     {"device", device.info().name},
+                     {"host", describe_host()},
+                     {"profile", suite.profile},
+                     {"bound", suite.bound},
+                     {"batches", batches},
+                     {"rows", Json::array()}};
     size_t finished = 0;
     Progress progress(suite.name, suite.cases.size(), "cases", options.quiet);
     for (const StabilityCase &tested : suite.cases) {
         const fs::path done = resumption.parts() / (tested.name + ".json");
         if (!fs::exists(done)) {
             try {
-                write_file(done, measure(tested, family_alpha / static_cast<double>(tests), device, out / "images").dump(1) + "\n");
+                write_file(done, measure(tested, family_alpha / static_cast<double>(tests), device,
+                                         out / "images")
+                                         .dump(1) +
+                                     "\n");
             } catch (const Error &error) {
-                throw Error(error.exit_code(), fmt::format("case '{}': {}", tested.name, error.what()));
+                throw Error(error.exit_code(),
+                            fmt::format("case '{}': {}", tested.name, error.what()));
             }
         }
         for (const Json &row : load_json(done)) {

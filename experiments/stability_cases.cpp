@@ -15,20 +15,24 @@ namespace rtrays {
 
 namespace {
 
-/// The parameters of one case: numbers of the sweep, and formulas of "where", which may use each other.
+/// The parameters of one case: numbers of the sweep, and formulas of "where", which may use each
+/// other.
 class Parameters {
   public:
-    Parameters(std::map<std::string, double> swept, const Json &formulas) : swept_(std::move(swept)), formulas_(formulas) {}
+    Parameters(std::map<std::string, double> swept, const Json &formulas)
+        : swept_(std::move(swept)), formulas_(formulas) {}
 
     /// A number as it is, a text as a formula.
     double value(const Json &json) const {
-        return json.is_string() ? evaluate(json.get<std::string>(), [this](const std::string &name) { return named(name); })
+        return json.is_string() ? evaluate(json.get<std::string>(),
+                                           [this](const std::string &name) { return named(name); })
                                 : json.get<double>();
     }
 
     bool is_swept(const std::string &name) const { return swept_.count(name) > 0; }
 
-    /// The text of a property: lists of numbers and formulas, numbers, booleans; `{"text": ...}` as it is.
+    /// The text of a property: lists of numbers and formulas, numbers, booleans; `{"text": ...}` as
+    /// it is.
     std::string text(const Json &json) const {
         if (json.is_object()) {
             return json.at("text").get<std::string>();
@@ -49,7 +53,8 @@ class Parameters {
             return found->second;
         }
         if (!formulas_.contains(name) || depth_ > 16) {
-            throw input_error(fmt::format("'{}' is neither swept nor defined by \"where\"{}", name, depth_ > 16 ? " without itself" : ""));
+            throw input_error(fmt::format("'{}' is neither swept nor defined by \"where\"{}", name,
+                                          depth_ > 16 ? " without itself" : ""));
         }
         ++depth_;
         const double result = value(formulas_.at(name));
@@ -78,7 +83,8 @@ std::vector<std::map<std::string, double>> combinations(const Json &each) {
     return all;
 }
 
-SceneVariant read_variant(const DescriptionFile &file, const Json &json, const std::string &scene, const Parameters &parameters) {
+SceneVariant read_variant(const DescriptionFile &file, const Json &json, const std::string &scene,
+                          const Parameters &parameters) {
     const std::string path = scene + ".json";
     SceneVariant variant{file.resolve(file.json.at("folder")) / path, {}};
     const Json set = json.value("set", Json::object());
@@ -88,14 +94,16 @@ SceneVariant read_variant(const DescriptionFile &file, const Json &json, const s
     return variant;
 }
 
-void read_expectation(const DescriptionFile &file, const Json &json, const Parameters &parameters, StabilityCase &result) {
+void read_expectation(const DescriptionFile &file, const Json &json, const Parameters &parameters,
+                      StabilityCase &result) {
     if (json.contains("reference_spp")) {
         result.expectation = Expectation::reference;
         json.at("reference_spp").get_to(result.reference_spp);
     } else if (json.contains("like")) {
         const Json &like = json.at("like");
         result.expectation = Expectation::like;
-        result.other = read_variant(file, like, like.value("scene", json.at("scene").get<std::string>()), parameters);
+        result.other = read_variant(
+            file, like, like.value("scene", json.at("scene").get<std::string>()), parameters);
         result.channels = like.value("channels", std::array<size_t, 3>{0, 1, 2});
     } else if (json.contains("expected")) {
         const Json &expected = json.at("expected");
@@ -110,7 +118,8 @@ void read_expectation(const DescriptionFile &file, const Json &json, const Param
     }
 }
 
-StabilityCase read_case(const DescriptionFile &file, const Json &json, std::map<std::string, double> swept, const Json &profile) {
+StabilityCase read_case(const DescriptionFile &file, const Json &json,
+                        std::map<std::string, double> swept, const Json &profile) {
     const Json &defaults = file.json.at("defaults");
     const auto setting = [&](const char *key) { return json.value(key, defaults.at(key)); };
     StabilityCase result;
@@ -130,7 +139,8 @@ StabilityCase read_case(const DescriptionFile &file, const Json &json, std::map<
     const double factor = profile.at("samples");
     result.within = parameters.value(setting("within")) / std::sqrt(factor);
     result.spp = static_cast<uint64_t>(std::max(factor * setting("spp").get<double>(), 32.0));
-    result.reference_spp = static_cast<uint64_t>(factor * static_cast<double>(result.reference_spp));
+    result.reference_spp =
+        static_cast<uint64_t>(factor * static_cast<double>(result.reference_spp));
     result.first_sample = json.value("first_sample", uint64_t{0});
     result.unseen = json.value("unseen", result.unseen);
     Json chosen = json.value("settings", Json::object());
@@ -151,12 +161,15 @@ StabilityCase read_case(const DescriptionFile &file, const Json &json, std::map<
             all[key] = value;
             name += fmt::format(" {}", value.is_string() ? value.get<std::string>() : value.dump());
         }
-        RenderSettings settings = parse_render_settings({{"algorithm", algorithm}, {"settings", all}});
+        RenderSettings settings =
+            parse_render_settings({{"algorithm", algorithm}, {"settings", all}});
         settings.width = settings.height = setting("size");
         settings.variance = false;
         settings.features = profile.at("features");
-        // No more room than a batch fills: empty queue entries cost time in every round, and no bit depends on it.
-        const double paths = static_cast<double>(result.spp) / 32 * settings.width * settings.height;
+        // No more room than a batch fills: empty queue entries cost time in every round, and no bit
+        // depends on it.
+        const double paths =
+            static_cast<double>(result.spp) / 32 * settings.width * settings.height;
         settings.stream_capacity = static_cast<uint32_t>(std::clamp(paths, 256.0, 16384.0));
         result.runs.push_back({name, settings});
     }
@@ -179,11 +192,16 @@ Scene SceneVariant::load() const {
 StabilitySuite load_stability(const std::filesystem::path &path, const std::string &profile) {
     const DescriptionFile file = load_description(path, "stability.schema.json");
     const Json &chosen = file.profile(profile);
-    StabilitySuite suite{file.json.at("name"), profile, file.json.at("defaults").at("bound"), file.json.value("survey", false), {}};
+    StabilitySuite suite{file.json.at("name"),
+                         profile,
+                         file.json.at("defaults").at("bound"),
+                         file.json.value("survey", false),
+                         {}};
     std::set<std::string> names;
     for (const Json &json : file.json.at("cases")) {
         const std::string name = json.at("name");
-        const std::vector<std::string> profiles = json.value("profiles", std::vector<std::string>{"quick", "full"});
+        const std::vector<std::string> profiles =
+            json.value("profiles", std::vector<std::string>{"quick", "full"});
         if (std::find(profiles.begin(), profiles.end(), profile) == profiles.end()) {
             continue;
         }
@@ -195,7 +213,8 @@ StabilitySuite load_stability(const std::filesystem::path &path, const std::stri
                 }
             }
         } catch (const Error &error) {
-            throw Error(error.exit_code(), fmt::format("{}: case '{}': {}", path.string(), name, error.what()));
+            throw Error(error.exit_code(),
+                        fmt::format("{}: case '{}': {}", path.string(), name, error.what()));
         }
     }
     if (suite.cases.empty()) {

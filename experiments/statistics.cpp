@@ -37,16 +37,17 @@ double standard_error(const std::vector<double> &values) {
 
 double checked_log(double error) {
     if (!(error > 0) || !std::isfinite(error)) {
-        throw run_error(
-            fmt::format("an error of {} has no logarithm: image and reference may be the same file, or the "
-                        "reference too noisy (make references)",
-                        error));
+        throw run_error(fmt::format(
+            "an error of {} has no logarithm: image and reference may be the same file, or the "
+            "reference too noisy (make references)",
+            error));
     }
     return std::log(error);
 }
 
-/// Inverse variances over seeds. A point without spread (identical seeds) would weigh infinitely: variances
-/// are bounded below by 1e-6 of the largest, and all weights are 1 when there is no spread at all.
+/// Inverse variances over seeds. A point without spread (identical seeds) would weigh infinitely:
+/// variances are bounded below by 1e-6 of the largest, and all weights are 1 when there is no
+/// spread at all.
 std::vector<double> inverse_variances(const std::vector<std::vector<double>> &logs) {
     std::vector<double> weights(logs.front().size());
     for (size_t p = 0; p < weights.size(); ++p) {
@@ -67,7 +68,8 @@ std::vector<double> inverse_variances(const std::vector<std::vector<double>> &lo
 
 Interval mean_interval(const std::vector<double> &values, double confidence) {
     if (values.size() < 2) {
-        throw run_error(fmt::format("{} values are too few for an interval of their mean", values.size()));
+        throw run_error(
+            fmt::format("{} values are too few for an interval of their mean", values.size()));
     }
     const boost::math::students_t_distribution<double> t(static_cast<double>(values.size() - 1));
     const double reach = boost::math::quantile(t, 0.5 + confidence / 2) * standard_error(values);
@@ -83,7 +85,8 @@ double quantile(std::vector<double> values, double p) {
     const double position = p * static_cast<double>(values.size() - 1);
     const auto below = static_cast<size_t>(position);
     const size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] + (position - static_cast<double>(below)) * (values[above] - values[below]);
+    return values[below] +
+           (position - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
 double median(const std::vector<double> &values) {
@@ -93,11 +96,11 @@ double median(const std::vector<double> &values) {
 Interval median_interval(std::vector<double> values, double confidence) {
     std::sort(values.begin(), values.end());
     const size_t n = values.size();
-    // The interval from the (k+1)-th smallest to the (k+1)-th largest misses the median with probability
-    // 2 P(Binomial(n, 1/2) <= k).
+    // The interval from the (k+1)-th smallest to the (k+1)-th largest misses the median with
+    // probability 2 P(Binomial(n, 1/2) <= k).
     if (n == 0 || 2 * std::pow(0.5, static_cast<double>(n)) > 1 - confidence) {
-        throw run_error(
-            fmt::format("{} values are too few for a {} % interval of their median", n, 100 * confidence));
+        throw run_error(fmt::format("{} values are too few for a {} % interval of their median", n,
+                                    100 * confidence));
     }
     const boost::math::binomial_distribution<double> below(static_cast<double>(n), 0.5);
     size_t k = 0;
@@ -128,10 +131,13 @@ double weighted_slope(const std::vector<double> &x, const std::vector<double> &y
     return covariance / spread;
 }
 
-Interval power_law_exponent(const std::vector<double> &x, const std::vector<double> &y, double confidence) {
+Interval power_law_exponent(const std::vector<double> &x, const std::vector<double> &y,
+                            double confidence) {
     const size_t n = x.size();
     if (n < 3 || y.size() != n) {
-        throw run_error(fmt::format("an exponent with its interval takes at least 3 points; there are {} and {}", n, y.size()));
+        throw run_error(fmt::format(
+            "an exponent with its interval takes at least 3 points; there are {} and {}", n,
+            y.size()));
     }
     std::vector<double> log_x, log_y;
     for (size_t i = 0; i < n; ++i) {
@@ -148,18 +154,20 @@ Interval power_law_exponent(const std::vector<double> &x, const std::vector<doub
         residuals += residual * residual;
     }
     const auto freedom = static_cast<double>(n - 2);
-    const double error = std::sqrt(residuals / freedom / (variance(log_x) * static_cast<double>(n - 1)));
+    const double error =
+        std::sqrt(residuals / freedom / (variance(log_x) * static_cast<double>(n - 1)));
     const double reach =
         error * boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
     return {exponent, exponent - reach, exponent + reach};
 }
 
-Interval convergence_slope(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors,
-                           double confidence, int resamples) {
+Interval convergence_slope(const std::vector<double> &spp,
+                           const std::vector<std::vector<double>> &errors, double confidence,
+                           int resamples) {
     const size_t seeds = errors.size(), points = spp.size();
     if (seeds < 8 || points < 2) {
-        throw run_error(
-            fmt::format("a slope needs at least 8 seeds and 2 points; there are {} and {}", seeds, points));
+        throw run_error(fmt::format(
+            "a slope needs at least 8 seeds and 2 points; there are {} and {}", seeds, points));
     }
     std::vector<double> x(points);
     std::transform(spp.begin(), spp.end(), x.begin(), checked_log);
@@ -168,8 +176,8 @@ Interval convergence_slope(const std::vector<double> &spp, const std::vector<std
         logs.emplace_back(row.size());
         std::transform(row.begin(), row.end(), logs.back().begin(), checked_log);
     }
-    // With fixed weights the slope is linear in y: the slope of the mean curve is the mean of the seeds'
-    // slopes.
+    // With fixed weights the slope is linear in y: the slope of the mean curve is the mean of the
+    // seeds' slopes.
     const std::vector<double> weights = inverse_variances(logs);
     std::vector<double> slopes;
     for (const auto &row : logs) {
@@ -191,10 +199,12 @@ Interval convergence_slope(const std::vector<double> &spp, const std::vector<std
         }
     }
     const double tail = (1 - confidence) / 2;
-    return {center, center - quantile(t_values, 1 - tail) * error, center - quantile(t_values, tail) * error};
+    return {center, center - quantile(t_values, 1 - tail) * error,
+            center - quantile(t_values, tail) * error};
 }
 
-double slope_bias_of_scatter(const std::vector<double> &spp, const std::vector<std::vector<double>> &errors) {
+double slope_bias_of_scatter(const std::vector<double> &spp,
+                             const std::vector<std::vector<double>> &errors) {
     const auto relative_variance = [&](size_t point) {
         std::vector<double> squares;
         for (const auto &row : errors) {
@@ -211,15 +221,16 @@ double normal_quantile_two_sided(double confidence) {
 }
 
 double student_quantile_two_sided(double confidence, double freedom) {
-    return boost::math::quantile(boost::math::complement(boost::math::students_t_distribution<double>(freedom), (1 - confidence) / 2));
+    return boost::math::quantile(boost::math::complement(
+        boost::math::students_t_distribution<double>(freedom), (1 - confidence) / 2));
 }
 
-Interval paired_error_ratio(const std::vector<double> &candidate, const std::vector<double> &baseline,
-                            double confidence) {
+Interval paired_error_ratio(const std::vector<double> &candidate,
+                            const std::vector<double> &baseline, double confidence) {
     if (candidate.size() != baseline.size() || candidate.size() < 2) {
-        throw run_error(
-            fmt::format("paired comparison needs equally many errors, at least 2; there are {} and {}",
-                        candidate.size(), baseline.size()));
+        throw run_error(fmt::format(
+            "paired comparison needs equally many errors, at least 2; there are {} and {}",
+            candidate.size(), baseline.size()));
     }
     std::vector<double> ratios(candidate.size());
     for (size_t i = 0; i < ratios.size(); ++i) {

@@ -26,8 +26,8 @@ Throughput measure_throughput(const ThroughputSettings &settings, const Contesta
     Throughput result;
     std::vector<double> renderer_rates, reference_rates, ratios;
     const int attempts = settings.repetitions * settings.attempts_per_repetition;
-    for (int attempt = 0; attempt < attempts && static_cast<int>(ratios.size()) < settings.repetitions;
-         ++attempt) {
+    for (int attempt = 0;
+         attempt < attempts && static_cast<int>(ratios.size()) < settings.repetitions; ++attempt) {
         ThroughputRepetition turn;
         use_since();
         if (attempt % 2 == 0) {
@@ -49,9 +49,9 @@ Throughput measure_throughput(const ThroughputSettings &settings, const Contesta
         progress(static_cast<int>(ratios.size()));
     }
     if (static_cast<int>(ratios.size()) < settings.repetitions) {
-        result.reason =
-            fmt::format("foreign load: only {} of {} repetitions had others use at most {:.0f} % of the CPU",
-                        ratios.size(), result.repetitions.size(), 100 * settings.foreign_limit);
+        result.reason = fmt::format(
+            "foreign load: only {} of {} repetitions had others use at most {:.0f} % of the CPU",
+            ratios.size(), result.repetitions.size(), 100 * settings.foreign_limit);
         return result;
     }
     result.accepted = true;

@@ -12,7 +12,8 @@ namespace rtrays::reference {
 
 namespace {
 
-std::vector<double> triangle_areas(const Geometry &geometry, const std::vector<uint32_t> &triangles) {
+std::vector<double> triangle_areas(const Geometry &geometry,
+                                   const std::vector<uint32_t> &triangles) {
     std::vector<double> areas;
     areas.reserve(triangles.size());
     for (const uint32_t triangle : triangles) {
@@ -31,8 +32,8 @@ double scale_of(const Shape &shape) {
     return std::sqrt(squared);
 }
 
-/// Uniform cone of directions around +z that a sphere at distance d fills: 1 - cos of its half angle,
-/// without the cancellation of small cones.
+/// Uniform cone of directions around +z that a sphere at distance d fills: 1 - cos of its half
+/// angle, without the cancellation of small cones.
 double cone_height(double radius, double distance_squared) {
     const double sine_squared = square(radius) / distance_squared;
     return sine_squared / (1.0 + std::sqrt(1.0 - sine_squared));
@@ -40,20 +41,23 @@ double cone_height(double radius, double distance_squared) {
 
 }  // namespace
 
-double DiffuseEmitter::pdf_w(const Geometry &geometry, const Vec3 &from, const SurfacePoint &hit) const {
+double DiffuseEmitter::pdf_w(const Geometry &geometry, const Vec3 &from,
+                             const SurfacePoint &hit) const {
     const Vec3 to_light = hit.position - from;
-    const double projected = -geometry.normal(hit).dot(to_light);  // cosine at the light times distance
+    const double projected =
+        -geometry.normal(hit).dot(to_light);  // cosine at the light times distance
     if (!(projected > 0.0)) {
         return 0.0;
     }
-    // pdf_w = pdf_a d^2 / cos (Veach 1997, eq. 8.10), in a form that keeps d^3 from under- or overflowing
-    // before the rest does.
+    // pdf_w = pdf_a d^2 / cos (Veach 1997, eq. 8.10), in a form that keeps d^3 from under- or
+    // overflowing before the rest does.
     const double distance_squared = to_light.squaredNorm();
     return distance_squared * (std::sqrt(distance_squared) / projected) / area_;
 }
 
 std::optional<LightSample> DiffuseEmitter::look(const Geometry &geometry, const Vec3 &from,
-                                                const SurfacePoint &point, const Vec3 &normal) const {
+                                                const SurfacePoint &point,
+                                                const Vec3 &normal) const {
     const Vec3 to_light = point.position - from;
     const double distance_squared = to_light.squaredNorm();
     const double projected = -normal.dot(to_light);
@@ -62,18 +66,24 @@ std::optional<LightSample> DiffuseEmitter::look(const Geometry &geometry, const 
     }
     const double distance = std::sqrt(distance_squared);
     const double pdf_w = distance_squared * (distance / projected) / area_;  // as above
-    return LightSample{
-        to_light / distance, geometry.spawn_point(point, -to_light), radiance_, pdf_w, false, false};
+    return LightSample{to_light / distance,
+                       geometry.spawn_point(point, -to_light),
+                       radiance_,
+                       pdf_w,
+                       false,
+                       false};
 }
 
-MeshLight::MeshLight(const Geometry &geometry, std::vector<uint32_t> triangles, const Spectrum &radiance)
+MeshLight::MeshLight(const Geometry &geometry, std::vector<uint32_t> triangles,
+                     const Spectrum &radiance)
     : DiffuseEmitter(0.0, radiance), triangles_(std::move(triangles)) {
     const std::vector<double> areas = triangle_areas(geometry, triangles_);
     choose_ = AliasTable(areas);
     area_ = std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
-std::optional<LightSample> MeshLight::sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const {
+std::optional<LightSample> MeshLight::sample(const Geometry &geometry, const Vec3 &from,
+                                             Rng &rng) const {
     SurfacePoint point;
     point.primitive = triangles_[choose_.sample(rng)];
     const TriangleRecord &record = geometry.triangle(point);
@@ -84,14 +94,17 @@ std::optional<LightSample> MeshLight::sample(const Geometry &geometry, const Vec
 }
 
 DiscLight::DiscLight(const Geometry &geometry, uint32_t shape, const Spectrum &radiance)
-    : DiffuseEmitter(
-          pi *
-              geometry.shapes()[shape].linear().col(0).cross(geometry.shapes()[shape].linear().col(1)).norm(),
-          radiance),
+    : DiffuseEmitter(pi * geometry.shapes()[shape]
+                              .linear()
+                              .col(0)
+                              .cross(geometry.shapes()[shape].linear().col(1))
+                              .norm(),
+                     radiance),
       shape_(shape),
       normal_(geometry.shapes()[shape].normal(Vec3::Zero())) {}
 
-std::optional<LightSample> DiscLight::sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const {
+std::optional<LightSample> DiscLight::sample(const Geometry &geometry, const Vec3 &from,
+                                             Rng &rng) const {
     const double radius = std::sqrt(rng.uniform());
     const double phi = 2.0 * pi * rng.uniform();
     SurfacePoint point;
@@ -122,7 +135,8 @@ std::optional<LightSample> SphereLight::sample(const Geometry &, const Vec3 &fro
     const Frame frame(to_centre / distance);
     const Vec3 wi = frame.to_world({sine * std::cos(phi), sine * std::sin(phi), 1.0 - below});
     // The nearer crossing; the root's argument is negative by rounding only, at the rim.
-    const double reach = std::sqrt(std::max(square(radius_) - distance_squared * sine_squared, 0.0));
+    const double reach =
+        std::sqrt(std::max(square(radius_) - distance_squared * sine_squared, 0.0));
     const Vec3 point = from + (distance * (1.0 - below) - reach) * wi;
     const Vec3 target = centre_ + (radius_ + offset_) * (point - centre_).normalized();
     return LightSample{wi, target, radiance_, 1.0 / (2.0 * pi * height), false, false};
@@ -130,8 +144,9 @@ std::optional<LightSample> SphereLight::sample(const Geometry &, const Vec3 &fro
 
 double SphereLight::pdf_w(const Geometry &, const Vec3 &from, const SurfacePoint &) const {
     const double distance_squared = (centre_ - from).squaredNorm();
-    return distance_squared > square(radius_) ? 1.0 / (2.0 * pi * cone_height(radius_, distance_squared))
-                                              : 0.0;
+    return distance_squared > square(radius_)
+               ? 1.0 / (2.0 * pi * cone_height(radius_, distance_squared))
+               : 0.0;
 }
 
 }  // namespace rtrays::reference

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Lights that have a surface: one-sided diffuse emission of constant radiance. Each has the members
 //
-//     std::optional<LightSample> sample(geometry, from, rng)   a point of the light, given that it was chosen
-//     double pdf_w(geometry, from, hit)   the density of `sample` for that direction, per solid angle
-//     Spectrum emitted(geometry, hit, wo) radiance leaving the hit point towards wo
+//     std::optional<LightSample> sample(geometry, from, rng)   a point of the light, given that it
+//     was chosen double pdf_w(geometry, from, hit)   the density of `sample` for that direction,
+//     per solid angle Spectrum emitted(geometry, hit, wo) radiance leaving the hit point towards wo
 //     double power()                      W, mean of the channels (thesis 3.3.4: pi A Le)
 #pragma once
 
@@ -31,8 +31,8 @@ class DiffuseEmitter {
 
   protected:
     /// Looking from `from` at a point that was drawn uniformly in area; nothing from behind.
-    std::optional<LightSample> look(const Geometry &geometry, const Vec3 &from, const SurfacePoint &point,
-                                    const Vec3 &normal) const;
+    std::optional<LightSample> look(const Geometry &geometry, const Vec3 &from,
+                                    const SurfacePoint &point, const Vec3 &normal) const;
 
     double area_;
     Spectrum radiance_;
@@ -51,8 +51,8 @@ class MeshLight : public DiffuseEmitter {
     AliasTable choose_;  ///< in proportion to area
 };
 
-/// A disc, or the ellipse that an affine map makes of it; points are uniform in area, which such a map
-/// preserves.
+/// A disc, or the ellipse that an affine map makes of it; points are uniform in area, which such a
+/// map preserves.
 class DiscLight : public DiffuseEmitter {
   public:
     /// `shape`: index of the geometry's shape.
@@ -65,8 +65,8 @@ class DiscLight : public DiffuseEmitter {
     Vec3 normal_;
 };
 
-/// A sphere under a similarity, emitting outwards; directions are uniform in the cone it fills as seen from
-/// outside (Shirley, Wang & Zimmerman 1996, 3.2).
+/// A sphere under a similarity, emitting outwards; directions are uniform in the cone it fills as
+/// seen from outside (Shirley, Wang & Zimmerman 1996, 3.2).
 class SphereLight : public DiffuseEmitter {
   public:
     /// `shape`: index of the geometry's shape. Throws `Error` (bad input) when it is no sphere.

@@ -10,7 +10,8 @@
 
 namespace rtrays::reference {
 
-Composite::Composite(std::vector<Component> components, bool two_sided) : components_(std::move(components)) {
+Composite::Composite(std::vector<Component> components, bool two_sided)
+    : components_(std::move(components)) {
     const auto transmits = [](const Component &c) { return c.transmits(); };
     const auto is_delta = [](const Component &c) { return c.is_delta(); };
     const auto refracting = std::find_if(components_.begin(), components_.end(), transmits);
@@ -69,10 +70,12 @@ Spectrum Composite::evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector
 }
 
 double Composite::pdf_w(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
-    return is_black(wo) || wi.z() * wo.z() == 0.0 ? 0.0 : density(mirrored(wi, wo), viewpoint(wo, uv));
+    return is_black(wo) || wi.z() * wo.z() == 0.0 ? 0.0
+                                                  : density(mirrored(wi, wo), viewpoint(wo, uv));
 }
 
-std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2d &uv, Rng &rng) const {
+std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2d &uv,
+                                            Rng &rng) const {
     if (is_black(wo) || wo.z() == 0.0) {
         return std::nullopt;
     }
@@ -100,8 +103,9 @@ std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2
         if (!event) {
             return std::nullopt;
         }
-        return BsdfSample{mirrored(event->wi, wo), event->coefficient * (total / importance[chosen]), 0.0,
-                          true, expansion(event->wi, view)};
+        return BsdfSample{mirrored(event->wi, wo),
+                          event->coefficient * (total / importance[chosen]), 0.0, true,
+                          expansion(event->wi, view)};
     }
     const auto wi = component.sample(view, rng);
     if (!wi || wi->z() == 0.0) {
@@ -121,20 +125,23 @@ std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArray
         const uint32_t count = materials.component_count[i];
         if (count > Composite::most_components) {
             throw input_error(
-                fmt::format("material {} '{}': the reference takes at most {} components, not {}", i,
-                            materials.name[i], Composite::most_components, count));
+                fmt::format("material {} '{}': the reference takes at most {} components, not {}",
+                            i, materials.name[i], Composite::most_components, count));
         }
         std::vector<Component> components;
         for (uint32_t k = 0; k < count; ++k) {
-            const std::string what = fmt::format("material {} '{}', component {}", i, materials.name[i], k);
-            components.emplace_back(materials.component[materials.first_component[i] + k], textures, what);
+            const std::string what =
+                fmt::format("material {} '{}', component {}", i, materials.name[i], k);
+            components.emplace_back(materials.component[materials.first_component[i] + k], textures,
+                                    what);
         }
         const bool two_sided = materials.two_sided[i] != 0;
         const BxdfComponent *first =
             count == 1 ? &materials.component[materials.first_component[i]] : nullptr;
-        const bool plain = first != nullptr && two_sided && first->kind == BxdfComponent::Kind::lambert &&
-                           first->texture == no_index && first->fresnel == BxdfComponent::Fresnel::ideal &&
-                           !first->complement;
+        const bool plain = first != nullptr && two_sided &&
+                           first->kind == BxdfComponent::Kind::lambert &&
+                           first->texture == no_index &&
+                           first->fresnel == BxdfComponent::Fresnel::ideal && !first->complement;
         bsdfs.emplace_back(plain ? Bsdf(Lambert(first->weight.cast<double>()))
                                  : Bsdf(Composite(std::move(components), two_sided)));
     }

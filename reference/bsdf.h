@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Scattering at surfaces, in the local frame of the shading normal (z up, front side z > 0; x along the
-// tangent); `wi` and `wo` point away from the surface. A model has the members
+// Scattering at surfaces, in the local frame of the shading normal (z up, front side z > 0; x along
+// the tangent); `wi` and `wo` point away from the surface. A model has the members
 //
 //     Spectrum evaluate(wi, wo, uv)   the BSDF f [1/sr], WITHOUT the cosine; 0 for delta components
-//     double pdf_w(wi, wo, uv)        density of sample() per solid angle of wi; 0 for delta components
-//     std::optional<BsdfSample> sample(wo, uv, rng)   nothing when the path is absorbed
-//     bool is_delta()                 true when evaluate() is 0 everywhere: light sampling is of no use
-//     bool needs_parametrization()    whether uv or the tangent change anything
+//     double pdf_w(wi, wo, uv)        density of sample() per solid angle of wi; 0 for delta
+//     components std::optional<BsdfSample> sample(wo, uv, rng)   nothing when the path is absorbed
+//     bool is_delta()                 true when evaluate() is 0 everywhere: light sampling is of no
+//     use bool needs_parametrization()    whether uv or the tangent change anything
 //
 // Radiance through a refraction carries the factor (eta_o / eta_i)^2: paths start at the camera.
 //
-// Where the shading normal is not the geometric one (interpolated normals), the integrator decides: a
-// direction whose sides of the two differ scatters nothing, sampled or evaluated (see shading.h).
+// Where the shading normal is not the geometric one (interpolated normals), the integrator decides:
+// a direction whose sides of the two differ scatters nothing, sampled or evaluated (see shading.h).
 #pragma once
 
 #include <optional>
@@ -28,7 +28,8 @@ namespace rtrays::reference {
 
 struct BsdfSample {
     Vec3 wi;
-    Spectrum weight;  ///< f |cos(theta_i)| / pdf_w; for a delta event its coefficient over its probability
+    Spectrum weight;  ///< f |cos(theta_i)| / pdf_w; for a delta event its coefficient over its
+                      ///< probability
     double pdf_w;     ///< per solid angle; not used for a delta event
     bool delta;
     double expansion = 1.0;  ///< (eta_i / eta_o)^2 of a refraction: `weight` times it is energy
@@ -67,11 +68,12 @@ class Lambert {
 };
 
 /// Weighted sum of components (thesis (3.51)). One is chosen with a probability proportional to its
-/// `importance`, which depends on the local geometry alone; the density is the sum over all components that
-/// are not delta (departure from thesis 2.7.4, which takes the chosen one's: higher variance).
+/// `importance`, which depends on the local geometry alone; the density is the sum over all
+/// components that are not delta (departure from thesis 2.7.4, which takes the chosen one's: higher
+/// variance).
 ///
-/// A material with a refracting component is a boundary, seen from both sides with eta or 1 / eta. Any
-/// other looks the same from both sides, or is black from behind when it is not two-sided.
+/// A material with a refracting component is a boundary, seen from both sides with eta or 1 / eta.
+/// Any other looks the same from both sides, or is black from behind when it is not two-sided.
 class Composite {
   public:
     Composite(std::vector<Component> components, bool two_sided);
@@ -125,8 +127,8 @@ class Bsdf {
     std::variant<Lambert, Composite> model_;
 };
 
-/// One BSDF per material. Throws `Error` (bad input) for parameters out of range, naming material and
-/// component.
+/// One BSDF per material. Throws `Error` (bad input) for parameters out of range, naming material
+/// and component.
 std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArrays &textures);
 
 }  // namespace rtrays::reference

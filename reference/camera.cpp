@@ -33,11 +33,13 @@ Camera::Camera(const CameraArrays &cameras, size_t index, int width, int height)
             fmt::format("camera {} asked for, but the scene has {}", index, cameras.fov.size()));
     }
     if (width < 1 || height < 1) {
-        throw input_error(fmt::format("the film must have at least one pixel, not {}x{}", width, height));
+        throw input_error(
+            fmt::format("the film must have at least one pixel, not {}x{}", width, height));
     }
     const double fov = cameras.fov[index];
     if (!(fov > 0.0 && fov < pi)) {
-        throw input_error(fmt::format("camera {}: field of view {} rad is outside (0, pi)", index, fov));
+        throw input_error(
+            fmt::format("camera {}: field of view {} rad is outside (0, pi)", index, fov));
     }
     // Pixels are square: the extent along one axis fixes the size of a pixel on the plane z = -1.
     const double extent = 2.0 * std::tan(0.5 * fov);
@@ -55,9 +57,10 @@ Camera::Camera(const CameraArrays &cameras, size_t index, int width, int height)
     focus_distance_ = cameras.focus_distance[index];
     if (!(aperture >= 0.0 && std::isfinite(aperture)) ||
         (aperture > 0.0 && !(focus_distance_ > 0.0 && std::isfinite(focus_distance_)))) {
-        throw input_error(fmt::format(
-            "camera {}: the aperture radius must not be negative and the focus distance must be positive",
-            index));
+        throw input_error(
+            fmt::format("camera {}: the aperture radius must not be negative and the focus "
+                        "distance must be positive",
+                        index));
     }
     lens_x_ = aperture * rotation.col(0);
     lens_y_ = aperture * rotation.col(1);

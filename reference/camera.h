@@ -16,20 +16,21 @@ struct Ray {
 /// Pinhole or thin-lens camera looking along -z, +y up, +x right in camera space.
 class Camera {
   public:
-    /// Camera `index` of the store with a film of `width` x `height` square pixels. Throws `Error` (bad
-    /// input) for an index out of range, a film without pixels or an angle of view outside (0, pi).
+    /// Camera `index` of the store with a film of `width` x `height` square pixels. Throws `Error`
+    /// (bad input) for an index out of range, a film without pixels or an angle of view outside (0,
+    /// pi).
     Camera(const CameraArrays &cameras, size_t index, int width, int height);
 
-    /// The ray through the middle of the lens and (x, y) in pixels from the top left corner of the film: x in
-    /// [0, width] to the right, y in [0, height] downwards. With (x, y) uniform in a pixel its importance is
-    /// 1 (box filter).
+    /// The ray through the middle of the lens and (x, y) in pixels from the top left corner of the
+    /// film: x in [0, width] to the right, y in [0, height] downwards. With (x, y) uniform in a
+    /// pixel its importance is 1 (box filter).
     Ray ray(double x, double y) const {
         return {position_, (corner_ + x * step_x_ + y * step_y_).normalized()};
     }
 
-    /// A ray from a uniform point of the lens to where `ray(x, y)` meets the plane of focus. Its importance
-    /// is 1 as well: the pixel's value is the mean over film and lens, as for a pinhole of the same
-    /// exposure (PBRT 4th ed., 5.2.3). Draws nothing for a pinhole.
+    /// A ray from a uniform point of the lens to where `ray(x, y)` meets the plane of focus. Its
+    /// importance is 1 as well: the pixel's value is the mean over film and lens, as for a pinhole
+    /// of the same exposure (PBRT 4th ed., 5.2.3). Draws nothing for a pinhole.
     Ray ray(double x, double y, Rng &rng) const {
         if (lens_x_.isZero()) {
             return ray(x, y);

@@ -57,15 +57,19 @@ Json make_config(const std::string &scene_name, const std::string &scene_hash,
 
 void save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &path) {
     const Film &film = checkpoint.film;
-    const std::string header =
-        Json{{"config", checkpoint.config}, {"begin", film.begin},           {"end", film.end},
-             {"target", checkpoint.target}, {"seconds", checkpoint.seconds}, {"commits", checkpoint.commits}}
-            .dump();
+    const std::string header = Json{{"config", checkpoint.config},
+                                    {"begin", film.begin},
+                                    {"end", film.end},
+                                    {"target", checkpoint.target},
+                                    {"seconds", checkpoint.seconds},
+                                    {"commits", checkpoint.commits}}
+                                   .dump();
     std::string bytes(magic, magic_size);
     append(bytes, format_version);
     append(bytes, static_cast<uint32_t>(header.size()));
     bytes += header;
-    bytes.append(reinterpret_cast<const char *>(film.pixels.data()), film.pixels.size() * pixel_size);
+    bytes.append(reinterpret_cast<const char *>(film.pixels.data()),
+                 film.pixels.size() * pixel_size);
     bytes += content_hash(bytes);
     write_file(path, bytes);
 }
@@ -76,8 +80,8 @@ Checkpoint load_checkpoint(const std::filesystem::path &path) {
         throw damaged(path, "is not a state file of rtrays-reference");
     }
     if (const uint32_t version = read_u32(bytes, magic_size); version != format_version) {
-        throw damaged(path,
-                      fmt::format("is of format version {}, this program reads {}", version, format_version));
+        throw damaged(path, fmt::format("is of format version {}, this program reads {}", version,
+                                        format_version));
     }
     const size_t content_size = bytes.size() - hash_size;
     if (content_hash(bytes.substr(0, content_size)) != bytes.substr(content_size)) {
@@ -96,18 +100,19 @@ Checkpoint load_checkpoint(const std::filesystem::path &path) {
     // The moments are plain doubles under Eigen's non-trivial assignment operators.
     std::memcpy(static_cast<void *>(film.pixels.data()), bytes.data() + prefix_size + header_size,
                 pixels_size);
-    return {config, std::move(film), header.at("target"), header.at("seconds"), header.at("commits")};
+    return {config, std::move(film), header.at("target"), header.at("seconds"),
+            header.at("commits")};
 }
 
-void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_t begin, uint64_t end,
-                       const std::filesystem::path &path) {
+void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_t begin,
+                       uint64_t end, const std::filesystem::path &path) {
     for (const auto &[key, wanted] : config.items()) {
         const Json stored = checkpoint.config.value(key, Json());
         if (stored != wanted) {
-            throw input_error(
-                fmt::format("{}: was made with {} = {}, this run asks for {}; give another --state, "
-                            "or delete it to start anew",
-                            path.string(), key, stored.dump(), wanted.dump()));
+            throw input_error(fmt::format(
+                "{}: was made with {} = {}, this run asks for {}; give another --state, "
+                "or delete it to start anew",
+                path.string(), key, stored.dump(), wanted.dump()));
         }
     }
     const Film &film = checkpoint.film;

@@ -27,7 +27,8 @@ void check(const BxdfComponent &c, const TextureArrays &textures, const std::str
     const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
     require((c.weight.array() >= 0.0f).all() && (c.weight.array() <= 1.0f).all(), what,
             "its weight (reflectance) must lie in [0, 1]");
-    require(c.texture == no_index || c.texture < textures.image.size(), what, "its texture does not exist");
+    require(c.texture == no_index || c.texture < textures.image.size(), what,
+            "its texture does not exist");
     const bool refracts = c.kind == Kind::ideal_refraction || c.kind == Kind::microfacet_refraction;
     switch (c.fresnel) {
         case BxdfComponent::Fresnel::ideal:
@@ -47,7 +48,8 @@ void check(const BxdfComponent &c, const TextureArrays &textures, const std::str
     }
     require(!refracts || positive(c.eta[0]), what, "eta must be positive");
     const bool has_alpha = c.kind == Kind::ward || c.kind == Kind::ward_original ||
-                           c.kind == Kind::microfacet_reflection || c.kind == Kind::microfacet_refraction;
+                           c.kind == Kind::microfacet_reflection ||
+                           c.kind == Kind::microfacet_refraction;
     require(!has_alpha || (c.alpha.minCoeff() > 0.0 && c.alpha.maxCoeff() <= 1.0), what,
             "alpha must lie in (0, 1]");
     require(c.kind != Kind::blinn || positive(c.exponent), what, "the exponent must be positive");
@@ -84,7 +86,8 @@ Component::Lobe Component::make_lobe(const BxdfComponent &component) {
     throw run_error("unknown BxDF");
 }
 
-Component::Component(const BxdfComponent &component, const TextureArrays &textures, const std::string &what)
+Component::Component(const BxdfComponent &component, const TextureArrays &textures,
+                     const std::string &what)
     : weight_(component.weight.cast<double>()),
       fresnel_(component),
       eta_(component.eta[0]),

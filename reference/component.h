@@ -27,7 +27,8 @@ struct DeltaEvent {
 class Component {
   public:
     /// Throws `Error` (bad input) naming `what` for parameters out of range.
-    Component(const BxdfComponent &component, const TextureArrays &textures, const std::string &what);
+    Component(const BxdfComponent &component, const TextureArrays &textures,
+              const std::string &what);
 
     bool is_delta() const { return delta_; }
     bool transmits() const { return transmits_; }
@@ -44,9 +45,10 @@ class Component {
     /// Of a delta component; nothing at total internal reflection.
     std::optional<DeltaEvent> scatter(const Viewpoint &view) const;
 
-    /// What the choice among components goes by: mean over the channels of weight * texture * F(wo.z). The
-    /// Fresnel term of a rough component is evaluated elsewhere and may exceed that at wo (it is not 0 where
-    /// the latter is: rough refraction beyond the critical angle), so there a twentieth ignores it.
+    /// What the choice among components goes by: mean over the channels of weight * texture *
+    /// F(wo.z). The Fresnel term of a rough component is evaluated elsewhere and may exceed that at
+    /// wo (it is not 0 where the latter is: rough refraction beyond the critical angle), so there a
+    /// twentieth ignores it.
     double importance(const Viewpoint &view) const;
 
   private:

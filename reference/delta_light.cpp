@@ -9,11 +9,16 @@ std::optional<LightSample> PointLight::sample(const Geometry &, const Vec3 &from
     if (!(distance_squared > 0.0)) {
         return std::nullopt;  // on the light itself, where no direction leads to it
     }
-    return LightSample{
-        to_light / std::sqrt(distance_squared), position_, intensity_ / distance_squared, 1.0, true, false};
+    return LightSample{to_light / std::sqrt(distance_squared),
+                       position_,
+                       intensity_ / distance_squared,
+                       1.0,
+                       true,
+                       false};
 }
 
-std::optional<LightSample> SpotLight::sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const {
+std::optional<LightSample> SpotLight::sample(const Geometry &geometry, const Vec3 &from,
+                                             Rng &rng) const {
     // From sine and cosine: acos would lose the digits of small angles.
     const Vec3 away = from - position_;
     const double angle = std::atan2(axis_.cross(away).norm(), axis_.dot(away));

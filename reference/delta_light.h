@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights that no path meets by chance. Members as those of area lights; what arrives is an irradiance.
+// Lights that no path meets by chance. Members as those of area lights; what arrives is an
+// irradiance.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,9 @@ namespace rtrays::reference {
 /// What a light has that cannot be hit.
 struct Unhittable {
     double pdf_w(const Geometry &, const Vec3 &, const SurfacePoint &) const { return 0.0; }
-    Spectrum emitted(const Geometry &, const SurfacePoint &, const Vec3 &) const { return Spectrum::Zero(); }
+    Spectrum emitted(const Geometry &, const SurfacePoint &, const Vec3 &) const {
+        return Spectrum::Zero();
+    }
 };
 
 /// Radiant intensity `intensity` [W/sr] in all directions.
@@ -31,17 +34,20 @@ class PointLight : public Unhittable {
     Spectrum intensity_;
 };
 
-/// A point light whose intensity is full up to `inner` from its axis and falls linearly with the angle to
-/// zero at `outer` (Mitsuba 3's).
+/// A point light whose intensity is full up to `inner` from its axis and falls linearly with the
+/// angle to zero at `outer` (Mitsuba 3's).
 class SpotLight : public Unhittable {
   public:
-    SpotLight(const Vec3 &position, const Vec3 &axis, double inner, double outer, const Spectrum &intensity)
+    SpotLight(const Vec3 &position, const Vec3 &axis, double inner, double outer,
+              const Spectrum &intensity)
         : position_(position), axis_(axis), inner_(inner), outer_(outer), intensity_(intensity) {}
 
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;
 
     /// That of the whole cone with full intensity up to the middle: close enough to choose by.
-    double power() const { return 2.0 * pi * (1.0 - std::cos(0.5 * (inner_ + outer_))) * intensity_.mean(); }
+    double power() const {
+        return 2.0 * pi * (1.0 - std::cos(0.5 * (inner_ + outer_))) * intensity_.mean();
+    }
 
   private:
     Vec3 position_;

@@ -9,11 +9,13 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The box of a shape in float, large enough for the float ray that stands for the double one near it.
+/// The box of a shape in float, large enough for the float ray that stands for the double one near
+/// it.
 void shape_bounds(const RTCBoundsFunctionArguments *args) {
     const Shape &shape = static_cast<const Shape *>(args->geometryUserPtr)[args->primID];
     if (!shape.is_bounded()) {
-        *args->bounds_o = {infinity, infinity, infinity, 0.0f, -infinity, -infinity, -infinity, 0.0f};
+        *args->bounds_o = {infinity,  infinity,  infinity,  0.0f,
+                           -infinity, -infinity, -infinity, 0.0f};
         return;  // Embree leaves out what has no valid bounds
     }
     const Eigen::AlignedBox3d &box = shape.bounds();
@@ -26,11 +28,13 @@ void shape_bounds(const RTCBoundsFunctionArguments *args) {
 
 void intersect_shape(const RTCIntersectFunctionNArguments *args) {
     auto &query = *static_cast<ShapeQuery *>(args->context);
-    auto &result = *reinterpret_cast<RTCRayHit *>(args->rayhit);  // N is 1: only rtcIntersect1 is used
+    auto &result =
+        *reinterpret_cast<RTCRayHit *>(args->rayhit);  // N is 1: only rtcIntersect1 is used
     const Shape &shape = static_cast<const Shape *>(args->geometryUserPtr)[args->primID];
     double t = 0.0;
     Vec3 object;
-    if (args->valid[0] != 0 && shape.intersect(*query.ray, static_cast<double>(result.ray.tfar), t, object)) {
+    if (args->valid[0] != 0 &&
+        shape.intersect(*query.ray, static_cast<double>(result.ray.tfar), t, object)) {
         query.object = object;
         result.ray.tfar = static_cast<float>(t);
         result.hit.geomID = shapes_id;
@@ -44,7 +48,8 @@ void occlude_shape(const RTCOccludedFunctionNArguments *args) {
     const Shape &shape = static_cast<const Shape *>(args->geometryUserPtr)[args->primID];
     double t = 0.0;
     Vec3 object;
-    if (args->valid[0] != 0 && shape.intersect(*query.ray, static_cast<double>(ray.tfar), t, object)) {
+    if (args->valid[0] != 0 &&
+        shape.intersect(*query.ray, static_cast<double>(ray.tfar), t, object)) {
         ray.tfar = -infinity;
     }
 }

@@ -18,9 +18,10 @@ Image Film::develop() const {
         auto &mean = image.channel(names[channel]);
         auto &variance = image.channel(variance_names[channel]);
         for (size_t i = 0; i < pixels.size(); ++i) {
-            mean[i] = static_cast<float>(pixels[i].mean(count())[static_cast<Eigen::Index>(channel)]);
-            variance[i] =
-                static_cast<float>(pixels[i].variance_of_mean(count())[static_cast<Eigen::Index>(channel)]);
+            mean[i] =
+                static_cast<float>(pixels[i].mean(count())[static_cast<Eigen::Index>(channel)]);
+            variance[i] = static_cast<float>(
+                pixels[i].variance_of_mean(count())[static_cast<Eigen::Index>(channel)]);
         }
     }
     return image;
@@ -33,7 +34,8 @@ Film Film::of(const Image &developed, uint64_t first_sample, uint64_t end_sample
     for (size_t i = 0; i < film.pixels.size(); ++i) {
         Spectrum mean, variance;
         for (size_t channel = 0; channel < 3; ++channel) {
-            mean[static_cast<Eigen::Index>(channel)] = static_cast<double>(developed.channel(names[channel])[i]);
+            mean[static_cast<Eigen::Index>(channel)] =
+                static_cast<double>(developed.channel(names[channel])[i]);
             variance[static_cast<Eigen::Index>(channel)] =
                 static_cast<double>(developed.channel(variance_names[channel])[i]);
         }

@@ -9,15 +9,16 @@
 
 namespace rtrays::reference {
 
-/// Sum and squared deviations of the samples of one pixel, per channel. The result depends on the order of
-/// the samples alone, so a run that was cut anywhere and resumed has the same bits.
+/// Sum and squared deviations of the samples of one pixel, per channel. The result depends on the
+/// order of the samples alone, so a run that was cut anywhere and resumed has the same bits.
 class PixelMoments {
   public:
     /// Adds sample number `count` (from 0).
     ///
-    /// The sum carries its rounding errors along (Knuth's TwoSum; Ogita, Rump & Oishi 2005, algorithm 4.1:
-    /// error about 2^-53 |sum| whatever the count). Squared deviations are added from the running mean
-    /// (Welford 1962), since sum of squares minus square of the sum cancels where the variance is small.
+    /// The sum carries its rounding errors along (Knuth's TwoSum; Ogita, Rump & Oishi 2005,
+    /// algorithm 4.1: error about 2^-53 |sum| whatever the count). Squared deviations are added
+    /// from the running mean (Welford 1962), since sum of squares minus square of the sum cancels
+    /// where the variance is small.
     void add(const Spectrum &value, uint64_t count) {
         const auto n = static_cast<double>(count);
         if (count > 0) {
@@ -30,7 +31,9 @@ class PixelMoments {
         sum_ = total;
     }
 
-    Spectrum mean(uint64_t count) const { return (sum_ + compensation_) / static_cast<double>(count); }
+    Spectrum mean(uint64_t count) const {
+        return (sum_ + compensation_) / static_cast<double>(count);
+    }
 
     /// Unbiased estimate of the variance of `mean`; zero for fewer than two samples.
     Spectrum variance_of_mean(uint64_t count) const {
@@ -67,7 +70,8 @@ struct Film {
     /// R, G, B, variance.R, .G, .B (of the mean), samples.
     Image develop() const;
 
-    /// The film of which that was developed, means and variances as float32 has them (relative error 6e-8).
+    /// The film of which that was developed, means and variances as float32 has them (relative
+    /// error 6e-8).
     static Film of(const Image &developed, uint64_t first_sample, uint64_t end_sample);
 
     int width;

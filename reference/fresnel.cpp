@@ -37,7 +37,8 @@ double fresnel_conductor(double cos_o, double eta, double k) {
     // negative, so that neither denominator vanishes.
     const std::complex<double> s = std::sqrt(index_squared - (1.0 - cos_o) * (1.0 + cos_o));
     const double perpendicular = std::norm(cos_o - s) / std::norm(cos_o + s);
-    const double parallel = std::norm(index_squared * cos_o - s) / std::norm(index_squared * cos_o + s);
+    const double parallel =
+        std::norm(index_squared * cos_o - s) / std::norm(index_squared * cos_o + s);
     return 0.5 * (parallel + perpendicular);
 }
 

@@ -47,7 +47,8 @@ Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes) {
         throw run_error("embree: no device could be created");
     }
     const auto version = rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_VERSION);
-    stats_.engine = fmt::format("embree {}.{}.{}", version / 10000, version / 100 % 100, version % 100);
+    stats_.engine =
+        fmt::format("embree {}.{}.{}", version / 10000, version / 100 % 100, version % 100);
 
     const size_t count = meshes.triangle.size();
     triangles_.reserve(count);
@@ -58,8 +59,8 @@ Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes) {
         if (make_record(meshes, i, record)) {
             triangles_.push_back(record);
             indices.push_back(meshes.triangle[i]);
-            for (const Vec3 &corner :
-                 {record.vertex, Vec3(record.vertex + record.edge1), Vec3(record.vertex + record.edge2)}) {
+            for (const Vec3 &corner : {record.vertex, Vec3(record.vertex + record.edge1),
+                                       Vec3(record.vertex + record.edge2)}) {
                 bounds_.extend(corner);
             }
         }
@@ -98,15 +99,18 @@ Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes) {
     }
     rtcCommitScene(scene_.get());
     require(true, device_.get(), "rtcCommitScene");
-    stats_.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    stats_.build_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void Geometry::attach_triangles(const MeshArrays &meshes, const std::vector<Triangle> &indices) {
     const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto *vertices = static_cast<float *>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), meshes.position.size()));
-    auto *faces = static_cast<uint32_t *>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), indices.size()));
+    auto *vertices = static_cast<float *>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), meshes.position.size()));
+    auto *faces = static_cast<uint32_t *>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(uint32_t), indices.size()));
     require(vertices != nullptr && faces != nullptr, device_.get(), "rtcSetNewGeometryBuffer");
     for (size_t i = 0; i < meshes.position.size(); ++i) {
         std::copy_n(meshes.position[i].data(), 3, vertices + 3 * i);
@@ -139,7 +143,8 @@ bool Geometry::intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit)
     if (result.hit.geomID == triangles_id) {
         hit.primitive = result.hit.primID;
         const TriangleRecord &record = triangles_[hit.primitive];
-        const Eigen::Vector2d barycentric = record.intersect_plane(ray, {result.hit.u, result.hit.v});
+        const Eigen::Vector2d barycentric =
+            record.intersect_plane(ray, {result.hit.u, result.hit.v});
         hit.local = {barycentric.x(), barycentric.y(), 0.0};
         hit.position = record.point(barycentric);
         return true;
@@ -185,8 +190,8 @@ Parametrization Geometry::parametrize(const SurfacePoint &point) const {
     const auto &[a, b, c] = vertices_[point.primitive];
     const double u = point.local.x(), v = point.local.y();
     if (record.has_normals) {
-        const Vec3 normal = (1.0 - u - v) * normals_[a].cast<double>() + u * normals_[b].cast<double>() +
-                            v * normals_[c].cast<double>();
+        const Vec3 normal = (1.0 - u - v) * normals_[a].cast<double>() +
+                            u * normals_[b].cast<double>() + v * normals_[c].cast<double>();
         const double length = normal.norm();
         // Opposite normals cancel; what is left of them below 1e-6 is rounding to float.
         if (length > 1e-6) {
@@ -195,7 +200,8 @@ Parametrization Geometry::parametrize(const SurfacePoint &point) const {
     }
     if (record.has_uv) {
         const Eigen::Vector2d uv0 = uvs_[a].cast<double>();
-        const Eigen::Vector2d along1 = uvs_[b].cast<double>() - uv0, along2 = uvs_[c].cast<double>() - uv0;
+        const Eigen::Vector2d along1 = uvs_[b].cast<double>() - uv0,
+                              along2 = uvs_[c].cast<double>() - uv0;
         result.uv = uv0 + u * along1 + v * along2;
         // edge = dp/du du + dp/dv dv for both edges, solved for dp/du.
         const double determinant = along1.x() * along2.y() - along2.x() * along1.y();

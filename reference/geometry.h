@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Surfaces and ray queries. Embree finds WHICH triangle a ray hits, in float and with its robust
 // (watertight) traversal; where on it is computed again in double. Other shapes are user geometry,
-// intersected in double from the start; infinite planes, which have no bounds, are tried one by one.
+// intersected in double from the start; infinite planes, which have no bounds, are tried one by
+// one.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -22,7 +23,7 @@ namespace rtrays::reference {
 /// A point on a surface.
 struct SurfacePoint {
     Vec3 position;
-    Vec3 local;          ///< triangles: second and third barycentric coordinate; shapes: object space
+    Vec3 local;  ///< triangles: second and third barycentric coordinate; shapes: object space
     uint32_t primitive;  ///< triangles first, then shapes
 };
 
@@ -48,8 +49,8 @@ struct GeometryStats {
 /// All surfaces of a scene. Immutable, shared by all threads.
 class Geometry {
   public:
-    /// Throws `Error` (bad input) for vertex positions that are not finite and shapes out of range, (run
-    /// failed) when Embree reports an error.
+    /// Throws `Error` (bad input) for vertex positions that are not finite and shapes out of range,
+    /// (run failed) when Embree reports an error.
     Geometry(const MeshArrays &meshes, const ShapeArrays &shapes);
     Geometry(const Geometry &) = delete;
     Geometry &operator=(const Geometry &) = delete;
@@ -62,8 +63,12 @@ class Geometry {
     const Eigen::AlignedBox3d &bounds() const { return bounds_; }
 
     bool is_triangle(const SurfacePoint &point) const { return point.primitive < first_shape_; }
-    const TriangleRecord &triangle(const SurfacePoint &point) const { return triangles_[point.primitive]; }
-    const Shape &shape(const SurfacePoint &point) const { return shapes_[point.primitive - first_shape_]; }
+    const TriangleRecord &triangle(const SurfacePoint &point) const {
+        return triangles_[point.primitive];
+    }
+    const Shape &shape(const SurfacePoint &point) const {
+        return shapes_[point.primitive - first_shape_];
+    }
 
     Vec3 normal(const SurfacePoint &point) const {
         return is_triangle(point) ? triangle(point).normal : shape(point).normal(point.local);
@@ -78,25 +83,29 @@ class Geometry {
         return is_triangle(point) && triangle(point).has_normals;
     }
 
-    /// Interpolated normal and coordinates. The tangent of a triangle is dp/du of its texture coordinates;
-    /// without these, or where they are degenerate, its first edge.
+    /// Interpolated normal and coordinates. The tangent of a triangle is dp/du of its texture
+    /// coordinates; without these, or where they are degenerate, its first edge.
     Parametrization parametrize(const SurfacePoint &point) const;
 
     /// Nearest hit of a ray. Returns false when there is none.
     bool intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit) const;
 
-    /// Whether anything lies strictly between two points; both must have left their surfaces already
+    /// Whether anything lies strictly between two points; both must have left their surfaces
+    /// already
     /// (`spawn_point`).
-    bool occluded(const Vec3 &from, const Vec3 &to) const { return blocked({from, to - from}, 1.0); }
+    bool occluded(const Vec3 &from, const Vec3 &to) const {
+        return blocked({from, to - from}, 1.0);
+    }
 
     /// Whether anything lies in the direction of the ray, however far.
     bool occluded(const Ray &ray) const;
 
-    /// Where a ray that leaves `point` to the side of `direction` starts, so that it never meets its own
-    /// surface again (see `TriangleRecord` and `Shape`).
+    /// Where a ray that leaves `point` to the side of `direction` starts, so that it never meets
+    /// its own surface again (see `TriangleRecord` and `Shape`).
     Vec3 spawn_point(const SurfacePoint &point, const Vec3 &direction) const {
-        return is_triangle(point) ? triangle(point).spawn_point(point.position, point.local, direction)
-                                  : shape(point).spawn_point(point.local, direction);
+        return is_triangle(point)
+                   ? triangle(point).spawn_point(point.position, point.local, direction)
+                   : shape(point).spawn_point(point.local, direction);
     }
 
   private:

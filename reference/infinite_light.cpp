@@ -11,8 +11,8 @@ namespace rtrays::reference {
 
 namespace {
 
-/// x in [0, 1] with density proportional to a + (b - a) x, a + b > 0 (PBRT 4th ed., A.5.1: a form that
-/// stays exact when a and b are equal or one is 0).
+/// x in [0, 1] with density proportional to a + (b - a) x, a + b > 0 (PBRT 4th ed., A.5.1: a form
+/// that stays exact when a and b are equal or one is 0).
 double sample_linear(double a, double b, Rng &rng) {
     const double u = rng.uniform();
     return u * (a + b) / (a + std::sqrt((1.0 - u) * a * a + u * b * b));
@@ -28,8 +28,9 @@ std::optional<LightSample> DomeLight::sample(const Geometry &, const Vec3 &, Rng
     return LightSample{wi, Vec3::Zero(), radiance_, 0.25 * inv_pi, false, true};
 }
 
-EnvironmentLight::EnvironmentLight(std::shared_ptr<const TextureImage> image, const Eigen::Matrix3d &rotation,
-                                   const Spectrum &factor, double scene_radius, const std::string &what)
+EnvironmentLight::EnvironmentLight(std::shared_ptr<const TextureImage> image,
+                                   const Eigen::Matrix3d &rotation, const Spectrum &factor,
+                                   double scene_radius, const std::string &what)
     : image_(std::move(image)), rotation_(rotation), factor_(factor), scene_radius_(scene_radius) {
     require_valid(image_.get(), what);
     std::vector<double> weights;
@@ -53,8 +54,8 @@ double EnvironmentLight::top(int row) const {
 }
 
 Spectrum EnvironmentLight::corner(int column, int row) const {
-    return factor_ *
-           texel(*image_, column == image_->width ? 0 : column, std::clamp(row, 0, image_->height - 1));
+    return factor_ * texel(*image_, column == image_->width ? 0 : column,
+                           std::clamp(row, 0, image_->height - 1));
 }
 
 std::array<double, 4> EnvironmentLight::corners(const Cell &cell) const {
@@ -66,7 +67,8 @@ EnvironmentLight::Cell EnvironmentLight::cell_of(double u, double v) const {
     const double x = u * image_->width - 0.5;
     const double left = std::floor(x);
     const int column = static_cast<int>(left) + (left < 0.0 ? image_->width : 0);
-    const int row = std::clamp(static_cast<int>(std::floor(v * image_->height + 0.5)), 0, image_->height);
+    const int row =
+        std::clamp(static_cast<int>(std::floor(v * image_->height + 0.5)), 0, image_->height);
     // At the poles both rows are the same and it does not matter that the cell is half as high.
     const double down = (v - top(row)) / (top(row + 1) - top(row));
     return {std::min(column, image_->width - 1), row, x - left, std::clamp(down, 0.0, 1.0)};
@@ -74,8 +76,8 @@ EnvironmentLight::Cell EnvironmentLight::cell_of(double u, double v) const {
 
 Spectrum EnvironmentLight::interpolate(const Cell &cell) const {
     const double r = cell.right, d = cell.down;
-    return (1.0 - d) *
-               ((1.0 - r) * corner(cell.column, cell.row - 1) + r * corner(cell.column + 1, cell.row - 1)) +
+    return (1.0 - d) * ((1.0 - r) * corner(cell.column, cell.row - 1) +
+                        r * corner(cell.column + 1, cell.row - 1)) +
            d * ((1.0 - r) * corner(cell.column, cell.row) + r * corner(cell.column + 1, cell.row));
 }
 
@@ -103,17 +105,19 @@ double EnvironmentLight::pdf_w(const Vec3 &direction) const {
         return 0.0;
     }
     const double r = cell.right, down = cell.down;
-    const double value = (1.0 - down) * ((1.0 - r) * c[0] + r * c[1]) + down * ((1.0 - r) * c[2] + r * c[3]);
-    const auto index =
-        static_cast<size_t>(cell.row) * static_cast<size_t>(image_->width) + static_cast<size_t>(cell.column);
+    const double value =
+        (1.0 - down) * ((1.0 - r) * c[0] + r * c[1]) + down * ((1.0 - r) * c[2] + r * c[3]);
+    const auto index = static_cast<size_t>(cell.row) * static_cast<size_t>(image_->width) +
+                       static_cast<size_t>(cell.column);
     const double cell_area = (top(cell.row + 1) - top(cell.row)) / image_->width;
     const double pdf_uv = choose_.probability(index) * 4.0 * value / sum / cell_area;
-    // dw = 2 pi^2 sin(theta) du dv. Infinite at the poles themselves, where light sampling then has all of
-    // the MIS weight and probability zero.
+    // dw = 2 pi^2 sin(theta) du dv. Infinite at the poles themselves, where light sampling then has
+    // all of the MIS weight and probability zero.
     return pdf_uv / (2.0 * square(pi) * std::hypot(d.x(), d.z()));
 }
 
-std::optional<LightSample> EnvironmentLight::sample(const Geometry &, const Vec3 &, Rng &rng) const {
+std::optional<LightSample> EnvironmentLight::sample(const Geometry &, const Vec3 &,
+                                                    Rng &rng) const {
     if (is_black()) {
         return std::nullopt;
     }
@@ -125,7 +129,8 @@ std::optional<LightSample> EnvironmentLight::sample(const Geometry &, const Vec3
                                (1.0 - cell.down) * c[1] + cell.down * c[3], rng);
     const double phi = 2.0 * pi * (cell.column + 0.5 + cell.right) / image_->width;
     const double theta = pi * (top(cell.row) + cell.down * (top(cell.row + 1) - top(cell.row)));
-    const Vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+    const Vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
+                 -std::sin(theta) * std::cos(phi));
     const Vec3 wi = rotation_ * d;
     const double pdf = pdf_w(wi);
     if (!(pdf > 0.0 && std::isfinite(pdf))) {

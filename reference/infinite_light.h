@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights at infinity. Besides the members of area lights (which they cannot be hit by, but by leaving the
-// scene) they have
+// Lights at infinity. Besides the members of area lights (which they cannot be hit by, but by
+// leaving the scene) they have
 //
 //     Spectrum radiance(direction)   arriving from there
 //     double pdf_w(direction)        density of sample() per solid angle
@@ -39,14 +39,16 @@ class DomeLight : public Unhittable {
 
 /// A latitude-longitude image (conventions: renderer/scene/stores.h).
 ///
-/// Directions are drawn from the image as it is interpolated: the cells between four texel centres are
-/// chosen by the mean of their corners (and channels) times the mean sine of their latitudes; in a cell the
-/// density follows the bilinear interpolant exactly, so that it is zero nowhere but where the image is black.
+/// Directions are drawn from the image as it is interpolated: the cells between four texel centres
+/// are chosen by the mean of their corners (and channels) times the mean sine of their latitudes;
+/// in a cell the density follows the bilinear interpolant exactly, so that it is zero nowhere but
+/// where the image is black.
 class EnvironmentLight : public Unhittable {
   public:
     using Unhittable::pdf_w;
 
-    /// `rotation`: world from light. Throws `Error` (bad input) naming `what` when there is no float image.
+    /// `rotation`: world from light. Throws `Error` (bad input) naming `what` when there is no
+    /// float image.
     EnvironmentLight(std::shared_ptr<const TextureImage> image, const Eigen::Matrix3d &rotation,
                      const Spectrum &factor, double scene_radius, const std::string &what);
 
@@ -58,8 +60,8 @@ class EnvironmentLight : public Unhittable {
   private:
     /// Where an image point lies among the texel centres around it.
     struct Cell {
-        int column;          ///< of the left centres; the right ones are the next, wrapped
-        int row;             ///< of the lower centres, 0 to height: the upper ones are the row before
+        int column;  ///< of the left centres; the right ones are the next, wrapped
+        int row;     ///< of the lower centres, 0 to height: the upper ones are the row before
         double right, down;  ///< from the upper left corner, in [0, 1]
     };
     bool is_black() const { return !(mean_radiance_ > 0.0); }

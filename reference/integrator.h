@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Path tracing (thesis 2.59-2.68; Kajiya 1986; Veach 1997, ch. 9 and 10). A template over the BSDF and
-// light models so that tests can run the shipped integrator with models that are wrong on purpose.
+// Path tracing (thesis 2.59-2.68; Kajiya 1986; Veach 1997, ch. 9 and 10). A template over the BSDF
+// and light models so that tests can run the shipped integrator with models that are wrong on
+// purpose.
 #pragma once
 
 #include <algorithm>
@@ -39,10 +40,11 @@ struct World {
     const Lights &lights;
 };
 
-/// Russian roulette goes by the throughput's largest channel, as energy (without the compression of radiance
-/// by refraction, which the way out of the glass undoes), which keeps the path's weight near 1 for any
-/// albedo below 1. The cap ends paths between walls that absorb nothing, after a million bounces; a lower
-/// one would let weights grow by albedo / cap per bounce, with infinite variance once albedo^2 >= cap.
+/// Russian roulette goes by the throughput's largest channel, as energy (without the compression of
+/// radiance by refraction, which the way out of the glass undoes), which keeps the path's weight
+/// near 1 for any albedo below 1. The cap ends paths between walls that absorb nothing, after a
+/// million bounces; a lower one would let weights grow by albedo / cap per bounce, with infinite
+/// variance once albedo^2 >= cap.
 constexpr double roulette_cap = 1.0 - 0x1p-20;
 
 template <class BsdfModel, class Lights>
@@ -59,24 +61,25 @@ class PathIntegrator {
           roulette_(roulette) {}
 
     /// Estimate of the radiance arriving along a camera ray [W / (sr m^2)]: emitters seen directly
-    /// included. Unbiased for every choice of strategies, but that point, spot and directional lights are
-    /// unknown to implicit_only. Light hit after a delta event counts for all of them.
+    /// included. Unbiased for every choice of strategies, but that point, spot and directional
+    /// lights are unknown to implicit_only. Light hit after a delta event counts for all of them.
     Spectrum radiance(Ray ray, Rng &rng, RayCounts &counts) const {
         Spectrum result = Spectrum::Zero();
         Spectrum throughput = Spectrum::Ones();
-        double expansion = 1.0;          // what refraction has compressed radiance by: eta^2 of each
-        Vec3 previous = Vec3::Zero();    // the last vertex
-        double pdf_of_direction = 0.0;   // per solid angle there
-        bool light_sampled_too = false;  // whether the last vertex could have found this light explicitly
+        double expansion = 1.0;         // what refraction has compressed radiance by: eta^2 of each
+        Vec3 previous = Vec3::Zero();   // the last vertex
+        double pdf_of_direction = 0.0;  // per solid angle there
+        bool light_sampled_too =
+            false;  // whether the last vertex could have found this light explicitly
         ++counts.camera;
 
         for (uint32_t depth = 0;; ++depth) {
             SurfacePoint hit;
-            if (!world_.geometry.intersect(ray, depth == 0 ? Coherence::coherent : Coherence::incoherent,
-                                           hit)) {
+            if (!world_.geometry.intersect(
+                    ray, depth == 0 ? Coherence::coherent : Coherence::incoherent, hit)) {
                 if (world_.lights.reach_to_infinity() && !(joinable_only_ && depth == 0)) {
-                    result +=
-                        throughput * escaped_radiance(previous, ray.direction, light_sampled_too, pdf_of_direction);
+                    result += throughput * escaped_radiance(previous, ray.direction,
+                                                            light_sampled_too, pdf_of_direction);
                 }
                 return result;
             }
@@ -87,9 +90,11 @@ class PathIntegrator {
                 const Spectrum emitted = world_.lights.emitted(world_.geometry, light, hit, wo);
                 if ((emitted > 0.0).any()) {
                     const double pdf_w =
-                        light_sampled_too ? world_.lights.pdf_w(world_.geometry, light, previous, hit) : 0.0;
-                    result +=
-                        throughput * emitted * implicit_weight(light_sampled_too, pdf_of_direction, pdf_w);
+                        light_sampled_too
+                            ? world_.lights.pdf_w(world_.geometry, light, previous, hit)
+                            : 0.0;
+                    result += throughput * emitted *
+                              implicit_weight(light_sampled_too, pdf_of_direction, pdf_w);
                 }
             }
             if (max_depth_ != 0 && depth == max_depth_) {
@@ -97,7 +102,8 @@ class PathIntegrator {
             }
 
             const BsdfModel &bsdf = world_.bsdfs[world_.geometry.material(hit)];
-            const Shading shading = make_shading(world_.geometry, hit, wo, bsdf.needs_parametrization());
+            const Shading shading =
+                make_shading(world_.geometry, hit, wo, bsdf.needs_parametrization());
             const Vec3 wo_local = shading.frame.to_local(wo);
             light_sampled_too = samples_lights_ && !bsdf.is_delta();
             if (light_sampled_too) {
@@ -137,17 +143,20 @@ class PathIntegrator {
     }
 
   private:
-    /// MIS weight of light found by following a direction of density `pdf_of_direction` that light sampling
-    /// finds with density `pdf_of_light`; roulette is left out of all densities.
-    double implicit_weight(bool light_sampled_too, double pdf_of_direction, double pdf_of_light) const {
+    /// MIS weight of light found by following a direction of density `pdf_of_direction` that light
+    /// sampling finds with density `pdf_of_light`; roulette is left out of all densities.
+    double implicit_weight(bool light_sampled_too, double pdf_of_direction,
+                           double pdf_of_light) const {
         if (!light_sampled_too) {
             return 1.0;
         }
         return counts_hits_ ? power_heuristic(pdf_of_direction, pdf_of_light) : 0.0;
     }
 
-    /// Weighted radiance from infinity, seen from a vertex. Out of line: the path that meets surfaces is the fast one.
-    [[gnu::noinline]] Spectrum escaped_radiance(const Vec3 &from, const Vec3 &direction, bool light_sampled_too,
+    /// Weighted radiance from infinity, seen from a vertex. Out of line: the path that meets
+    /// surfaces is the fast one.
+    [[gnu::noinline]] Spectrum escaped_radiance(const Vec3 &from, const Vec3 &direction,
+                                                bool light_sampled_too,
                                                 double pdf_of_direction) const {
         if (joinable_only_ && !joinable_only_->reaches(from, direction)) {
             return Spectrum::Zero();
@@ -158,11 +167,14 @@ class PathIntegrator {
     }
 
     /// One explicit connection, weighted: f Le |cos| / pdf_w.
-    [[gnu::always_inline]] inline Spectrum direct_light(const BsdfModel &bsdf, const Shading &shading,
-                                                        const Vec3 &wo_local, const SurfacePoint &point,
-                                                        Rng &rng, RayCounts &counts) const {
+    [[gnu::always_inline]] inline Spectrum direct_light(const BsdfModel &bsdf,
+                                                        const Shading &shading,
+                                                        const Vec3 &wo_local,
+                                                        const SurfacePoint &point, Rng &rng,
+                                                        RayCounts &counts) const {
         const auto light = world_.lights.sample(world_.geometry, point.position, rng);
-        if (!light || (joinable_only_ && light->infinite && !joinable_only_->reaches(point.position, light->wi))) {
+        if (!light || (joinable_only_ && light->infinite &&
+                       !joinable_only_->reaches(point.position, light->wi))) {
             return Spectrum::Zero();
         }
         const Vec3 wi_local = shading.frame.to_local(light->wi);
@@ -179,9 +191,10 @@ class PathIntegrator {
                             : world_.geometry.occluded(from, light->target)) {
             return Spectrum::Zero();
         }
-        const double weight = counts_hits_ && !light->delta
-                                  ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local, shading.uv))
-                                  : 1.0;
+        const double weight =
+            counts_hits_ && !light->delta
+                ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local, shading.uv))
+                : 1.0;
         return f * light->radiance * (weight * std::abs(wi_local.z()) / light->pdf_w);
     }
 

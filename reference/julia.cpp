@@ -114,7 +114,8 @@ double JuliaSet::modulus(const Vec3 &point) const {
 
 Vec3 JuliaSet::normal(const Vec3 &point) const {
     Quaternion z = start(point);
-    std::array<Quaternion, 3> derivative{Quaternion::UnitX(), Quaternion::UnitY(), Quaternion::UnitZ()};
+    std::array<Quaternion, 3> derivative{Quaternion::UnitX(), Quaternion::UnitY(),
+                                         Quaternion::UnitZ()};
     for (uint32_t k = 0; k < iterations_; ++k) {
         double largest = 0.0;
         for (Quaternion &d : derivative) {

@@ -16,15 +16,17 @@ using Kind = LightArrays::Kind;
 
 constexpr double uniform_share = 0.5;  ///< of the selection probability; the rest goes by power
 
-/// Half the diagonal of what is bounded: all that parallel light can fall on, as far as choosing it goes.
+/// Half the diagonal of what is bounded: all that parallel light can fall on, as far as choosing it
+/// goes.
 double scene_radius(const Geometry &geometry) {
     return geometry.bounds().isEmpty() ? 1.0 : 0.5 * geometry.bounds().diagonal().norm();
 }
 
 }  // namespace
 
-std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry, const LightArrays &lights,
-                                                    size_t i, std::vector<uint32_t> triangles) {
+std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry,
+                                                    const LightArrays &lights, size_t i,
+                                                    std::vector<uint32_t> triangles) {
     const Spectrum radiance = lights.radiance[i].cast<double>();
     const Eigen::Matrix3d rotation = lights.world_from_light[i].topLeftCorner<3, 3>();
     const Vec3 position = lights.world_from_light[i].topRightCorner<3, 1>();
@@ -33,9 +35,9 @@ std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry, co
         case Kind::diffuse_area: {
             if (lights.shape[i] == no_index) {
                 // Without area it emits nothing.
-                return triangles.empty()
-                           ? std::nullopt
-                           : std::optional<Light>(MeshLight(geometry, std::move(triangles), radiance));
+                return triangles.empty() ? std::nullopt
+                                         : std::optional<Light>(
+                                               MeshLight(geometry, std::move(triangles), radiance));
             }
             if (lights.shape[i] >= geometry.shapes().size()) {
                 throw input_error("its shape does not exist");
@@ -56,13 +58,15 @@ std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry, co
                   lights.outer_angle[i] <= 0.5 * pi + 1e-9)) {
                 throw input_error("the angles of a spot must obey 0 <= inner < outer <= pi / 2");
             }
-            return SpotLight(position, axis, lights.inner_angle[i], lights.outer_angle[i], radiance);
+            return SpotLight(position, axis, lights.inner_angle[i], lights.outer_angle[i],
+                             radiance);
         case Kind::directional:
             return DirectionalLight(axis, radiance, scene_radius(geometry));
         case Kind::dome:
             return DomeLight(radiance, scene_radius(geometry));
         case Kind::environment:
-            return EnvironmentLight(lights.image[i], rotation, radiance, scene_radius(geometry), "its image");
+            return EnvironmentLight(lights.image[i], rotation, radiance, scene_radius(geometry),
+                                    "its image");
     }
     throw run_error("unknown kind of light");
 }
@@ -106,16 +110,18 @@ LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {
     std::vector<double> weights;
     for (const double power : powers) {
         const double uniform = 1.0 / static_cast<double>(powers.size());
-        weights.push_back(total > 0.0 ? uniform_share * uniform + (1.0 - uniform_share) * power / total
-                                      : uniform);
+        weights.push_back(total > 0.0
+                              ? uniform_share * uniform + (1.0 - uniform_share) * power / total
+                              : uniform);
     }
     choose_ = AliasTable(weights);
 }
 
-std::optional<LightSample> LightSet::sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const {
+std::optional<LightSample> LightSet::sample(const Geometry &geometry, const Vec3 &from,
+                                            Rng &rng) const {
     const uint32_t chosen = choose_.sample(rng);
-    auto sample =
-        std::visit([&](const auto &light) { return light.sample(geometry, from, rng); }, lights_[chosen]);
+    auto sample = std::visit([&](const auto &light) { return light.sample(geometry, from, rng); },
+                             lights_[chosen]);
     if (sample) {
         sample->pdf_w *= choose_.probability(chosen);
     }
@@ -131,7 +137,8 @@ double LightSet::pdf_w(const Geometry &geometry, uint32_t light, const Vec3 &fro
 
 Spectrum LightSet::emitted(const Geometry &geometry, uint32_t light, const SurfacePoint &hit,
                            const Vec3 &wo) const {
-    return std::visit([&](const auto &l) { return l.emitted(geometry, hit, wo); }, lights_[slot_[light]]);
+    return std::visit([&](const auto &l) { return l.emitted(geometry, hit, wo); },
+                      lights_[slot_[light]]);
 }
 
 }  // namespace rtrays::reference

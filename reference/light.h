@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All lights of a scene and the choice among them. A light kind is one alternative of the variant `Light`
-// (area_light.h, delta_light.h, infinite_light.h).
+// All lights of a scene and the choice among them. A light kind is one alternative of the variant
+// `Light` (area_light.h, delta_light.h, infinite_light.h).
 #pragma once
 
 #include <optional>
@@ -19,7 +19,8 @@
 
 namespace rtrays::reference {
 
-/// One light is chosen half by power, half uniformly, so that none is ever chosen less often than 1 / (2 N).
+/// One light is chosen half by power, half uniformly, so that none is ever chosen less often than 1
+/// / (2 N).
 class LightSet {
   public:
     /// Throws `Error` (bad input) naming the light for parameters out of range.
@@ -31,14 +32,18 @@ class LightSet {
     /// A point on one chosen light; nothing when it faces away.
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;
 
-    /// Density with which `sample` chooses the direction from `from` to `hit`, a point on light `light`.
-    double pdf_w(const Geometry &geometry, uint32_t light, const Vec3 &from, const SurfacePoint &hit) const;
+    /// Density with which `sample` chooses the direction from `from` to `hit`, a point on light
+    /// `light`.
+    double pdf_w(const Geometry &geometry, uint32_t light, const Vec3 &from,
+                 const SurfacePoint &hit) const;
 
     /// Radiance leaving `hit`, a point on light `light`, towards `wo`.
-    Spectrum emitted(const Geometry &geometry, uint32_t light, const SurfacePoint &hit, const Vec3 &wo) const;
+    Spectrum emitted(const Geometry &geometry, uint32_t light, const SurfacePoint &hit,
+                     const Vec3 &wo) const;
 
-    /// Radiance arriving from infinity: the sum over the lights there of theirs times weight(pdf_w), where
-    /// pdf_w is the density with which `sample` chooses the direction by that light.
+    /// Radiance arriving from infinity: the sum over the lights there of theirs times
+    /// weight(pdf_w), where pdf_w is the density with which `sample` chooses the direction by that
+    /// light.
     template <class Weight>
     Spectrum from_infinity(const Vec3 &direction, const Weight &weight) const {
         Spectrum total = Spectrum::Zero();
@@ -59,13 +64,14 @@ class LightSet {
     }
 
   private:
-    using Light = std::variant<MeshLight, DiscLight, SphereLight, PointLight, SpotLight, DirectionalLight,
-                               DomeLight, EnvironmentLight>;
-    static std::optional<Light> make_light(const Geometry &geometry, const LightArrays &lights, size_t i,
-                                           std::vector<uint32_t> triangles);
+    using Light = std::variant<MeshLight, DiscLight, SphereLight, PointLight, SpotLight,
+                               DirectionalLight, DomeLight, EnvironmentLight>;
+    static std::optional<Light> make_light(const Geometry &geometry, const LightArrays &lights,
+                                           size_t i, std::vector<uint32_t> triangles);
 
     std::vector<Light> lights_;
-    std::vector<uint32_t> slot_;      ///< position in `lights_` of each light of the store, or `no_index`
+    std::vector<uint32_t>
+        slot_;  ///< position in `lights_` of each light of the store, or `no_index`
     std::vector<uint32_t> infinite_;  ///< positions of those at infinity that can be met
     AliasTable choose_;
 };

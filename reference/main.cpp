@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// rtrays-reference: renders a scene with the independent Embree path tracer, or has Mitsuba or Cycles render it.
+// rtrays-reference: renders a scene with the independent Embree path tracer, or has Mitsuba or
+// Cycles render it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,12 +36,13 @@ void check_outputs(const Options &options) {
     }
     if (!options.manifest.empty()) {
         if (parse_reference_name(options.output).engine != options.engine) {
-            throw input_error(fmt::format("{}: the engine is {}; name it SCENE.{}.HALF.exr", options.output,
-                                          options.engine, options.engine));
+            throw input_error(fmt::format("{}: the engine is {}; name it SCENE.{}.HALF.exr",
+                                          options.output, options.engine, options.engine));
         }
-        if (fs::absolute(options.output).parent_path() != fs::absolute(options.manifest).parent_path()) {
-            throw input_error(
-                fmt::format("{}: must lie beside its manifest {}", options.output, options.manifest));
+        if (fs::absolute(options.output).parent_path() !=
+            fs::absolute(options.manifest).parent_path()) {
+            throw input_error(fmt::format("{}: must lie beside its manifest {}", options.output,
+                                          options.manifest));
         }
         if (fs::exists(options.manifest)) {
             load_manifest(options.manifest);
@@ -54,10 +56,12 @@ struct Steps {
     uint64_t samples = 1;  ///< per pixel, of one
 };
 
-/// Goes on from the image that the manifest lists with these settings and fewer samples: of references that were made
-/// elsewhere the image is there, the state is not. Returns the commits that worked on it.
+/// Goes on from the image that the manifest lists with these settings and fewer samples: of
+/// references that were made elsewhere the image is there, the state is not. Returns the commits
+/// that worked on it.
 template <class Renderer>
-std::vector<std::string> continue_listed(const Options &options, const Steps &steps, const Json &config, Renderer &renderer) {
+std::vector<std::string> continue_listed(const Options &options, const Steps &steps,
+                                         const Json &config, Renderer &renderer) {
     const Json entry = manifest_entry(options.manifest, options.output);
     if (entry.is_null()) {
         return {};
@@ -65,11 +69,13 @@ std::vector<std::string> continue_listed(const Options &options, const Steps &st
     const Image image = read_exr(options.output);
     const auto made_with = image.attributes().find("rtrays:config");
     const uint64_t begin = entry.at("sample_range").at(0), end = entry.at("sample_range").at(1);
-    if (made_with == image.attributes().end() || std::get<std::string>(made_with->second) != config.dump() ||
-        begin != options.begin || end >= options.end) {
+    if (made_with == image.attributes().end() ||
+        std::get<std::string>(made_with->second) != config.dump() || begin != options.begin ||
+        end >= options.end) {
         return {};
     }
-    renderer.restore(Film::of(image, begin / steps.samples, end / steps.samples), entry.at("seconds"));
+    renderer.restore(Film::of(image, begin / steps.samples, end / steps.samples),
+                     entry.at("seconds"));
     std::vector<std::string> commits;
     std::istringstream listed(entry.at("commit").get<std::string>());
     for (std::string commit; std::getline(listed, commit, ',');) {
@@ -78,10 +84,11 @@ std::vector<std::string> continue_listed(const Options &options, const Steps &st
     return commits;
 }
 
-/// Restores the state file when asked to, or continues a listed image; refuses to overwrite a state that is not finished.
-/// Returns the commits that worked on the film, this program's included.
+/// Restores the state file when asked to, or continues a listed image; refuses to overwrite a state
+/// that is not finished. Returns the commits that worked on the film, this program's included.
 template <class Renderer>
-std::vector<std::string> begin_or_resume(const Options &options, const Steps &steps, const Json &config, Renderer &renderer) {
+std::vector<std::string> begin_or_resume(const Options &options, const Steps &steps,
+                                         const Json &config, Renderer &renderer) {
     std::vector<std::string> commits;
     if (fs::exists(options.state)) {
         Checkpoint checkpoint = load_checkpoint(options.state);
@@ -107,7 +114,8 @@ std::vector<std::string> begin_or_resume(const Options &options, const Steps &st
     return commits;
 }
 
-/// Whether the manifest lists a result that serves as well; a longer range with the same start does.
+/// Whether the manifest lists a result that serves as well; a longer range with the same start
+/// does.
 bool is_listed(const Options &options, const Json &config) {
     Json wanted = describe_run(options, config, options.end - options.begin);
     wanted.erase("sample_range");
@@ -116,10 +124,11 @@ bool is_listed(const Options &options, const Json &config) {
 
 /// Renders what is missing and writes the results; `counts` tells further statistics.
 template <class Renderer, class Counts>
-ExitCode render_reference(const Options &options, const Steps &steps, const Json &config, Renderer &renderer,
-                          const Counts &counts) {
+ExitCode render_reference(const Options &options, const Steps &steps, const Json &config,
+                          Renderer &renderer, const Counts &counts) {
     if (options.skip_if_listed && is_listed(options, config)) {
-        fmt::print(stderr, "rtrays-reference: {} is listed already with these settings: nothing to do\n",
+        fmt::print(stderr,
+                   "rtrays-reference: {} is listed already with these settings: nothing to do\n",
                    options.output);
         return ExitCode::ok;
     }
@@ -127,11 +136,12 @@ ExitCode render_reference(const Options &options, const Steps &steps, const Json
 
     install_interrupt_handler();
     const auto save = [&] {
-        save_checkpoint({config, renderer.film(), steps.end, renderer.seconds(), commits}, options.state);
+        save_checkpoint({config, renderer.film(), steps.end, renderer.seconds(), commits},
+                        options.state);
     };
     {
-        Progress progress(fs::path(options.output).filename().string(), options.end - options.begin, "spp",
-                          options.quiet);
+        Progress progress(fs::path(options.output).filename().string(), options.end - options.begin,
+                          "spp", options.quiet);
         progress.update(steps.samples * renderer.samples());
         auto last_save = std::chrono::steady_clock::now();
         uint64_t done = steps.begin + renderer.samples();
@@ -139,7 +149,8 @@ ExitCode render_reference(const Options &options, const Steps &steps, const Json
             done = renderer.render(done, std::min(steps.end, done + renderer.batch_size()));
             progress.update(steps.samples * renderer.samples());
             const auto now = std::chrono::steady_clock::now();
-            if (std::chrono::duration<double>(now - last_save).count() >= options.checkpoint_interval) {
+            if (std::chrono::duration<double>(now - last_save).count() >=
+                options.checkpoint_interval) {
                 save();
                 last_save = now;
             }
@@ -148,19 +159,22 @@ ExitCode render_reference(const Options &options, const Steps &steps, const Json
     save();
     const Film &film = renderer.film();
     if (film.end < steps.end) {
-        fmt::print(stderr, "rtrays-reference: interrupted after {} of {} spp; continue with --resume\n",
+        fmt::print(stderr,
+                   "rtrays-reference: interrupted after {} of {} spp; continue with --resume\n",
                    steps.samples * renderer.samples(), options.end - options.begin);
         return ExitCode::interrupted;
     }
     write_results(options, config,
-                  {renderer.develop(), steps.samples * film.begin, steps.samples * film.end, renderer.seconds(), counts()},
+                  {renderer.develop(), steps.samples * film.begin, steps.samples * film.end,
+                   renderer.seconds(), counts()},
                   commits);
     return ExitCode::ok;
 }
 
 ExitCode render_by_embree(const Options &options, const Scene &scene) {
     ReferenceRenderer renderer(scene.arrays(), options.settings);
-    const Json config = make_config(scene.name(), scene.hash(), options.settings, renderer.stats().engine);
+    const Json config =
+        make_config(scene.name(), scene.hash(), options.settings, renderer.stats().engine);
     return render_reference(options, {options.begin, options.end, 1}, config, renderer,
                             [&] { return describe_counts(renderer); });
 }
@@ -191,7 +205,8 @@ ExitCode run(int argc, char **argv) {
         options.settings.height = scene.film_height();
     }
     options.settings.camera = static_cast<size_t>(scene.active_camera());
-    return options.engine == "embree" ? render_by_embree(options, scene) : render_by_peer(options, scene);
+    return options.engine == "embree" ? render_by_embree(options, scene)
+                                      : render_by_peer(options, scene);
 }
 
 }  // namespace

@@ -28,13 +28,15 @@ void validate(const Json &manifest, const fs::path &path) {
                   path.string());
 }
 
-/// Holds an advisory lock on a folder: two programs may finish at once, and each must see the other's entry.
+/// Holds an advisory lock on a folder: two programs may finish at once, and each must see the
+/// other's entry.
 class FolderLock {
   public:
     explicit FolderLock(const fs::path &folder)
         : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
         if (descriptor_ < 0 || flock(descriptor_, LOCK_EX) != 0) {
-            throw run_error(fmt::format("{}: cannot be locked: {}", folder.string(), std::strerror(errno)));
+            throw run_error(
+                fmt::format("{}: cannot be locked: {}", folder.string(), std::strerror(errno)));
         }
     }
     ~FolderLock() { close(descriptor_); }
@@ -52,10 +54,10 @@ ReferenceName parse_reference_name(const fs::path &path) {
     std::smatch match;
     const std::string name = path.filename().string();
     if (!std::regex_match(name, match, form)) {
-        throw input_error(
-            fmt::format("{}: a reference is named SCENE.ENGINE.HALF.exr with ENGINE embree, mitsuba or "
-                        "cycles and HALF a or b",
-                        path.string()));
+        throw input_error(fmt::format(
+            "{}: a reference is named SCENE.ENGINE.HALF.exr with ENGINE embree, mitsuba or "
+            "cycles and HALF a or b",
+            path.string()));
     }
     return {match[1], match[2], match[3]};
 }
@@ -85,8 +87,8 @@ void update_manifest(const fs::path &path, const fs::path &image, Json entry) {
     const FolderLock lock(folder);
     entry["engine"] = parse_reference_name(image).engine;
     entry["sha256"] = sha256_of(image);
-    Json manifest =
-        fs::exists(path) ? load_manifest(path) : Json{{"schema_version", 1}, {"references", Json::object()}};
+    Json manifest = fs::exists(path) ? load_manifest(path)
+                                     : Json{{"schema_version", 1}, {"references", Json::object()}};
     manifest["references"][image.filename().string()] = std::move(entry);
     validate(manifest, path);
     write_file(path, manifest.dump(2) + "\n");

@@ -17,8 +17,8 @@ inline double square(double x) {
     return x * x;
 }
 
-/// Orthonormal frame whose z axis is a given unit normal (Duff et al. 2017, "Building an Orthonormal
-/// Basis, Revisited", listing 3: no branch, no cancellation near the poles).
+/// Orthonormal frame whose z axis is a given unit normal (Duff et al. 2017, "Building an
+/// Orthonormal Basis, Revisited", listing 3: no branch, no cancellation near the poles).
 class Frame {
   public:
     explicit Frame(const Vec3 &normal) : z_(normal) {
@@ -29,8 +29,8 @@ class Frame {
         y_ = {b, sign + square(normal.y()) * a, -normal.y()};
     }
 
-    /// x axis along the part of `tangent` (any length) that lies in the plane; an arbitrary one where the
-    /// tangent is zero or along the normal.
+    /// x axis along the part of `tangent` (any length) that lies in the plane; an arbitrary one
+    /// where the tangent is zero or along the normal.
     Frame(const Vec3 &normal, const Vec3 &tangent) : Frame(normal) {
         const Vec3 in_plane = tangent - tangent.dot(normal) * normal;
         const double length = in_plane.norm();

@@ -11,32 +11,35 @@ using Kind = BxdfComponent::Distribution;
 
 const double inv_sqrt_pi = 1.0 / std::sqrt(pi);
 
-/// Visible normal of the unit GGX hemisphere seen from `v` (Heitz 2018, "Sampling the GGX Distribution of
-/// Visible Normals", listing 1).
+/// Visible normal of the unit GGX hemisphere seen from `v` (Heitz 2018, "Sampling the GGX
+/// Distribution of Visible Normals", listing 1).
 Vec3 sample_hemisphere_visible(const Vec3 &v, Rng &rng) {
     // T1 must be horizontal: the projected hemisphere's lower half shrinks along T2.
     const double horizontal = std::hypot(v.x(), v.y());
-    const Vec3 t1 = horizontal > 0.0 ? Vec3(-v.y() / horizontal, v.x() / horizontal, 0.0) : Vec3::UnitX();
+    const Vec3 t1 =
+        horizontal > 0.0 ? Vec3(-v.y() / horizontal, v.x() / horizontal, 0.0) : Vec3::UnitX();
     const Vec3 t2 = v.cross(t1);
     const double radius = std::sqrt(rng.uniform());
     const double phi = 2.0 * pi * rng.uniform();
     const double p1 = radius * std::cos(phi);
     const double visible = 0.5 * (1.0 + v.z());
-    const double p2 =
-        (1.0 - visible) * std::sqrt(std::max(0.0, 1.0 - p1 * p1)) + visible * radius * std::sin(phi);
+    const double p2 = (1.0 - visible) * std::sqrt(std::max(0.0, 1.0 - p1 * p1)) +
+                      visible * radius * std::sin(phi);
     // Rounding can push the point off the disc by an ulp: the root's argument is cut at 0.
     return p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0, 1.0 - p1 * p1 - p2 * p2)) * v;
 }
 
-/// Slope, along the view direction's azimuth, of a visible normal of a Beckmann surface of roughness 1.
+/// Slope, along the view direction's azimuth, of a visible normal of a Beckmann surface of
+/// roughness 1.
 ///
 /// With c, s the cosine and sine of the view angle the visible slopes have density proportional to
-/// (c - s x) exp(-x^2) for x < c / s (Heitz & d'Eon 2014, "Importance Sampling Microfacet-Based BSDFs using
-/// the Distribution of Visible Normals", 4.1), whose integral from minus infinity is
+/// (c - s x) exp(-x^2) for x < c / s (Heitz & d'Eon 2014, "Importance Sampling Microfacet-Based
+/// BSDFs using the Distribution of Visible Normals", 4.1), whose integral from minus infinity is
 ///
 ///     P(x) = c / 2 erfc(-x) + s / (2 sqrt(pi)) exp(-x^2),
 ///
-/// a sum of positive terms. It is inverted by Newton steps, bisecting whenever one leaves the bracket.
+/// a sum of positive terms. It is inverted by Newton steps, bisecting whenever one leaves the
+/// bracket.
 double sample_beckmann_slope(double c, double s, Rng &rng) {
     const auto integral = [&](double x) {
         return 0.5 * c * std::erfc(-x) + 0.5 * s * inv_sqrt_pi * std::exp(-x * x);
@@ -71,7 +74,8 @@ double MicrofacetDistribution::density(const Vec3 &h) const {
         return 1.0 / (norm * square(x * x + y * y + z_squared));
     }
     // A normal within 1e-75 of the horizon would give 0 / 0.
-    return z_squared > 1e-150 ? std::exp(-(x * x + y * y) / z_squared) / (norm * square(z_squared)) : 0.0;
+    return z_squared > 1e-150 ? std::exp(-(x * x + y * y) / z_squared) / (norm * square(z_squared))
+                              : 0.0;
 }
 
 double MicrofacetDistribution::masking(const Vec3 &v, const Vec3 &h) const {

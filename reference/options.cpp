@@ -28,7 +28,8 @@ std::optional<std::pair<Number, Number>> parse_pair(const std::string &text, cha
     };
     std::pair<Number, Number> result;
     const std::string_view view = text;
-    if (!number(view.substr(0, middle), result.first) || !number(view.substr(middle + 1), result.second)) {
+    if (!number(view.substr(0, middle), result.first) ||
+        !number(view.substr(middle + 1), result.second)) {
         return std::nullopt;
     }
     return result;
@@ -37,9 +38,11 @@ std::optional<std::pair<Number, Number>> parse_pair(const std::string &text, cha
 void apply_size(const std::string &text, ReferenceSettings &settings) {
     constexpr int largest = 1 << 15;
     const auto size = parse_pair<int>(text, 'x');
-    if (!size || size->first < 1 || size->second < 1 || size->first > largest || size->second > largest) {
-        throw input_error(fmt::format(
-            "--size '{}': must be WIDTHxHEIGHT in pixels, 1 to {} each, as in 256x256", text, largest));
+    if (!size || size->first < 1 || size->second < 1 || size->first > largest ||
+        size->second > largest) {
+        throw input_error(
+            fmt::format("--size '{}': must be WIDTHxHEIGHT in pixels, 1 to {} each, as in 256x256",
+                        text, largest));
     }
     settings.width = size->first;
     settings.height = size->second;
@@ -61,7 +64,8 @@ std::optional<Options> parse_options(int argc, char **argv) {
     Options options;
     std::string size, range, strategies = name_of(options.settings.strategies);
     CLI::App app{
-        "Renders a scene with the independent Embree path tracer, or with Mitsuba 3 or Blender's Cycles.\n"
+        "Renders a scene with the independent Embree path tracer, or with Mitsuba 3 or Blender's "
+        "Cycles.\n"
         "A state file beside the output keeps what is done; --resume continues it."};
     app.set_version_flag("--version", "rtrays-reference " + version());
     app.add_option("SCENE", options.scene, "scene file")->required();
@@ -69,8 +73,10 @@ std::optional<Options> parse_options(int argc, char **argv) {
     auto *spp = app.add_option("--spp", options.end, "samples per pixel; the same as --samples 0:N")
                     ->check(CLI::PositiveNumber);
     auto *samples = app.add_option("--samples", range, "sample range BEGIN:END")->excludes(spp);
-    app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
-    app.add_option("--engine", options.engine, "embree, or mitsuba or cycles where they are installed (else exit code 77)")
+    app.add_option("--seed", options.settings.seed, "seed of the random numbers")
+        ->capture_default_str();
+    app.add_option("--engine", options.engine,
+                   "embree, or mitsuba or cycles where they are installed (else exit code 77)")
         ->check(CLI::IsMember({"embree", "mitsuba", "cycles"}))
         ->capture_default_str();
     app.add_option("--size", size, "film size WxH; the scene's by default");
@@ -92,9 +98,9 @@ std::optional<Options> parse_options(int argc, char **argv) {
     auto *manifest = app.add_option(
         "--manifest", options.manifest,
         "add the image to this manifest; it must be named SCENE.ENGINE.HALF.exr and lie beside it");
-    app.add_flag(
-           "--skip-if-listed", options.skip_if_listed,
-           "do nothing when the manifest lists the image with these settings and at least as many samples")
+    app.add_flag("--skip-if-listed", options.skip_if_listed,
+                 "do nothing when the manifest lists the image with these settings and at least as "
+                 "many samples")
         ->needs(manifest);
     app.add_flag("--quiet", options.quiet, "no progress");
     try {
@@ -115,8 +121,10 @@ std::optional<Options> parse_options(int argc, char **argv) {
         apply_size(size, options.settings);
     }
     options.settings.strategies = strategies_from_name(strategies);
-    if (options.engine != "embree" && (samples->count() > 0 || options.settings.strategies != Strategies::mis)) {
-        throw input_error(fmt::format("--engine {}: --samples and --strategies are of embree", options.engine));
+    if (options.engine != "embree" &&
+        (samples->count() > 0 || options.settings.strategies != Strategies::mis)) {
+        throw input_error(
+            fmt::format("--engine {}: --samples and --strategies are of embree", options.engine));
     }
     if (options.state.empty()) {
         options.state = options.output + ".state";

@@ -42,19 +42,26 @@ Json describe_run(const Options &options, const Json &config, uint64_t spp) {
 
 Json describe_counts(const ReferenceRenderer &renderer) {
     const ReferenceStats stats = renderer.stats();
-    const auto rays = static_cast<double>(stats.camera_rays + stats.bounce_rays + stats.shadow_rays);
-    // Restored samples have their time in `seconds` but no rays counted here; a camera ray is a path.
-    const double all_samples = static_cast<double>(renderer.film().count() * renderer.film().pixels.size());
+    const auto rays =
+        static_cast<double>(stats.camera_rays + stats.bounce_rays + stats.shadow_rays);
+    // Restored samples have their time in `seconds` but no rays counted here; a camera ray is a
+    // path.
+    const double all_samples =
+        static_cast<double>(renderer.film().count() * renderer.film().pixels.size());
     const double share = static_cast<double>(stats.camera_rays) / all_samples;
-    return {{"triangles", stats.triangles},
-            {"degenerate_triangles", stats.degenerate_triangles},
-            {"seconds_bvh", stats.build_seconds},
-            {"rays",
-             {{"camera", stats.camera_rays}, {"bounce", stats.bounce_rays}, {"shadow", stats.shadow_rays}}},
-            {"rays_per_second", stats.camera_rays > 0 ? Json(rays / (stats.seconds * share)) : Json()}};
+    return {
+        {"triangles", stats.triangles},
+        {"degenerate_triangles", stats.degenerate_triangles},
+        {"seconds_bvh", stats.build_seconds},
+        {"rays",
+         {{"camera", stats.camera_rays},
+          {"bounce", stats.bounce_rays},
+          {"shadow", stats.shadow_rays}}},
+        {"rays_per_second", stats.camera_rays > 0 ? Json(rays / (stats.seconds * share)) : Json()}};
 }
 
-void write_results(const Options &options, const Json &config, Result result, const std::vector<std::string> &commits) {
+void write_results(const Options &options, const Json &config, Result result,
+                   const std::vector<std::string> &commits) {
     const std::string commit = fmt::format("{}", fmt::join(commits, ","));
     auto &attributes = result.image.attributes();
     attributes["rtrays:commit"] = commit;

@@ -24,8 +24,10 @@ namespace {
 /// What is particular to a program.
 struct PeerKind {
     const char *name, *scene_file;
-    uint64_t samples_per_step;  ///< enough that starting a render is small beside it, few enough for memory
-    std::vector<std::string> version, render;  ///< command lines; the arguments of the driver follow
+    uint64_t samples_per_step;  ///< enough that starting a render is small beside it, few enough
+                                ///< for memory
+    std::vector<std::string> version,
+        render;                  ///< command lines; the arguments of the driver follow
     const char *version_prefix;  ///< before what the version command prints first
     std::string version_suffix;  ///< and what else the image depends on
 };
@@ -34,20 +36,31 @@ const char *const python = RTRAYS_SOURCE "/build/peers/bin/python";
 
 PeerKind kind_of(const std::string &name) {
     if (name == "mitsuba") {
-        return {"mitsuba", "scene.xml", 64, {python, "-c", "import mitsuba; print(mitsuba.__version__)"},
-                {python, RTRAYS_SOURCE "/scripts/mitsuba_driver.py"}, "Mitsuba ", " llvm_ad_rgb"};
+        return {"mitsuba",
+                "scene.xml",
+                64,
+                {python, "-c", "import mitsuba; print(mitsuba.__version__)"},
+                {python, RTRAYS_SOURCE "/scripts/mitsuba_driver.py"},
+                "Mitsuba ",
+                " llvm_ad_rgb"};
     }
-    return {"cycles", "scene.blender.json", 256, {"blender", "--version"},
+    return {"cycles",
+            "scene.blender.json",
+            256,
+            {"blender", "--version"},
             {"blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-             RTRAYS_SOURCE "/scripts/cycles_driver.py", "--"}, "Cycles of ", ", Sobol"};
+             RTRAYS_SOURCE "/scripts/cycles_driver.py", "--"},
+            "Cycles of ",
+            ", Sobol"};
 }
 
 std::string version_of(const PeerKind &kind) {
     Process program(kind.version, python_environment());
     const auto line = program.read_line();
     if (!line) {
-        throw Error(ExitCode::skipped,
-                    fmt::format("{} is not installed; scripts/install --peers installs it", kind.name));
+        throw Error(
+            ExitCode::skipped,
+            fmt::format("{} is not installed; scripts/install --peers installs it", kind.name));
     }
     while (program.read_line()) {
     }
@@ -73,9 +86,16 @@ struct PeerRenderer::State {
     void start(uint64_t end) {
         std::vector<std::string> command = kind.render;
         const std::vector<std::string> arguments = {
-            (folder / kind.scene_file).string(), (folder / "step.exr").string(), "--spp",
-            std::to_string(kind.samples_per_step), "--seed", std::to_string(first_seed(settings.seed) + film.end),
-            "--max-depth", std::to_string(settings.max_depth), "--runs", std::to_string(end - film.end)};
+            (folder / kind.scene_file).string(),
+            (folder / "step.exr").string(),
+            "--spp",
+            std::to_string(kind.samples_per_step),
+            "--seed",
+            std::to_string(first_seed(settings.seed) + film.end),
+            "--max-depth",
+            std::to_string(settings.max_depth),
+            "--runs",
+            std::to_string(end - film.end)};
         command.insert(command.end(), arguments.begin(), arguments.end());
         process.emplace(command, python_environment());
     }
@@ -87,12 +107,14 @@ struct PeerRenderer::State {
                 return parse_json(*line, engine);
             }
         }
-        throw run_error(fmt::format("{} ended with exit code {} before its images were done", engine, process->wait()));
+        throw run_error(fmt::format("{} ended with exit code {} before its images were done",
+                                    engine, process->wait()));
     }
 
     void add(const Image &image) {
         if (image.width() != film.width || image.height() != film.height) {
-            throw run_error(fmt::format("{} made an image of {}x{}", engine, image.width(), image.height()));
+            throw run_error(
+                fmt::format("{} made an image of {}x{}", engine, image.width(), image.height()));
         }
         const auto names = rgb_names();
         for (size_t i = 0; i < film.pixels.size(); ++i) {
@@ -101,7 +123,8 @@ struct PeerRenderer::State {
                                  static_cast<double>(image.channel(names[2])[i]));
             if (!value.allFinite()) {
                 throw run_error(fmt::format("{}: pixel {},{} is not finite", engine,
-                                            i % static_cast<size_t>(film.width), i / static_cast<size_t>(film.width)));
+                                            i % static_cast<size_t>(film.width),
+                                            i / static_cast<size_t>(film.width)));
             }
             film.pixels[i].add(value, film.count());
         }
@@ -109,8 +132,15 @@ struct PeerRenderer::State {
     }
 };
 
-PeerRenderer::PeerRenderer(const Scene &scene, const ReferenceSettings &settings, const std::string &engine, fs::path folder)
-    : state_(new State{kind_of(engine), settings, std::move(folder), {}, Film(settings.width, settings.height, 0), 0, {}}) {
+PeerRenderer::PeerRenderer(const Scene &scene, const ReferenceSettings &settings,
+                           const std::string &engine, fs::path folder)
+    : state_(new State{kind_of(engine),
+                       settings,
+                       std::move(folder),
+                       {},
+                       Film(settings.width, settings.height, 0),
+                       0,
+                       {}}) {
     state_->engine = version_of(state_->kind);
     fs::create_directories(state_->folder);
     export_scene(scene, state_->folder / state_->kind.scene_file);

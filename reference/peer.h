@@ -14,13 +14,13 @@
 
 namespace rtrays::reference {
 
-/// Renders by another program in batches, each an image of its own seed. They state no variance: that of the mean is the
-/// batches' scatter. A step is a batch; the film counts steps.
+/// Renders by another program in batches, each an image of its own seed. They state no variance:
+/// that of the mean is the batches' scatter. A step is a batch; the film counts steps.
 class PeerRenderer {
   public:
-    /// Exports the scene, whose film size is that of the settings, to `folder`, which is made, and deleted at the end.
-    /// `engine` is "mitsuba" or "cycles". Throws `Error`: skipped (exit code 77) when the program is not installed, bad
-    /// input for what it cannot express.
+    /// Exports the scene, whose film size is that of the settings, to `folder`, which is made, and
+    /// deleted at the end. `engine` is "mitsuba" or "cycles". Throws `Error`: skipped (exit code
+    /// 77) when the program is not installed, bad input for what it cannot express.
     PeerRenderer(const Scene &scene, const ReferenceSettings &settings, const std::string &engine,
                  std::filesystem::path folder);
     ~PeerRenderer();
@@ -37,18 +37,20 @@ class PeerRenderer {
     /// Where the program is to end, before the first `render`: it is started once.
     void plan(uint64_t last_step) { last_step_ = last_step; }
 
-    /// Adds the steps [begin, end), `begin` being the end of what the film holds already; stops between two of them once
-    /// `interrupted()` and returns the end of what was rendered. Throws `Error` (run failed) when the program fails or a
-    /// pixel is not finite.
+    /// Adds the steps [begin, end), `begin` being the end of what the film holds already; stops
+    /// between two of them once `interrupted()` and returns the end of what was rendered. Throws
+    /// `Error` (run failed) when the program fails or a pixel is not finite.
     uint64_t render(uint64_t begin, uint64_t end);
 
     uint64_t batch_size() const;  ///< steps between two looks at the clock
-    double seconds() const;       ///< what the program says that its renders took, plus that of a restored film
-    uint64_t samples() const;     ///< steps in the film
+    double seconds()
+        const;  ///< what the program says that its renders took, plus that of a restored film
+    uint64_t samples() const;  ///< steps in the film
     const Film &film() const;
     void restore(Film film, double seconds);
 
-    /// R, G, B, variance.R, .G, .B (of the mean), samples; attributes samplesPerPixel, renderTimeSeconds.
+    /// R, G, B, variance.R, .G, .B (of the mean), samples; attributes samplesPerPixel,
+    /// renderTimeSeconds.
     Image develop() const;
 
   private:

@@ -25,22 +25,24 @@ Quadric::Coefficients Quadric::coefficients(ShapeArrays::Kind kind, double flare
 }
 
 bool Quadric::intersect(const Vec3 &origin, const Vec3 &direction, double t_max, double &t) const {
-    // From far away F(origin) cancels against the rest: the equation is solved for the distance from the
-    // point of the ray nearest to the object's origin. Nearby, where rays leave the surface itself, it is
-    // not moved, so that the sign of F(origin), which tells on which side it is, decides the roots' signs.
+    // From far away F(origin) cancels against the rest: the equation is solved for the distance
+    // from the point of the ray nearest to the object's origin. Nearby, where rays leave the
+    // surface itself, it is not moved, so that the sign of F(origin), which tells on which side it
+    // is, decides the roots' signs.
     const double shift = origin.squaredNorm() > 16.0 * (1.0 + square(surface_.radius))
                              ? -origin.dot(direction) / direction.squaredNorm()
                              : 0.0;
     const Vec3 o = origin + shift * direction;
-    const double a = square(direction.x()) + square(direction.y()) + surface_.a * square(direction.z());
+    const double a =
+        square(direction.x()) + square(direction.y()) + surface_.a * square(direction.z());
     const double half_b = gradient(o).dot(direction);
     const double c = value(o);
     const double discriminant = square(half_b) - a * c;
     if (!(discriminant >= 0.0)) {
         return false;
     }
-    // Both roots without cancellation. Along a generator of the surface a is 0 and one root infinite (or
-    // 0 / 0): the comparisons below leave it out.
+    // Both roots without cancellation. Along a generator of the surface a is 0 and one root
+    // infinite (or 0 / 0): the comparisons below leave it out.
     const double q = -(half_b + std::copysign(std::sqrt(discriminant), half_b));
     const double root1 = q / a, root2 = c / q;
     bool found = false;

@@ -6,14 +6,15 @@
 
 namespace rtrays::reference {
 
-/// The zero set of F = x^2 + y^2 + a z^2 + b z + c between two heights: sphere, cylinder, cone, paraboloid
-/// and hyperboloid of ShapeArrays in their object spaces.
+/// The zero set of F = x^2 + y^2 + a z^2 + b z + c between two heights: sphere, cylinder, cone,
+/// paraboloid and hyperboloid of ShapeArrays in their object spaces.
 class Quadric {
   public:
     Quadric(ShapeArrays::Kind kind, double flare)
         : surface_(coefficients(kind, flare)), spherical_(kind == ShapeArrays::Kind::sphere) {}
 
-    /// Nearest t in (0, t_max) at which origin + t direction crosses the surface; false when there is none.
+    /// Nearest t in (0, t_max) at which origin + t direction crosses the surface; false when there
+    /// is none.
     bool intersect(const Vec3 &origin, const Vec3 &direction, double t_max, double &t) const;
 
     /// The nearest point of the surface to one that is off by rounding.
@@ -39,7 +40,8 @@ class Quadric {
     static Coefficients coefficients(ShapeArrays::Kind kind, double flare);
 
     double value(const Vec3 &p) const {
-        return square(p.x()) + square(p.y()) + (surface_.a * p.z() + surface_.b) * p.z() + surface_.c;
+        return square(p.x()) + square(p.y()) + (surface_.a * p.z() + surface_.b) * p.z() +
+               surface_.c;
     }
     Coefficients surface_;
     bool spherical_;  ///< v by the angle, not the height

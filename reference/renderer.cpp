@@ -31,17 +31,19 @@ using namespace reference;
 namespace {
 
 constexpr uint64_t tile_size = 16;
-constexpr uint64_t paths_per_batch = 1 << 18;  // a fraction of a second: an interrupt is soon obeyed
+constexpr uint64_t paths_per_batch = 1
+                                     << 18;  // a fraction of a second: an interrupt is soon obeyed
 
 /// That every surface's material exists, and its light, if it has one.
 void check_indices(const SceneArrays &scene) {
-    const auto check = [&](const char *what, const std::string &name, uint32_t material, uint32_t light) {
+    const auto check = [&](const char *what, const std::string &name, uint32_t material,
+                           uint32_t light) {
         if (material >= scene.materials.name.size()) {
             throw input_error(fmt::format("{} '{}' has no material", what, name));
         }
         if (light != no_index && light >= scene.lights.kind.size()) {
-            throw input_error(
-                fmt::format("{} '{}' names light {} of {}", what, name, light, scene.lights.kind.size()));
+            throw input_error(fmt::format("{} '{}' names light {} of {}", what, name, light,
+                                          scene.lights.kind.size()));
         }
     };
     for (size_t i = 0; i < scene.meshes.name.size(); ++i) {
@@ -76,8 +78,8 @@ struct ReferenceRenderer::State {
           geometry(scene.meshes, scene.shapes),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
-          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth, wanted.joinable_only,
-                     wanted.roulette),
+          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth,
+                     wanted.joinable_only, wanted.roulette),
           film(wanted.width, wanted.height, 0),
           threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
           arena(threads) {}
@@ -99,8 +101,8 @@ struct ReferenceRenderer::State {
     tbb::task_arena arena;
 };
 
-void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> &tile, uint64_t begin,
-                                           uint64_t end) {
+void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> &tile,
+                                           uint64_t begin, uint64_t end) {
     RayCounts tile_counts;
     for (uint64_t y = tile.rows().begin(); y != tile.rows().end(); ++y) {
         for (uint64_t x = tile.cols().begin(); x != tile.cols().end(); ++x) {
@@ -128,11 +130,13 @@ void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
     // The arena alone gets no more threads than there are cores; tests ask for more.
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<size_t>(threads));
-    const tbb::blocked_range2d<uint64_t> pixels(0, static_cast<uint64_t>(settings.height), tile_size, 0,
-                                                static_cast<uint64_t>(settings.width), tile_size);
+    const tbb::blocked_range2d<uint64_t> pixels(0, static_cast<uint64_t>(settings.height),
+                                                tile_size, 0, static_cast<uint64_t>(settings.width),
+                                                tile_size);
     arena.execute([&] {
         tbb::parallel_for(
-            pixels, [&](const auto &tile) { render_tile(tile, begin, end); }, tbb::simple_partitioner());
+            pixels, [&](const auto &tile) { render_tile(tile, begin, end); },
+            tbb::simple_partitioner());
     });
     film.end = end;
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -160,8 +164,8 @@ uint64_t ReferenceRenderer::render(uint64_t begin, uint64_t end) {
         film.begin = film.end = begin;
     }
     if (begin != film.end || end < begin) {
-        throw run_error(fmt::format("samples {}:{} do not continue a film that holds {}:{}", begin, end,
-                                    film.begin, film.end));
+        throw run_error(fmt::format("samples {}:{} do not continue a film that holds {}:{}", begin,
+                                    end, film.begin, film.end));
     }
     while (film.end < end && !interrupted()) {
         state_->render_batch(film.end, std::min(end, film.end + batch_size()));

@@ -27,8 +27,8 @@ struct ReferenceStats {
     uint64_t shadow_rays = 0;
 };
 
-/// The independent path tracer: Embree for visibility, everything else its own and in double precision.
-/// It shares no BSDF, light, camera or random-number code with the renderer.
+/// The independent path tracer: Embree for visibility, everything else its own and in double
+/// precision. It shares no BSDF, light, camera or random-number code with the renderer.
 ///
 /// The film's bits depend on the scene, the settings (threads apart) and the sample range alone.
 class ReferenceRenderer {
@@ -37,17 +37,18 @@ class ReferenceRenderer {
     ReferenceRenderer(const SceneArrays &scene, const ReferenceSettings &settings);
     ~ReferenceRenderer();
 
-    /// Adds the samples [begin, end) of every pixel. `begin` must be the end of what the film holds already
-    /// (anything while it is empty). Stops at the next batch once `interrupted()`; returns the end of what
-    /// was rendered. Throws `Error` (run failed) naming pixel and sample when a path's radiance is not
-    /// finite; the film is then void.
+    /// Adds the samples [begin, end) of every pixel. `begin` must be the end of what the film holds
+    /// already (anything while it is empty). Stops at the next batch once `interrupted()`; returns
+    /// the end of what was rendered. Throws `Error` (run failed) naming pixel and sample when a
+    /// path's radiance is not finite; the film is then void.
     uint64_t render(uint64_t begin, uint64_t end);
 
     /// Samples per pixel and call of `render` that take a fraction of a second: a good step between
     /// checkpoints.
     uint64_t batch_size() const;
 
-    /// R, G, B, variance.R, .G, .B (of the mean), samples; attributes samplesPerPixel, renderTimeSeconds.
+    /// R, G, B, variance.R, .G, .B (of the mean), samples; attributes samplesPerPixel,
+    /// renderTimeSeconds.
     Image develop() const;
 
     double seconds() const;    ///< wall time spent in `render`, plus that of a restored film

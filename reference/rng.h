@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random numbers of the reference: xoshiro256** (Blackman & Vigna 2021, "Scrambled Linear Pseudorandom
-// Number Generators"), seeded by SplitMix64 (Steele et al. 2014). The renderer uses Philox: the two share
-// nothing.
+// Random numbers of the reference: xoshiro256** (Blackman & Vigna 2021, "Scrambled Linear
+// Pseudorandom Number Generators"), seeded by SplitMix64 (Steele et al. 2014). The renderer uses
+// Philox: the two share nothing.
 #pragma once
 
 #include <array>
@@ -9,17 +9,19 @@
 
 namespace rtrays::reference {
 
-/// One generator per camera path. The start state is an injective function of (seed, pixel, sample), so
-/// what a path does depends on these three and on nothing else: not on threads, batches or checkpoints.
+/// One generator per camera path. The start state is an injective function of (seed, pixel,
+/// sample), so what a path does depends on these three and on nothing else: not on threads, batches
+/// or checkpoints.
 class Rng {
   public:
     Rng(uint64_t seed, uint64_t pixel, uint64_t sample) {
-        // Each step mixes one more coordinate through a bijection. The first output depends on state_[1]
-        // alone, so that word must be the one that has seen all three.
+        // Each step mixes one more coordinate through a bijection. The first output depends on
+        // state_[1] alone, so that word must be the one that has seen all three.
         const uint64_t of_seed = mix(seed + golden);
         const uint64_t of_pixel = mix((of_seed ^ pixel) + golden);
         const uint64_t of_sample = mix((of_pixel ^ sample) + golden);
-        state_ = {of_pixel, of_sample, mix(of_sample + golden), mix(of_sample + 2 * golden) ^ of_seed};
+        state_ = {of_pixel, of_sample, mix(of_sample + golden),
+                  mix(of_sample + 2 * golden) ^ of_seed};
     }
 
     uint64_t next_bits() {

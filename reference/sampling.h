@@ -11,8 +11,8 @@
 
 namespace rtrays::reference {
 
-/// Direction on the upper hemisphere (local frame, z up) with pdf_w = cos(theta) / pi: a uniform point of
-/// the unit disc, projected up (Malley's method; PBRT 4th ed., 13.6.3).
+/// Direction on the upper hemisphere (local frame, z up) with pdf_w = cos(theta) / pi: a uniform
+/// point of the unit disc, projected up (Malley's method; PBRT 4th ed., 13.6.3).
 inline Vec3 sample_cosine_hemisphere(Rng &rng) {
     const double radius_squared = rng.uniform();
     const double phi = 2.0 * pi * rng.uniform();
@@ -28,9 +28,9 @@ inline Eigen::Vector2d sample_triangle(Rng &rng) {
     return {root * (1.0 - along), root * along};
 }
 
-/// Weight of a sample of density `pdf` when one of density `other` (same measure) could have made it too:
-/// power heuristic with beta = 2, one sample each (Veach 1997, eq. 9.13). The ratio form cannot overflow
-/// to NaN: an infinite ratio gives weight 0. Requires pdf > 0.
+/// Weight of a sample of density `pdf` when one of density `other` (same measure) could have made
+/// it too: power heuristic with beta = 2, one sample each (Veach 1997, eq. 9.13). The ratio form
+/// cannot overflow to NaN: an infinite ratio gives weight 0. Requires pdf > 0.
 inline double power_heuristic(double pdf, double other) {
     return 1.0 / (1.0 + square(other / pdf));
 }
@@ -40,7 +40,8 @@ class AliasTable {
   public:
     AliasTable() = default;
 
-    /// `weights`: finite, not negative, at least one positive (throws `Error`, run failed, otherwise).
+    /// `weights`: finite, not negative, at least one positive (throws `Error`, run failed,
+    /// otherwise).
     explicit AliasTable(const std::vector<double> &weights);
 
     /// Probability of index `i`.
@@ -48,8 +49,8 @@ class AliasTable {
 
     /// An index, each with its probability. The table must not be empty.
     uint32_t sample(Rng &rng) const {
-        // Below the size even when rounded: u <= 1 - 2^-53 lowers it by at least half the spacing of doubles
-        // there.
+        // Below the size even when rounded: u <= 1 - 2^-53 lowers it by at least half the spacing
+        // of doubles there.
         const double scaled = rng.uniform() * static_cast<double>(slots_.size());
         const auto i = static_cast<uint32_t>(scaled);
         return scaled - i < slots_[i].keep ? i : slots_[i].alias;

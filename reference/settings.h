@@ -28,8 +28,9 @@ std::string name_of(Strategies strategies);
 /// Throws `Error` (bad input) listing the alternatives.
 Strategies strategies_from_name(const std::string &name);
 
-/// The light that light tracing sees: without light at infinity that the camera looks at, without what the camera sees in
-/// mirrors and smooth glass, and of light from infinity only what comes through a ball.
+/// The light that light tracing sees: without light at infinity that the camera looks at, without
+/// what the camera sees in mirrors and smooth glass, and of light from infinity only what comes
+/// through a ball.
 struct JoinableLight {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = std::numeric_limits<double>::infinity();
@@ -48,9 +49,10 @@ struct ReferenceSettings {
     uint64_t seed = 1;
     Strategies strategies = Strategies::mis;
     uint32_t max_depth = 0;  ///< scattering events, 1 is direct light; 0: no limit
-    bool roulette = true;    ///< false: paths end at max_depth alone, to be timed against others that do
+    bool roulette =
+        true;  ///< false: paths end at max_depth alone, to be timed against others that do
     std::optional<JoinableLight> joinable_only;  ///< nothing: all light
-    int threads = 0;         ///< 0: all
+    int threads = 0;                             ///< 0: all
 };
 
 }  // namespace rtrays

@@ -3,7 +3,8 @@
 
 namespace rtrays::reference {
 
-Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo) {
+Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &point,
+                                const Vec3 &wo) {
     const Vec3 ng = geometry.normal(point);
     Parametrization surface = geometry.parametrize(point);
     Vec3 &ns = surface.shading_normal;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The local frame in which a surface scatters.
 //
-// Convention of interpolated normals, the same in the renderer: the shading normal ns is turned to the side
-// of the geometric normal ng; where wo then still lies on different sides of the two, ng takes the place of
-// ns. BSDF and cosine are those of ns. A direction wi on different sides of ng and ns contributes nothing,
-// neither when it was sampled (the path ends) nor when a light lies there: so what is reflected leaves on
-// wo's geometric side, what is refracted on the other one, and no light leaks through a closed surface.
+// Convention of interpolated normals, the same in the renderer: the shading normal ns is turned to
+// the side of the geometric normal ng; where wo then still lies on different sides of the two, ng
+// takes the place of ns. BSDF and cosine are those of ns. A direction wi on different sides of ng
+// and ns contributes nothing, neither when it was sampled (the path ends) nor when a light lies
+// there: so what is reflected leaves on wo's geometric side, what is refracted on the other one,
+// and no light leaks through a closed surface.
 #pragma once
 
 #include "reference/geometry.h"
@@ -26,10 +27,11 @@ struct Shading {
 };
 
 /// The surface's parametrization with its shading normal turned and replaced as above.
-Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo);
+Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &point,
+                                const Vec3 &wo);
 
-/// `parametrized`: whether uv and the direction of dp/du are asked for. All of the plain case is inline, so
-/// that the frame stays in registers.
+/// `parametrized`: whether uv and the direction of dp/du are asked for. All of the plain case is
+/// inline, so that the frame stays in registers.
 inline Shading make_shading(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo,
                             bool parametrized) {
     const Vec3 ng = geometry.normal(point);
@@ -37,7 +39,8 @@ inline Shading make_shading(const Geometry &geometry, const SurfacePoint &point,
         return {Frame(ng), ng, Eigen::Vector2d::Zero(), false};
     }
     const Parametrization surface = parametrize_for(geometry, point, wo);
-    return {Frame(surface.shading_normal, surface.tangent), ng, surface.uv, surface.shading_normal != ng};
+    return {Frame(surface.shading_normal, surface.tangent), ng, surface.uv,
+            surface.shading_normal != ng};
 }
 
 }  // namespace rtrays::reference

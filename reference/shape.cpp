@@ -33,7 +33,8 @@ Surface make_surface(const ShapeArrays &shapes, size_t i) {
             return JuliaSet(shapes.julia_constant[i], shapes.julia_slice[i], n);
         }
         case Kind::hyperboloid:
-            require(shapes.flare[i] > 0.0 && std::isfinite(shapes.flare[i]), "flare must be positive");
+            require(shapes.flare[i] > 0.0 && std::isfinite(shapes.flare[i]),
+                    "flare must be positive");
             break;
         default:
             break;
@@ -47,7 +48,8 @@ Eigen::AlignedBox3d object_bounds(const Surface &surface) {
         return {Vec3(-r, -r, quadric->low()), Vec3(r, r, quadric->high())};
     }
     if (const auto *julia = std::get_if<JuliaSet>(&surface)) {
-        return {Vec3::Constant(-julia->bounding_radius()), Vec3::Constant(julia->bounding_radius())};
+        return {Vec3::Constant(-julia->bounding_radius()),
+                Vec3::Constant(julia->bounding_radius())};
     }
     return {Vec3(-1, -1, 0), Vec3(1, 1, 0)};
 }
@@ -77,8 +79,8 @@ Shape::Shape(const ShapeArrays &shapes, size_t index)
     // The determinant over that of a rotation of the same scale: below, double has no digits left.
     if (!transform.allFinite() || !affine ||
         !(std::abs(linear_.determinant()) > 1e-12 * scale * scale * scale)) {
-        throw input_error(fmt::format("shape {} '{}': its transform must be affine and invertible", index,
-                                      shapes.name[index]));
+        throw input_error(fmt::format("shape {} '{}': its transform must be affine and invertible",
+                                      index, shapes.name[index]));
     }
     inverse_ = linear_.inverse();
     const Eigen::AlignedBox3d box = object_bounds(surface_);
@@ -91,8 +93,9 @@ Shape::Shape(const ShapeArrays &shapes, size_t index)
 bool Shape::intersect(const Ray &ray, double t_max, double &t, Vec3 &object) const {
     const Vec3 origin = inverse_ * (ray.origin - centre_);
     const Vec3 direction = inverse_ * ray.direction;
-    if (!std::visit([&](const auto &surface) { return surface.intersect(origin, direction, t_max, t); },
-                    surface_)) {
+    if (!std::visit(
+            [&](const auto &surface) { return surface.intersect(origin, direction, t_max, t); },
+            surface_)) {
         return false;
     }
     object = origin + t * direction;
@@ -114,7 +117,8 @@ Vec3 Shape::normal(const Vec3 &object) const {
     // Gradients transform by the inverse transpose, mirrored or not (PBRT 4th ed., 3.10.3).
     const Vec3 normal = inverse_.transpose() * gradient;
     const double length = normal.norm();
-    return length > 0.0 ? Vec3(normal / length) : Vec3(linear_.col(2).normalized());  // apex of a cone
+    return length > 0.0 ? Vec3(normal / length)
+                        : Vec3(linear_.col(2).normalized());  // apex of a cone
 }
 
 Vec3 Shape::tangent(const Vec3 &object) const {
@@ -140,8 +144,9 @@ Vec3 Shape::spawn_point(const Vec3 &object, const Vec3 &direction) const {
     const Vec3 n = normal(object);
     const Vec3 position = to_world(object);
     // A plane has points at any distance from its object's origin.
-    const double offset =
-        is_bounded() ? offset_ : std::max(offset_, relative_offset * position.cwiseAbs().maxCoeff());
+    const double offset = is_bounded()
+                              ? offset_
+                              : std::max(offset_, relative_offset * position.cwiseAbs().maxCoeff());
     return position + std::copysign(offset, n.dot(direction)) * n;
 }
 

@@ -20,12 +20,12 @@ struct Flat {
     bool intersect(const Vec3 &origin, const Vec3 &direction, double t_max, double &t) const;
 };
 
-/// One surface, placed in the world. Rays keep their parameter t in object space: directions there are not
-/// of unit length.
+/// One surface, placed in the world. Rays keep their parameter t in object space: directions there
+/// are not of unit length.
 class Shape {
   public:
-    /// Throws `Error` (bad input) naming the shape for a transform that is not affine and invertible, and
-    /// for parameters out of range.
+    /// Throws `Error` (bad input) naming the shape for a transform that is not affine and
+    /// invertible, and for parameters out of range.
     Shape(const ShapeArrays &shapes, size_t index);
 
     uint32_t material() const { return material_; }
@@ -34,13 +34,15 @@ class Shape {
     const Eigen::Matrix3d &linear() const { return linear_; }  ///< world from object
     const Vec3 &centre() const { return centre_; }             ///< the object's origin in the world
 
-    /// Nearest hit with t in (0, t_max); `object` is the point in object space, on the surface to rounding.
+    /// Nearest hit with t in (0, t_max); `object` is the point in object space, on the surface to
+    /// rounding.
     bool intersect(const Ray &ray, double t_max, double &t, Vec3 &object) const;
 
     Vec3 to_world(const Vec3 &object) const { return linear_ * object + centre_; }
 
-    Vec3 normal(const Vec3 &object) const;   ///< world, unit, on the front
-    Vec3 tangent(const Vec3 &object) const;  ///< world, along dp/du; the object's x axis for a Julia set
+    Vec3 normal(const Vec3 &object) const;  ///< world, unit, on the front
+    Vec3 tangent(
+        const Vec3 &object) const;  ///< world, along dp/du; the object's x axis for a Julia set
     Eigen::Vector2d uv(const Vec3 &object) const;
 
     bool is_bounded() const { return kind_ != ShapeArrays::Kind::plane; }
@@ -48,9 +50,9 @@ class Shape {
 
     double offset() const { return offset_; }  ///< of spawn points from a bounded surface
 
-    /// Where a ray that leaves the point to the side of `direction` starts: off the surface by 1e-10 of
-    /// its size and distance from the origin, 1e5 times the rounding of the double arithmetic that looks for
-    /// its next hit.
+    /// Where a ray that leaves the point to the side of `direction` starts: off the surface by
+    /// 1e-10 of its size and distance from the origin, 1e5 times the rounding of the double
+    /// arithmetic that looks for its next hit.
     Vec3 spawn_point(const Vec3 &object, const Vec3 &direction) const;
 
   private:

@@ -33,8 +33,8 @@ const std::array<ByteTable, 2> byte_tables{make_table(false), make_table(true)};
 }  // namespace
 
 Spectrum texel(const TextureImage &image, int column, int row) {
-    const size_t first =
-        3 * (static_cast<size_t>(row) * static_cast<size_t>(image.width) + static_cast<size_t>(column));
+    const size_t first = 3 * (static_cast<size_t>(row) * static_cast<size_t>(image.width) +
+                              static_cast<size_t>(column));
     if (image.bytes.empty()) {
         const float *values = image.floats.data() + first;
         return {static_cast<double>(values[0]), static_cast<double>(values[1]),
@@ -49,11 +49,12 @@ void require_valid(const TextureImage *image, const std::string &what) {
     if (image == nullptr || image->width < 1 || image->height < 1) {
         throw input_error(fmt::format("{}: there is no image", what));
     }
-    const size_t values = 3 * static_cast<size_t>(image->width) * static_cast<size_t>(image->height);
+    const size_t values =
+        3 * static_cast<size_t>(image->width) * static_cast<size_t>(image->height);
     if (image->bytes.size() + image->floats.size() != values ||
         (!image->bytes.empty() && !image->floats.empty())) {
-        throw input_error(fmt::format("{}: the image holds another number of texels than {}x{}", what,
-                                      image->width, image->height));
+        throw input_error(fmt::format("{}: the image holds another number of texels than {}x{}",
+                                      what, image->width, image->height));
     }
     const auto usable = [](float value) { return value >= 0.0f && std::isfinite(value); };
     if (!std::all_of(image->floats.begin(), image->floats.end(), usable)) {
@@ -80,8 +81,9 @@ int Texture::wrap(int64_t i, int size) const {
 
 Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
     const int width = image_->width, height = image_->height;
-    // Texel coordinates from the lower left corner. Coordinates beyond 2^52 texels have no fraction left
-    // and would overflow the integers below: they are held there, where every texel is as good.
+    // Texel coordinates from the lower left corner. Coordinates beyond 2^52 texels have no fraction
+    // left and would overflow the integers below: they are held there, where every texel is as
+    // good.
     const auto coordinate = [](double x) { return std::clamp(x, -0x1p52, 0x1p52); };
     const double x = coordinate((scale_.x() * uv.x() + offset_.x()) * width);
     const double y = coordinate((scale_.y() * uv.y() + offset_.y()) * height);
@@ -94,7 +96,8 @@ Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
     }
     const double column = std::floor(x - 0.5), row = std::floor(y - 0.5);
     const double right = x - 0.5 - column, up = y - 0.5 - row;
-    const Spectrum below = (1.0 - right) * look_up(column, row) + right * look_up(column + 1.0, row);
+    const Spectrum below =
+        (1.0 - right) * look_up(column, row) + right * look_up(column + 1.0, row);
     const Spectrum above =
         (1.0 - right) * look_up(column, row + 1.0) + right * look_up(column + 1.0, row + 1.0);
     return (1.0 - up) * below + up * above;

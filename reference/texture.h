@@ -11,12 +11,12 @@ namespace rtrays::reference {
 /// Linear colour of a texel, rows from the top; column and row must lie in the image.
 Spectrum texel(const TextureImage &image, int column, int row);
 
-/// A colour over the (u, v) plane (conventions: renderer/scene/stores.h). Bytes are decoded before they are
-/// interpolated.
+/// A colour over the (u, v) plane (conventions: renderer/scene/stores.h). Bytes are decoded before
+/// they are interpolated.
 class Texture {
   public:
-    /// Texture `index` of the store. Throws `Error` (bad input) for an image that is missing, empty, of
-    /// another size than it states, or with values that are negative or not finite.
+    /// Texture `index` of the store. Throws `Error` (bad input) for an image that is missing,
+    /// empty, of another size than it states, or with values that are negative or not finite.
     Texture(const TextureArrays &textures, size_t index);
 
     Spectrum evaluate(const Eigen::Vector2d &uv) const;

@@ -12,8 +12,9 @@ namespace rtrays::reference {
 
 namespace {
 
-// Half ulps of the largest coordinate between a ray origin and its plane. A float origin is off by one
-// half ulp per axis and Embree's plane distance by a few more (v0 - origin, three products, two sums).
+// Half ulps of the largest coordinate between a ray origin and its plane. A float origin is off by
+// one half ulp per axis and Embree's plane distance by a few more (v0 - origin, three products, two
+// sums).
 constexpr double offset_half_ulps = 16.0;
 constexpr double margin_over_offset = 4.0;
 
@@ -34,15 +35,16 @@ bool make_record(const MeshArrays &meshes, uint32_t index, TriangleRecord &recor
     record.edge2 = v[2] - v[0];
     const Vec3 cross = record.edge1.cross(record.edge2);
     const double doubled_area = cross.norm();
-    const double longest = std::max({record.edge1.norm(), record.edge2.norm(), (v[2] - v[1]).norm()});
+    const double longest =
+        std::max({record.edge1.norm(), record.edge2.norm(), (v[2] - v[1]).norm()});
     if (!(doubled_area > 1e-14 * longest * longest)) {
         return false;
     }
     record.normal = cross / doubled_area;
 
     const double half_ulp = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-    const double magnitude = std::max(
-        {v[0].cwiseAbs().maxCoeff(), v[1].cwiseAbs().maxCoeff(), v[2].cwiseAbs().maxCoeff(), longest});
+    const double magnitude = std::max({v[0].cwiseAbs().maxCoeff(), v[1].cwiseAbs().maxCoeff(),
+                                       v[2].cwiseAbs().maxCoeff(), longest});
     record.offset = offset_half_ulps * half_ulp * magnitude;
     const double smallest_height = doubled_area / longest;
     record.margin = std::min(margin_over_offset * record.offset / smallest_height, 0.25);

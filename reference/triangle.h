@@ -29,21 +29,21 @@ struct TriangleRecord {
     }
     double area() const { return 0.5 * edge1.cross(edge2).norm(); }
 
-    /// Barycentrics of the point where the ray's line meets the plane (Moeller & Trumbore 1997), moved onto
-    /// the triangle: a float hit next to an edge, or at a grazing angle, may lie outside in double.
-    /// `fallback` is used when the line is parallel to the plane.
+    /// Barycentrics of the point where the ray's line meets the plane (Moeller & Trumbore 1997),
+    /// moved onto the triangle: a float hit next to an edge, or at a grazing angle, may lie outside
+    /// in double. `fallback` is used when the line is parallel to the plane.
     Eigen::Vector2d intersect_plane(const Ray &ray, const Eigen::Vector2d &fallback) const;
 
-    /// Where a ray that leaves `position`, whose barycentrics are the first two of `local`, to the side of
-    /// `direction` starts: off the plane by a multiple
-    /// of what float rounding and Embree's float arithmetic can do, so that it never meets its own triangle,
-    /// and away from the edges by four times as much, so that it is not pushed through a neighbour that
-    /// meets this triangle at an edge with more than 14 degrees.
+    /// Where a ray that leaves `position`, whose barycentrics are the first two of `local`, to the
+    /// side of `direction` starts: off the plane by a multiple of what float rounding and Embree's
+    /// float arithmetic can do, so that it never meets its own triangle, and away from the edges by
+    /// four times as much, so that it is not pushed through a neighbour that meets this triangle at
+    /// an edge with more than 14 degrees.
     Vec3 spawn_point(const Vec3 &position, const Vec3 &local, const Vec3 &direction) const;
 };
 
-/// Fills the record of triangle `index` of the store; returns false when its area is zero (or below what
-/// double can tell from zero). Throws `Error` (bad input) for a vertex that is not finite.
+/// Fills the record of triangle `index` of the store; returns false when its area is zero (or below
+/// what double can tell from zero). Throws `Error` (bad input) for a vertex that is not finite.
 bool make_record(const MeshArrays &meshes, uint32_t index, TriangleRecord &record);
 
 inline Eigen::Vector2d TriangleRecord::intersect_plane(const Ray &ray,
@@ -72,7 +72,8 @@ inline Vec3 TriangleRecord::spawn_point(const Vec3 &position, const Vec3 &local,
     // Towards the centroid until the nearest edge is `margin` away.
     const double share = (margin - smallest) / (1.0 / 3.0 - smallest);
     const Eigen::Vector2d barycentric = local.head<2>();
-    const Eigen::Vector2d inner = barycentric + share * (Eigen::Vector2d::Constant(1.0 / 3.0) - barycentric);
+    const Eigen::Vector2d inner =
+        barycentric + share * (Eigen::Vector2d::Constant(1.0 / 3.0) - barycentric);
     return point(inner) + side * normal;
 }
 

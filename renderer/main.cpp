@@ -45,7 +45,8 @@ struct Options {
 };
 
 /// "AxB" or "A:B" as two numbers; throws `Error` (bad usage).
-std::pair<uint64_t, uint64_t> parse_pair(const std::string &text, char separator, const char *option) {
+std::pair<uint64_t, uint64_t> parse_pair(const std::string &text, char separator,
+                                         const char *option) {
     uint64_t first = 0, second = 0;
     const char *begin = text.data();
     const char *end = begin + text.size();
@@ -53,15 +54,17 @@ std::pair<uint64_t, uint64_t> parse_pair(const std::string &text, char separator
     const bool separated = one.ec == std::errc() && one.ptr != end && *one.ptr == separator;
     const auto two = separated ? std::from_chars(one.ptr + 1, end, second) : one;
     if (!separated || two.ec != std::errc() || two.ptr != end) {
-        throw input_error(fmt::format("{} '{}': expected two numbers separated by '{}'", option, text, separator));
+        throw input_error(fmt::format("{} '{}': expected two numbers separated by '{}'", option,
+                                      text, separator));
     }
     return {first, second};
 }
 
 void print_devices() {
     for (const DeviceInfo &info : list_devices()) {
-        fmt::print("{}  ({}, driver {}, {} compute units, {:.1f} GiB)\n", info.name, info.platform_name, info.driver,
-                   info.compute_units, static_cast<double>(info.global_memory) / 0x1p30);
+        fmt::print("{}  ({}, driver {}, {} compute units, {:.1f} GiB)\n", info.name,
+                   info.platform_name, info.driver, info.compute_units,
+                   static_cast<double>(info.global_memory) / 0x1p30);
     }
 }
 
@@ -76,8 +79,10 @@ Image select_layers(const Image &image, const std::vector<std::string> &layers) 
     for (const Image::Channel &channel : image.channels()) {
         const std::string layer = channel.name.substr(0, channel.name.find('.'));
         const bool colour = channel.name == "R" || channel.name == "G" || channel.name == "B";
-        const bool own = layer == "variance" || layer == "samples";  // all others are images of passes
-        if (colour || (own ? wanted(layers, layer) : wanted(layers, "passes") || wanted(layers, "strategies"))) {
+        const bool own =
+            layer == "variance" || layer == "samples";  // all others are images of passes
+        if (colour || (own ? wanted(layers, layer)
+                           : wanted(layers, "passes") || wanted(layers, "strategies"))) {
             selected.add_channel(channel.name) = channel.values;
         }
     }
@@ -94,7 +99,8 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
     };
     const auto start = Clock::now();
     if (options.seconds) {
-        Progress progress("rendering", static_cast<uint64_t>(*options.seconds * 1000), "ms", options.quiet);
+        Progress progress("rendering", static_cast<uint64_t>(*options.seconds * 1000), "ms",
+                          options.quiet);
         uint64_t step = 1;
         while (!interrupted()) {
             const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
@@ -105,9 +111,12 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
             }
             const double before = session.stats().wall_seconds;
             range.begin = session.render(range.begin, range.begin + step);
-            // Steps of about a tenth of the time left, by what the last one took, keep the overshoot small.
-            const double rate = static_cast<double>(step) / std::max(session.stats().wall_seconds - before, 1e-9);
-            step = std::max<uint64_t>(1, static_cast<uint64_t>(0.1 * (*options.seconds - elapsed) * rate));
+            // Steps of about a tenth of the time left, by what the last one took, keep the
+            // overshoot small.
+            const double rate =
+                static_cast<double>(step) / std::max(session.stats().wall_seconds - before, 1e-9);
+            step = std::max<uint64_t>(
+                1, static_cast<uint64_t>(0.1 * (*options.seconds - elapsed) * rate));
         }
     } else {
         Progress progress("rendering", range.end, "spp", options.quiet);
@@ -160,7 +169,8 @@ ExitCode run(Options &options) {
             if (equals == std::string::npos) {
                 throw input_error(fmt::format("--set {}: expected NAME=VALUE", assignment));
             }
-            scene.set_property(assignment.substr(scene_prefix.size(), equals - scene_prefix.size()), assignment.substr(equals + 1));
+            scene.set_property(assignment.substr(scene_prefix.size(), equals - scene_prefix.size()),
+                               assignment.substr(equals + 1));
         } else {
             apply_setting(options.settings, assignment);
         }
@@ -173,7 +183,8 @@ ExitCode run(Options &options) {
     if (!options.size.empty()) {
         const auto [width, height] = parse_pair(options.size, 'x', "--size");
         if (width < 1 || height < 1 || width > 65536 || height > 65536) {
-            throw input_error(fmt::format("--size {}: sides must be from 1 to 65536 pixels", options.size));
+            throw input_error(
+                fmt::format("--size {}: sides must be from 1 to 65536 pixels", options.size));
         }
         options.settings.width = static_cast<int>(width);
         options.settings.height = static_cast<int>(height);
@@ -183,7 +194,8 @@ ExitCode run(Options &options) {
     }
     if (!options.exported.empty()) {
         scene.set_film_size(options.settings.width, options.settings.height);
-        export_scene(scene, options.exported, {options.spp.value_or(64), options.settings.max_depth});
+        export_scene(scene, options.exported,
+                     {options.spp.value_or(64), options.settings.max_depth});
         return ExitCode::ok;
     }
     if (options.output.empty() && !options.dry_run) {
@@ -194,7 +206,8 @@ ExitCode run(Options &options) {
         const auto [begin, end] = parse_pair(options.samples, ':', "--samples");
         range = {begin, end};
         if (begin >= end) {
-            throw input_error(fmt::format("--samples {}: BEGIN must be below END", options.samples));
+            throw input_error(
+                fmt::format("--samples {}: BEGIN must be below END", options.samples));
         }
     }
 
@@ -238,7 +251,8 @@ ExitCode run(Options &options) {
     return ExitCode::ok;
 }
 
-ExitCode merge(const std::vector<std::string> &inputs, const std::string &output, const std::string &state) {
+ExitCode merge(const std::vector<std::string> &inputs, const std::string &output,
+               const std::string &state) {
     require_exr_output(output);
     FilmState film = load_film(inputs.front());
     for (size_t i = 1; i < inputs.size(); ++i) {
@@ -261,36 +275,57 @@ ExitCode merge(const std::vector<std::string> &inputs, const std::string &output
 ExitCode parse_and_run(int argc, char **argv) {
     install_interrupt_handler();
     Options options;
-    CLI::App app("Renders a scene on an OpenCL device.\n\nOther uses: rtrays-render merge FILM... -o OUT.exr", "rtrays-render");
+    CLI::App app(
+        "Renders a scene on an OpenCL device.\n\nOther uses: rtrays-render merge FILM... -o "
+        "OUT.exr",
+        "rtrays-render");
     app.set_version_flag("--version", "rtrays-render 0.1.0 (" + commit() + ")");
     app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings() +
                "  scene.NODE.PROPERTY = ...  any property that --print-scene lists");
     bool devices = false, algorithms = false;
     app.add_flag("--list-devices", devices, "list the OpenCL devices and stop");
     app.add_flag("--list-algorithms", algorithms, "list the algorithms and stop");
-    app.add_option("SCENE", options.scene, "scene (.json, Mitsuba 3 .xml) or model file (.ply, .obj, .gltf, ...)");
+    app.add_option("SCENE", options.scene,
+                   "scene (.json, Mitsuba 3 .xml) or model file (.ply, .obj, .gltf, ...)");
     app.add_option("-o,--output", options.output, "image to write (.exr)");
-    app.add_option("--export", options.exported, "write the scene for Mitsuba 3 (.xml) or Blender's Cycles (.blender.json) and stop");
-    app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")->capture_default_str();
-    app.add_option("--passes", options.settings.passes, "of an algorithm with two, to be merged later: all, camera or light")->check(CLI::IsMember({"all", "camera", "light"}))->capture_default_str();
-    app.add_option("--spp", options.spp, "samples per pixel (default 64)")->check(CLI::PositiveNumber);
-    app.add_option("--time", options.seconds, "render for that many seconds instead")->check(CLI::PositiveNumber);
+    app.add_option(
+        "--export", options.exported,
+        "write the scene for Mitsuba 3 (.xml) or Blender's Cycles (.blender.json) and stop");
+    app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")
+        ->capture_default_str();
+    app.add_option("--passes", options.settings.passes,
+                   "of an algorithm with two, to be merged later: all, camera or light")
+        ->check(CLI::IsMember({"all", "camera", "light"}))
+        ->capture_default_str();
+    app.add_option("--spp", options.spp, "samples per pixel (default 64)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--time", options.seconds, "render for that many seconds instead")
+        ->check(CLI::PositiveNumber);
     app.add_option("--samples", options.samples, "only the samples BEGIN:END of every pixel");
     app.add_option("--seed", options.settings.seed, "of the random numbers")->capture_default_str();
     app.add_option("--size", options.size, "WxH in pixels (default: the scene's film)");
     app.add_option("--at", options.scene_time, "scene time in seconds")->capture_default_str();
-    app.add_option("--device", options.device, "gpu, cpu, PLATFORM:DEVICE or part of a name (default: a GPU, else a CPU)");
+    app.add_option("--device", options.device,
+                   "gpu, cpu, PLATFORM:DEVICE or part of a name (default: a GPU, else a CPU)");
     app.add_option("--state", options.state, "film state file to keep, for --resume and merge");
     app.add_flag("--resume", options.resume, "continue from --state if it exists");
-    app.add_option("--set", options.assignments, "NAME=VALUE, may be repeated")->allow_extra_args(false);
-    app.add_option("--stats", options.stats, "write features, kernels, bytes, launches, seconds (.json)");
-    app.add_option("--layers", options.layers, "layers besides R,G,B")->delimiter(',')->check(CLI::IsMember({"variance", "samples", "passes", "strategies", "none"}))->capture_default_str();
+    app.add_option("--set", options.assignments, "NAME=VALUE, may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--stats", options.stats,
+                   "write features, kernels, bytes, launches, seconds (.json)");
+    app.add_option("--layers", options.layers, "layers besides R,G,B")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"variance", "samples", "passes", "strategies", "none"}))
+        ->capture_default_str();
     app.add_flag("--print-scene", options.print_scene, "print nodes and properties and stop");
-    app.add_flag("--dry-run", options.dry_run, "compile everything, print the stats document, render nothing");
+    app.add_flag("--dry-run", options.dry_run,
+                 "compile everything, print the stats document, render nothing");
     app.add_flag("-q,--quiet", options.quiet, "no progress");
 
-    CLI::App merge_app("Adds film states of one scene and one seed with disjoint sample ranges: the same bits as one render.",
-                       "rtrays-render merge");
+    CLI::App merge_app(
+        "Adds film states of one scene and one seed with disjoint sample ranges: the same bits as "
+        "one render.",
+        "rtrays-render merge");
     std::vector<std::string> films;
     std::string merge_output, merge_state;
     merge_app.add_option("FILM", films, "film states")->required();

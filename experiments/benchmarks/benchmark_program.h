@@ -20,7 +20,8 @@ inline std::vector<std::string> benchmark_meshes() {
     std::vector<std::string> meshes = measured_meshes();
     meshes.erase(std::remove_if(meshes.begin(), meshes.end(),
                                 [](const std::string &name) {
-                                    return name.rfind("san_miguel", 0) == 0 || name == "cloth_ball_next";
+                                    return name.rfind("san_miguel", 0) == 0 ||
+                                           name == "cloth_ball_next";
                                 }),
                  meshes.end());
     return meshes;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Building the hierarchy by every builder and layout on the OpenCL device and by Embree's three qualities, by
-// mesh: the turns of the experiment bvh_build.json. The time is that of a turn; counters, by contestant: ms
-// by wall time, and how many times faster than Embree's medium quality by processor time (medians).
+// Building the hierarchy by every builder and layout on the OpenCL device and by Embree's three
+// qualities, by mesh: the turns of the experiment bvh_build.json. The time is that of a turn;
+// counters, by contestant: ms by wall time, and how many times faster than Embree's medium quality
+// by processor time (medians).
 #include <benchmark/benchmark.h>
 
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rays per second through the hierarchy on the OpenCL device, by every builder and layout, and through
-// Embree's, by mesh and kind of ray: the turns of the experiment ray_rates.json. The time is that of a turn;
-// counters, by contestant: Mrays/s by wall time, and how many times faster than rtcIntersect1 or rtcOccluded1
-// by processor time (medians).
+// Rays per second through the hierarchy on the OpenCL device, by every builder and layout, and
+// through Embree's, by mesh and kind of ray: the turns of the experiment ray_rates.json. The time
+// is that of a turn; counters, by contestant: Mrays/s by wall time, and how many times faster than
+// rtcIntersect1 or rtcOccluded1 by processor time (medians).
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -37,7 +37,8 @@ void register_benchmarks(DeviceContext &device) {
                 for (const std::string &name : rays.contest().names()) {
                     state.counters[name + " Mrays/s"] =
                         rays.millions_of_rays() / rays.contest().wall_seconds(name).value;
-                    state.counters[name + " speed"] = rays.contest().speed_over(name, rays.baseline()).value;
+                    state.counters[name + " speed"] =
+                        rays.contest().speed_over(name, rays.baseline()).value;
                 }
             };
             benchmark::RegisterBenchmark((mesh + "/" + kind.name).c_str(), run)

@@ -19,8 +19,8 @@ constexpr const char *defaults = "defaults";
 
 /// Of the settings, those that decide the tree.
 bool is_of_builder(const std::string &setting) {
-    return setting.rfind("device.bvh_builder=", 0) == 0 || setting.rfind("device.bvh_bins=", 0) == 0 ||
-           setting.rfind("device.bvh_axes=", 0) == 0;
+    return setting.rfind("device.bvh_builder=", 0) == 0 ||
+           setting.rfind("device.bvh_bins=", 0) == 0 || setting.rfind("device.bvh_axes=", 0) == 0;
 }
 
 /// `setting`: NAME=VALUE, or `defaults`.
@@ -110,9 +110,9 @@ class Ablations {
     }
 
   private:
-    /// Every turn makes the session anew, untimed as its first frame is: the memory that it gets would
-    /// otherwise be its own for all turns, and sessions made first are up to 7 % slower than the same made
-    /// later.
+    /// Every turn makes the session anew, untimed as its first frame is: the memory that it gets
+    /// would otherwise be its own for all turns, and sessions made first are up to 7 % slower than
+    /// the same made later.
     void add(const std::string &setting) {
         const size_t place = known_frames_.size();
         known_frames_.emplace_back();
@@ -121,7 +121,8 @@ class Ablations {
             session.render(0, settings_.spp);
             session.restart(1);
             const Seconds seconds = time_of([&] { session.render(0, settings_.spp); });
-            if (known_frames_[place].is_null()) {  // the first compiles, where there is nothing in the cache
+            if (known_frames_[place]
+                    .is_null()) {  // the first compiles, where there is nothing in the cache
                 known_frames_[place] = facts(session);
             }
             return seconds;
@@ -158,8 +159,9 @@ class Ablations {
 MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContext &device) {
     MeasurementPlan plan;
     for (const std::string &scene : settings.scenes) {
-        plan.tasks.push_back(
-            {scene, [settings, scene, &device] { return Ablations(scene, settings, device).row(); }});
+        plan.tasks.push_back({scene, [settings, scene, &device] {
+                                  return Ablations(scene, settings, device).row();
+                              }});
     }
     plan.summarise = [](const Json &) { return Json::object(); };
     return plan;

@@ -39,8 +39,8 @@ RenderSettings settings_for(const MeasurementSettings &measurement, const std::s
     return settings;
 }
 
-ReferenceSettings reference_settings(const MeasurementSettings &measurement, const TimedScene &timed,
-                                     uint32_t depth) {
+ReferenceSettings reference_settings(const MeasurementSettings &measurement,
+                                     const TimedScene &timed, uint32_t depth) {
     ReferenceSettings settings;
     settings.width = measurement.width;
     settings.height = measurement.height;
@@ -76,13 +76,15 @@ class Bounces {
     }
 
   private:
-    /// Other renderers, each with the scene in a process of its own; those that are not there are listed.
+    /// Other renderers, each with the scene in a process of its own; those that are not there are
+    /// listed.
     void load_peers() {
         if (settings_.peers.empty()) {
             return;
         }
         timed_.scene.set_film_size(settings_.width, settings_.height);
-        const fs::path folder = fs::temp_directory_path() / fmt::format("rtrays-bounces-{}", getpid());
+        const fs::path folder =
+            fs::temp_directory_path() / fmt::format("rtrays-bounces-{}", getpid());
         fs::create_directories(folder);
         for (const std::string &kind : settings_.peers) {
             auto peer = std::make_unique<Peer>(timed_.scene, folder, kind);
@@ -96,13 +98,15 @@ class Bounces {
     }
 
     Json at_depth(uint32_t depth) {
-        ReferenceRenderer reference(timed_.scene.arrays(), reference_settings(settings_, timed_, depth));
+        ReferenceRenderer reference(timed_.scene.arrays(),
+                                    reference_settings(settings_, timed_, depth));
         Contest contest(clock_of(device_->info()));
         add(contest, ours, wavefront_, depth);
         add(contest, megakernel, megakernel_, depth);
         uint64_t done = reference.render(0, settings_.spp);
-        contest.add(embree,
-                    [&] { return time_of([&] { done = reference.render(done, done + settings_.spp); }); });
+        contest.add(embree, [&] {
+            return time_of([&] { done = reference.render(done, done + settings_.spp); });
+        });
         for (const std::unique_ptr<Peer> &peer : peers_) {
             peer->render(depth, settings_.spp);  // compiles
             contest.add(peer->engine(), [&, depth] { return peer->render(depth, settings_.spp); });
@@ -112,16 +116,17 @@ class Bounces {
         make_sessions({&megakernel_, &wavefront_});
         run_turns(contest, settings_.repetitions - settings_.repetitions / 2);
 
-        const double samples =
-            static_cast<double>(settings_.width) * settings_.height * static_cast<double>(settings_.spp);
+        const double samples = static_cast<double>(settings_.width) * settings_.height *
+                               static_cast<double>(settings_.spp);
         Json contestants = Json::array();
         for (const std::string &contestant : contest.names()) {
             const Interval seconds = contest.wall_seconds(contestant);
-            contestants.push_back({{"name", contestant},
-                                   {"Msamples_s", to_json(Interval{1e-6 * samples / seconds.value,
-                                                                   1e-6 * samples / seconds.high,
-                                                                   1e-6 * samples / seconds.low})},
-                                   {"processor_ms", scaled(contest.processor_seconds(contestant), 1e3)}});
+            contestants.push_back(
+                {{"name", contestant},
+                 {"Msamples_s",
+                  to_json(Interval{1e-6 * samples / seconds.value, 1e-6 * samples / seconds.high,
+                                   1e-6 * samples / seconds.low})},
+                 {"processor_ms", scaled(contest.processor_seconds(contestant), 1e3)}});
         }
         Json wavefront_over = Json::object();
         for (const std::string &rival : contest.names()) {
@@ -148,9 +153,9 @@ class Bounces {
         std::unique_ptr<RenderSession> session{};
     };
 
-    /// In that order, which half of the turns have one way and half the other: what is made first is up to 7
-    /// % slower, whichever it is, by the memory that it gets. The first frame touches all of it and is not
-    /// counted.
+    /// In that order, which half of the turns have one way and half the other: what is made first
+    /// is up to 7 % slower, whichever it is, by the memory that it gets. The first frame touches
+    /// all of it and is not counted.
     void make_sessions(const std::array<Pipeline *, 2> &order) {
         for (Pipeline *pipeline : order) {
             pipeline->session.reset();
@@ -191,7 +196,8 @@ MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext 
         Json means = Json::array();
         for (size_t i = 0; i < std::size(depths) && !rows.empty(); ++i) {
             Json mean = {{"max_depth", depths[i]}};
-            for (const auto &[rival, first] : rows.at(0).at("depths").at(i).at("wavefront_over").items()) {
+            for (const auto &[rival, first] :
+                 rows.at(0).at("depths").at(i).at("wavefront_over").items()) {
                 double logarithms = 0;
                 for (const Json &row : rows) {
                     const Json &speed = row.at("depths").at(i).at("wavefront_over").at(rival);

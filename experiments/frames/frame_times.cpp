@@ -34,7 +34,8 @@ struct Frame {
     double nearest_rays, shadow_rays;
 
     explicit Frame(const Json &report)
-        : nearest_rays(report.at("rays").at("nearest")), shadow_rays(report.at("rays").at("shadow")) {
+        : nearest_rays(report.at("rays").at("nearest")),
+          shadow_rays(report.at("rays").at("shadow")) {
         for (const Json &stage : report.at("stages")) {
             stages[stage.at("name")] += stage.at("seconds").get<double>();
         }
@@ -57,7 +58,8 @@ Json milliseconds(const std::vector<Frame> &frames, const Value &seconds) {
 
 class FrameContest {
   public:
-    FrameContest(const std::string &name, const MeasurementSettings &settings, DeviceContext &device)
+    FrameContest(const std::string &name, const MeasurementSettings &settings,
+                 DeviceContext &device)
         : measured_(load_timed_scene(name, Surfaces::own)),
           name_(name),
           spp_(settings.spp),
@@ -79,31 +81,33 @@ class FrameContest {
                                                     return frames_[turn].of(stage);
                                                 })}});
         }
-        return {{"mesh", name_},
-                {"procedural", measured_.is_procedural},
-                {"surfaces", measured_.description},
-                {"triangles", report.at("scene").at("triangles")},
-                {"turns", contest_.turns()},
-                {"foreign_load", contest_.foreign_load()},
-                {"bvh_ms", 1e3 * report.at("seconds").at("bvh_wall").get<double>()},
-                {"compile_ms", 1e3 * report.at("seconds").at("compile").get<double>()},
-                {"rays",
-                 {{"primary", direct.nearest_rays},
-                  {"shadow", direct.shadow_rays},
-                  {"secondary", bounce.nearest_rays - direct.nearest_rays},
-                  {"frame", frame.nearest_rays + frame.shadow_rays}}},
-                {"primary_ms",
-                 milliseconds(direct_, [&](size_t turn) { return direct_[turn].of("intersect_nearest"); })},
-                {"shadow_ms",
-                 milliseconds(direct_, [&](size_t turn) { return direct_[turn].of("intersect_any"); })},
-                {"secondary_ms", milliseconds(bounce_,
-                                              [&](size_t turn) {
-                                                  return bounce_[turn].of("intersect_nearest") -
-                                                         direct_[turn].of("intersect_nearest");
-                                              })},
-                {"frame_ms", scaled(contest_.wall_seconds("frame"), 1e3)},
-                {"frame_processor_ms", scaled(contest_.processor_seconds("frame"), 1e3)},
-                {"stages", stages}};
+        return {
+            {"mesh", name_},
+            {"procedural", measured_.is_procedural},
+            {"surfaces", measured_.description},
+            {"triangles", report.at("scene").at("triangles")},
+            {"turns", contest_.turns()},
+            {"foreign_load", contest_.foreign_load()},
+            {"bvh_ms", 1e3 * report.at("seconds").at("bvh_wall").get<double>()},
+            {"compile_ms", 1e3 * report.at("seconds").at("compile").get<double>()},
+            {"rays",
+             {{"primary", direct.nearest_rays},
+              {"shadow", direct.shadow_rays},
+              {"secondary", bounce.nearest_rays - direct.nearest_rays},
+              {"frame", frame.nearest_rays + frame.shadow_rays}}},
+            {"primary_ms",
+             milliseconds(direct_,
+                          [&](size_t turn) { return direct_[turn].of("intersect_nearest"); })},
+            {"shadow_ms",
+             milliseconds(direct_, [&](size_t turn) { return direct_[turn].of("intersect_any"); })},
+            {"secondary_ms", milliseconds(bounce_,
+                                          [&](size_t turn) {
+                                              return bounce_[turn].of("intersect_nearest") -
+                                                     direct_[turn].of("intersect_nearest");
+                                          })},
+            {"frame_ms", scaled(contest_.wall_seconds("frame"), 1e3)},
+            {"frame_processor_ms", scaled(contest_.processor_seconds("frame"), 1e3)},
+            {"stages", stages}};
     }
 
   private:

@@ -15,24 +15,39 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *cycles = "cycles";
-constexpr uint64_t frames_of_cycles = 4;  ///< in one of Blender's render calls, which itself takes a tenth of a second
+constexpr uint64_t frames_of_cycles =
+    4;  ///< in one of Blender's render calls, which itself takes a tenth of a second
 
 /// Exports the scene and tells the command that serves it.
-std::vector<std::string> served(const Scene &scene, const fs::path &folder, const std::string &kind) {
+std::vector<std::string> served(const Scene &scene, const fs::path &folder,
+                                const std::string &kind) {
     const fs::path file = folder / (kind == cycles ? "scene.blender.json" : "scene.xml");
     export_scene(scene, file);
     if (kind == cycles) {
-        return {"blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-                RTRAYS_SCRIPTS "/cycles_driver.py", "--", file.string(), "--serve"};
+        return {"blender",
+                "--background",
+                "--factory-startup",
+                "--python-exit-code",
+                "1",
+                "--python",
+                RTRAYS_SCRIPTS "/cycles_driver.py",
+                "--",
+                file.string(),
+                "--serve"};
     }
-    return {RTRAYS_SOURCE "/build/peers/bin/python", RTRAYS_SCRIPTS "/mitsuba_driver.py", file.string(), "--serve",
-            "--variant", kind};
+    return {RTRAYS_SOURCE "/build/peers/bin/python",
+            RTRAYS_SCRIPTS "/mitsuba_driver.py",
+            file.string(),
+            "--serve",
+            "--variant",
+            kind};
 }
 
 }  // namespace
 
 Peer::Peer(const Scene &scene, const fs::path &folder, const std::string &kind)
-    : process_(served(scene, folder, kind), python_environment()), frames_(kind == cycles ? frames_of_cycles : 1) {
+    : process_(served(scene, folder, kind), python_environment()),
+      frames_(kind == cycles ? frames_of_cycles : 1) {
     if (const std::string hello = next_record(); !hello.empty()) {
         engine_ = nlohmann::json::parse(hello).at("engine");
     }
@@ -55,11 +70,13 @@ Seconds Peer::render(uint32_t max_depth, uint64_t spp) {
     process_.write(fmt::format("{} {} {}\n", max_depth, frames_ * spp, ++seed_));
     const std::string answer = next_record();
     if (answer.empty()) {
-        throw run_error(fmt::format("{} ended before its image was done, by exit code {}", engine_, process_.wait()));
+        throw run_error(fmt::format("{} ended before its image was done, by exit code {}", engine_,
+                                    process_.wait()));
     }
     const nlohmann::json seconds = nlohmann::json::parse(answer);
     const auto frames = static_cast<double>(frames_);
-    return {seconds.at("seconds").get<double>() / frames, seconds.at("processor_seconds").get<double>() / frames};
+    return {seconds.at("seconds").get<double>() / frames,
+            seconds.at("processor_seconds").get<double>() / frames};
 }
 
 }  // namespace rtrays

@@ -13,11 +13,13 @@
 
 namespace rtrays {
 
-/// `scripts/*_driver.py --serve`, of Mitsuba 3 by the Python that `scripts/install --peers` makes, or in Blender.
+/// `scripts/*_driver.py --serve`, of Mitsuba 3 by the Python that `scripts/install --peers` makes,
+/// or in Blender.
 class Peer {
   public:
-    /// "scalar_rgb" or "llvm_ad_rgb", variants of Mitsuba, or "cycles": exports the scene to `folder` and waits until it is
-    /// loaded. Where the renderer or the variant is not installed, `is_there` is false.
+    /// "scalar_rgb" or "llvm_ad_rgb", variants of Mitsuba, or "cycles": exports the scene to
+    /// `folder` and waits until it is loaded. Where the renderer or the variant is not installed,
+    /// `is_there` is false.
     Peer(const Scene &scene, const std::filesystem::path &folder, const std::string &kind);
 
     bool is_there() const { return !engine_.empty(); }
@@ -26,12 +28,13 @@ class Peer {
     /// What the kind is called where it is not installed: "Mitsuba 3 scalar_rgb".
     static std::string name_of(const std::string &kind);
 
-    /// One frame of path tracing without roulette, `max_depth` as ours, and what it took there. Throws
-    /// `Error` (run failed) when the process ends.
+    /// One frame of path tracing without roulette, `max_depth` as ours, and what it took there.
+    /// Throws `Error` (run failed) when the process ends.
     Seconds render(uint32_t max_depth, uint64_t spp);
 
   private:
-    /// The next line of JSON; empty at the end of what the process says. Blender says other things, too.
+    /// The next line of JSON; empty at the end of what the process says. Blender says other things,
+    /// too.
     std::string next_record();
 
     Process process_;

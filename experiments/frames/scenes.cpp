@@ -35,7 +35,8 @@ struct Lights {
     double lamp_side = 0;
 };
 
-/// What a scene consists of: either a model with materials or a mesh, and perhaps a dragon in front.
+/// What a scene consists of: either a model with materials or a mesh, and perhaps a dragon in
+/// front.
 struct Place {
     std::string name;
     std::string model;  ///< a file of the models' folder; of San Miguel the list of instances
@@ -118,7 +119,8 @@ std::optional<Place> procedural_place(const std::string &name) {
     for (const Procedure &procedure : procedures()) {
         const size_t around = procedure.head.size() + procedure.tail.size();
         if (name.size() > around && name.rfind(procedure.head, 0) == 0 &&
-            name.compare(name.size() - procedure.tail.size(), std::string::npos, procedure.tail) == 0) {
+            name.compare(name.size() - procedure.tail.size(), std::string::npos, procedure.tail) ==
+                0) {
             const std::string mesh =
                 procedure.mesh + name.substr(procedure.head.size(), name.size() - around);
             if (is_procedural(mesh)) {
@@ -130,7 +132,8 @@ std::optional<Place> procedural_place(const std::string &name) {
 }
 
 bool is_present(const Place &place) {
-    return (place.model.empty() ? has_measured_mesh(place.mesh) : fs::exists(measured_file(place.model))) &&
+    return (place.model.empty() ? has_measured_mesh(place.mesh)
+                                : fs::exists(measured_file(place.model))) &&
            (!place.dragon || fs::exists(measured_file(dragon_file)));
 }
 
@@ -147,8 +150,8 @@ std::string scene_file(const std::string &name) {
 }
 
 std::shared_ptr<MaterialCore> lambert() {
-    return std::make_shared<MaterialCore>("diffuse", "lambert",
-                                          ParameterValues{{"reflectance", Vector3d(0.6, 0.6, 0.6)}});
+    return std::make_shared<MaterialCore>(
+        "diffuse", "lambert", ParameterValues{{"reflectance", Vector3d(0.6, 0.6, 0.6)}});
 }
 
 std::shared_ptr<MaterialCore> lambert_and_blinn() {
@@ -178,23 +181,26 @@ void add_mesh(Scene &scene, const test::Mesh &mesh, const Eigen::Matrix4d &trans
 
 /// Stanford's, four metres long, on the floor of the atrium.
 void add_dragon(Scene &scene) {
-    Node &node =
-        add_node(scene, "measured dragon",
-                 translation({-7, -1, 0}) * rotation(Vector3d::UnitY(), M_PI / 3) * scaling({20, 20, 20}));
+    Node &node = add_node(
+        scene, "measured dragon",
+        translation({-7, -1, 0}) * rotation(Vector3d::UnitY(), M_PI / 3) * scaling({20, 20, 20}));
     node.set_core(load_mesh_file(measured_file(dragon_file), "dragon"));
-    node.set_core(std::make_shared<MaterialCore>(
-        "jade", "plastic",
-        ParameterValues{
-            {"reflectance", Vector3d(0.2, 0.55, 0.3)}, {"eta", 1.5}, {"roughness", Vector2d(0.1, 0.1)}}));
+    node.set_core(
+        std::make_shared<MaterialCore>("jade", "plastic",
+                                       ParameterValues{{"reflectance", Vector3d(0.2, 0.55, 0.3)},
+                                                       {"eta", 1.5},
+                                                       {"roughness", Vector2d(0.1, 0.1)}}));
 }
 
 void add_view(Scene &scene, const View &view) {
     const Vector3d origin = view.origin.cast<double>();
-    Node &node = add_node(scene, "measured view",
-                          look_at(origin, origin + view.direction.cast<double>(), Vector3d::UnitY()));
-    node.set_core(std::make_shared<CameraCore>(
-        "", "pinhole",
-        ParameterValues{{"fov", static_cast<double>(view.degrees)}, {"fov_axis", std::string("x")}}));
+    Node &node =
+        add_node(scene, "measured view",
+                 look_at(origin, origin + view.direction.cast<double>(), Vector3d::UnitY()));
+    node.set_core(
+        std::make_shared<CameraCore>("", "pinhole",
+                                     ParameterValues{{"fov", static_cast<double>(view.degrees)},
+                                                     {"fov_axis", std::string("x")}}));
 }
 
 void add_light(Scene &scene, const std::string &name, const Eigen::Matrix4d &transform,
@@ -214,10 +220,10 @@ void add_lights(Scene &scene, const Lights &lights) {
     for (size_t i = 0; i < lights.lamps.size(); ++i) {
         const double half = 0.5 * lights.lamp_side;
         const std::string name = fmt::format("measured lamp {}", i);
-        add_light(
-            scene, name,
-            translation(lights.lamps[i]) * rotation(Vector3d::UnitX(), M_PI / 2) * scaling({half, half, 1}),
-            "diffuse_area", "radiance", 20);
+        add_light(scene, name,
+                  translation(lights.lamps[i]) * rotation(Vector3d::UnitX(), M_PI / 2) *
+                      scaling({half, half, 1}),
+                  "diffuse_area", "radiance", 20);
         Node &node = *scene.graph().find(name);
         node.set_core(std::make_shared<MeshCore>(name, rectangle()));
         node.set_core(lambert());
@@ -228,8 +234,8 @@ std::string describe(const Place &place, Surfaces surfaces) {
     std::string text = surfaces == Surfaces::diffuse ? "diffuse"
                        : place.model.empty()         ? "Lambert and Blinn"
                                                      : "the model's materials and textures";
-    return text +
-           (place.lights.sun ? "; sun and sky" : fmt::format("; {} area lights", place.lights.lamps.size()));
+    return text + (place.lights.sun ? "; sun and sky"
+                                    : fmt::format("; {} area lights", place.lights.lamps.size()));
 }
 
 Scene make_scene(const Place &place) {
@@ -269,10 +275,10 @@ bool has_timed_scene(const std::string &name) {
 TimedScene load_timed_scene(const std::string &name, Surfaces surfaces) {
     const std::optional<Place> place = place_of(name);
     if (!place && !fs::exists(scene_file(name))) {
-        throw input_error(
-            fmt::format("there is no scene '{}'; there are: {}, and the folders of scenes/; RTRAYS_MESHES "
-                        "names a folder of models",
-                        name, fmt::join(timed_scenes(), ", ")));
+        throw input_error(fmt::format(
+            "there is no scene '{}'; there are: {}, and the folders of scenes/; RTRAYS_MESHES "
+            "names a folder of models",
+            name, fmt::join(timed_scenes(), ", ")));
     }
     Scene scene = place ? make_scene(*place) : load_scene(scene_file(name));
     if (place) {

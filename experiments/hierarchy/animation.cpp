@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An animated mesh: to build its hierarchy anew in every frame, or to fit the first one to what has moved?
+// An animated mesh: to build its hierarchy anew in every frame, or to fit the first one to what has
+// moved?
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,9 +18,9 @@ namespace rtrays {
 
 namespace {
 
-/// The mesh as it is at `time`: of cloth_ball its two frames at 0 and 1 and what a straight line through them
-/// gives beyond; any other is twisted about the vertical axis through its centre, at time 1 by a whole turn
-/// over its height.
+/// The mesh as it is at `time`: of cloth_ball its two frames at 0 and 1 and what a straight line
+/// through them gives beyond; any other is twisted about the vertical axis through its centre, at
+/// time 1 by a whole turn over its height.
 test::Mesh at_time(const test::Mesh &mesh, const test::Mesh *second, float time) {
     test::Mesh moved = mesh;
     const Eigen::AlignedBox3f box = mesh.box();
@@ -30,7 +31,8 @@ test::Mesh at_time(const test::Mesh &mesh, const test::Mesh *second, float time)
         } else {
             const float angle =
                 2 * static_cast<float>(M_PI) * time * (p.y() - box.min().y()) / box.sizes().y();
-            p = box.center() + Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitY()) * (p - box.center());
+            p = box.center() +
+                Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitY()) * (p - box.center());
         }
     }
     return moved;
@@ -62,13 +64,15 @@ class Animation {
                 builders_.push_back({variant.name, BvhBuilder(device, variant.parameters)});
                 Bvh bvh = builders_.back().builder.build(mesh.positions, mesh.indices);
                 auto refitter = std::make_unique<BvhRefitter>(device, bvh);
-                fitted_.push_back({variant.name, std::make_unique<DeviceTracer>(device, std::move(bvh)),
+                fitted_.push_back({variant.name,
+                                   std::make_unique<DeviceTracer>(device, std::move(bvh)),
                                    std::move(refitter)});
             }
         }
     }
 
-    /// Frame `frame` of 0 to settings.frames, at time frame / settings.frames (twist) or frame (cloth_ball).
+    /// Frame `frame` of 0 to settings.frames, at time frame / settings.frames (twist) or frame
+    /// (cloth_ball).
     Json frame(int frame) {
         const float time =
             static_cast<float>(frame) / (second_ ? 1.0f : static_cast<float>(settings_.frames));
@@ -85,8 +89,10 @@ class Animation {
         }
         for (Fitted &fitted : fitted_) {
             const auto fit = [&, &tree = fitted] {
-                if (!tree.refitter->refit(tree.tracer->bvh(), on_device.positions, on_device.indices)) {
-                    throw run_error(fmt::format("{}: triangles appear at frame {}", mesh.name, frame));
+                if (!tree.refitter->refit(tree.tracer->bvh(), on_device.positions,
+                                          on_device.indices)) {
+                    throw run_error(
+                        fmt::format("{}: triangles appear at frame {}", mesh.name, frame));
                 }
             };
             fit();  // the first launches compile
@@ -96,7 +102,8 @@ class Animation {
 
         const uint32_t threads = host_threads(device_->info());
         const test::EmbreeScene embree(mesh, fmt::format("threads={}", threads));
-        const DeviceRays rays(*device_, make_rays("diffuse", mesh, first_.view, embree, settings_.rays),
+        const DeviceRays rays(*device_,
+                              make_rays("diffuse", mesh, first_.view, embree, settings_.rays),
                               Query::nearest);
         Contest traces(clock_of(device_->info()));
         Json work = Json::array();
@@ -120,12 +127,14 @@ class Animation {
     Json description() const {
         return {{"mesh", first_.mesh.name},
                 {"triangles", first_.mesh.triangles.size()},
-                {"motion", second_ ? "two frames, and straight on" : "twisted by a turn over its height"}};
+                {"motion",
+                 second_ ? "two frames, and straight on" : "twisted by a turn over its height"}};
     }
 
   private:
     /// Speeds are over the tree that the usual builder builds anew.
-    Json result(int frame, const Contest &updates, const Contest &traces, Json work, double ray_count) const {
+    Json result(int frame, const Contest &updates, const Contest &traces, Json work,
+                double ray_count) const {
         Json entries = Json::array();
         for (const std::string &name : updates.names()) {
             entries.push_back({{"name", name},
@@ -136,15 +145,17 @@ class Animation {
         for (Json &entry : work) {
             const std::string name = entry.at("name");
             if (entry.at("hits") != work.front().at("hits")) {
-                throw run_error(fmt::format("{}: of frame {}, {} rays hit something by '{}', {} by '{}'",
-                                            first_.mesh.name, frame, entry.at("hits").dump(), name,
-                                            work.front().at("hits").dump(), base));
+                throw run_error(fmt::format(
+                    "{}: of frame {}, {} rays hit something by '{}', {} by '{}'", first_.mesh.name,
+                    frame, entry.at("hits").dump(), name, work.front().at("hits").dump(), base));
             }
             entry["processor_ns"] = scaled(traces.processor_seconds(name), 1e9 / ray_count);
             entry["speed_over_build"] = to_json(traces.speed_over(name, base));
         }
-        return {
-            {"frame", frame}, {"updates", entries}, {"rays", work}, {"foreign_load", updates.foreign_load()}};
+        return {{"frame", frame},
+                {"updates", entries},
+                {"rays", work},
+                {"foreign_load", updates.foreign_load()}};
     }
 
     DeviceContext *device_;

@@ -26,13 +26,14 @@ test::EmbreeScene embree_scene(const test::Mesh &mesh, uint32_t threads, RTCBuil
     return {mesh, fmt::format("threads={}", threads), quality, RTC_SCENE_FLAG_NONE};
 }
 
-/// Bytes of the hierarchy with the triangles in it, and the most that building took, vertices and indices
-/// included, as the device builder counts them.
+/// Bytes of the hierarchy with the triangles in it, and the most that building took, vertices and
+/// indices included, as the device builder counts them.
 Json embree_facts(const test::Mesh &mesh, uint32_t threads, RTCBuildQuality quality) {
     test::EmbreeScene scene = embree_scene(mesh, threads, quality);
     const int64_t before = scene.bytes();
     scene.commit();
-    return {{"side", "embree"}, {"bytes", scene.bytes() - before}, {"bytes_peak", scene.bytes_peak()}};
+    return {
+        {"side", "embree"}, {"bytes", scene.bytes() - before}, {"bytes_peak", scene.bytes_peak()}};
 }
 
 Json device_facts(DeviceContext &device, BvhBuilder &builder, const DeviceMesh &mesh,
@@ -132,7 +133,8 @@ MeasurementPlan plan_bvh_build(const MeasurementSettings &settings, DeviceContex
                                   return row;
                               }});
     }
-    const char *const time = clock_of(device.info()) == Clock::processor ? "processor_ms" : "wall_ms";
+    const char *const time =
+        clock_of(device.info()) == Clock::processor ? "processor_ms" : "wall_ms";
     plan.summarise = [time](const Json &rows) {
         // Exponents of milliseconds over triangles, by contestant.
         Json exponents = Json::object();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Building hierarchies over one mesh in turns: by every builder and layout on the device, and by Embree.
+// Building hierarchies over one mesh in turns: by every builder and layout on the device, and by
+// Embree.
 #pragma once
 
 #include <memory>
@@ -33,8 +34,8 @@ class Builders {
 
 class BuildContest {
   public:
-    /// Builds once by each, which compiles, and traces `rays` diffuse rays. `builders` must outlive the
-    /// contest.
+    /// Builds once by each, which compiles, and traces `rays` diffuse rays. `builders` must outlive
+    /// the contest.
     BuildContest(Builders &builders, const std::string &mesh, size_t rays);
 
     Contest &contest() { return contest_; }

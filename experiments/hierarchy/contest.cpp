@@ -33,8 +33,9 @@ std::vector<std::string> Contest::names() const {
 }
 
 const Contest::Contestant &Contest::find(const std::string &name) const {
-    const auto found = std::find_if(contestants_.begin(), contestants_.end(),
-                                    [&](const Contestant &contestant) { return contestant.name == name; });
+    const auto found =
+        std::find_if(contestants_.begin(), contestants_.end(),
+                     [&](const Contestant &contestant) { return contestant.name == name; });
     if (found == contestants_.end()) {
         throw std::out_of_range("no contestant is called " + name);
     }
@@ -66,7 +67,8 @@ Interval Contest::speed_over(const std::string &name, const std::string &other) 
     const std::vector<Seconds> &ours = find(name).times, &theirs = find(other).times;
     std::vector<double> ratios;
     for (size_t i = 0; i < ours.size(); ++i) {
-        ratios.push_back(clock_ == Clock::wall ? theirs[i].wall / ours[i].wall : theirs[i].processor / ours[i].processor);
+        ratios.push_back(clock_ == Clock::wall ? theirs[i].wall / ours[i].wall
+                                               : theirs[i].processor / ours[i].processor);
     }
     return median_interval(ratios);
 }

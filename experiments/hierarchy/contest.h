@@ -33,7 +33,9 @@ enum class Clock {
     wall        ///< where a GPU works
 };
 
-inline Clock clock_of(const DeviceInfo &device) { return device.is_cpu ? Clock::processor : Clock::wall; }
+inline Clock clock_of(const DeviceInfo &device) {
+    return device.is_cpu ? Clock::processor : Clock::wall;
+}
 
 class Contest {
   public:
@@ -48,16 +50,16 @@ class Contest {
     size_t turns() const { return turns_; }
     std::vector<std::string> names() const;
 
-    /// Medians with 95 % intervals; at least 6 turns are needed, `Error` (run failed) otherwise. Throws
-    /// std::out_of_range for a name that is not there.
+    /// Medians with 95 % intervals; at least 6 turns are needed, `Error` (run failed) otherwise.
+    /// Throws std::out_of_range for a name that is not there.
     Interval wall_seconds(const std::string &name) const;
     Interval processor_seconds(const std::string &name) const;
 
     /// How many times faster `name` is than `other` by this clock, turn by turn.
     Interval speed_over(const std::string &name, const std::string &other) const;
 
-    /// Share of the machine's processor time that others used during the turns, what the hypervisor took
-    /// included.
+    /// Share of the machine's processor time that others used during the turns, what the hypervisor
+    /// took included.
     double foreign_load() const;
 
   private:

@@ -47,8 +47,8 @@ const std::vector<Kind> &kinds() {
 /// The kind that "measures" names. Throws `Error` (bad input) when the profile lacks what it needs.
 const Kind &kind_of(const DescriptionFile &file, const std::string &profile) {
     const std::string measures = file.json.at("measures");
-    const Kind &kind =
-        *std::find_if(kinds().begin(), kinds().end(), [&](const Kind &k) { return k.name == measures; });
+    const Kind &kind = *std::find_if(kinds().begin(), kinds().end(),
+                                     [&](const Kind &k) { return k.name == measures; });
     for (const char *key : kind.needs) {
         if (!file.profile(profile).contains(key)) {
             throw input_error(fmt::format("{}: missing key '{}': {} needs it",
@@ -58,8 +58,8 @@ const Kind &kind_of(const DescriptionFile &file, const std::string &profile) {
     return kind;
 }
 
-/// Of the meshes or scenes wanted, those that are there; stand-ins for others go to `stand_ins`, those
-/// without one to `absent`.
+/// Of the meshes or scenes wanted, those that are there; stand-ins for others go to `stand_ins`,
+/// those without one to `absent`.
 std::vector<std::string> present(const Json &wanted, bool (*has)(const std::string &),
                                  const Json &replacements, Json &stand_ins, Json &absent) {
     std::vector<std::string> names;
@@ -76,7 +76,8 @@ std::vector<std::string> present(const Json &wanted, bool (*has)(const std::stri
     return names;
 }
 
-MeasurementSettings settings_of(const Json &description, const Json &profile, Json &stand_ins, Json &absent) {
+MeasurementSettings settings_of(const Json &description, const Json &profile, Json &stand_ins,
+                                Json &absent) {
     const Json replacements = description.value("stand_ins", Json::object()), none = Json::array();
     MeasurementSettings settings;
     settings.repetitions = profile.value("repetitions", 0);
@@ -125,20 +126,24 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     Json stand_ins = Json::object(), absent = Json::array();
     const MeasurementSettings settings = settings_of(file.json, profile, stand_ins, absent);
     if (options.compile) {
-        throw input_error(fmt::format("{}: its kernels are compiled as it measures", options.experiment.string()));
+        throw input_error(fmt::format("{}: its kernels are compiled as it measures",
+                                      options.experiment.string()));
     }
     if (options.dry_run) {
         fmt::print("{}, profile {}: {} on {}{}{}\n", name, options.profile, measures,
-                   fmt::join(settings.meshes, ", "), fmt::join(settings.scenes, ", "), fmt::join(settings.references, ", "));
+                   fmt::join(settings.meshes, ", "), fmt::join(settings.scenes, ", "),
+                   fmt::join(settings.references, ", "));
         return {};
     }
     const fs::path out = options.out.empty() ? fs::path(name + "." + options.profile) : options.out;
     const RunContext context;
     DeviceContext device(options.device, Binaries::keep);
-    const std::string references = settings.references.empty() ? "" : read_file(references_manifest());
-    const Resumption resumption(out, "run.json",
-                                file.of_profile(options.profile) + stand_ins.dump() + absent.dump() + references,
-                                device.info());
+    const std::string references =
+        settings.references.empty() ? "" : read_file(references_manifest());
+    const Resumption resumption(
+        out, "run.json",
+        file.of_profile(options.profile) + stand_ins.dump() + absent.dump() + references,
+        device.info());
     const auto note_failure = [&](const Json &summary) {
         if (!summary.value("passed", true)) {
             exit_code = ExitCode::regression;
@@ -176,7 +181,8 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
 }
 
 Json scaled(const Interval &interval, double factor) {
-    return to_json(Interval{factor * interval.value, factor * interval.low, factor * interval.high});
+    return to_json(
+        Interval{factor * interval.value, factor * interval.low, factor * interval.high});
 }
 
 void run_turns(Contest &contest, int repetitions) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Experiments on speed, thesis 4.4: what they measure is named in their file, mesh by mesh or scene by scene.
+// Experiments on speed, thesis 4.4: what they measure is named in their file, mesh by mesh or scene
+// by scene.
 #pragma once
 
 #include <cstdint>
@@ -44,14 +45,14 @@ struct MeasurementPlan {
     std::function<Json(const Json &rows)> summarise;  ///< what follows from all rows
 };
 
-/// Whether the file describes a measurement, not renders to be compared with a reference. Throws `Error` (bad
-/// input) when it cannot be read.
+/// Whether the file describes a measurement, not renders to be compared with a reference. Throws
+/// `Error` (bad input) when it cannot be read.
 bool is_measurement(const std::filesystem::path &experiment);
 
-/// Measures and writes OUT/run.json; returns OUT (empty after a dry run). Rows that an earlier, stopped call
-/// finished are not measured again, nor is a finished run (`Resumption`). A mesh or scene that is not there is replaced by its
-/// stand-in, or listed as absent. Throws `Error`: bad input, run failed, interrupted. `exit_code` becomes
-/// `ExitCode::regression` when a check fails.
+/// Measures and writes OUT/run.json; returns OUT (empty after a dry run). Rows that an earlier,
+/// stopped call finished are not measured again, nor is a finished run (`Resumption`). A mesh or
+/// scene that is not there is replaced by its stand-in, or listed as absent. Throws `Error`: bad
+/// input, run failed, interrupted. `exit_code` becomes `ExitCode::regression` when a check fails.
 std::filesystem::path run_measurement(const RunOptions &options, ExitCode &exit_code);
 
 }  // namespace rtrays

@@ -57,7 +57,8 @@ test::Mesh san_miguel_of(const std::vector<fs::path> &files) {
     return load_san_miguel(files[0], files[1], part);
 }
 
-/// A mesh is read from files of the models' folder, of this repository ("scenes/..."), or made of nothing.
+/// A mesh is read from files of the models' folder, of this repository ("scenes/..."), or made of
+/// nothing.
 struct Source {
     const char *name;
     float view[7];  ///< as of View
@@ -70,7 +71,10 @@ const std::vector<Source> &sources() {
     const char *const san_miguel = "san-miguel/san-miguel.ply.gz";
     const char *const instances = "san-miguel/san-miguel.instances";
     static const std::vector<Source> all = {
-        {"cornell_box", {278, 273, -800, 0, 0, 1, 39}, load_first, {"scenes/cornell_box/scene.json"}},
+        {"cornell_box",
+         {278, 273, -800, 0, 0, 1, 39},
+         load_first,
+         {"scenes/cornell_box/scene.json"}},
         {"sphere_10K", {0.5f, 1, -2.5f, -0.5f, -1, 2.5f, 45}, bumpy_sphere_of<51, 100>, {}},
         {"sphere_100K", {0.5f, 1, -2.5f, -0.5f, -1, 2.5f, 45}, bumpy_sphere_of<251, 200>, {}},
         {"sphere_1M", {0.5f, 1, -2.5f, -0.5f, -1, 2.5f, 45}, bumpy_sphere_of<1001, 500>, {}},
@@ -83,9 +87,18 @@ const std::vector<Source> &sources() {
          [](const std::vector<fs::path> &) { return test::soup(100000, 1); },
          {}},
         {"bunny", {-0.02f, 0.12f, 0.3f, 0, 0, -1, 40}, load_first, {"bunny/bunny.ply"}},
-        {"sibenik", {-15, -9, 0, 1, -0.05f, 0, 75}, load_first, {"sibenik/sibenik-75k-geometry.ply"}},
-        {"cloth_ball", {18, 16, 18, -1, -0.7f, -1, 50}, load_first, {"cloth-ball/cloth_ball92.ply"}},
-        {"cloth_ball_next", {18, 16, 18, -1, -0.7f, -1, 50}, load_first, {"cloth-ball/cloth_ball93.ply"}},
+        {"sibenik",
+         {-15, -9, 0, 1, -0.05f, 0, 75},
+         load_first,
+         {"sibenik/sibenik-75k-geometry.ply"}},
+        {"cloth_ball",
+         {18, 16, 18, -1, -0.7f, -1, 50},
+         load_first,
+         {"cloth-ball/cloth_ball92.ply"}},
+        {"cloth_ball_next",
+         {18, 16, 18, -1, -0.7f, -1, 50},
+         load_first,
+         {"cloth-ball/cloth_ball93.ply"}},
         {"conference",
          {-800, 400, 500, 0.75f, -0.3f, -0.6f, 80},
          load_first,
@@ -128,7 +141,8 @@ std::vector<fs::path> files_of(const Source &source) {
 
 bool is_present(const Source &source) {
     const std::vector<fs::path> files = files_of(source);
-    return std::all_of(files.begin(), files.end(), [](const fs::path &file) { return fs::exists(file); });
+    return std::all_of(files.begin(), files.end(),
+                       [](const fs::path &file) { return fs::exists(file); });
 }
 
 fs::path scene_file(const std::string &name) {
@@ -143,7 +157,8 @@ test::Mesh scattered(uint32_t count) {
     while (mesh.triangles.size() < count) {
         const auto rings = std::uniform_int_distribution<uint32_t>(8, 30)(random);
         const float radius = spacing * std::pow(10.0f, test::uniform(random, -2, 0));
-        const Eigen::Vector3f centre(test::uniform(random, 0, 10), radius + test::uniform(random, 0, 2),
+        const Eigen::Vector3f centre(test::uniform(random, 0, 10),
+                                     radius + test::uniform(random, 0, 2),
                                      test::uniform(random, 0, 10));
         append(mesh, test::sphere(rings, 2 * rings, radius, 0.05f, centre, random()));
     }
@@ -171,7 +186,8 @@ const std::vector<Procedure> &procedures() {
 std::pair<const Procedure *, uint32_t> procedure_of(const std::string &name) {
     for (const Procedure &procedure : procedures()) {
         const std::string head = procedure.head;
-        if (name.rfind(head, 0) == 0 && name.size() > head.size() && name.size() < head.size() + 9 &&
+        if (name.rfind(head, 0) == 0 && name.size() > head.size() &&
+            name.size() < head.size() + 9 &&
             name.find_first_not_of("0123456789", head.size()) == std::string::npos) {
             return {&procedure, static_cast<uint32_t>(std::stoul(name.substr(head.size())))};
         }
@@ -200,7 +216,8 @@ std::vector<std::string> measured_meshes() {
 
 bool has_measured_mesh(const std::string &name) {
     const Source *source = find(name);
-    return is_procedural(name) || (source == nullptr ? fs::exists(scene_file(name)) : is_present(*source));
+    return is_procedural(name) ||
+           (source == nullptr ? fs::exists(scene_file(name)) : is_present(*source));
 }
 
 bool is_procedural(const std::string &name) {
@@ -238,12 +255,12 @@ MeasuredMesh load_measured_mesh(const std::string &name) {
         return {std::move(mesh), {box.center() + away, -away, 60}};
     }
     if (source == nullptr || !is_present(*source)) {
-        throw input_error(
-            fmt::format("there is no mesh '{}' ({}); there are: {}, scattered_N, hall_N, court_N, city_N; "
-                        "RTRAYS_MESHES names a "
-                        "folder of models",
-                        name, source == nullptr ? "no such name" : "its files are missing",
-                        fmt::join(measured_meshes(), ", ")));
+        throw input_error(fmt::format(
+            "there is no mesh '{}' ({}); there are: {}, scattered_N, hall_N, court_N, city_N; "
+            "RTRAYS_MESHES names a "
+            "folder of models",
+            name, source == nullptr ? "no such name" : "its files are missing",
+            fmt::join(measured_meshes(), ", ")));
     }
     const float(&v)[7] = source->view;
     test::Mesh mesh = source->make(files_of(*source));

@@ -26,10 +26,11 @@ struct MeasuredMesh {
     View view;
 };
 
-/// `name`: one of measured_meshes(), a folder of scenes/ with meshes in its scene.json, or a procedural mesh
-/// of N triangles: "hall_N", "court_N", "city_N" (buildings.h), or "scattered_N": spheres of a few hundred to
-/// a few thousand triangles, their sizes over two decades, on a hilly floor. Throws `Error` (bad input)
-/// listing the names when there is no such mesh, and as the readers do.
+/// `name`: one of measured_meshes(), a folder of scenes/ with meshes in its scene.json, or a
+/// procedural mesh of N triangles: "hall_N", "court_N", "city_N" (buildings.h), or "scattered_N":
+/// spheres of a few hundred to a few thousand triangles, their sizes over two decades, on a hilly
+/// floor. Throws `Error` (bad input) listing the names when there is no such mesh, and as the
+/// readers do.
 MeasuredMesh load_measured_mesh(const std::string &name);
 
 /// Whether `load_measured_mesh` knows the name and its file is there.

@@ -16,8 +16,8 @@ namespace rtrays {
 namespace {
 
 /// Of the instruction sets the one that traces these rays fastest, best of three.
-const EmbreeTracer &fastest(const TracedMesh &mesh, const std::vector<RayRecord> &rays, const RayKind &kind,
-                            EmbreeCall call) {
+const EmbreeTracer &fastest(const TracedMesh &mesh, const std::vector<RayRecord> &rays,
+                            const RayKind &kind, EmbreeCall call) {
     const EmbreeTracer *best = nullptr;
     double best_seconds = INFINITY;
     for (int turn = 0; turn < 3; ++turn) {
@@ -42,15 +42,16 @@ TracedMesh::TracedMesh(DeviceContext &device, const std::string &name)
     const DeviceMesh on_device(device, mesh_.mesh);
     for (const HierarchyVariant &variant : hierarchy_variants(device.info())) {
         BvhBuilder builder(device, variant.parameters);
-        ours_.push_back(
-            {variant.name, DeviceTracer(device, builder.build(on_device.positions, on_device.indices))});
+        ours_.push_back({variant.name, DeviceTracer(device, builder.build(on_device.positions,
+                                                                          on_device.indices))});
     }
 }
 
 RayContest::RayContest(const TracedMesh &mesh, const RayKind &kind, size_t count)
     : mesh_(&mesh),
       kind_(kind),
-      rays_(make_rays(kind.name, mesh.mesh().mesh, mesh.mesh().view, mesh.embree().front()->scene(), count)),
+      rays_(make_rays(kind.name, mesh.mesh().mesh, mesh.mesh().view, mesh.embree().front()->scene(),
+                      count)),
       on_device_(std::make_unique<DeviceRays>(mesh.device(), rays_, kind.query)),
       contest_(clock_of(mesh.device().info())),
       baseline_(name_of(EmbreeCall::single, kind.query)) {
@@ -65,8 +66,9 @@ RayContest::RayContest(const TracedMesh &mesh, const RayKind &kind, size_t count
                           {"nodes_per_ray", nodes},
                           {"triangles_per_ray", triangles},
                           {"bytes", ours.tracer.bvh().report().bytes}});
-        contest_.add(ours.name,
-                     [this, tracer = &ours.tracer] { return time_of([&] { tracer->trace(*on_device_); }); });
+        contest_.add(ours.name, [this, tracer = &ours.tracer] {
+            return time_of([&] { tracer->trace(*on_device_); });
+        });
     }
     for (const EmbreeCall call : {EmbreeCall::single, EmbreeCall::packets}) {
         const EmbreeTracer &tracer = fastest(mesh, rays_, kind, call);
@@ -82,7 +84,8 @@ RayContest::RayContest(const TracedMesh &mesh, const RayKind &kind, size_t count
 void RayContest::require_equal_hits(const std::string &name, size_t hits, size_t expected) const {
     if (std::max(hits, expected) - std::min(hits, expected) > rays_.size() / 10000) {
         throw run_error(fmt::format("{}: of {} {} rays {} hit something by {}, {} by Embree",
-                                    mesh_->mesh().mesh.name, rays_.size(), kind_.name, hits, name, expected));
+                                    mesh_->mesh().mesh.name, rays_.size(), kind_.name, hits, name,
+                                    expected));
     }
 }
 
@@ -93,8 +96,9 @@ Json RayContest::row() const {
         const Interval wall = contest_.wall_seconds(names[i]);
         Json entry = facts_[i];
         entry["name"] = names[i];
-        entry["Mrays_s"] = to_json(Interval{millions_of_rays() / wall.value, millions_of_rays() / wall.high,
-                                            millions_of_rays() / wall.low});
+        entry["Mrays_s"] =
+            to_json(Interval{millions_of_rays() / wall.value, millions_of_rays() / wall.high,
+                             millions_of_rays() / wall.low});
         entry["processor_ns"] =
             scaled(contest_.processor_seconds(names[i]), 1e9 / static_cast<double>(rays_.size()));
         entry["speed_over_embree"] = to_json(contest_.speed_over(names[i], baseline_));

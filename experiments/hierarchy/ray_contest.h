@@ -37,9 +37,9 @@ class TracedMesh {
 
 class RayContest {
   public:
-    /// Traces once by each, which compiles, and chooses Embree's instruction sets. Throws `Error` (run
-    /// failed) when the numbers of rays that hit something differ by more than 1e-4 of all. `mesh` must
-    /// outlive the contest.
+    /// Traces once by each, which compiles, and chooses Embree's instruction sets. Throws `Error`
+    /// (run failed) when the numbers of rays that hit something differ by more than 1e-4 of all.
+    /// `mesh` must outlive the contest.
     RayContest(const TracedMesh &mesh, const RayKind &kind, size_t rays);
 
     Contest &contest() { return contest_; }

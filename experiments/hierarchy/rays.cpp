@@ -28,7 +28,10 @@ Eigen::Vector3f cosine_direction(const Eigen::Vector3f &normal, Random &random) 
 }
 
 RayRecord ray_of(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t_max) {
-    return {{origin.x(), origin.y(), origin.z()}, t_max, {direction.x(), direction.y(), direction.z()}, 0};
+    return {{origin.x(), origin.y(), origin.z()},
+            t_max,
+            {direction.x(), direction.y(), direction.z()},
+            0};
 }
 
 std::vector<RayRecord> primary_rays(const View &view, size_t count, Random &random) {
@@ -40,7 +43,8 @@ std::vector<RayRecord> primary_rays(const View &view, size_t count, Random &rand
     std::vector<RayRecord> rays;
     for (size_t pixel = 0; pixel < width * width; ++pixel) {
         const auto across = [&](size_t i) {
-            return half * (2 * (static_cast<float>(i) + uniform(random)) / static_cast<float>(width) - 1);
+            return half *
+                   (2 * (static_cast<float>(i) + uniform(random)) / static_cast<float>(width) - 1);
         };
         const float x = across(pixel % width), y = across(pixel / width);
         rays.push_back(ray_of(view.origin, (forward + x * right + y * up).normalized(), INFINITY));
@@ -55,9 +59,9 @@ struct Arrival {
 };
 
 Arrival arrive(const test::Mesh &mesh, const RayRecord &ray, const test::EmbreeHit &hit) {
-    const SurfacePoint point =
-        surface_point(to_float3(mesh.vertex(hit.triangle, 0)), to_float3(mesh.vertex(hit.triangle, 1)),
-                      to_float3(mesh.vertex(hit.triangle, 2)), hit.u, hit.v);
+    const SurfacePoint point = surface_point(to_float3(mesh.vertex(hit.triangle, 0)),
+                                             to_float3(mesh.vertex(hit.triangle, 1)),
+                                             to_float3(mesh.vertex(hit.triangle, 2)), hit.u, hit.v);
     const Eigen::Vector3f normal = to_vector(point.normal);
     const bool from_front =
         normal.dot(Eigen::Vector3f(ray.direction[0], ray.direction[1], ray.direction[2])) < 0;
@@ -78,7 +82,8 @@ std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh
                                  const test::EmbreeScene &embree, size_t count) {
     Random random(1);
     const Eigen::AlignedBox3f box = mesh.box();
-    const Eigen::Vector3f lamp = box.min() + Eigen::Vector3f(0.5f, 0.9f, 0.5f).cwiseProduct(box.sizes());
+    const Eigen::Vector3f lamp =
+        box.min() + Eigen::Vector3f(0.5f, 0.9f, 0.5f).cwiseProduct(box.sizes());
     std::vector<RayRecord> rays;
     for (size_t turn = 0; rays.size() < count; ++turn) {
         for (const RayRecord &primary : primary_rays(view, count, random)) {
@@ -92,7 +97,8 @@ std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh
             }
             const Arrival hit = arrive(mesh, primary, found);
             if (kind == "shadow") {
-                const Eigen::Vector3f at(uniform(random, -0.05f, 0.05f), 0, uniform(random, -0.05f, 0.05f));
+                const Eigen::Vector3f at(uniform(random, -0.05f, 0.05f), 0,
+                                         uniform(random, -0.05f, 0.05f));
                 const Eigen::Vector3f end = lamp + at.cwiseProduct(box.sizes());
                 const float3 origin =
                     offset_ray_origin(hit.point, to_float3(end - to_vector(hit.point.position)));

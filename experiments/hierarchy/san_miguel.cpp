@@ -34,7 +34,8 @@ std::string read_gzip(const fs::path &path) {
     std::string piece(1 << 20, '\0');
     for (;;) {
         const int bytes =
-            file == nullptr ? -1 : gzread(file.get(), piece.data(), static_cast<unsigned>(piece.size()));
+            file == nullptr ? -1
+                            : gzread(file.get(), piece.data(), static_cast<unsigned>(piece.size()));
         if (bytes < 0) {
             throw input_error(fmt::format("{}: cannot be read as gzip", path.string()));
         }
@@ -100,18 +101,20 @@ Layout read_layout(const fs::path &path, size_t triangles) {
             layout.instances.push_back(instance);
         }
         if (!right) {
-            throw input_error(fmt::format(
-                "{}:{}: neither an object of a model of {} triangles nor an instance of one above: {}",
-                path.string(), number, triangles, line));
+            throw input_error(
+                fmt::format("{}:{}: neither an object of a model of {} triangles nor an instance "
+                            "of one above: {}",
+                            path.string(), number, triangles, line));
         }
     }
     return layout;
 }
 
-/// All instances in world space, joined by what `group_of(object)` says: a number, or nothing to leave it
-/// out.
+/// All instances in world space, joined by what `group_of(object)` says: a number, or nothing to
+/// leave it out.
 template <class GroupOf>
-std::map<size_t, Geometry> place(const Geometry &model, const Layout &layout, const GroupOf &group_of) {
+std::map<size_t, Geometry> place(const Geometry &model, const Layout &layout,
+                                 const GroupOf &group_of) {
     std::vector<int64_t> owner(model.triangles.size(), -1);
     for (size_t i = 0; i < layout.objects.size(); ++i) {
         std::fill_n(owner.begin() + static_cast<std::ptrdiff_t>(layout.objects[i].first),
@@ -120,7 +123,8 @@ std::map<size_t, Geometry> place(const Geometry &model, const Layout &layout, co
     const std::map<int64_t, Geometry> parts = split_geometry(model, owner);
     std::map<size_t, Geometry> placed;
     for (const auto &[object, to_world] : layout.instances) {
-        const auto part = parts.find(static_cast<int64_t>(object));  // none of an object without triangles
+        const auto part =
+            parts.find(static_cast<int64_t>(object));  // none of an object without triangles
         const std::optional<size_t> group = group_of(layout.objects[object]);
         if (part != parts.end() && group) {
             append_geometry(placed[*group], part->second, to_world);
@@ -131,8 +135,9 @@ std::map<size_t, Geometry> place(const Geometry &model, const Layout &layout, co
 
 bool belongs_to(const std::string &object, SanMiguelPart part) {
     const auto is_one_of = [&](const std::vector<std::string> &kinds) {
-        return std::any_of(kinds.begin(), kinds.end(),
-                           [&](const std::string &kind) { return object.rfind(kind + "_", 0) == 0; });
+        return std::any_of(kinds.begin(), kinds.end(), [&](const std::string &kind) {
+            return object.rfind(kind + "_", 0) == 0;
+        });
     };
     switch (part) {
         case SanMiguelPart::building_and_furniture:
@@ -146,7 +151,8 @@ bool belongs_to(const std::string &object, SanMiguelPart part) {
 
 }  // namespace
 
-test::Mesh load_san_miguel(const fs::path &model_file, const fs::path &instances, SanMiguelPart part) {
+test::Mesh load_san_miguel(const fs::path &model_file, const fs::path &instances,
+                           SanMiguelPart part) {
     ModelNotes notes(model_file.string());
     Geometry model = read_gzipped_ply(model_file, notes);
     model.normals.clear();
@@ -179,7 +185,9 @@ Scene load_san_miguel_scene(const fs::path &model_file, const fs::path &instance
                                           materials_file.string(), materials.size()));
         }
     }
-    const auto material_of = [](const Object &object) { return std::optional<size_t>(object.material); };
+    const auto material_of = [](const Object &object) {
+        return std::optional<size_t>(object.material);
+    };
     for (auto &[index, geometry] : place(model, layout, material_of)) {
         const std::string &name = materials[index]->name();
         Node &node = add_model_node(scene.graph().root(), name, Eigen::Matrix4d::Identity());

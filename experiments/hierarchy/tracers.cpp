@@ -71,8 +71,9 @@ size_t trace_packets(RTCScene scene, const std::vector<RayRecord> &rays, size_t 
             rtcOccluded16(valid, scene, &context, &packet.ray);
         }
         for (size_t lane = 0; lane < lanes; ++lane) {
-            const bool hit = query == Query::nearest ? packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID
-                                                     : packet.ray.tfar[lane] < 0;
+            const bool hit = query == Query::nearest
+                                 ? packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID
+                                 : packet.ray.tfar[lane] < 0;
             found += hit ? 1 : 0;
         }
     }
@@ -88,7 +89,8 @@ std::vector<HierarchyVariant> hierarchy_variants(const DeviceInfo &device) {
         BvhBuildParameters parameters = usual;
         parameters.method = method;
         parameters.layout = layout;
-        variants.push_back({fmt::format("{} {}", to_string(method), to_string(layout)), parameters});
+        variants.push_back(
+            {fmt::format("{} {}", to_string(method), to_string(layout)), parameters});
     };
     for (const NamedBvhLayout &named : bvh_layouts) {
         add(usual.method, named.layout);
@@ -118,8 +120,8 @@ size_t DeviceRays::hit_count() const {
         return std::accumulate(flags.begin(), flags.end(), size_t{0});
     }
     const std::vector<Hit> found = hits.read();
-    return static_cast<size_t>(
-        std::count_if(found.begin(), found.end(), [](const Hit &hit) { return hit.triangle != NO_HIT; }));
+    return static_cast<size_t>(std::count_if(
+        found.begin(), found.end(), [](const Hit &hit) { return hit.triangle != NO_HIT; }));
 }
 
 DeviceTracer::DeviceTracer(DeviceContext &device, Bvh bvh)
@@ -139,15 +141,17 @@ Kernel DeviceTracer::kernel(const Program &program, const std::string &name, con
 }
 
 void DeviceTracer::trace(const DeviceRays &rays) const {
-    Kernel query = rays.query == Query::nearest ? kernel(trace_, "trace_nearest_rays", rays, rays.hits)
-                                                : kernel(trace_, "trace_any_rays", rays, rays.occlusion);
+    Kernel query = rays.query == Query::nearest
+                       ? kernel(trace_, "trace_nearest_rays", rays, rays.hits)
+                       : kernel(trace_, "trace_any_rays", rays, rays.occlusion);
     query.enqueue(rays.count);
     device_->finish();
 }
 
 std::pair<double, double> DeviceTracer::work_per_ray(const DeviceRays &rays) const {
     const Buffer<RayWork> work(*device_, "work of rays", rays.count);
-    kernel(count_, rays.query == Query::nearest ? "count_nearest_rays" : "count_any_rays", rays, work)
+    kernel(count_, rays.query == Query::nearest ? "count_nearest_rays" : "count_any_rays", rays,
+           work)
         .enqueue(rays.count);
     device_->finish();
     double nodes = 0, triangles = 0;
@@ -166,8 +170,10 @@ const char *name_of(EmbreeCall call, Query query) {
 
 std::vector<EmbreeIsa> embree_isas() {
     std::vector<EmbreeIsa> present;
-    for (const EmbreeIsa &isa : {EmbreeIsa{"sse4.2", 128}, EmbreeIsa{"avx2", 256}, EmbreeIsa{"avx512", 512}}) {
-        if (const RTCDevice device = rtcNewDevice(fmt::format("threads=1,isa={}", isa.name).c_str())) {
+    for (const EmbreeIsa &isa :
+         {EmbreeIsa{"sse4.2", 128}, EmbreeIsa{"avx2", 256}, EmbreeIsa{"avx512", 512}}) {
+        if (const RTCDevice device =
+                rtcNewDevice(fmt::format("threads=1,isa={}", isa.name).c_str())) {
             rtcReleaseDevice(device);
             present.push_back(isa);
         }
@@ -181,7 +187,8 @@ std::vector<EmbreeIsa> embree_isas() {
 EmbreeTracer::EmbreeTracer(const test::Mesh &mesh, uint32_t threads, const EmbreeIsa &isa)
     : isa_(isa.name),
       threads_(threads),
-      scene_(mesh, fmt::format("threads={},isa={},frequency_level=simd{}", threads, isa.name, isa.width)) {}
+      scene_(mesh, fmt::format("threads={},isa={},frequency_level=simd{}", threads, isa.name,
+                               isa.width)) {}
 
 template <typename Work>
 size_t EmbreeTracer::on_all_threads(size_t count, const Work &work) const {
@@ -206,8 +213,8 @@ size_t EmbreeTracer::trace(const std::vector<RayRecord> &rays, Query query, Embr
         }
         size_t found = 0;
         for (size_t i = begin; i < end; ++i) {
-            const bool hit =
-                query == Query::nearest ? scene_.nearest(rays[i]) < rays[i].t_max : scene_.occluded(rays[i]);
+            const bool hit = query == Query::nearest ? scene_.nearest(rays[i]) < rays[i].t_max
+                                                     : scene_.occluded(rays[i]);
             found += hit ? 1 : 0;
         }
         return found;
@@ -225,7 +232,8 @@ std::vector<float> EmbreeTracer::nearest(const std::vector<RayRecord> &rays) con
     return distances;
 }
 
-std::vector<std::unique_ptr<EmbreeTracer>> embree_tracers(const test::Mesh &mesh, uint32_t threads) {
+std::vector<std::unique_ptr<EmbreeTracer>> embree_tracers(const test::Mesh &mesh,
+                                                          uint32_t threads) {
     std::vector<std::unique_ptr<EmbreeTracer>> tracers;
     for (const EmbreeIsa &isa : embree_isas()) {
         tracers.push_back(std::make_unique<EmbreeTracer>(mesh, threads, isa));

@@ -69,8 +69,8 @@ class DeviceTracer {
     Program trace_, count_;
 };
 
-/// How Embree is asked: ray by ray (rtcIntersect1, rtcOccluded1) or sixteen at a time (rtcIntersect16,
-/// rtcOccluded16).
+/// How Embree is asked: ray by ray (rtcIntersect1, rtcOccluded1) or sixteen at a time
+/// (rtcIntersect16, rtcOccluded16).
 enum class EmbreeCall { single, packets };
 
 const char *name_of(EmbreeCall call, Query query);
@@ -93,13 +93,15 @@ class EmbreeTracer {
     const std::string &isa() const { return isa_; }
 
     /// Number of rays that hit something. `coherent`: what packets are told of their rays.
-    size_t trace(const std::vector<RayRecord> &rays, Query query, EmbreeCall call, bool coherent) const;
+    size_t trace(const std::vector<RayRecord> &rays, Query query, EmbreeCall call,
+                 bool coherent) const;
 
     /// Distance of the nearest hit of every ray, infinite for none.
     std::vector<float> nearest(const std::vector<RayRecord> &rays) const;
 
   private:
-    /// Calls work(begin, end) with a piece of [0, count) on every thread and adds up what it returns.
+    /// Calls work(begin, end) with a piece of [0, count) on every thread and adds up what it
+    /// returns.
     template <typename Work>
     size_t on_all_threads(size_t count, const Work &work) const;
 

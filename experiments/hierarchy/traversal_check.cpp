@@ -22,8 +22,9 @@ namespace {
 
 constexpr size_t batch_size = 1 << 18;
 
-/// Rays that may be wrong in double precision (goals: at most 1e-6 of them), and rays that may leave a closed
-/// shape, at the origin of the coordinates and far from it (Embree's own test and limit).
+/// Rays that may be wrong in double precision (goals: at most 1e-6 of them), and rays that may
+/// leave a closed shape, at the origin of the coordinates and far from it (Embree's own test and
+/// limit).
 constexpr double wrong_limit = 1e-6, miss_limit = 0, far_miss_limit = 2e-5;
 
 std::vector<DeviceTracer> tracers_of(DeviceContext &device, const test::Mesh &mesh,
@@ -38,8 +39,8 @@ std::vector<DeviceTracer> tracers_of(DeviceContext &device, const test::Mesh &me
     return tracers;
 }
 
-/// Calls work(first, count, batch) until all rays are done; throws `Error` (interrupted) in between when
-/// asked to stop.
+/// Calls work(first, count, batch) until all rays are done; throws `Error` (interrupted) in between
+/// when asked to stop.
 template <typename Work>
 void by_batches(size_t rays, const Work &work) {
     for (size_t first = 0, batch = 0; first < rays; first += batch_size, ++batch) {
@@ -117,8 +118,8 @@ Json compare_hits(DeviceContext &device, const std::string &name, size_t ray_cou
                 Verdict &verdict = verdicts[differing[d]];
                 if (!verdict.given || verdict.t != hit.t || verdict.triangle != hit.triangle) {
                     verdict = {true, hit.t, hit.triangle,
-                               judge.is_right(test::ray_origin(ray), test::ray_direction(ray), hit.t,
-                                              hit.triangle, static_cast<double>(tolerance))};
+                               judge.is_right(test::ray_origin(ray), test::ray_direction(ray),
+                                              hit.t, hit.triangle, static_cast<double>(tolerance))};
                 }
                 wrong += verdict.is_right ? 0 : 1;
             });
@@ -128,14 +129,14 @@ Json compare_hits(DeviceContext &device, const std::string &name, size_t ray_cou
     Json layouts = Json::array();
     for (size_t i = 0; i < tracers.size(); ++i) {
         const Differences &d = differences[i];
-        layouts.push_back(
-            {{"name", names[i]},
-             {"random", d.random},
-             {"grazing", d.grazing},
-             {"tied", d.tied},
-             {"wrong", d.wrong},
-             {"limit", wrong_limit},
-             {"passed", static_cast<double>(d.wrong) <= wrong_limit * static_cast<double>(ray_count)}});
+        layouts.push_back({{"name", names[i]},
+                           {"random", d.random},
+                           {"grazing", d.grazing},
+                           {"tied", d.tied},
+                           {"wrong", d.wrong},
+                           {"limit", wrong_limit},
+                           {"passed", static_cast<double>(d.wrong) <=
+                                          wrong_limit * static_cast<double>(ray_count)}});
     }
     return {{"check", "hits"},   {"mesh", name}, {"triangles", mesh.triangles.size()},
             {"rays", ray_count}, {"hits", hits}, {"layouts", layouts}};
@@ -152,10 +153,14 @@ struct ClosedShape {
 
 std::vector<ClosedShape> closed_shapes() {
     const Eigen::Vector3f far(148376.0f, 1234.0f, -223423.0f);  // Embree's own test
-    return {{"closed sphere", test::sphere(64, 128, 1.0f, 0.05f, {0, 0, 0}), {0, 0, 0}, 0.5f, miss_limit},
+    return {{"closed sphere",
+             test::sphere(64, 128, 1.0f, 0.05f, {0, 0, 0}),
+             {0, 0, 0},
+             0.5f,
+             miss_limit},
             {"closed room", test::room(), {450.0f, 400.0f, 200.0f}, 60.0f, miss_limit},
-            {"closed sphere at (148376, 1234, -223423)", test::sphere(64, 128, 10.0f, 0.05f, far), far, 5.0f,
-             far_miss_limit}};
+            {"closed sphere at (148376, 1234, -223423)", test::sphere(64, 128, 10.0f, 0.05f, far),
+             far, 5.0f, far_miss_limit}};
 }
 
 /// Half of them anywhere, half at points of triangles, of edges and vertices in equal parts.
@@ -186,11 +191,11 @@ Json count_misses(DeviceContext &device, const ClosedShape &shape, size_t ray_co
     });
     Json layouts = Json::array();
     for (size_t i = 0; i < tracers.size(); ++i) {
-        layouts.push_back(
-            {{"name", names[i]},
-             {"misses", misses[i]},
-             {"limit", shape.limit},
-             {"passed", static_cast<double>(misses[i]) <= shape.limit * static_cast<double>(ray_count)}});
+        layouts.push_back({{"name", names[i]},
+                           {"misses", misses[i]},
+                           {"limit", shape.limit},
+                           {"passed", static_cast<double>(misses[i]) <=
+                                          shape.limit * static_cast<double>(ray_count)}});
     }
     return {{"check", "watertight"},
             {"mesh", shape.name},
@@ -209,9 +214,10 @@ MeasurementPlan plan_traversal(const MeasurementSettings &settings, DeviceContex
                               }});
     }
     for (const ClosedShape &shape : closed_shapes()) {
-        plan.tasks.push_back({fmt::format("watertight.{}", plan.tasks.size()), [&device, settings, shape] {
-                                  return count_misses(device, shape, settings.watertight_rays);
-                              }});
+        plan.tasks.push_back(
+            {fmt::format("watertight.{}", plan.tasks.size()), [&device, settings, shape] {
+                 return count_misses(device, shape, settings.watertight_rays);
+             }});
     }
     plan.summarise = [](const Json &rows) {
         bool passed = true;

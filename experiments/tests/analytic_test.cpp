@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes with a value derived by hand guard the conventions that renderer and reference share through the importer:
-// axes of the camera, winding, mirroring, colour encoding, units of the lights. Both must meet it.
+// Scenes with a value derived by hand guard the conventions that renderer and reference share
+// through the importer: axes of the camera, winding, mirroring, colour encoding, units of the
+// lights. Both must meet it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +19,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr uint64_t spp = 2048;
 
-/// Eleven scenes by two renderers by three channels decide by chance: 4.5 standard errors each hold the whole at 0.0005.
+/// Eleven scenes by two renderers by three channels decide by chance: 4.5 standard errors each hold
+/// the whole at 0.0005.
 constexpr double bound = 4.5;
 
 struct Expected {
@@ -31,7 +33,8 @@ constexpr std::array<double, 3> rho = {0.8, 0.5, 0.2};
 constexpr std::array<double, 3> steps = {1, 2, 4};  // radiances and intensities rise like this
 
 const std::array<Expected, 11> expectations = {{
-    {"fov_axis", [](int x, int y, size_t c) { return x >= 16 && x < 24 && y < 4 ? steps[c] : 0.0; }},
+    {"fov_axis",
+     [](int x, int y, size_t c) { return x >= 16 && x < 24 && y < 4 ? steps[c] : 0.0; }},
     {"winding", [](int x, int, size_t c) { return x < 8 || (x >= 16 && x < 24) ? steps[c] : 0.0; }},
     {"point_light", [](int, int, size_t c) { return rho[c] / pi * 10 * steps[c] / 4; }},
     {"spot_light", [](int, int, size_t c) { return rho[c] / pi * 10 * steps[c] / 4; }},
@@ -67,23 +70,27 @@ Image render_reference(const Scene &scene) {
 void expect_meets(const Image &image, const Expected &expected, const char *renderer) {
     for (size_t channel = 0; channel < 3; ++channel) {
         const std::string name = rgb_names()[channel];
-        const std::vector<float> &values = image.channel(name), &variances = image.channel("variance." + name);
+        const std::vector<float> &values = image.channel(name),
+                                 &variances = image.channel("variance." + name);
         double sum = 0, wanted = 0, variance = 0;
         for (int y = 0; y < image.height(); ++y) {
             for (int x = 0; x < image.width(); ++x) {
                 const auto i = static_cast<size_t>(y * image.width() + x);
                 const double here = expected.radiance(x, y, channel);
-                if (variances[i] == 0.0f) {  // towards the corners of the field cos^3 falls by up to 1.3e-4
-                    ASSERT_NEAR(static_cast<double>(values[i]), here, 1.5e-4 * here) << renderer << " " << x << "," << y;
+                if (variances[i] ==
+                    0.0f) {  // towards the corners of the field cos^3 falls by up to 1.3e-4
+                    ASSERT_NEAR(static_cast<double>(values[i]), here, 1.5e-4 * here)
+                        << renderer << " " << x << "," << y;
                 }
                 sum += static_cast<double>(values[i]);
                 wanted += here;
                 variance += static_cast<double>(variances[i]);
             }
         }
-        // Half a degree of field lowers the mean by at most 4.3e-5: cos^3 at a quarter of a degree from 3 units away, with the
-        // light 2 units above.
-        EXPECT_NEAR(sum, wanted, bound * std::sqrt(variance) + 5e-5 * wanted) << renderer << " " << name;
+        // Half a degree of field lowers the mean by at most 4.3e-5: cos^3 at a quarter of a degree
+        // from 3 units away, with the light 2 units above.
+        EXPECT_NEAR(sum, wanted, bound * std::sqrt(variance) + 5e-5 * wanted)
+            << renderer << " " << name;
         EXPECT_LT(std::sqrt(variance), 0.005 * wanted) << renderer << ": power";
     }
 }
@@ -91,7 +98,8 @@ void expect_meets(const Image &image, const Expected &expected, const char *rend
 class Analytic : public testing::TestWithParam<Expected> {};
 
 TEST_P(Analytic, RendererAndReferenceMeetTheDerivedValue) {
-    const Scene scene = load_scene(std::string(RTRAYS_SCENES "/analytic/") + GetParam().scene + ".json");
+    const Scene scene =
+        load_scene(std::string(RTRAYS_SCENES "/analytic/") + GetParam().scene + ".json");
     expect_meets(render(scene), GetParam(), "renderer");
     expect_meets(render_reference(scene), GetParam(), "reference");
 }

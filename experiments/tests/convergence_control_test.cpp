@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The comparison of renders with and without convergence control on images whose bias and cost are known.
+// The comparison of renders with and without convergence control on images whose bias and cost are
+// known.
 #include "experiments/convergence_control.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +60,8 @@ std::vector<ControlledRender> stopped(float own_noise) {
     std::vector<ControlledRender> renders = without();
     for (uint32_t seed = 0; seed < seeds; ++seed) {
         ControlledRender &render = renders[seed];
-        render = {with_noise(render.image, own_noise, 100 + seed), 250, 1600, render.seconds / 3, 0.25};
+        render = {with_noise(render.image, own_noise, 100 + seed), 250, 1600, render.seconds / 3,
+                  0.25};
     }
     return renders;
 }
@@ -71,8 +73,8 @@ TEST(ConvergenceControl, FindsNoBiasWhereThereIsNone) {
     const nlohmann::json mean = row["bias"]["mean"];
     EXPECT_LT(mean["low"], 0);
     EXPECT_GT(mean["high"], 0);
-    // Noise that both share does not widen it: 0.05 / 2 over sqrt(10 x 48 x 48 x 3) values, times t of 9
-    // degrees.
+    // Noise that both share does not widen it: 0.05 / 2 over sqrt(10 x 48 x 48 x 3) values, times t
+    // of 9 degrees.
     EXPECT_LT(mean["high"].get<double>() - mean["low"].get<double>(),
               2 * 3.25 * 0.025 / std::sqrt(10.0 * 48 * 48 * 3) * 2);
     EXPECT_DOUBLE_EQ(row["paths"], 0.25);
@@ -103,7 +105,8 @@ TEST(ConvergenceControl, ComparesErrorsAtEqualRays) {
         EXPECT_NEAR(same["efficiency"][end], 5, 1e-9);
     }
     EXPECT_EQ(same["rmse"], same["rmse_without"]);
-    const nlohmann::json even = compare_control(stopped(0.2f * std::sqrt(4.0f)), without(), grey(2.0f));
+    const nlohmann::json even =
+        compare_control(stopped(0.2f * std::sqrt(4.0f)), without(), grey(2.0f));
     EXPECT_LT(even["efficiency"]["low"], 1);
     EXPECT_GT(even["efficiency"]["high"], 1);
     EXPECT_NEAR(even["efficiency"]["value"], 1, 0.03);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Experiment and gate files: the shipped ones load, broken ones are refused with what is wrong and where.
+// Experiment and gate files: the shipped ones load, broken ones are refused with what is wrong and
+// where.
 #include "experiments/description.h"
 
 #include <gtest/gtest.h>
@@ -41,10 +42,12 @@ std::string replaced(std::string text, const std::string &from, const std::strin
 }
 
 TEST(Description, ShippedExperimentsLoadInEveryProfile) {
-    for (const char *name : {"cornell_diffuse", "cornell_algorithms", "cornell_bumps", "cornell_mirrors", "mirror_ring",
-                             "glass_goblets", "door_ajar", "floor_lamps", "samplers"}) {
+    for (const char *name :
+         {"cornell_diffuse", "cornell_algorithms", "cornell_bumps", "cornell_mirrors",
+          "mirror_ring", "glass_goblets", "door_ajar", "floor_lamps", "samplers"}) {
         for (const char *profile : {"quick", "full", "ci"}) {
-            const auto experiment = load_experiment(shipped / (std::string(name) + ".json"), profile);
+            const auto experiment =
+                load_experiment(shipped / (std::string(name) + ".json"), profile);
             EXPECT_EQ(experiment.name, name);
             // Throughput is the last curve's: path tracing on every page.
             EXPECT_EQ(experiment.curves.back().id(), "path_tracing.mis");
@@ -70,7 +73,8 @@ TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
     for (const CurveDescription &curve : ladder("\"bdpt.mis\": 8")) {
         const bool is_capped = curve.id() == "bdpt.mis";
         EXPECT_EQ(curve.spp.back(), is_capped ? 8u : 16u);
-        EXPECT_EQ(curve.early_images, is_capped ? std::vector<uint64_t>{4} : std::vector<uint64_t>({4, 16}));
+        EXPECT_EQ(curve.early_images,
+                  is_capped ? std::vector<uint64_t>{4} : std::vector<uint64_t>({4, 16}));
     }
     const auto error = [&](const std::string &most) { return error_of(capped(most)); };
     EXPECT_NE(error("\"bdpt\": 8").find("there is no curve 'bdpt'"), std::string::npos);
@@ -97,14 +101,16 @@ TEST(Description, ErrorsNameTheKey) {
     EXPECT_NE(error_of(replaced(good, "\"claim\"", "\"clam\"")).find("clam"), std::string::npos);
     EXPECT_NE(error_of(replaced(good, "\"title\"", "\"name\"")).find("duplicate key 'name'"),
               std::string::npos);
-    EXPECT_NE(error_of(replaced(good, "\"seeds\": 8", "\"seeds\": 3")).find("seeds"), std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"seeds\": 8", "\"seeds\": 3")).find("seeds"),
+              std::string::npos);
     EXPECT_NE(error_of(replaced(good, "[1, 2, 4, 8,", "[1, 4, 2, 8,")).find("must increase"),
               std::string::npos);
-    EXPECT_NE(
-        error_of(replaced(good, "\"integrator.strategies\": \"mis\"", "\"integrator.strategies\": \"miss\""))
-            .find("implicit, explicit, mis"),
-        std::string::npos);
-    EXPECT_NE(error_of(replaced(good, "\"mis\"", "\"implicit\"")).find("two curves"), std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"integrator.strategies\": \"mis\"",
+                                "\"integrator.strategies\": \"miss\""))
+                  .find("implicit, explicit, mis"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"mis\"", "\"implicit\"")).find("two curves"),
+              std::string::npos);
     EXPECT_NE(error_of("{").find("broken_experiment.json:1"), std::string::npos);
 }
 
@@ -119,18 +125,20 @@ TEST(Description, UnknownProfileListsTheProfiles) {
 
 TEST(Description, ErrorsOfGatesNameTheKey) {
     const std::string good = read_file(shipped / "gate_cornell_box.json");
-    EXPECT_NE(
-        error_of(replaced(good, "\"split\": 3", "\"split\": 8"), true).find("/bitwise/split: 8 is not below"),
-        std::string::npos);
-    EXPECT_NE(
-        error_of(replaced(good, "[2, 8, 32]", "[2, 32, 8]"), true).find("/convergence/spp: must increase"),
-        std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"split\": 3", "\"split\": 8"), true)
+                  .find("/bitwise/split: 8 is not below"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "[2, 8, 32]", "[2, 32, 8]"), true)
+                  .find("/convergence/spp: must increase"),
+              std::string::npos);
     EXPECT_NE(error_of(replaced(good, "\"explicit\"", "\"implicit\""), true).find("two curves"),
               std::string::npos);
 }
 
 TEST(Description, ShippedClaimsFitTheirSchema) {
-    EXPECT_FALSE(load_description(shipped / "claims.json", "claims.schema.json").json.at("sections").empty());
+    EXPECT_FALSE(load_description(shipped / "claims.json", "claims.schema.json")
+                     .json.at("sections")
+                     .empty());
 }
 
 TEST(Description, ShippedGateLoads) {

@@ -77,10 +77,12 @@ std::string error_of(const std::string &text) {
 }
 
 TEST(Document, AnIncompleteRunIsRefused) {
-    EXPECT_NE(error_of(R"({"schema_version": 2})").find("missing key 'experiment'"), std::string::npos);
+    EXPECT_NE(error_of(R"({"schema_version": 2})").find("missing key 'experiment'"),
+              std::string::npos);
     // JSON has no NaN: it is written as null.
     const nlohmann::json run = {{"schema_version", std::nan("")}};
-    EXPECT_NE(error_of(run.dump()).find("null is not of type"), std::string::npos) << error_of(run.dump());
+    EXPECT_NE(error_of(run.dump()).find("null is not of type"), std::string::npos)
+        << error_of(run.dump());
 }
 
 }  // namespace

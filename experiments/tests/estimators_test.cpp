@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Independent estimators of one picture agree: implicit, explicit and MIS paths of the renderer, and the
-// reference, pairwise, by blocks of 16 x 16 pixels and on the mean.
+// Independent estimators of one picture agree: implicit, explicit and MIS paths of the renderer,
+// and the reference, pairwise, by blocks of 16 x 16 pixels and on the mean.
 #include <gtest/gtest.h>
 
 #include <iterator>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr int size = 64;
 
-/// Samples, enough that an error of 2 % is seen (asserted below; implicit paths are the noisiest), and seed:
-/// each its own, since the tests take the images as independent.
+/// Samples, enough that an error of 2 % is seen (asserted below; implicit paths are the noisiest),
+/// and seed: each its own, since the tests take the images as independent.
 struct Run {
     uint64_t spp;
     uint32_t seed;

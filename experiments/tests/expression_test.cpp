@@ -30,7 +30,8 @@ TEST(Expression, HasTheUsualPrecedence) {
 }
 
 TEST(Expression, KnowsItsFunctions) {
-    EXPECT_DOUBLE_EQ(value_of("sqrt(x) * sin(pi / 6) + max(min(1, x), -2)"), std::sqrt(3.0) / 2 + 1);
+    EXPECT_DOUBLE_EQ(value_of("sqrt(x) * sin(pi / 6) + max(min(1, x), -2)"),
+                     std::sqrt(3.0) / 2 + 1);
     EXPECT_DOUBLE_EQ(value_of("expm1(1e-20) / log1p(1e-20)"), 1);
     EXPECT_DOUBLE_EQ(value_of("atan2(1, -1)"), std::atan2(1.0, -1.0));
     EXPECT_EQ(value_of("float(0.1)"), static_cast<double>(0.1f));
@@ -38,7 +39,8 @@ TEST(Expression, KnowsItsFunctions) {
 }
 
 TEST(Expression, SaysWhatIsWrongWithAFormula) {
-    for (const std::string formula : {"", "1 +", "(1", "1 2", "sqrt 2", "sqrt()", "max(1)", "cbrt(8)", "y", "1 / z + x", "2 ** 3"}) {
+    for (const std::string formula : {"", "1 +", "(1", "1 2", "sqrt 2", "sqrt()", "max(1)",
+                                      "cbrt(8)", "y", "1 / z + x", "2 ** 3"}) {
         EXPECT_THROW(value_of(formula), Error) << formula;
     }
     EXPECT_THROW(value_of(std::string(100000, '(') + "1"), Error);

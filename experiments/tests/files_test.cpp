@@ -38,9 +38,9 @@ Image noise_image(int width, int height, uint32_t seed) {
 class StoredReferences : public testing::Test {
   protected:
     void SetUp() override {
-        folder_ =
-            fs::path(testing::TempDir()) /
-            ("references_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        folder_ = fs::path(testing::TempDir()) /
+                  ("references_" +
+                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
         fs::remove_all(folder_);
         fs::create_directories(folder_);
     }
@@ -72,7 +72,8 @@ class StoredReferences : public testing::Test {
         try {
             load_reference(wanted);
         } catch (const Error &error) {
-            EXPECT_NE(std::string(error.what()).find(expected_text), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(expected_text), std::string::npos)
+                << error.what();
             return error.exit_code();
         }
         return ExitCode::ok;

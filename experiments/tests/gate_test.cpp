@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Planting errors, without a device: every planted error of the shipped gates still finds its place. The rule
-// of slopes.
+// Planting errors, without a device: every planted error of the shipped gates still finds its
+// place. The rule of slopes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,8 +36,8 @@ TEST(Plant, ShippedErrorsFitTheShippedKernels) {
     }
 }
 
-/// Errors of 16 renders at 4, 16 and 64 spp: e (spp / 4)^slope, squares scattered with this relative
-/// deviation at 4 spp, half of it at 16 and a quarter at 64.
+/// Errors of 16 renders at 4, 16 and 64 spp: e (spp / 4)^slope, squares scattered with this
+/// relative deviation at 4 spp, half of it at 16 and a quarter at 64.
 StageErrors made_up_errors(double slope, double scatter, uint64_t random_seed) {
     std::mt19937_64 engine(random_seed);
     std::normal_distribution<double> noise;

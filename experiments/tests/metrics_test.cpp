@@ -23,7 +23,8 @@ Image constant(int width, int height, float value) {
     return image;
 }
 
-/// Mean `truth` * (1 + bias) with Gaussian noise of standard deviation `sigma` per pixel and channel.
+/// Mean `truth` * (1 + bias) with Gaussian noise of standard deviation `sigma` per pixel and
+/// channel.
 Image noisy(double truth, double bias, double sigma, uint64_t seed, int size = 64) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> noise;
@@ -72,7 +73,8 @@ TEST(Metrics, RejectsOtherSizesAndNonFiniteValues) {
 
 TEST(Metrics, HalvesGiveTheNoiseOfTheirAverage) {
     const double truth = 1, sigma = 0.2;
-    const auto reference = combine_halves(noisy(truth, 0, sigma, 1, 256), noisy(truth, 0, sigma, 2, 256));
+    const auto reference =
+        combine_halves(noisy(truth, 0, sigma, 1, 256), noisy(truth, 0, sigma, 2, 256));
     EXPECT_NEAR(reference.noise_mse, sigma * sigma / 2, 0.01 * sigma * sigma / 2);
     // The estimate is what the average is really off by, and the variance layer says the same.
     const double actual = compute_metrics(reference.image, constant(256, 256, 1)).mse;
@@ -135,18 +137,22 @@ TEST(Agreement, RejectsATrueHypothesisAtMostAtItsLevel) {
     const int runs = 500;
     for (int i = 0; i < runs; ++i) {
         const auto seed = static_cast<uint64_t>(2 * i);
-        rejected += test_agreement(noisy(1, 0, 0.1, seed), noisy(1, 0, 0.1, seed + 1)).agrees() ? 0 : 1;
+        rejected +=
+            test_agreement(noisy(1, 0, 0.1, seed), noisy(1, 0, 0.1, seed + 1)).agrees() ? 0 : 1;
     }
     // Family-wise level 1 %: 12 of 500 is the 99.9 % quantile of the binomial.
     EXPECT_LE(rejected, 12);
 }
 
 TEST(Agreement, FindsAHalfPercentBias) {
-    // Standard error of the mean difference per channel: sqrt(2) 0.05 / 64 = 0.0011, the bias is 4.5 of it.
+    // Standard error of the mean difference per channel: sqrt(2) 0.05 / 64 = 0.0011, the bias
+    // is 4.5 of it.
     int found = 0;
     for (uint64_t i = 0; i < 100; ++i) {
         found +=
-            test_agreement(noisy(1, 0.005, 0.05, 1000 + i), noisy(1, 0, 0.05, 2000 + i)).agrees() ? 0 : 1;
+            test_agreement(noisy(1, 0.005, 0.05, 1000 + i), noisy(1, 0, 0.05, 2000 + i)).agrees()
+                ? 0
+                : 1;
     }
     EXPECT_GE(found, 95);
 }
@@ -160,11 +166,13 @@ TEST(Agreement, FindsALocalErrorThatTheMeanHides) {
     const auto agreement = test_agreement(image, noisy(1, 0, 0.02, 10));
     EXPECT_EQ(agreement.rejected, 2u);
     EXPECT_EQ(agreement.tests, 3u * 17u);
-    EXPECT_TRUE(agreement.largest_z_at == "R (0, 0)" || agreement.largest_z_at == "R (16, 0)") << agreement.largest_z_at;
+    EXPECT_TRUE(agreement.largest_z_at == "R (0, 0)" || agreement.largest_z_at == "R (16, 0)")
+        << agreement.largest_z_at;
 }
 
 TEST(Agreement, StatesEquivalenceOnlyWithEnoughSamples) {
-    EXPECT_EQ(test_agreement(noisy(1, 0, 0.5, 11), noisy(1, 0, 0.5, 12)).equivalence, Equivalence::undecided);
+    EXPECT_EQ(test_agreement(noisy(1, 0, 0.5, 11), noisy(1, 0, 0.5, 12)).equivalence,
+              Equivalence::undecided);
     EXPECT_EQ(test_agreement(noisy(1, 0, 0.01, 11), noisy(1, 0, 0.01, 12)).equivalence,
               Equivalence::equivalent);
     EXPECT_EQ(test_agreement(noisy(1, 0.01, 0.01, 11), noisy(1, 0, 0.01, 12)).equivalence,
@@ -213,7 +221,8 @@ TEST(Agreement, FreshBatchesConfirmWhatRejects) {
             return noisy_batches(bias, 0.03, 300);
         };
     };
-    const std::vector<Image> clean = noisy_batches(0, 0.05, 100), dark = noisy_batches(-0.02, 0.005, 100);
+    const std::vector<Image> clean = noisy_batches(0, 0.05, 100),
+                             dark = noisy_batches(-0.02, 0.005, 100);
     EXPECT_TRUE(test_agreement(clean, reference, {}, fresh(-0.02)).agrees());
     EXPECT_EQ(asked, 0) << "nothing rejects";
 
@@ -259,16 +268,19 @@ TEST(Agreement, OfBatchesFindsABiasAndNothingElse) {
     EXPECT_EQ(clean.undecided, 0u);
     EXPECT_FALSE(test_agreement(noisy_batches(0.02, 0.05, 200), reference).agrees());
     EXPECT_TRUE(test_agreement(noisy_batches(0, 0.05, 100), noisy_batches(0, 0.05, 300)).agrees());
-    EXPECT_FALSE(test_agreement(noisy_batches(0, 0.05, 100), noisy_batches(0.02, 0.05, 400)).agrees());
+    EXPECT_FALSE(
+        test_agreement(noisy_batches(0, 0.05, 100), noisy_batches(0.02, 0.05, 400)).agrees());
 }
 
-// Log-normal batches of mean 1 whose median is a quarter of that: most estimates are too low, and too sure of it.
+// Log-normal batches of mean 1 whose median is a quarter of that: most estimates are too low, and
+// too sure of it.
 TEST(Agreement, LeavesBatchesUndecidedThatAreTooSkewed) {
     const Image reference = noisy(1, 0, 0.001, 7, 16);
     int rejected = 0, decided = 0;
     const double spread = std::sqrt(2 * std::log(4.0));
     std::mt19937_64 engine(5);
-    std::lognormal_distribution<float> brightness(static_cast<float>(-spread * spread / 2), static_cast<float>(spread));
+    std::lognormal_distribution<float> brightness(static_cast<float>(-spread * spread / 2),
+                                                  static_cast<float>(spread));
     for (int run = 0; run < 500; ++run) {
         std::vector<Image> batches;
         for (int i = 0; i < 32; ++i) {

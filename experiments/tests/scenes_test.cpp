@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *procedural[] = {"court_3000", "court_3000_upper", "hall_3000", "landscape_3000",
-                                      "city_3000"};
+constexpr const char *procedural[] = {"court_3000", "court_3000_upper", "hall_3000",
+                                      "landscape_3000", "city_3000"};
 
 TEST(TimedScenes, HaveTheTrianglesOfTheirNames) {
     for (const char *name : procedural) {
@@ -71,20 +71,22 @@ TEST(TimedScenes, AreDiffuseWhereAsked) {
 }
 
 TEST(TimedScenes, OthersAreRefused) {
-    for (const char *name : {"court_", "court_1e3", "court_100_lower", "hall_100_upper", "nowhere"}) {
+    for (const char *name :
+         {"court_", "court_1e3", "court_100_lower", "hall_100_upper", "nowhere"}) {
         EXPECT_FALSE(has_timed_scene(name)) << name;
         try {
             load_timed_scene(name, Surfaces::own);
             ADD_FAILURE() << name;
         } catch (const Error &error) {
             EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
-            EXPECT_NE(std::string(error.what()).find("court_N_upper"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("court_N_upper"), std::string::npos)
+                << error.what();
         }
     }
 }
 
-/// Two triangles with normals and texture coordinates, each an object; read as they are, since they are not
-/// packed.
+/// Two triangles with normals and texture coordinates, each an object; read as they are, since they
+/// are not packed.
 class SanMiguelFiles : public testing::Test {
   protected:
     void SetUp() override {
@@ -97,7 +99,8 @@ class SanMiguelFiles : public testing::Test {
                    "property list uchar int vertex_indices\nend_header\n"
                    "0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n0 1 0 0 0 1 0 1\n1 1 0 0 0 1 1 1\n"
                    "3 0 1 2\n3 2 1 3\n");
-        write_file(materials, "newmtl stone\nKd 0.5 0.5 0.5\nillum 1\n\nnewmtl leaf\nKd 0 1 0\nillum 1\n");
+        write_file(materials,
+                   "newmtl stone\nKd 0.5 0.5 0.5\nillum 1\n\nnewmtl leaf\nKd 0 1 0\nillum 1\n");
     }
     void TearDown() override { fs::remove_all(folder); }
 
@@ -108,8 +111,8 @@ class SanMiguelFiles : public testing::Test {
         return loaded;
     }
 
-    const fs::path folder =
-        fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    const fs::path folder = fs::path(testing::TempDir()) /
+                            testing::UnitTest::GetInstance()->current_test_info()->name();
     const fs::path model = folder / "model.ply.gz", instances = folder / "model.instances",
                    materials = folder / "model.mtl";
 };
@@ -137,7 +140,8 @@ TEST_F(SanMiguelFiles, HaveAMeshForEachMaterial) {
 
     const test::Mesh whole = load_san_miguel(model, instances, SanMiguelPart::whole);
     EXPECT_EQ(whole.triangles.size(), 3u);
-    EXPECT_EQ(load_san_miguel(model, instances, SanMiguelPart::building_and_plants).triangles.size(), 2u);
+    EXPECT_EQ(
+        load_san_miguel(model, instances, SanMiguelPart::building_and_plants).triangles.size(), 2u);
 }
 
 TEST_F(SanMiguelFiles, AreRefusedByLine) {
@@ -153,9 +157,11 @@ TEST_F(SanMiguelFiles, AreRefusedByLine) {
     };
     EXPECT_NE(complaint("object 0 a 1 2 0\n").find("model.instances:2"), std::string::npos);
     EXPECT_NE(complaint("object 1 a 0 1 0\n").find("model.instances:2"), std::string::npos);
-    EXPECT_NE(complaint("object 0 a 0 1 0\ninstance 1 1 0 0 0 0 1 0 0 0 0 1 0\n").find("model.instances:3"),
+    EXPECT_NE(complaint("object 0 a 0 1 0\ninstance 1 1 0 0 0 0 1 0 0 0 0 1 0\n")
+                  .find("model.instances:3"),
               std::string::npos);
-    EXPECT_NE(complaint("object 0 a 0 1 0\ninstance 0 1 0 0\n").find("model.instances:3"), std::string::npos);
+    EXPECT_NE(complaint("object 0 a 0 1 0\ninstance 0 1 0 0\n").find("model.instances:3"),
+              std::string::npos);
     EXPECT_NE(complaint("object 0 a 0 1 2\n").find("material 2"), std::string::npos);
 }
 

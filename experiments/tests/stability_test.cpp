@@ -53,13 +53,18 @@ TEST(Stability, PassesWhatIsAsExpected) {
 }
 
 TEST(Stability, FindsAPlantedBias) {
-    const auto biased = [](std::mt19937 &generator, int pixel) { return 1.01 * noise(generator, pixel); };
+    const auto biased = [](std::mt19937 &generator, int pixel) {
+        return 1.01 * noise(generator, pixel);
+    };
     EXPECT_EQ(test_stability(batches(biased), one, 0, 0.01, alpha).verdict, "off");
-    EXPECT_EQ(test_stability(batches(biased), one, 0.02, 0.01, alpha).verdict, "ok") << "within its bound";
+    EXPECT_EQ(test_stability(batches(biased), one, 0.02, 0.01, alpha).verdict, "ok")
+        << "within its bound";
 }
 
 TEST(Stability, FindsABiasThatTheMeanHides) {
-    const auto tilted = [](std::mt19937 &generator, int pixel) { return noise(generator, pixel) * (pixel % size < 8 ? 0.98 : 1.02); };
+    const auto tilted = [](std::mt19937 &generator, int pixel) {
+        return noise(generator, pixel) * (pixel % size < 8 ? 0.98 : 1.02);
+    };
     EXPECT_EQ(test_stability(batches(tilted), one, 0, 0.01, alpha).verdict, "off");
 }
 
@@ -102,7 +107,9 @@ TEST(Stability, LeavesTheNoiseOfTheReferenceOutOfTheError) {
 TEST(StabilityCases, AreReadWithTheirSweepsAndFormulas) {
     const StabilitySuite suite = load_stability(RTRAYS_EXPERIMENTS "/stability.json", "quick");
     EXPECT_GT(suite.cases.size(), 100u);
-    const auto found = std::find_if(suite.cases.begin(), suite.cases.end(), [](const StabilityCase &c) { return c.name == "furnace rho=0.5"; });
+    const auto found =
+        std::find_if(suite.cases.begin(), suite.cases.end(),
+                     [](const StabilityCase &c) { return c.name == "furnace rho=0.5"; });
     ASSERT_NE(found, suite.cases.end());
     EXPECT_EQ(found->expected, (std::array<double, 3>{2, 1, 0.5}));
     const StabilitySuite stiff = load_stability(RTRAYS_EXPERIMENTS "/stiffness.json", "quick");
@@ -110,7 +117,8 @@ TEST(StabilityCases, AreReadWithTheirSweepsAndFormulas) {
     EXPECT_EQ(stiff.cases.front().runs.front().name, "path_tracing implicit");
     EXPECT_EQ(stiff.cases.front().runs.front().settings.strategies, "implicit");
     for (const char *profile : {"ci", "full"}) {
-        for (const StabilityCase &tested : load_stability(RTRAYS_EXPERIMENTS "/stability.json", profile).cases) {
+        for (const StabilityCase &tested :
+             load_stability(RTRAYS_EXPERIMENTS "/stability.json", profile).cases) {
             EXPECT_NO_THROW(tested.scene.load()) << tested.name;
         }
     }

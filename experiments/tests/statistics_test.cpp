@@ -35,7 +35,8 @@ TEST(MedianInterval, UsesTheTabulatedRanks) {
 }
 
 TEST(MeanInterval, IsStudents) {
-    const auto interval = mean_interval({1, 2, 3}, 0.99);  // standard error 1 / sqrt(3), t of 2 degrees 9.924843
+    const auto interval =
+        mean_interval({1, 2, 3}, 0.99);  // standard error 1 / sqrt(3), t of 2 degrees 9.924843
     EXPECT_DOUBLE_EQ(interval.value, 2);
     EXPECT_NEAR(interval.low, 2 - 9.924843 / std::sqrt(3.0), 1e-5);
     EXPECT_NEAR(interval.high, 2 + 9.924843 / std::sqrt(3.0), 1e-5);
@@ -44,7 +45,8 @@ TEST(MeanInterval, IsStudents) {
 
 TEST(WeightedSlope, ExactLineAndWeights) {
     EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {1, 3, 5}, {1, 5, 2}), 2);
-    EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {0, 1, 7}, {1, 1, 0}), 1);  // weight 0 leaves a point out
+    EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {0, 1, 7}, {1, 1, 0}),
+                     1);  // weight 0 leaves a point out
     EXPECT_THROW(weighted_slope({1, 1}, {0, 1}, {1, 1}), Error);
 }
 
@@ -67,8 +69,9 @@ TEST(Normal, TailsKeepTheirPrecision) {
     EXPECT_NEAR(normal_quantile_two_sided(0.99), 2.5758293035489004, 1e-12);
 }
 
-/// One seed's errors along a ladder of cumulative samples: the squared error of the mean of growing batches
-/// of `pixels` Gaussian values, so that points of a seed are correlated as they are in a render.
+/// One seed's errors along a ladder of cumulative samples: the squared error of the mean of growing
+/// batches of `pixels` Gaussian values, so that points of a seed are correlated as they are in a
+/// render.
 std::vector<double> ladder(const std::vector<double> &spp, int pixels, std::mt19937_64 &engine) {
     std::normal_distribution<double> noise;
     std::vector<double> sums(static_cast<size_t>(pixels), 0.0), errors;
@@ -108,8 +111,8 @@ TEST(ConvergenceSlope, IntervalCoversMinusOneHalfAtItsRate) {
         covered += slope.low <= -0.5 && -0.5 <= slope.high ? 1 : 0;
         width += (slope.high - slope.low) / runs;
     }
-    // 95 % of 400 is 380; the binomial's 99.9 % range is 364 to 393. A plain percentile bootstrap gives about
-    // 355.
+    // 95 % of 400 is 380; the binomial's 99.9 % range is 364 to 393. A plain percentile bootstrap
+    // gives about 355.
     EXPECT_GE(covered, 364);
     EXPECT_LE(covered, 393);
     EXPECT_LT(width, 0.1);
@@ -134,8 +137,8 @@ TEST(ConvergenceSlope, NeedsEightSeedsAndPositiveErrors) {
 }
 
 TEST(ConvergenceSlope, ScatterMovesLogarithms) {
-    // Log-normal squares of sigma 0.6 at the first point, 0.1 at the last: of mean 1, their logarithm's is
-    // -sigma^2 / 2.
+    // Log-normal squares of sigma 0.6 at the first point, 0.1 at the last: of mean 1, their
+    // logarithm's is -sigma^2 / 2.
     std::mt19937_64 engine(4);
     std::normal_distribution<double> noise;
     std::vector<std::vector<double>> errors;
@@ -145,7 +148,8 @@ TEST(ConvergenceSlope, ScatterMovesLogarithms) {
             errors.back().push_back(std::exp(0.5 * (sigma * noise(engine) - 0.5 * sigma * sigma)));
         }
     }
-    const double slope = convergence_slope({1, 16}, errors, 0.95, 100).value;  // of a mean that does not fall
+    const double slope =
+        convergence_slope({1, 16}, errors, 0.95, 100).value;  // of a mean that does not fall
     EXPECT_NEAR(slope, (0.36 - 0.01) / 4 / std::log(16.0), 0.003);
     // To first order in the variance, exp(0.36) - 1 of log-normal squares.
     EXPECT_NEAR(slope_bias_of_scatter({1, 16}, errors),
@@ -174,8 +178,8 @@ TEST(Gate, Rule) {
     EXPECT_EQ(decide_gate({-0.3, -0.4, -0.2}), GateDecision::pass);
 }
 
-/// How often one stage of K independent pairs decides each way when the error truly changed by `change` and
-/// the log error of one render scatters by `sigma`.
+/// How often one stage of K independent pairs decides each way when the error truly changed by
+/// `change` and the log error of one render scatters by `sigma`.
 std::array<int, 3> simulate_gate(double change, double sigma, int runs) {
     std::mt19937_64 engine(3);
     std::normal_distribution<double> noise(0, sigma);
@@ -212,7 +216,8 @@ TEST(Statistics, ExponentOfAPowerLaw) {
     const Interval interval = power_law_exponent(x, exact);
     EXPECT_NEAR(interval.value, 1.25, 1e-12);
     EXPECT_NEAR(interval.high - interval.low, 0, 1e-6);
-    // Three points of residuals 1, -2, 1 around a slope of 1: t of one degree of freedom times sqrt(6 / 2).
+    // Three points of residuals 1, -2, 1 around a slope of 1: t of one degree of freedom times
+    // sqrt(6 / 2).
     const double e = std::exp(1.0);
     const Interval rough = power_law_exponent({1, e, e * e}, {e, 1 / e, e * e * e});
     EXPECT_NEAR(rough.value, 1, 1e-12);

@@ -83,7 +83,8 @@ TEST(CpuMeter, SeesOwnWork) {
         work = work + 1;
     }
     const auto use = meter.use();
-    EXPECT_GT(use.own, 0.1 / static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)));  // a tenth of one core
+    EXPECT_GT(use.own,
+              0.1 / static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)));  // a tenth of one core
     EXPECT_GE(use.foreign, 0);
     EXPECT_LE(use.own + use.foreign + use.steal, 1.3);  // tick counts are coarse
 }

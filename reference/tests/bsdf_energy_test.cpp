@@ -73,12 +73,14 @@ TEST(BsdfEnergy, the_originals_that_cannot_are_as_far_off_as_known) {
     EXPECT_LE(value({ward(0.3, 0.3, true)}, 89.9999), 1.0);
 }
 
-/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta. With cos(phi) above
-/// zero integrating to 2 over the azimuth, what B multiplies is 2 / pi times the integral over theta_i of
-/// sin(max) tan(min) cos(theta_i) sin(theta_i), in two parts with theta_i below and above theta.
+/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta. With
+/// cos(phi) above zero integrating to 2 over the azimuth, what B multiplies is 2 / pi times the
+/// integral over theta_i of sin(max) tan(min) cos(theta_i) sin(theta_i), in two parts with theta_i
+/// below and above theta.
 double oren_nayar_albedo(double sigma, double theta) {
     const double variance = square(sigma);
-    const double a = 1.0 - 0.5 * variance / (variance + 0.33), b = 0.45 * variance / (variance + 0.09);
+    const double a = 1.0 - 0.5 * variance / (variance + 0.33),
+                 b = 0.45 * variance / (variance + 0.09);
     const double s = std::sin(theta), below = s * 0.5 * (theta - s * std::cos(theta)),
                  above = std::tan(theta) * (1.0 - s * s * s) / 3.0;
     return a + b * 2.0 / pi * (below + above);
@@ -128,10 +130,13 @@ TEST(BsdfEnergy, sampled_weights_have_the_albedo_as_their_mean) {
                      ? Fresnel(material.components[0]).evaluate(std::abs(wo.z()), false)[0]
                      : 0.0);
             const double mean = sum / samples;
-            const double deviation = std::sqrt(std::max(squares / samples - square(mean), 0.0) / samples);
-            // The quadrature's error matters where all weights are equal and the variance is rounding.
-            suite.push_back({material.name + " " + std::to_string(degrees),
-                             normal_p_value((mean - expected) / std::hypot(deviation, quadrature_error))});
+            const double deviation =
+                std::sqrt(std::max(squares / samples - square(mean), 0.0) / samples);
+            // The quadrature's error matters where all weights are equal and the variance is
+            // rounding.
+            suite.push_back(
+                {material.name + " " + std::to_string(degrees),
+                 normal_p_value((mean - expected) / std::hypot(deviation, quadrature_error))});
         }
     }
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
@@ -144,8 +149,10 @@ TEST(BsdfReciprocity, exchanging_the_directions_changes_nothing_but_eta_squared)
         double largest = 0.0;
         int compared = 0;
         for (int i = 0; i < 20000; ++i) {
-            const Vec3 wo = Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized();
-            const Vec3 wi = Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized();
+            const Vec3 wo =
+                Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized();
+            const Vec3 wi =
+                Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized();
             const Spectrum forth = bsdf.evaluate(wi, wo, no_uv) * energy_factor(material, wi, wo);
             const Spectrum back = bsdf.evaluate(wo, wi, no_uv);
             if (forth.maxCoeff() + back.maxCoeff() < 1e-100) {
@@ -156,7 +163,8 @@ TEST(BsdfReciprocity, exchanging_the_directions_changes_nothing_but_eta_squared)
         }
         EXPECT_GT(compared, 1000) << material.name;
         if (material.reciprocal) {
-            EXPECT_LT(largest, 1e-7) << material.name;  // half vectors of directions that nearly cancel
+            EXPECT_LT(largest, 1e-7)
+                << material.name;  // half vectors of directions that nearly cancel
         } else {
             EXPECT_GT(largest, 0.1) << material.name;  // exempt by name, and rightly so
         }
@@ -202,8 +210,8 @@ TEST(Bsdf, smooth_glass_obeys_snell_and_fresnel) {
         }
         const double deviation = std::sqrt(samples * reflectance * (1.0 - reflectance));
         if (deviation > 0.0) {
-            suite.push_back(
-                {std::to_string(degrees), normal_p_value((reflected - samples * reflectance) / deviation)});
+            suite.push_back({std::to_string(degrees),
+                             normal_p_value((reflected - samples * reflectance) / deviation)});
         } else {
             EXPECT_EQ(reflected, samples);
         }

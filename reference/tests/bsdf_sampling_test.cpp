@@ -71,20 +71,23 @@ TEST(BsdfSampling, sharp_lobes_have_the_density_claimed) {
         const Bsdf bsdf = make_bsdf({lobe.component});
         for (const double degrees : {0.0, 35.0, 65.0}) {
             const Vec3 wo = view(degrees);
-            const SamplerCheck check =
-                check_sharp_sampler(sampler_of(bsdf, wo), density_of(bsdf, wo), wo, lobe.width, samples, rng);
+            const SamplerCheck check = check_sharp_sampler(
+                sampler_of(bsdf, wo), density_of(bsdf, wo), wo, lobe.width, samples, rng);
             EXPECT_LT(check.total, 1.0 + 5e-5);
             EXPECT_GT(check.total, 0.9);  // the lobe is where the cells are
-            suite.push_back({lobe.name + std::string(" ") + std::to_string(degrees), check.p_value});
+            suite.push_back(
+                {lobe.name + std::string(" ") + std::to_string(degrees), check.p_value});
         }
     }
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
 }
 
 TEST(BsdfSampling, the_chi_square_test_sees_two_percent) {
-    // The sampler of a lobe 2 % rougher (of one selection probability 2 % off) against the density claimed.
+    // The sampler of a lobe 2 % rougher (of one selection probability 2 % off) against the density
+    // claimed.
     const auto ggx = Distribution::ggx, beckmann = Distribution::beckmann;
-    const std::vector<std::tuple<const char *, std::vector<BxdfComponent>, std::vector<BxdfComponent>>>
+    const std::vector<
+        std::tuple<const char *, std::vector<BxdfComponent>, std::vector<BxdfComponent>>>
         planted = {
             {"blinn", {blinn(64 * 1.02)}, {blinn(64)}},
             {"ward", {ward(0.3 * 1.02, 0.1)}, {ward(0.3, 0.1)}},
@@ -107,7 +110,8 @@ TEST(BsdfSampling, the_chi_square_test_sees_two_percent) {
     const Bsdf rough = make_bsdf({oren_nayar(0.5)});
     const DirectionDensity claimed = density_of(rough, view(35.0));
     const auto tilted = [&](const Vec3 &wi) { return claimed(wi) * (wi.x() > 0.0 ? 1.02 : 0.98); };
-    const SamplerCheck check = check_sampler(sampler_of(rough, view(35.0)), tilted, 20 * samples, rng);
+    const SamplerCheck check =
+        check_sampler(sampler_of(rough, view(35.0)), tilted, 20 * samples, rng);
     EXPECT_LT(check.p_value, 0.01 * family_alpha);
 }
 
@@ -123,10 +127,12 @@ TEST(BsdfSampling, weights_are_value_times_cosine_over_density) {
                     continue;
                 }
                 ASSERT_NEAR(sample->wi.norm(), 1.0, 1e-12) << material.name;
-                ASSERT_TRUE(sample->weight.allFinite() && (sample->weight >= 0.0).all()) << material.name;
+                ASSERT_TRUE(sample->weight.allFinite() && (sample->weight >= 0.0).all())
+                    << material.name;
                 const double pdf = bsdf.pdf_w(sample->wi, wo, no_uv);
                 ASSERT_NEAR(pdf / sample->pdf_w, 1.0, 1e-9) << material.name;
-                const Spectrum weight = bsdf.evaluate(sample->wi, wo, no_uv) * std::abs(sample->wi.z()) / pdf;
+                const Spectrum weight =
+                    bsdf.evaluate(sample->wi, wo, no_uv) * std::abs(sample->wi.z()) / pdf;
                 ASSERT_TRUE((weight - sample->weight).abs().maxCoeff() <= 1e-9 * weight.maxCoeff())
                     << material.name << " " << degrees;
             }

@@ -17,7 +17,8 @@ constexpr double fov = 0.8;
 
 /// A camera at the origin with camera space equal to world space.
 Camera camera_at_origin(FovAxis axis, int width, int height) {
-    return Camera({{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {axis}, {0}, {1}}, 0, width, height);
+    return Camera({{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {axis}, {0}, {1}}, 0, width,
+                  height);
 }
 
 /// tan of the half angles towards the middle of the film's right and top edge.
@@ -40,7 +41,8 @@ TEST(Camera, looks_along_minus_z_with_x_right_and_y_up) {
 TEST(Camera, measures_the_field_of_view_along_its_axis) {
     const double t = std::tan(0.5 * fov);
     const auto expect_extents = [](FovAxis axis, int width, int height, double x, double y) {
-        const Eigen::Vector2d extents = half_extents(camera_at_origin(axis, width, height), width, height);
+        const Eigen::Vector2d extents =
+            half_extents(camera_at_origin(axis, width, height), width, height);
         EXPECT_NEAR(extents.x(), x, 1e-14);
         EXPECT_NEAR(extents.y(), y, 1e-14);
     };
@@ -54,7 +56,8 @@ TEST(Camera, measures_the_field_of_view_along_its_axis) {
 
 TEST(Camera, turns_and_moves_with_its_matrix) {
     TestScene scene;
-    scene.set_camera({1, 2, 3}, {1, 2, 10}, Vec3::UnitY(), fov);  // looking along +z, so right is -x
+    scene.set_camera({1, 2, 3}, {1, 2, 10}, Vec3::UnitY(),
+                     fov);  // looking along +z, so right is -x
     const Camera camera(scene.cameras, 0, 10, 10);
     const Ray centre = camera.ray(5, 5);
     EXPECT_EQ(centre.origin, Vec3(1, 2, 3));
@@ -64,13 +67,15 @@ TEST(Camera, turns_and_moves_with_its_matrix) {
 }
 
 TEST(Camera, refuses_impossible_angles_and_indices) {
-    const CameraArrays flat{{"camera"}, {Eigen::Matrix4d::Identity()}, {pi}, {FovAxis::x}, {0}, {1}};
+    const CameraArrays flat{{"camera"}, {Eigen::Matrix4d::Identity()}, {pi}, {FovAxis::x}, {0},
+                            {1}};
     EXPECT_THROW(Camera(flat, 0, 4, 4), Error);
     EXPECT_THROW(Camera(flat, 1, 4, 4), Error);
 }
 
 TEST(Camera, a_lens_focuses_on_its_plane) {
-    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3}, {4.0}};
+    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3},
+                         {4.0}};
     cameras.world_from_camera[0].topLeftCorner<3, 3>() =
         Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
     cameras.world_from_camera[0].topRightCorner<3, 1>() = Vec3(5, -6, 7);
@@ -92,13 +97,15 @@ TEST(Camera, a_lens_focuses_on_its_plane) {
         mean += origin / samples;
         squares += origin.squaredNorm() / samples;
     }
-    // Uniform over the disc: mean 0 with deviation r / 2 per axis, mean square r^2 / 2 with r^2 / sqrt(12).
+    // Uniform over the disc: mean 0 with deviation r / 2 per axis, mean square r^2 / 2 with r^2 /
+    // sqrt(12).
     EXPECT_LT(mean.norm(), 4.0 * 0.15 * std::sqrt(2.0 / samples));
     EXPECT_NEAR(squares, 0.045, 4.0 * 0.09 / std::sqrt(12.0 * samples));
 }
 
 TEST(Camera, points_of_the_lens_are_uniform_and_two_percent_are_seen) {
-    const CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3}, {4.0}};
+    const CameraArrays cameras{
+        {"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3}, {4.0}};
     const Camera camera(cameras, 0, 6, 4);
     Rng rng(154, 0, 0);
     constexpr int samples = 1000000, rings = 10, sectors = 16;
@@ -108,7 +115,8 @@ TEST(Camera, points_of_the_lens_are_uniform_and_two_percent_are_seen) {
         const int ring = static_cast<int>(on_lens.squaredNorm() / square(0.3) * rings);
         const int sector =
             static_cast<int>((std::atan2(on_lens.y(), on_lens.x()) / (2.0 * pi) + 0.5) * sectors);
-        ++observed[static_cast<size_t>(std::min(ring, rings - 1) * sectors + std::min(sector, sectors - 1))];
+        ++observed[static_cast<size_t>(std::min(ring, rings - 1) * sectors +
+                                       std::min(sector, sectors - 1))];
     }
     std::vector<double> uniform(observed.size(), samples / static_cast<double>(rings * sectors));
     EXPECT_GT(chi_square_p(observed, uniform), family_alpha);
@@ -119,7 +127,8 @@ TEST(Camera, points_of_the_lens_are_uniform_and_two_percent_are_seen) {
 }
 
 TEST(Camera, a_closed_lens_is_a_pinhole_and_broken_ones_are_refused) {
-    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.0}, {0.0}};
+    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.0},
+                         {0.0}};
     Rng rng(152, 0, 0), untouched(152, 0, 0);
     const Camera camera(cameras, 0, 6, 4);
     EXPECT_EQ(camera.ray(1.0, 2.0, rng).direction, camera.ray(1.0, 2.0).direction);
@@ -132,8 +141,8 @@ TEST(Camera, a_closed_lens_is_a_pinhole_and_broken_ones_are_refused) {
 }
 
 TEST(Camera, a_point_out_of_focus_spreads_over_its_circle_of_confusion) {
-    // A small disc light at twice the focus distance. There the rays of a pixel, which meet in the plane of
-    // focus, have spread again to a disc as large as the lens.
+    // A small disc light at twice the focus distance. There the rays of a pixel, which meet in the
+    // plane of focus, have spread again to a disc as large as the lens.
     TestScene scene;
     Eigen::Matrix4d facing = placed({0, 0, -8}, 0.05);  // +z looks at the camera
     scene.add_shape(ShapeArrays::Kind::disc, facing, scene.add_material(Rgb::Zero()), Rgb::Ones());
@@ -143,11 +152,13 @@ TEST(Camera, a_point_out_of_focus_spreads_over_its_circle_of_confusion) {
     auto renderer = scene.renderer(small_settings(16, 153));
     renderer.render(0, 4096);
     const BlockMean mean = image_mean(renderer.develop(), "R");
-    // At distance 8 the chief rays cover 4 x 4; each pixel's rays spread over a disc of radius 0.5 there,
-    // and what the spread takes from the disc light at one pixel it gives at another.
+    // At distance 8 the chief rays cover 4 x 4; each pixel's rays spread over a disc of radius 0.5
+    // there, and what the spread takes from the disc light at one pixel it gives at another.
     EXPECT_NEAR(mean.mean, pi * square(0.05) / 16.0, 4.0 * std::sqrt(mean.variance));
     const Image image = renderer.develop();
-    const auto lit = [&](int x, int y) { return image.channel("R")[static_cast<size_t>(16 * y + x)] > 0.0f; };
+    const auto lit = [&](int x, int y) {
+        return image.channel("R")[static_cast<size_t>(16 * y + x)] > 0.0f;
+    };
     EXPECT_TRUE(lit(8, 8) && lit(9, 8) && lit(6, 8));  // pixels are 0.25 wide there
     EXPECT_FALSE(lit(8, 11) || lit(3, 8));
 }

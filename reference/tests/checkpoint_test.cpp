@@ -62,7 +62,9 @@ TEST_F(CheckpointFile, comes_back_bit_by_bit) {
     EXPECT_EQ(loaded.seconds, 1.25);
     EXPECT_EQ(loaded.commits, saved.commits);
     ASSERT_EQ(loaded.film.pixels.size(), saved.film.pixels.size());
-    EXPECT_EQ(std::memcmp(loaded.film.pixels.data(), saved.film.pixels.data(), 64 * sizeof(PixelMoments)), 0);
+    EXPECT_EQ(
+        std::memcmp(loaded.film.pixels.data(), saved.film.pixels.data(), 64 * sizeof(PixelMoments)),
+        0);
 }
 
 TEST_F(CheckpointFile, is_refused_when_any_byte_is_damaged) {
@@ -74,7 +76,8 @@ TEST_F(CheckpointFile, is_refused_when_any_byte_is_damaged) {
         write_file(path_, bad);
         EXPECT_THROW(load_checkpoint(path_), Error) << "byte " << i;
     }
-    for (const size_t length : {size_t{0}, size_t{7}, size_t{40}, good.size() / 2, good.size() - 1}) {
+    for (const size_t length :
+         {size_t{0}, size_t{7}, size_t{40}, good.size() / 2, good.size() - 1}) {
         write_file(path_, good.substr(0, length));
         EXPECT_THROW(load_checkpoint(path_), Error) << "length " << length;
     }
@@ -107,7 +110,8 @@ TEST_F(CheckpointFile, names_what_differs) {
 TEST_F(CheckpointFile, may_be_extended_but_not_cut) {
     const Checkpoint checkpoint = rendered_checkpoint();
     const auto message = [&](uint64_t begin, uint64_t end) {
-        return error_of([&] { require_continues(checkpoint, checkpoint.config, begin, end, path_); });
+        return error_of(
+            [&] { require_continues(checkpoint, checkpoint.config, begin, end, path_); });
     };
     EXPECT_EQ(message(0, 1000), "no error");
     EXPECT_EQ(message(0, 5), "no error");

@@ -6,7 +6,8 @@
 namespace rtrays::reference {
 namespace {
 
-/// Fresnel's own sine and tangent laws (Born & Wolf 1999, 1.5.2, eq. 21a), which the code does not use.
+/// Fresnel's own sine and tangent laws (Born & Wolf 1999, 1.5.2, eq. 21a), which the code does not
+/// use.
 double by_sines_and_tangents(double angle_i, double eta) {
     const double angle_t = std::asin(std::sin(angle_i) / eta);
     const double s = std::sin(angle_i - angle_t) / std::sin(angle_i + angle_t);
@@ -19,12 +20,14 @@ TEST(Fresnel, dielectric_has_its_tabulated_values) {
     // Brewster's angle only the perpendicular half is left, ((n^2 - 1) / (n^2 + 1))^2 / 2.
     EXPECT_NEAR(fresnel_dielectric(1.0, 1.5), 0.04, 1e-15);
     EXPECT_NEAR(fresnel_dielectric(1.0, 4.0 / 3.0), 1.0 / 49.0, 1e-15);
-    EXPECT_NEAR(fresnel_dielectric(std::cos(std::atan(1.5)), 1.5), 0.5 * square(1.25 / 3.25), 1e-14);
+    EXPECT_NEAR(fresnel_dielectric(std::cos(std::atan(1.5)), 1.5), 0.5 * square(1.25 / 3.25),
+                1e-14);
     EXPECT_EQ(fresnel_dielectric(0.0, 1.5), 1.0);
     for (const double eta : {1.3, 1.6, 1.9, 3.0, 1.0 / 1.3, 1.0 / 1.9}) {
         for (double angle = 0.02; angle < 0.5 * pi; angle += 0.02) {
             const double expected = std::sin(angle) < eta ? by_sines_and_tangents(angle, eta) : 1.0;
-            ASSERT_NEAR(fresnel_dielectric(std::cos(angle), eta), expected, 1e-12) << eta << " " << angle;
+            ASSERT_NEAR(fresnel_dielectric(std::cos(angle), eta), expected, 1e-12)
+                << eta << " " << angle;
         }
     }
 }
@@ -34,14 +37,15 @@ TEST(Fresnel, dielectric_behaves_at_its_edges) {
         EXPECT_EQ(fresnel_dielectric(c, 1.0), 0.0);
     }
     EXPECT_LT(fresnel_dielectric(0.5, 1.0 + 1e-6), 1e-11);
-    // One ulp of the cosine around the critical angle of 1 / 1.5: continuous up to the root's slope.
+    // One ulp of the cosine around the critical angle of 1 / 1.5: continuous up to the root's
+    // slope.
     const double critical = std::sqrt(1.0 - square(1.0 / 1.5));
     EXPECT_EQ(fresnel_dielectric(std::nextafter(critical, 0.0) - 1e-15, 1.0 / 1.5), 1.0);
     EXPECT_NEAR(fresnel_dielectric(std::nextafter(critical, 1.0) + 1e-15, 1.0 / 1.5), 1.0, 1e-6);
     // Both sides of a boundary reflect the same.
     for (double c = 0.1; c < 1.0; c += 0.1) {
-        EXPECT_NEAR(fresnel_dielectric(c, 1.5), fresnel_dielectric(refracted_cosine(c, 1.5), 1.0 / 1.5),
-                    1e-14);
+        EXPECT_NEAR(fresnel_dielectric(c, 1.5),
+                    fresnel_dielectric(refracted_cosine(c, 1.5), 1.0 / 1.5), 1e-14);
     }
 }
 
@@ -51,8 +55,8 @@ double conductor_by_reals(double c, double eta, double k) {
     const double a2_b2 = std::sqrt(t0 * t0 + 4.0 * eta * eta * k * k);
     const double a = std::sqrt(0.5 * (a2_b2 + t0));
     const double s = (a2_b2 + c * c - 2.0 * a * c) / (a2_b2 + c * c + 2.0 * a * c);
-    const double p =
-        s * (c * c * a2_b2 + s2 * s2 - 2.0 * a * c * s2) / (c * c * a2_b2 + s2 * s2 + 2.0 * a * c * s2);
+    const double p = s * (c * c * a2_b2 + s2 * s2 - 2.0 * a * c * s2) /
+                     (c * c * a2_b2 + s2 * s2 + 2.0 * a * c * s2);
     return 0.5 * (s + p);
 }
 
@@ -75,12 +79,13 @@ TEST(Fresnel, conductor_agrees_with_the_real_form_and_with_dielectrics) {
 TEST(Fresnel, approximations_are_as_close_as_stated) {
     double largest = 0.0;
     for (double c = 0.0; c <= 1.0; c += 0.001) {
-        largest = std::max(
-            largest, std::abs(fresnel_conductor(c, 1.44, 7.6) - fresnel_conductor_approximate(c, 1.44, 7.6)));
+        largest = std::max(largest, std::abs(fresnel_conductor(c, 1.44, 7.6) -
+                                             fresnel_conductor_approximate(c, 1.44, 7.6)));
     }
     EXPECT_LT(largest, 0.006);  // digest, section 6
     EXPECT_GT(largest, 1e-4);   // but it is another formula
-    EXPECT_DOUBLE_EQ(fresnel_conductor_approximate(1.0, 0.2, 3.1), fresnel_conductor(1.0, 0.2, 3.1));
+    EXPECT_DOUBLE_EQ(fresnel_conductor_approximate(1.0, 0.2, 3.1),
+                     fresnel_conductor(1.0, 0.2, 3.1));
     EXPECT_DOUBLE_EQ(fresnel_schlick(1.0, 0.04), 0.04);
     EXPECT_DOUBLE_EQ(fresnel_schlick(0.0, 0.04), 1.0);
     EXPECT_DOUBLE_EQ(fresnel_schlick(0.5, 0.04), 0.04 + 0.96 / 32.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed furnaces with L = E / (1 - rho), and the proof that they would notice planted errors: the shipped
-// integrator runs with BSDFs and lights that are wrong on purpose.
+// Closed furnaces with L = E / (1 - rho), and the proof that they would notice planted errors: the
+// shipped integrator runs with BSDFs and lights that are wrong on purpose.
 #include <gtest/gtest.h>
 
 #include <boost/math/special_functions/gamma.hpp>
@@ -33,7 +33,8 @@ TEST_P(Furnace, radiance_is_emission_over_one_minus_albedo) {
     const auto [albedo, strategies] = GetParam();
     const double absorbed = 1.0 - static_cast<double>(albedo);  // of the albedo as rounded to float
     auto renderer = furnace_box(albedo, emission).renderer(small_settings(size, 21, strategies));
-    // Paths are 1 / absorbed long and their values as widely spread, relative to the mean, at any albedo.
+    // Paths are 1 / absorbed long and their values as widely spread, relative to the mean, at any
+    // albedo.
     renderer.render(0, static_cast<uint64_t>(std::ceil(spp * std::min(1.0, 10.0 * absorbed))) + 48);
     const Image image = renderer.develop();
     EXPECT_LT(std::abs(furnace_z(image, static_cast<double>(albedo))), z_999);
@@ -43,14 +44,16 @@ TEST_P(Furnace, radiance_is_emission_over_one_minus_albedo) {
 
 INSTANTIATE_TEST_SUITE_P(albedos, Furnace,
                          testing::Combine(testing::Values(0.5f, 0.9f, 0.99f, 0.999f),
-                                          testing::Values(Strategies::implicit_only, Strategies::mis)));
+                                          testing::Values(Strategies::implicit_only,
+                                                          Strategies::mis)));
 
 TEST(Furnace, survives_an_albedo_of_a_millionth_less_than_one) {
-    // The implicit estimate is E times the number of vertices, which is geometric with mean 1e6; the sum
-    // over k paths, over its mean, is Gamma(k, 1 / k) to within 1e-6.
+    // The implicit estimate is E times the number of vertices, which is geometric with mean 1e6;
+    // the sum over k paths, over its mean, is Gamma(k, 1 / k) to within 1e-6.
     constexpr unsigned paths = 16;
     const float albedo = 1.0f - 1e-6f;
-    auto renderer = furnace_box(albedo, emission).renderer(small_settings(1, 24, Strategies::implicit_only));
+    auto renderer =
+        furnace_box(albedo, emission).renderer(small_settings(1, 24, Strategies::implicit_only));
     renderer.render(0, paths);
     const double expected = 1.0 / (1.0 - static_cast<double>(albedo));
     const double ratio = image_mean(renderer.develop(), "R").mean / expected;
@@ -67,11 +70,13 @@ TEST(Furnace, a_depth_limit_cuts_the_series_after_as_many_terms) {
         renderer.render(0, spp);
         const BlockMean mean = image_mean(renderer.develop(), "R");
         const double expected = (1.0 - std::pow(0.5, depth + 1.0)) / 0.5;
-        EXPECT_LT(std::abs(mean.mean - expected), z_999 * std::sqrt(mean.variance)) << "depth " << depth;
+        EXPECT_LT(std::abs(mean.mean - expected), z_999 * std::sqrt(mean.variance))
+            << "depth " << depth;
     }
 }
 
-// --- planted errors --------------------------------------------------------------------------------------
+// --- planted errors
+// --------------------------------------------------------------------------------------
 
 /// The density of the sampled direction is 2 % too large.
 struct WrongDensity : Lambert {
@@ -96,7 +101,9 @@ struct MissingCosine : Lambert {
 /// MIS weights of the implicit estimate forget the light's density: direct light counts twice.
 struct ForgottenMis : LightSet {
     using LightSet::LightSet;
-    double pdf_w(const Geometry &, uint32_t, const Vec3 &, const SurfacePoint &) const { return 0.0; }
+    double pdf_w(const Geometry &, uint32_t, const Vec3 &, const SurfacePoint &) const {
+        return 0.0;
+    }
 };
 
 template <class BsdfModel, class Lights>

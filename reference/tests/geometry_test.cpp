@@ -53,8 +53,9 @@ Escapes walk(const Geometry &geometry, const Vec3 &start, int steps, uint64_t se
 /// A closed sphere of 20 * 4^level triangles, facing outwards.
 void add_sphere(TestScene &scene, const Vec3 &centre, double radius, int level) {
     const double g = 0.5 * (1.0 + std::sqrt(5.0));
-    std::vector<Vec3> v = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                           {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    std::vector<Vec3> v = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                           {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                           {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
     std::vector<Triangle> faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                                    {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
                                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
@@ -104,7 +105,8 @@ TEST_P(ClosedMesh, sphere_neither_leaks_nor_hits_itself) {
     const Placement &p = GetParam();
     TestScene scene;
     add_sphere(scene, p.scale * p.offset, p.scale, 4);
-    const Escapes escapes = walk(Geometry(scene.meshes, scene.shapes), p.scale * p.offset, 1000000, 52);
+    const Escapes escapes =
+        walk(Geometry(scene.meshes, scene.shapes), p.scale * p.offset, 1000000, 52);
     EXPECT_EQ(escapes.self_hits, 0);
     EXPECT_EQ(escapes.misses, 0);
 }
@@ -117,10 +119,12 @@ INSTANTIATE_TEST_SUITE_P(placements, ClosedMesh,
                          [](const auto &param_info) { return std::string(param_info.param.name); });
 
 TEST(Geometry, hit_points_are_exact_in_double) {
-    // A plane far below a steep ray: the float hit is off by 1e-6 of the distance, the double one is not.
+    // A plane far below a steep ray: the float hit is off by 1e-6 of the distance, the double one
+    // is not.
     TestScene scene;
-    scene.add_quad({Vec3(-4096, 0, -4096), Vec3(-4096, 0, 4096), Vec3(4096, 0, 4096), Vec3(4096, 0, -4096)},
-                   scene.add_material(Rgb::Constant(0.5f)));
+    scene.add_quad(
+        {Vec3(-4096, 0, -4096), Vec3(-4096, 0, 4096), Vec3(4096, 0, 4096), Vec3(4096, 0, -4096)},
+        scene.add_material(Rgb::Constant(0.5f)));
     const Geometry geometry(scene.meshes, scene.shapes);
     Rng rng(53, 0, 0);
     for (int i = 0; i < 10000; ++i) {
@@ -151,7 +155,8 @@ TEST(Geometry, leaves_out_and_counts_triangles_without_area) {
     EXPECT_EQ(geometry.stats().triangles, 1u);
     EXPECT_EQ(geometry.stats().degenerate_triangles, 2u);
     SurfacePoint hit;
-    ASSERT_TRUE(geometry.intersect({Vec3(0.2, 0.2, 1), -Vec3::UnitZ()}, Coherence::incoherent, hit));
+    ASSERT_TRUE(
+        geometry.intersect({Vec3(0.2, 0.2, 1), -Vec3::UnitZ()}, Coherence::incoherent, hit));
     EXPECT_EQ(geometry.normal(hit), Vec3::UnitZ());
 }
 

@@ -45,7 +45,8 @@ std::shared_ptr<TextureImage> contrasty_image(int width, int height) {
 
 EnvironmentLight environment(std::shared_ptr<const TextureImage> image) {
     const Eigen::Matrix3d rotation =
-        (Eigen::AngleAxisd(0.7, Vec3::UnitX()) * Eigen::AngleAxisd(1.1, Vec3::UnitY())).toRotationMatrix();
+        (Eigen::AngleAxisd(0.7, Vec3::UnitX()) * Eigen::AngleAxisd(1.1, Vec3::UnitY()))
+            .toRotationMatrix();
     return {std::move(image), rotation, Spectrum(1.0, 2.0, 3.0), 1.0, "test"};
 }
 
@@ -55,10 +56,15 @@ TEST(Environment, looks_up_directions_as_documented) {
         set_texel(*image, column, 0, 1.0f + static_cast<float>(column));
         set_texel(*image, column, 1, 11.0f + static_cast<float>(column));
     }
-    const EnvironmentLight light(image, Eigen::Matrix3d::Identity(), Spectrum::Constant(2.0), 1.0, "test");
-    const auto red = [&](const Vec3 &direction) { return light.radiance(direction.normalized())[0]; };
-    EXPECT_NEAR(red({0, 1e-9, -1}), 2.0 * 0.5 * (0.5 * (1 + 4) + 0.5 * (11 + 14)), 1e-7);  // the left edge
-    EXPECT_NEAR(red({1, 0, -1}), 2.0 * 0.5 * (1 + 11), 1e-12);  // u = 1/8: centre of the first column
+    const EnvironmentLight light(image, Eigen::Matrix3d::Identity(), Spectrum::Constant(2.0), 1.0,
+                                 "test");
+    const auto red = [&](const Vec3 &direction) {
+        return light.radiance(direction.normalized())[0];
+    };
+    EXPECT_NEAR(red({0, 1e-9, -1}), 2.0 * 0.5 * (0.5 * (1 + 4) + 0.5 * (11 + 14)),
+                1e-7);  // the left edge
+    EXPECT_NEAR(red({1, 0, -1}), 2.0 * 0.5 * (1 + 11),
+                1e-12);  // u = 1/8: centre of the first column
     EXPECT_NEAR(red({1, 0, 1}), 2.0 * 0.5 * (2 + 12), 1e-12);
     EXPECT_NEAR(red({-1, 0, -1}), 2.0 * 0.5 * (4 + 14), 1e-12);
     EXPECT_NEAR(red({1, std::sqrt(2.0), -1}), 2.0, 1e-12);  // v = 1/4: centre of the first row
@@ -121,7 +127,8 @@ BlockMean under_sky(TestScene scene, Kind kind, std::shared_ptr<const TextureIma
                     Strategies strategies, uint64_t spp, uint32_t max_depth) {
     scene.add_light(kind, Rgb::Constant(2.0f));
     scene.lights.image.back() = std::move(image);
-    ReferenceSettings settings = small_settings(4, 144 + static_cast<uint64_t>(strategies), strategies);
+    ReferenceSettings settings =
+        small_settings(4, 144 + static_cast<uint64_t>(strategies), strategies);
     settings.max_depth = max_depth;
     auto renderer = scene.renderer(settings);
     renderer.render(0, spp);
@@ -143,10 +150,11 @@ TEST(Dome, over_a_plane_gives_albedo_times_its_radiance_and_misses_show_it) {
     std::vector<Comparison> suite;
     for (const auto &[name, strategies] : strategies_names) {
         for (const Kind kind : {Kind::dome, Kind::environment}) {
-            const BlockMean mean = under_sky(plane_and_camera(), kind, white, strategies, 1 << 14, 0);
+            const BlockMean mean =
+                under_sky(plane_and_camera(), kind, white, strategies, 1 << 14, 0);
             const double z = (mean.mean - 1.0) / std::hypot(std::sqrt(mean.variance), 1e-12);
-            suite.push_back(
-                {name + std::string(kind == Kind::dome ? " dome" : " environment"), normal_p_value(z)});
+            suite.push_back({name + std::string(kind == Kind::dome ? " dome" : " environment"),
+                             normal_p_value(z)});
             TestScene sky = plane_and_camera();
             sky.set_camera({0, 2, 3}, {0, 5, 0}, Vec3::UnitY(), 0.1);
             EXPECT_NEAR(under_sky(sky, kind, white, strategies, 4, 0).mean, 2.0, 1e-12);
@@ -162,15 +170,16 @@ TEST(Dome, glass_spheres_are_invisible_in_a_furnace) {
                         scene.add_material(smooth_glass(eta)));
         scene.set_camera({0, 0, 3}, Vec3::Zero(), Vec3::UnitY(), 0.5);
         const BlockMean mean = under_sky(scene, Kind::dome, nullptr, Strategies::mis, 4096, 0);
-        // Roulette ends about one path in a million at each vertex: with 65536 paths the variance does not
-        // know of it, but it may well take 2 / 65536 off the mean once or twice.
+        // Roulette ends about one path in a million at each vertex: with 65536 paths the variance
+        // does not know of it, but it may well take 2 / 65536 off the mean once or twice.
         constexpr double rare = 1e-4;
         EXPECT_LT(std::abs(mean.mean - 2.0), 3.3 * std::sqrt(mean.variance) + rare) << eta;
         EXPECT_LT(std::sqrt(mean.variance), 0.01);
         // From inside the glass radiance is eta^2 as large.
         scene.set_camera({0, 0.2, 0.1}, {1, 0.3, 0.5}, Vec3::UnitY(), 0.3);
         const BlockMean inside = under_sky(scene, Kind::dome, nullptr, Strategies::mis, 4096, 0);
-        EXPECT_LT(std::abs(inside.mean - 2.0 * eta * eta), 3.3 * std::sqrt(inside.variance) + rare) << eta;
+        EXPECT_LT(std::abs(inside.mean - 2.0 * eta * eta), 3.3 * std::sqrt(inside.variance) + rare)
+            << eta;
     }
 }
 
@@ -181,7 +190,8 @@ TEST(Dome, strategies_agree_under_a_contrasty_sky) {
     scene.add_shape(ShapeArrays::Kind::cone, placed({0.4, 0.1, 0.3}, 0.3),
                     scene.add_material({ward(0.2, 0.3)}));
     const auto image = contrasty_image(8, 4);
-    const BlockMean hits = under_sky(scene, Kind::environment, image, Strategies::implicit_only, 1 << 16, 6);
+    const BlockMean hits =
+        under_sky(scene, Kind::environment, image, Strategies::implicit_only, 1 << 16, 6);
     const BlockMean explicitly =
         under_sky(scene, Kind::environment, image, Strategies::explicit_only, 1 << 16, 6);
     const BlockMean both = under_sky(scene, Kind::environment, image, Strategies::mis, 1 << 15, 6);

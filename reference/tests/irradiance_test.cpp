@@ -14,8 +14,8 @@ constexpr double albedo = 0.5;
 const std::array<Vec3, 4> light_corners{Vec3(-1, 2, -0.5), Vec3(1, 2, -0.5), Vec3(1, 2, 0.5),
                                         Vec3(-1, 2, 0.5)};
 
-/// E = Le / 2 sum theta_i (n . gamma_i) over the polygon's edges as seen from `point`; the polygon must lie
-/// wholly above the horizon.
+/// E = Le / 2 sum theta_i (n . gamma_i) over the polygon's edges as seen from `point`; the polygon
+/// must lie wholly above the horizon.
 double polygon_irradiance(const Vec3 &point, const Vec3 &normal) {
     double sum = 0.0;
     for (size_t i = 0; i < 4; ++i) {
@@ -28,11 +28,13 @@ double polygon_irradiance(const Vec3 &point, const Vec3 &normal) {
     return 0.5 * radiance * std::abs(sum);
 }
 
-/// A floor and the light above it, seen by a camera of a hundredth of a degree that looks at `point`.
+/// A floor and the light above it, seen by a camera of a hundredth of a degree that looks at
+/// `point`.
 TestScene floor_under_light(const Vec3 &point) {
     TestScene scene;
     const uint32_t material = scene.add_material(Rgb::Constant(albedo));
-    scene.add_quad({Vec3(-10, 0, -10), Vec3(-10, 0, 10), Vec3(10, 0, 10), Vec3(10, 0, -10)}, material);
+    scene.add_quad({Vec3(-10, 0, -10), Vec3(-10, 0, 10), Vec3(10, 0, 10), Vec3(10, 0, -10)},
+                   material);
     scene.add_quad(light_corners, material, Rgb::Constant(radiance));
     scene.set_camera({6.0, 1.5, 0.3}, point, Vec3::UnitY(), 2e-4);
     return scene;
@@ -48,7 +50,8 @@ TEST(Irradiance, under_a_rectangle_is_lamberts) {
             renderer.render(0, 1 << 15);
             const BlockMean mean = image_mean(renderer.develop(), "G");
             const double expected = albedo / pi * polygon_irradiance(point, Vec3::UnitY());
-            suite.push_back({name, normal_p_value((mean.mean - expected) / std::sqrt(mean.variance))});
+            suite.push_back(
+                {name, normal_p_value((mean.mean - expected) / std::sqrt(mean.variance))});
             if (strategies == Strategies::explicit_only) {
                 EXPECT_NEAR(mean.mean / expected, 1.0, 0.004);  // and closely
             }
@@ -60,7 +63,8 @@ TEST(Irradiance, under_a_rectangle_is_lamberts) {
 TEST(Irradiance, the_back_of_a_light_is_dark) {
     for (const auto &entry : strategies_names) {
         TestScene scene = floor_under_light(Vec3::Zero());
-        scene.set_camera({0, 5, 0}, {0, 2, 0}, Vec3::UnitZ(), 1e-3);  // from above, on the light's back
+        scene.set_camera({0, 5, 0}, {0, 2, 0}, Vec3::UnitZ(),
+                         1e-3);  // from above, on the light's back
         auto renderer = scene.renderer(small_settings(4, 32, entry.second));
         renderer.render(0, 64);
         EXPECT_EQ(image_mean(renderer.develop(), "R").mean, 0.0) << entry.first;
@@ -79,8 +83,9 @@ TEST(Irradiance, the_front_of_a_light_shows_its_radiance) {
     }
 }
 
-// Under a dome, light that comes through a ball reaches a plane at distance s = 1 / sin(a) radii from its centre from
-// two half cones of half-angle a about the line to the centre: E = L (2 a - sin 2 a).
+// Under a dome, light that comes through a ball reaches a plane at distance s = 1 / sin(a) radii
+// from its centre from two half cones of half-angle a about the line to the centre: E = L (2 a -
+// sin 2 a).
 TEST(Irradiance, of_a_plane_by_light_through_a_ball) {
     std::vector<Comparison> suite;
     for (const double distance : {0.5, 1.1, 2.0, 5.0}) {
@@ -97,7 +102,8 @@ TEST(Irradiance, of_a_plane_by_light_through_a_ball) {
             const BlockMean mean = image_mean(renderer.develop(), "G");
             const double a = std::asin(std::min(1.0, 1.0 / distance));
             const double expected = albedo / pi * radiance * (2 * a - std::sin(2 * a));
-            const double error = std::sqrt(mean.variance) + 1e-6 * expected;  // a whole dome has no noise
+            const double error =
+                std::sqrt(mean.variance) + 1e-6 * expected;  // a whole dome has no noise
             suite.push_back({name, normal_p_value((mean.mean - expected) / error)});
         }
     }

@@ -52,7 +52,8 @@ TEST(Julia, hits_satisfy_the_level_set_and_have_its_gradient) {
         for (int i = 0; i < 3000; ++i) {
             const Ray3 ray = random_ray(rng);
             double t = 0.0;
-            if (!set.intersect(ray.origin, ray.direction, std::numeric_limits<double>::infinity(), t)) {
+            if (!set.intersect(ray.origin, ray.direction, std::numeric_limits<double>::infinity(),
+                               t)) {
                 continue;
             }
             ++hits;
@@ -111,8 +112,10 @@ TEST(Julia, rays_from_inside_and_limits_are_respected) {
     EXPECT_NEAR(t, 1e-10, 1e-14);
     ASSERT_TRUE(ball.intersect({-9, 0, 0}, 0.5 * Vec3::UnitX(), 100.0, t));
     EXPECT_NEAR(t, 14.0, 1e-13);
-    EXPECT_EQ(JuliaSet(Eigen::Vector4d::Zero(), 2.5, 1).bounding_radius(), 0.0);  // the slice misses it
-    EXPECT_FALSE(JuliaSet(Eigen::Vector4d::Zero(), 2.5, 1).intersect({-9, 0, 0}, Vec3::UnitX(), 100.0, t));
+    EXPECT_EQ(JuliaSet(Eigen::Vector4d::Zero(), 2.5, 1).bounding_radius(),
+              0.0);  // the slice misses it
+    EXPECT_FALSE(
+        JuliaSet(Eigen::Vector4d::Zero(), 2.5, 1).intersect({-9, 0, 0}, Vec3::UnitX(), 100.0, t));
 }
 
 TEST(Julia, rays_leave_the_surface_and_grazing_ones_end) {

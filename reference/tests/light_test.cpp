@@ -25,8 +25,8 @@ TestScene three_lights() {
     const uint32_t material = scene.add_material(Rgb::Constant(0.5f));
     scene.add_quad({Vec3(-1, 3, -1), Vec3(2, 3, -1), Vec3(2, 3, 1), Vec3(-1, 3, 1)}, material,
                    Rgb::Constant(10.0f));
-    scene.add_mesh({Vec3(-4, 0, -1), Vec3(-4, 0, 2), Vec3(-4, 2, 0), Vec3(-4, -3, 0)}, {{0, 2, 1}, {0, 1, 3}},
-                   material, Rgb(0.1f, 0.0f, 0.0f));
+    scene.add_mesh({Vec3(-4, 0, -1), Vec3(-4, 0, 2), Vec3(-4, 2, 0), Vec3(-4, -3, 0)},
+                   {{0, 2, 1}, {0, 1, 3}}, material, Rgb(0.1f, 0.0f, 0.0f));
     scene.add_box({1.5, -0.5, -0.5}, {2.5, 0.5, 0.5}, false, material, Rgb::Constant(1.0f));
     return scene;
 }

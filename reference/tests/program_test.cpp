@@ -85,8 +85,18 @@ class Program : public testing::Test {
     }
 
     std::vector<std::string> long_render(const std::string &output) const {
-        return {cornell_box, "-o",      in_folder(output),       "--spp", "1024", "--size", "64x64", "--seed",
-                "5",         "--quiet", "--checkpoint-interval", "0"};
+        return {cornell_box,
+                "-o",
+                in_folder(output),
+                "--spp",
+                "1024",
+                "--size",
+                "64x64",
+                "--seed",
+                "5",
+                "--quiet",
+                "--checkpoint-interval",
+                "0"};
     }
 
     /// Waits until the state holds more samples than `before`.
@@ -130,7 +140,8 @@ TEST_F(Program, killed_and_resumed_equals_uninterrupted) {
     for (const int delay : {0, 11, 37}) {
         Process process(arguments, log());
         done = wait_for_progress(state, done);
-        std::this_thread::sleep_for(std::chrono::milliseconds(delay));  // somewhere within a batch or a save
+        std::this_thread::sleep_for(
+            std::chrono::milliseconds(delay));  // somewhere within a batch or a save
         process.send(SIGKILL);
         ASSERT_EQ(process.wait(), -SIGKILL);
         EXPECT_FALSE(fs::exists(in_folder("killed.exr")));
@@ -150,15 +161,17 @@ TEST_F(Program, terminated_leaves_a_state_that_continues) {
     auto arguments = long_render("cut.exr");
     for (const int signal : {SIGTERM, SIGINT}) {
         Process process(arguments, log());
-        wait_for_progress(in_folder("cut.exr.state"),
-                          signal == SIGINT ? load_checkpoint(in_folder("cut.exr.state")).film.end : 0);
+        wait_for_progress(
+            in_folder("cut.exr.state"),
+            signal == SIGINT ? load_checkpoint(in_folder("cut.exr.state")).film.end : 0);
         process.send(signal);
         EXPECT_EQ(process.wait(), static_cast<int>(ExitCode::interrupted));
         EXPECT_NE(read_file(log()).find("--resume"), std::string::npos);
         EXPECT_FALSE(fs::exists(in_folder("cut.exr")));
         if (signal == SIGTERM) {
-            expect_refused(arguments,
-                           "unfinished run");  // hours of work are not overwritten by a typing error
+            expect_refused(
+                arguments,
+                "unfinished run");  // hours of work are not overwritten by a typing error
             arguments.push_back("--resume");
         }
     }
@@ -183,7 +196,9 @@ TEST_F(Program, extends_a_finished_run) {
 
 TEST_F(Program, sample_ranges_are_disjoint_parts_of_one_run) {
     const auto render = [&](const std::string &output, const std::string &range) {
-        ASSERT_EQ(run({furnace, "-o", in_folder(output), "--samples", range, "--size", "8x8", "--quiet"}), 0);
+        ASSERT_EQ(
+            run({furnace, "-o", in_folder(output), "--samples", range, "--size", "8x8", "--quiet"}),
+            0);
     };
     render("low.exr", "0:16");
     render("high.exr", "16:32");
@@ -198,7 +213,8 @@ TEST_F(Program, sample_ranges_are_disjoint_parts_of_one_run) {
 
 TEST_F(Program, refuses_the_state_of_other_settings) {
     const std::string out = in_folder("a.exr");
-    ASSERT_EQ(run({furnace, "-o", out, "--spp", "8", "--size", "8x8", "--quiet"}), 0) << read_file(log());
+    ASSERT_EQ(run({furnace, "-o", out, "--spp", "8", "--size", "8x8", "--quiet"}), 0)
+        << read_file(log());
     const std::string before = read_file(out);
     const auto refused = [&](const std::string &scene, std::vector<std::string> more,
                              const std::string &text) {
@@ -216,7 +232,8 @@ TEST_F(Program, refuses_the_state_of_other_settings) {
 }
 
 TEST_F(Program, adds_a_complete_manifest_entry) {
-    const std::string image = in_folder("furnace_050.embree.a.exr"), manifest = in_folder("manifest.json");
+    const std::string image = in_folder("furnace_050.embree.a.exr"),
+                      manifest = in_folder("manifest.json");
     ASSERT_EQ(run({furnace, "-o", image, "--spp", "8", "--size", "8x8", "--seed", "3", "--quiet",
                    "--manifest", manifest, "--stats", in_folder("stats.json")}),
               0)
@@ -226,8 +243,10 @@ TEST_F(Program, adds_a_complete_manifest_entry) {
     EXPECT_EQ(entry.at("seed"), 3);
     EXPECT_EQ(entry.at("spp"), 8);
     const Image exr = read_exr(image);
-    EXPECT_EQ(std::get<std::string>(exr.attributes().at("rtrays:sceneHash")), entry.at("scene_hash"));
-    EXPECT_EQ(std::get<std::string>(exr.attributes().at("rtrays:engine")), entry.at("engine_version"));
+    EXPECT_EQ(std::get<std::string>(exr.attributes().at("rtrays:sceneHash")),
+              entry.at("scene_hash"));
+    EXPECT_EQ(std::get<std::string>(exr.attributes().at("rtrays:engine")),
+              entry.at("engine_version"));
     EXPECT_EQ(std::get<int>(exr.attributes().at("samplesPerPixel")), 8);
     const Json stats = load_json(in_folder("stats.json"));
     EXPECT_EQ(stats.at("rays").at("camera"), 8 * 8 * 8);
@@ -235,25 +254,29 @@ TEST_F(Program, adds_a_complete_manifest_entry) {
     // What is listed is not rendered again, unless more is asked for or the file was changed.
     const auto again = [&](const std::string &spp) {
         fs::remove(image + ".state");
-        EXPECT_EQ(run({furnace, "-o", image, "--spp", spp, "--size", "8x8", "--seed", "3", "--quiet",
-                       "--manifest", manifest, "--skip-if-listed"}),
+        EXPECT_EQ(run({furnace, "-o", image, "--spp", spp, "--size", "8x8", "--seed", "3",
+                       "--quiet", "--manifest", manifest, "--skip-if-listed"}),
                   0);
         return fs::exists(image + ".state");
     };
     EXPECT_FALSE(again("8"));
     // More samples go on from the image, whose state is gone.
     const std::string whole = in_folder("whole.exr");
-    ASSERT_EQ(run({furnace, "-o", whole, "--spp", "20", "--size", "8x8", "--seed", "3", "--quiet"}), 0);
-    ASSERT_EQ(run({furnace, "-o", image, "--spp", "20", "--size", "8x8", "--seed", "3", "--quiet", "--manifest",
-                   manifest, "--resume", "--stats", in_folder("stats.json")}),
+    ASSERT_EQ(run({furnace, "-o", whole, "--spp", "20", "--size", "8x8", "--seed", "3", "--quiet"}),
+              0);
+    ASSERT_EQ(run({furnace, "-o", image, "--spp", "20", "--size", "8x8", "--seed", "3", "--quiet",
+                   "--manifest", manifest, "--resume", "--stats", in_folder("stats.json")}),
               0);
     EXPECT_EQ(load_json(in_folder("stats.json")).at("rays").at("camera"), 8 * 8 * 12);
-    EXPECT_EQ(load_manifest(manifest).at("references").at("furnace_050.embree.a.exr").at("spp"), 20);
+    EXPECT_EQ(load_manifest(manifest).at("references").at("furnace_050.embree.a.exr").at("spp"),
+              20);
     const Image grown = read_exr(image), uninterrupted = read_exr(whole);
-    for (const auto &[channel, tolerance] : {std::pair("R", 1e-6f), std::pair("B", 1e-6f), std::pair("variance.G", 1e-5f)}) {
+    for (const auto &[channel, tolerance] :
+         {std::pair("R", 1e-6f), std::pair("B", 1e-6f), std::pair("variance.G", 1e-5f)}) {
         for (size_t i = 0; i < 64; ++i) {
             const float expected = uninterrupted.channel(channel)[i];
-            EXPECT_NEAR(grown.channel(channel)[i], expected, tolerance * expected) << channel << ' ' << i;
+            EXPECT_NEAR(grown.channel(channel)[i], expected, tolerance * expected)
+                << channel << ' ' << i;
         }
     }
     EXPECT_TRUE(again("21"));
@@ -261,7 +284,8 @@ TEST_F(Program, adds_a_complete_manifest_entry) {
     write_file(image, "damaged");
     EXPECT_TRUE(again("9"));
     const auto refused = [&](const std::string &output, const std::string &text) {
-        expect_refused({furnace, "-o", in_folder(output), "--spp", "1", "--manifest", manifest}, text);
+        expect_refused({furnace, "-o", in_folder(output), "--spp", "1", "--manifest", manifest},
+                       text);
     };
     refused("x.exr", "SCENE.ENGINE.HALF.exr");
     refused("furnace_050.cycles.a.exr", "the engine is embree");
@@ -278,7 +302,8 @@ TEST_F(Program, refuses_bad_usage_with_code_2_and_one_line) {
     expect_refused({furnace, "-o", out, "--samples", "4:4"}, "BEGIN < END");
     expect_refused({furnace, "-o", out, "--spp", "1", "--size", "8"}, "WIDTHxHEIGHT");
     expect_refused({furnace, "-o", out, "--spp", "1", "--size", "8x-8"}, "WIDTHxHEIGHT");
-    expect_refused({furnace, "-o", out, "--spp", "1", "--strategies", "naive"}, "implicit, explicit, mis");
+    expect_refused({furnace, "-o", out, "--spp", "1", "--strategies", "naive"},
+                   "implicit, explicit, mis");
     expect_refused({furnace, "-o", out, "--spp", "1", "--checkpoint-interval", "601"},
                    "--checkpoint-interval");
     expect_refused({furnace, "-o", out, "--spp", "1", "--denoise"}, "--denoise");
@@ -291,16 +316,20 @@ TEST_F(Program, refuses_bad_usage_with_code_2_and_one_line) {
     EXPECT_EQ(run({"--version"}), 0);
 }
 
-/// The other renderers, where they are installed: a grown reference with its entry, and the reference's image.
+/// The other renderers, where they are installed: a grown reference with its entry, and the
+/// reference's image.
 TEST_F(Program, other_engines_go_on_from_their_state) {
-    ASSERT_EQ(run({cornell_box, "-o", in_folder("cornell_box.embree.a.exr"), "--spp", "512", "--size", "16x16", "--quiet"}), 0);
+    ASSERT_EQ(run({cornell_box, "-o", in_folder("cornell_box.embree.a.exr"), "--spp", "512",
+                   "--size", "16x16", "--quiet"}),
+              0);
     const Image reference = read_exr(in_folder("cornell_box.embree.a.exr"));
     size_t installed = 0;
     for (const std::string engine : {"mitsuba", "cycles"}) {
-        const std::string image = in_folder("cornell_box." + engine + ".a.exr"), manifest = in_folder("manifest.json");
+        const std::string image = in_folder("cornell_box." + engine + ".a.exr"),
+                          manifest = in_folder("manifest.json");
         const auto render = [&](const std::string &spp) {
-            return run({cornell_box, "-o", image, "--engine", engine, "--spp", spp, "--size", "16x16", "--resume",
-                        "--manifest", manifest, "--quiet"});
+            return run({cornell_box, "-o", image, "--engine", engine, "--spp", spp, "--size",
+                        "16x16", "--resume", "--manifest", manifest, "--quiet"});
         };
         if (const int code = render("500"); code == static_cast<int>(ExitCode::skipped)) {
             EXPECT_NE(read_file(log()).find("scripts/install --peers"), std::string::npos);

@@ -35,8 +35,8 @@ void compare(const std::string &name, const TestScene &scene, double irradiance,
         renderer.render(0, 1 << 14);
         const BlockMean mean = image_mean(renderer.develop(), "G");
         const double expected = irradiance * albedo / pi;
-        suite.push_back(
-            {name + " " + strategy, normal_p_value((mean.mean - expected) / std::sqrt(mean.variance))});
+        suite.push_back({name + " " + strategy,
+                         normal_p_value((mean.mean - expected) / std::sqrt(mean.variance))});
         if (strategies == Strategies::explicit_only) {
             EXPECT_NEAR(mean.mean / expected, 1.0, 0.01) << name;
         }
@@ -46,7 +46,8 @@ void compare(const std::string &name, const TestScene &scene, double irradiance,
 /// Facing down.
 Eigen::Matrix4d ceiling(const Vec3 &position, double scale) {
     Eigen::Matrix4d transform = placed(position, scale);
-    transform.topLeftCorner<3, 3>() *= Eigen::AngleAxisd(0.5 * pi, Vec3::UnitX()).toRotationMatrix();
+    transform.topLeftCorner<3, 3>() *=
+        Eigen::AngleAxisd(0.5 * pi, Vec3::UnitX()).toRotationMatrix();
     return transform;
 }
 
@@ -58,9 +59,10 @@ TEST(RoundLights, irradiance_is_that_of_the_closed_forms) {
         TestScene sphere = floor_at(point);
         sphere.add_shape(Kind::sphere, placed(centre, 0.5), 0, Rgb::Constant(radiance));
         const double distance = (centre - point).norm();
-        compare("sphere", sphere, pi * radiance * 0.25 * 1.5 / (distance * distance * distance), suite);
-        // A parallel disc off its axis (Howell, A Catalog of Radiation Heat Transfer Configuration Factors,
-        // B-13).
+        compare("sphere", sphere, pi * radiance * 0.25 * 1.5 / (distance * distance * distance),
+                suite);
+        // A parallel disc off its axis (Howell, A Catalog of Radiation Heat Transfer Configuration
+        // Factors, B-13).
         TestScene disc = floor_at(point);
         disc.add_shape(Kind::disc, ceiling(centre, 0.8), 0, Rgb::Constant(radiance));
         const double h = 1.5 * 1.5 + x * x, r = 0.8 * 0.8;
@@ -72,15 +74,15 @@ TEST(RoundLights, irradiance_is_that_of_the_closed_forms) {
 }
 
 TEST(RoundLights, extreme_spheres_keep_their_closed_form) {
-    // Of 1e-6 of the distance, and so near that one fills almost the half space above: L pi (r / d)^2, as the
-    // mean of L cos / pdf_w.
+    // Of 1e-6 of the distance, and so near that one fills almost the half space above: L pi (r /
+    // d)^2, as the mean of L cos / pdf_w.
     constexpr int samples = 200000;
     std::vector<Comparison> suite;
     for (const auto &[radius, height] :
          {std::pair(1.5e-6, 1.5), std::pair(1.0, 1.0 + 1e-6), std::pair(1e6, 1.001e6)}) {
         TestScene scene;
-        scene.add_shape(Kind::sphere, placed({0, height, 0}, radius), scene.add_material(Rgb::Zero()),
-                        Rgb::Ones());
+        scene.add_shape(Kind::sphere, placed({0, height, 0}, radius),
+                        scene.add_material(Rgb::Zero()), Rgb::Ones());
         const Geometry geometry(scene.meshes, scene.shapes);
         const LightSet lights(geometry, scene.lights);
         Rng rng(132, 0, 0);
@@ -94,10 +96,12 @@ TEST(RoundLights, extreme_spheres_keep_their_closed_form) {
             squares += square(value);
         }
         const double mean = sum / samples, expected = pi * square(radius / height);
-        const double deviation = std::sqrt(std::max(squares / samples - square(mean), 0.0) / samples);
+        const double deviation =
+            std::sqrt(std::max(squares / samples - square(mean), 0.0) / samples);
         // Small cones have no variance to speak of but rounding.
-        suite.push_back({std::to_string(radius),
-                         normal_p_value((mean - expected) / std::hypot(deviation, 1e-9 * expected))});
+        suite.push_back(
+            {std::to_string(radius),
+             normal_p_value((mean - expected) / std::hypot(deviation, 1e-9 * expected))});
         EXPECT_NEAR(mean / expected, 1.0, 0.01);
     }
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
@@ -112,10 +116,10 @@ TestScene round_light(Kind kind) {
     return scene;
 }
 
-/// Samples of that light against its density, made wrong by the factor 1 + planted on one side of its middle
-/// and 1 - planted on the other.
-SamplerCheck check_round_light(const Geometry &geometry, const LightSet &lights, int samples, double planted,
-                               Rng &rng) {
+/// Samples of that light against its density, made wrong by the factor 1 + planted on one side of
+/// its middle and 1 - planted on the other.
+SamplerCheck check_round_light(const Geometry &geometry, const LightSet &lights, int samples,
+                               double planted, Rng &rng) {
     const DirectionSampler sample = [&](Rng &r) -> std::optional<Vec3> {
         const auto light = lights.sample(geometry, Vec3::Zero(), r);
         return light ? std::optional<Vec3>(light->wi) : std::nullopt;
@@ -167,7 +171,8 @@ TEST(RoundLights, the_chi_square_test_sees_two_percent) {
 TEST(RoundLights, the_inside_of_a_sphere_and_the_back_of_a_disc_are_dark) {
     for (const Kind kind : {Kind::sphere, Kind::disc}) {
         TestScene scene;
-        scene.add_shape(kind, ceiling({0, 1, 0}, 3.0), scene.add_material(Rgb::Constant(0.5f)), Rgb::Ones());
+        scene.add_shape(kind, ceiling({0, 1, 0}, 3.0), scene.add_material(Rgb::Constant(0.5f)),
+                        Rgb::Ones());
         scene.set_camera({0, kind == Kind::disc ? 2.0 : 0.5, 0}, {0, 1, 0}, Vec3::UnitX(), 0.5);
         auto renderer = scene.renderer(small_settings(4, 134));
         renderer.render(0, 64);

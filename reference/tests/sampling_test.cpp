@@ -49,7 +49,8 @@ TEST(Sampling, every_sampler_has_the_density_it_claims) {
         suite.push_back({name, uniform_p_value(counts)});
     };
     Rng rng(11, 0, 0);
-    add("one generator", count_square([&](int) { return std::make_pair(rng.uniform(), rng.uniform()); }));
+    add("one generator",
+        count_square([&](int) { return std::make_pair(rng.uniform(), rng.uniform()); }));
     // Neighbouring paths must not be correlated by their seeding.
     const auto first = [](uint64_t seed, uint64_t pixel, uint64_t sample) {
         return Rng(seed, pixel, sample).uniform();
@@ -66,7 +67,8 @@ TEST(Sampling, every_sampler_has_the_density_it_claims) {
             return std::make_pair(first(1, 3, static_cast<uint64_t>(i)),
                                   first(2, 3, static_cast<uint64_t>(i)));
         }));
-    add("cosine hemisphere", count_square([&](int) { return to_square(sample_cosine_hemisphere(rng)); }));
+    add("cosine hemisphere",
+        count_square([&](int) { return to_square(sample_cosine_hemisphere(rng)); }));
 
     const Lambert lambert(Spectrum(0.2, 0.5, 0.8));
     const Vec3 below = Vec3(0.3, 0.4, -0.5).normalized();
@@ -107,8 +109,8 @@ TEST(Sampling, every_sampler_has_the_density_it_claims) {
 TEST(Sampling, the_chi_square_test_sees_a_two_percent_error) {
     // cos^1.02 instead of cos: cos^2.02 is uniform, so cos^2 is not.
     Rng rng(12, 0, 0);
-    const auto counts =
-        count_square([&](int) { return std::make_pair(std::pow(rng.uniform(), 2.0 / 2.02), rng.uniform()); });
+    const auto counts = count_square(
+        [&](int) { return std::make_pair(std::pow(rng.uniform(), 2.0 / 2.02), rng.uniform()); });
     EXPECT_LT(uniform_p_value(counts), 0.01 * family_alpha);
 }
 

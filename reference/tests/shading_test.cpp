@@ -77,7 +77,8 @@ TEST(Shading, a_closed_box_stays_dark_inside_whatever_its_normals) {
     Rng rng(91, 0, 0);
     std::vector<Vec3> normals;
     for (int i = 0; i < 8; ++i) {
-        normals.push_back(Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized());
+        normals.push_back(
+            Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5).normalized());
     }
     scene.set_normals(normals);
     scene.add_box({-3, -3, -3}, {3, 3, 3}, true, grey, Rgb::Ones());
@@ -87,8 +88,8 @@ TEST(Shading, a_closed_box_stays_dark_inside_whatever_its_normals) {
     EXPECT_EQ(image_mean(renderer.develop(), "R").mean, 0.0);
 }
 
-/// Radiance of a floor of one material under a black box that emits 1: with the bent normal's losses, its
-/// albedo.
+/// Radiance of a floor of one material under a black box that emits 1: with the bent normal's
+/// losses, its albedo.
 BlockMean floor_in_furnace(const std::vector<BxdfComponent> &components, const Vec3 &normal,
                            Strategies strategies, uint64_t spp) {
     TestScene scene;
@@ -98,7 +99,8 @@ BlockMean floor_in_furnace(const std::vector<BxdfComponent> &components, const V
     scene.add_box(Vec3::Constant(-20), Vec3::Constant(20), true, scene.add_material(Rgb::Zero()),
                   Rgb::Ones());
     scene.set_camera({3, 5, 1}, {0, 0, 0}, Vec3::UnitY(), 1e-3);
-    ReferenceSettings settings = small_settings(4, 93 + static_cast<uint64_t>(strategies), strategies);
+    ReferenceSettings settings =
+        small_settings(4, 93 + static_cast<uint64_t>(strategies), strategies);
     settings.max_depth = 1;
     auto renderer = scene.renderer(settings);
     renderer.render(0, spp);
@@ -106,7 +108,8 @@ BlockMean floor_in_furnace(const std::vector<BxdfComponent> &components, const V
 }
 
 TEST(Shading, a_lambert_floor_loses_what_its_bent_normal_sends_below) {
-    // Of the cosine lobe around a normal tilted by t the share (1 - cos t) / 2 lies beyond the plane.
+    // Of the cosine lobe around a normal tilted by t the share (1 - cos t) / 2 lies beyond the
+    // plane.
     const double tilt = 0.4;
     const Vec3 normal(std::sin(tilt), std::cos(tilt), 0.0);
     const double expected = 0.5 * 0.5 * (1.0 + std::cos(tilt));
@@ -122,7 +125,8 @@ TEST(Shading, rough_materials_look_the_same_to_all_strategies) {
     std::vector<Comparison> suite;
     for (const TestMaterial &material : rough_materials()) {
         const Vec3 normal = Vec3(0.1, 1.0, -0.1).normalized();
-        const BlockMean hits = floor_in_furnace(material.components, normal, Strategies::implicit_only, 4096);
+        const BlockMean hits =
+            floor_in_furnace(material.components, normal, Strategies::implicit_only, 4096);
         const BlockMean both = floor_in_furnace(material.components, normal, Strategies::mis, 4096);
         const double z = (hits.mean - both.mean) / std::sqrt(hits.variance + both.variance);
         suite.push_back({material.name, normal_p_value(z)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Quadrics, discs and planes against brute force on their implicit functions, and as closed surfaces.
+// Quadrics, discs and planes against brute force on their implicit functions, and as closed
+// surfaces.
 #include "reference/shape.h"
 
 #include <gtest/gtest.h>
@@ -79,7 +80,8 @@ Ray random_ray(Rng &rng, const Shape &shape) {
 }
 
 /// First sign change of the implicit function in range, by 4000 steps and bisection.
-double brute_force(Kind kind, const Eigen::Matrix4d &world_from_object, const Ray &ray, double range) {
+double brute_force(Kind kind, const Eigen::Matrix4d &world_from_object, const Ray &ray,
+                   double range) {
     const Eigen::Affine3d inverse = Eigen::Affine3d(world_from_object).inverse();
     const auto at = [&](double t) { return Vec3(inverse * Vec3(ray.origin + t * ray.direction)); };
     constexpr int steps = 4000;
@@ -153,7 +155,8 @@ TEST(Shape, normals_follow_the_gradient_and_coordinates_the_tangent) {
             const double h = 1e-6;
             Vec3 gradient;
             for (int k = 0; k < 3; ++k) {
-                gradient[k] = (value(world + h * Vec3::Unit(k)) - value(world - h * Vec3::Unit(k))) / (2 * h);
+                gradient[k] =
+                    (value(world + h * Vec3::Unit(k)) - value(world - h * Vec3::Unit(k))) / (2 * h);
             }
             ASSERT_NEAR((gradient.normalized() - normal).norm(), 0.0, 1e-6);
             const Vec3 tangent = shape.tangent(object);
@@ -194,7 +197,8 @@ struct Placement {
 class ClosedSphere : public testing::TestWithParam<Placement> {};
 
 TEST_P(ClosedSphere, neither_leaks_nor_hits_itself) {
-    // Inside a sphere the chord of a ray at angle theta to the normal is 2 r cos(theta), however grazing.
+    // Inside a sphere the chord of a ray at angle theta to the normal is 2 r cos(theta), however
+    // grazing.
     const Placement &p = GetParam();
     TestScene scene;
     scene.add_shape(Kind::sphere, placed(p.scale * p.offset, p.scale), 0);
@@ -236,7 +240,8 @@ TEST(Shape, stands_among_triangles_and_planes) {
     scene.add_quad({Vec3(-1, 2, -1), Vec3(-1, 2, 1), Vec3(1, 2, 1), Vec3(1, 2, -1)}, 0);
     scene.add_shape(Kind::sphere, placed({0, 1, 0}, 0.5), 1);
     Eigen::Matrix4d floor = Eigen::Matrix4d::Identity();
-    floor.topLeftCorner<3, 3>() = Eigen::AngleAxisd(-0.5 * pi, Vec3::UnitX()).toRotationMatrix();  // +z up
+    floor.topLeftCorner<3, 3>() =
+        Eigen::AngleAxisd(-0.5 * pi, Vec3::UnitX()).toRotationMatrix();  // +z up
     scene.add_shape(Kind::plane, floor, 2);
     const Geometry geometry(scene.meshes, scene.shapes);
     const auto first_hit = [&](const Vec3 &origin, const Vec3 &direction) {

@@ -16,11 +16,12 @@ using Function = std::function<double(double, double)>;
 
 double apply_rule(const Function &f, double x0, double x1, double y0, double y1) {
     return Rule::integrate(
-        [&](double x) { return Rule::integrate([&](double y) { return f(x, y); }, y0, y1); }, x0, x1);
+        [&](double x) { return Rule::integrate([&](double y) { return f(x, y); }, y0, y1); }, x0,
+        x1);
 }
 
-double refine(const Function &f, double x0, double x1, double y0, double y1, double coarse, double tolerance,
-              int depth) {
+double refine(const Function &f, double x0, double x1, double y0, double y1, double coarse,
+              double tolerance, int depth) {
     const double xm = 0.5 * (x0 + x1), ym = 0.5 * (y0 + y1);
     const double parts[4] = {apply_rule(f, x0, xm, y0, ym), apply_rule(f, xm, x1, y0, ym),
                              apply_rule(f, x0, xm, ym, y1), apply_rule(f, xm, x1, ym, y1)};
@@ -56,7 +57,8 @@ SamplerCheck decide(std::vector<uint64_t> observed, std::vector<double> expected
 
 }  // namespace
 
-double integrate(const Function &f, double x0, double x1, double y0, double y1, double tolerance, int depth) {
+double integrate(const Function &f, double x0, double x1, double y0, double y1, double tolerance,
+                 int depth) {
     return refine(f, x0, x1, y0, y1, apply_rule(f, x0, x1, y0, y1), tolerance, depth);
 }
 
@@ -64,17 +66,17 @@ double integrate_sphere(const std::function<double(const Vec3 &)> &f, double tol
     double total = 0.0;
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            total +=
-                integrate([&](double z, double phi) { return f(direction(z, phi)); }, 2.0 * row / rows - 1.0,
-                          2.0 * (row + 1) / rows - 1.0, 2.0 * pi * column / columns,
-                          2.0 * pi * (column + 1) / columns, tolerance / (rows * columns), 6);
+            total += integrate([&](double z, double phi) { return f(direction(z, phi)); },
+                               2.0 * row / rows - 1.0, 2.0 * (row + 1) / rows - 1.0,
+                               2.0 * pi * column / columns, 2.0 * pi * (column + 1) / columns,
+                               tolerance / (rows * columns), 6);
         }
     }
     return total;
 }
 
-SamplerCheck check_sampler(const DirectionSampler &sample, const DirectionDensity &pdf_w, int samples,
-                           Rng &rng) {
+SamplerCheck check_sampler(const DirectionSampler &sample, const DirectionDensity &pdf_w,
+                           int samples, Rng &rng) {
     std::vector<uint64_t> observed(rows * columns + 1, 0);
     std::vector<double> expected;
     for (int i = 0; i < samples; ++i) {
@@ -84,24 +86,26 @@ SamplerCheck check_sampler(const DirectionSampler &sample, const DirectionDensit
             const double phi = std::atan2(w->y(), w->x());
             const int row = std::min(static_cast<int>(0.5 * (w->z() + 1.0) * rows), rows - 1);
             const int column = std::min(
-                static_cast<int>((phi < 0.0 ? phi + 2.0 * pi : phi) / (2.0 * pi) * columns), columns - 1);
+                static_cast<int>((phi < 0.0 ? phi + 2.0 * pi : phi) / (2.0 * pi) * columns),
+                columns - 1);
             cell = static_cast<size_t>(row * columns + column);
         }
         ++observed[cell];
     }
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            expected.push_back(integrate([&](double z, double phi) { return pdf_w(direction(z, phi)); },
-                                         2.0 * row / rows - 1.0, 2.0 * (row + 1) / rows - 1.0,
-                                         2.0 * pi * column / columns, 2.0 * pi * (column + 1) / columns, 1e-7,
-                                         7));
+            expected.push_back(
+                integrate([&](double z, double phi) { return pdf_w(direction(z, phi)); },
+                          2.0 * row / rows - 1.0, 2.0 * (row + 1) / rows - 1.0,
+                          2.0 * pi * column / columns, 2.0 * pi * (column + 1) / columns, 1e-7, 7));
         }
     }
     return decide(std::move(observed), std::move(expected), samples);
 }
 
 SamplerCheck check_sharp_sampler(const DirectionSampler &sample, const DirectionDensity &pdf_w,
-                                 const Vec3 &wo, const Eigen::Vector2d &width, int samples, Rng &rng) {
+                                 const Vec3 &wo, const Eigen::Vector2d &width, int samples,
+                                 Rng &rng) {
     std::vector<uint64_t> observed(slope_cells * slope_cells + 1, 0);
     std::vector<double> expected;
     const double cells_per_unit = slope_cells / (2.0 * slope_range);
@@ -131,8 +135,8 @@ SamplerCheck check_sharp_sampler(const DirectionSampler &sample, const Direction
     for (int i = 0; i < slope_cells; ++i) {
         for (int j = 0; j < slope_cells; ++j) {
             const double x = i / cells_per_unit - slope_range, y = j / cells_per_unit - slope_range;
-            expected.push_back(
-                integrate(density, x, x + 1.0 / cells_per_unit, y, y + 1.0 / cells_per_unit, 1e-8, 4));
+            expected.push_back(integrate(density, x, x + 1.0 / cells_per_unit, y,
+                                         y + 1.0 / cells_per_unit, 1e-8, 4));
         }
     }
     return decide(std::move(observed), std::move(expected), samples);

@@ -13,7 +13,8 @@ namespace rtrays::reference {
 namespace {
 
 /// Over the pixels [x0, x1) x [y0, y1).
-BlockMean block_mean(const Image &image, const std::string &channel, int x0, int y0, int x1, int y1) {
+BlockMean block_mean(const Image &image, const std::string &channel, int x0, int y0, int x1,
+                     int y1) {
     const auto &values = image.channel(channel);
     const auto &variances = image.channel("variance." + channel);
     BlockMean result;
@@ -41,7 +42,8 @@ std::vector<std::string> holm_rejected(const std::vector<Comparison> &comparison
     std::vector<std::string> rejected;
     for (size_t i = 0; i < comparisons.size(); ++i) {
         if (adjusted[i] <= family_alpha) {
-            rejected.push_back(fmt::format("{} (adjusted p = {:.2g})", comparisons[i].name, adjusted[i]));
+            rejected.push_back(
+                fmt::format("{} (adjusted p = {:.2g})", comparisons[i].name, adjusted[i]));
         }
     }
     return rejected;
@@ -54,7 +56,8 @@ BlockMean image_mean(const Image &image, const std::string &channel) {
 void compare_images(const std::string &name, const Image &a, const Image &b,
                     std::vector<Comparison> &comparisons) {
     constexpr int block = 16;
-    const auto compare = [&](const std::string &place, const BlockMean &mean_a, const BlockMean &mean_b) {
+    const auto compare = [&](const std::string &place, const BlockMean &mean_a,
+                             const BlockMean &mean_b) {
         const double deviation = std::sqrt(mean_a.variance + mean_b.variance);
         const double difference = mean_a.mean - mean_b.mean;
         const double z = difference == 0.0 ? 0.0 : difference / deviation;
@@ -65,8 +68,8 @@ void compare_images(const std::string &name, const Image &a, const Image &b,
         for (int y = 0; y < a.height(); y += block) {
             for (int x = 0; x < a.width(); x += block) {
                 const int x1 = std::min(x + block, a.width()), y1 = std::min(y + block, a.height());
-                compare(fmt::format("{} block {},{}", channel, x, y), block_mean(a, channel, x, y, x1, y1),
-                        block_mean(b, channel, x, y, x1, y1));
+                compare(fmt::format("{} block {},{}", channel, x, y),
+                        block_mean(a, channel, x, y, x1, y1), block_mean(b, channel, x, y, x1, y1));
             }
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Decisions of the statistical tests. Each suite of comparisons is decided together: Holm's step-down
-// correction at a family-wise alpha of 0.01 (architecture, "Statistics policy").
+// Decisions of the statistical tests. Each suite of comparisons is decided together: Holm's
+// step-down correction at a family-wise alpha of 0.01 (architecture, "Statistics policy").
 #pragma once
 
 #include <string>

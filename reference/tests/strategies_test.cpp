@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// implicit = explicit = mis: three estimators of one image, compared per 16x16 block and on the mean.
+// implicit = explicit = mis: three estimators of one image, compared per 16x16 block and on the
+// mean.
 #include <gtest/gtest.h>
 
 #include "reference/tests/statistics.h"
@@ -9,7 +10,8 @@
 namespace rtrays::reference {
 namespace {
 
-Image render(const TestScene &scene, Strategies strategies, uint64_t seed, uint64_t spp, uint32_t max_depth) {
+Image render(const TestScene &scene, Strategies strategies, uint64_t seed, uint64_t spp,
+             uint32_t max_depth) {
     ReferenceSettings settings = small_settings(64, seed, strategies);
     settings.max_depth = max_depth;
     auto renderer = scene.renderer(settings);
@@ -67,11 +69,14 @@ TEST(Strategies, agree_without_roulette_and_trace_two_rays_per_event) {
     auto renderer = scene.renderer(settings);
     renderer.render(0, 256);
     std::vector<Comparison> suite;
-    compare_images("without = with roulette", renderer.develop(), render(scene, Strategies::mis, 76, 256, depth), suite);
+    compare_images("without = with roulette", renderer.develop(),
+                   render(scene, Strategies::mis, 76, 256, depth), suite);
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
-    // Paths end early only where they leave the box, hit the back of something or point away from the light.
+    // Paths end early only where they leave the box, hit the back of something or point away from
+    // the light.
     const ReferenceStats stats = renderer.stats();
-    EXPECT_LE(stats.bounce_rays, (depth - 1) * stats.camera_rays) << "the last event sends no ray on";
+    EXPECT_LE(stats.bounce_rays, (depth - 1) * stats.camera_rays)
+        << "the last event sends no ray on";
     EXPECT_LE(stats.shadow_rays, depth * stats.camera_rays);
     EXPECT_GT(stats.bounce_rays, stats.camera_rays);
     settings.max_depth = 0;

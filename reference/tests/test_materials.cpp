@@ -71,7 +71,8 @@ BxdfComponent with_dielectric(BxdfComponent component, double eta, bool compleme
 }
 
 std::vector<BxdfComponent> smooth_glass(double eta) {
-    return {with_dielectric(ideal_reflection(), eta), with_dielectric(ideal_refraction(eta), eta, true)};
+    return {with_dielectric(ideal_reflection(), eta),
+            with_dielectric(ideal_refraction(eta), eta, true)};
 }
 
 std::vector<BxdfComponent> rough_glass(Distribution distribution, double alpha, double eta) {
@@ -114,13 +115,18 @@ std::vector<TestMaterial> rough_materials() {
         {"rough inverted glass", rough_glass(beckmann, 0.3, 1.0 / 1.5)},
         {"rough ggx refraction", {rough_refraction(ggx, 0.4, 1.9)}},
         {"plastic", {with_dielectric(blinn(64), 1.5), with_dielectric(lambert(0.8), 1.5, true)}},
-        {"diffuse and gloss", {lambert(0.5), microfacet(ggx, 0.3, 0.2), oren_nayar(0.5)}, true, false},
-        {"car paint", {with_dielectric(ideal_reflection(), 1.5), with_dielectric(lambert(0.9), 1.5, true)}},
+        {"diffuse and gloss",
+         {lambert(0.5), microfacet(ggx, 0.3, 0.2), oren_nayar(0.5)},
+         true,
+         false},
+        {"car paint",
+         {with_dielectric(ideal_reflection(), 1.5), with_dielectric(lambert(0.9), 1.5, true)}},
         {"car paint as printed", {with_dielectric(ideal_reflection(), 1.5), printed}, false, false},
     };
 }
 
-Bsdf make_bsdf(const std::vector<BxdfComponent> &components, bool two_sided, const TextureArrays &textures) {
+Bsdf make_bsdf(const std::vector<BxdfComponent> &components, bool two_sided,
+               const TextureArrays &textures) {
     MaterialArrays materials;
     materials.name = {"test"};
     materials.first_component = {0};

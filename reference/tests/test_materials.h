@@ -31,7 +31,8 @@ std::vector<TestMaterial> rough_materials();
 
 /// Reflection and refraction, ideal or rough, weighted by F and 1 - F.
 std::vector<BxdfComponent> smooth_glass(double eta);
-std::vector<BxdfComponent> rough_glass(BxdfComponent::Distribution distribution, double alpha, double eta);
+std::vector<BxdfComponent> rough_glass(BxdfComponent::Distribution distribution, double alpha,
+                                       double eta);
 
 Bsdf make_bsdf(const std::vector<BxdfComponent> &components, bool two_sided = true,
                const TextureArrays &textures = {});

@@ -35,7 +35,8 @@ void TestScene::add_mesh(const std::vector<Vec3> &positions, const std::vector<T
     for (const Triangle &t : triangles) {
         meshes.triangle.push_back({first_vertex + t[0], first_vertex + t[1], first_vertex + t[2]});
         meshes.triangle_mesh.push_back(mesh);
-        area += 0.5 * (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]).norm();
+        area += 0.5 *
+                (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]).norm();
     }
     if (radiance.isZero()) {
         meshes.light.push_back(no_index);
@@ -105,7 +106,8 @@ void TestScene::set_uv(const std::vector<Eigen::Vector2d> &uv) {
     }
 }
 
-void TestScene::add_quad(const std::array<Vec3, 4> &corners, uint32_t material, const Rgb &radiance) {
+void TestScene::add_quad(const std::array<Vec3, 4> &corners, uint32_t material,
+                         const Rgb &radiance) {
     add_mesh({corners.begin(), corners.end()}, {{0, 1, 2}, {0, 2, 3}}, material, radiance);
 }
 
@@ -117,8 +119,9 @@ void TestScene::add_box(const Vec3 &low, const Vec3 &high, bool inside, uint32_t
                              i & 4 ? high.z() : low.z());
     }
     // Faces counter-clockwise from outside.
-    std::vector<Triangle> triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    std::vector<Triangle> triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                       {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                       {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     if (inside) {
         for (Triangle &t : triangles) {
             std::swap(t[1], t[2]);
@@ -141,7 +144,8 @@ void TestScene::set_camera(const Vec3 &position, const Vec3 &target, const Vec3 
 TestScene furnace_box(float albedo, const Rgb &emission, const Vec3 &centre, double size) {
     TestScene scene;
     const Vec3 half = Vec3::Constant(0.5 * size);
-    scene.add_box(centre - half, centre + half, true, scene.add_material(Rgb::Constant(albedo)), emission);
+    scene.add_box(centre - half, centre + half, true, scene.add_material(Rgb::Constant(albedo)),
+                  emission);
     scene.set_camera(centre + size * Vec3(0.1, -0.05, 0.2), centre - size * Vec3(0.3, 0.1, 0.5),
                      Vec3::UnitY(), 1.2);
     return scene;
@@ -153,12 +157,15 @@ TestScene cornell_like_box() {
     const uint32_t red = scene.add_material({0.6f, 0.06f, 0.06f});
     const uint32_t green = scene.add_material({0.12f, 0.48f, 0.1f});
     scene.add_quad({Vec3(0, 0, 0), Vec3(0, 0, 5.6), Vec3(5.6, 0, 5.6), Vec3(5.6, 0, 0)}, white);
-    scene.add_quad({Vec3(0, 5.5, 0), Vec3(5.6, 5.5, 0), Vec3(5.6, 5.5, 5.6), Vec3(0, 5.5, 5.6)}, white);
+    scene.add_quad({Vec3(0, 5.5, 0), Vec3(5.6, 5.5, 0), Vec3(5.6, 5.5, 5.6), Vec3(0, 5.5, 5.6)},
+                   white);
     scene.add_quad({Vec3(0, 0, 0), Vec3(5.6, 0, 0), Vec3(5.6, 5.5, 0), Vec3(0, 5.5, 0)}, white);
     scene.add_quad({Vec3(0, 0, 0), Vec3(0, 5.5, 0), Vec3(0, 5.5, 5.6), Vec3(0, 0, 5.6)}, red);
-    scene.add_quad({Vec3(5.6, 0, 0), Vec3(5.6, 0, 5.6), Vec3(5.6, 5.5, 5.6), Vec3(5.6, 5.5, 0)}, green);
-    scene.add_quad({Vec3(2.1, 5.49, 2.3), Vec3(3.4, 5.49, 2.3), Vec3(3.4, 5.49, 3.3), Vec3(2.1, 5.49, 3.3)},
-                   white, {18.4f, 15.6f, 8.0f});
+    scene.add_quad({Vec3(5.6, 0, 0), Vec3(5.6, 0, 5.6), Vec3(5.6, 5.5, 5.6), Vec3(5.6, 5.5, 0)},
+                   green);
+    scene.add_quad(
+        {Vec3(2.1, 5.49, 2.3), Vec3(3.4, 5.49, 2.3), Vec3(3.4, 5.49, 3.3), Vec3(2.1, 5.49, 3.3)},
+        white, {18.4f, 15.6f, 8.0f});
     scene.add_box({0.9, 0.0, 1.0}, {2.4, 3.3, 2.5}, false, white);
     scene.add_box({3.0, 0.0, 2.9}, {4.6, 1.65, 4.5}, false, white);
     scene.set_camera({2.78, 2.73, 13.6}, {2.78, 2.73, 0.0}, Vec3::UnitY(), 0.69);

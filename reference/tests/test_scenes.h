@@ -25,15 +25,16 @@ struct TestScene : SceneArrays {
                   uint32_t material, const Rgb &radiance = Rgb::Zero());
 
     /// Returns the index of the shape; a hyperboloid has a flare of 1.
-    uint32_t add_shape(ShapeArrays::Kind kind, const Eigen::Matrix4d &world_from_object, uint32_t material,
-                       const Rgb &radiance = Rgb::Zero());
+    uint32_t add_shape(ShapeArrays::Kind kind, const Eigen::Matrix4d &world_from_object,
+                       uint32_t material, const Rgb &radiance = Rgb::Zero());
 
     /// Of the last mesh, one per vertex.
     void set_normals(const std::vector<Vec3> &normals);
     void set_uv(const std::vector<Eigen::Vector2d> &uv);
 
     /// Corners counter-clockwise seen from the front.
-    void add_quad(const std::array<Vec3, 4> &corners, uint32_t material, const Rgb &radiance = Rgb::Zero());
+    void add_quad(const std::array<Vec3, 4> &corners, uint32_t material,
+                  const Rgb &radiance = Rgb::Zero());
 
     /// Axis-parallel box; `inside` says on which side its front faces.
     void add_box(const Vec3 &low, const Vec3 &high, bool inside, uint32_t material,
@@ -50,8 +51,9 @@ struct TestScene : SceneArrays {
 /// Uniform scale, then translation.
 Eigen::Matrix4d placed(const Vec3 &position, double scale);
 
-/// Closed box of walls that all emit `emission` and reflect `albedo`: the radiance is emission / (1 - albedo)
-/// everywhere inside, in every direction, since L = E + rho L. Centred at `centre`, edge length `size`.
+/// Closed box of walls that all emit `emission` and reflect `albedo`: the radiance is emission / (1
+/// - albedo) everywhere inside, in every direction, since L = E + rho L. Centred at `centre`, edge
+/// length `size`.
 TestScene furnace_box(float albedo, const Rgb &emission, const Vec3 &centre = Vec3::Zero(),
                       double size = 2.0);
 

@@ -8,7 +8,8 @@ namespace rtrays {
 
 namespace {
 
-// Volatile: the optimizer may not cut the text up into instructions, where program_hash() would not find it.
+// Volatile: the optimizer may not cut the text up into instructions, where program_hash() would not
+// find it.
 const char *volatile const stamp = RTRAYS_COMMIT;
 
 }  // namespace

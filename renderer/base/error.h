@@ -32,13 +32,17 @@ class Error : public std::runtime_error {
 };
 
 /// Bad usage or bad input: exit code 2.
-inline Error input_error(const std::string &message) { return {ExitCode::bad_input, message}; }
+inline Error input_error(const std::string &message) {
+    return {ExitCode::bad_input, message};
+}
 
 /// A run that could not be carried through: exit code 1.
-inline Error run_error(const std::string &message) { return {ExitCode::run_failed, message}; }
+inline Error run_error(const std::string &message) {
+    return {ExitCode::run_failed, message};
+}
 
-/// Runs `body`, prints the message of an `Error` (or of any other exception) as `PROGRAM: message` on
-/// stderr and returns the exit code for `main`.
+/// Runs `body`, prints the message of an `Error` (or of any other exception) as `PROGRAM: message`
+/// on stderr and returns the exit code for `main`.
 int run_main(const char *program, const std::function<ExitCode()> &body);
 
 }  // namespace rtrays

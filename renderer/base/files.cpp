@@ -37,7 +37,9 @@ fs::path temporary_beside(const fs::path &path) {
     return fs::path(path).concat(fmt::format(".{}.tmp", getpid()));
 }
 
-std::string reason() { return std::strerror(errno); }
+std::string reason() {
+    return std::strerror(errno);
+}
 
 /// Paths that cannot be looked at count as none: opening them then says why.
 bool names_directory(const fs::path &path) {
@@ -73,7 +75,8 @@ void write_atomically(const fs::path &path, const std::function<void(const fs::p
         std::error_code error;
         fs::rename(temporary, path, error);
         if (error) {
-            throw run_error(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
+            throw run_error(
+                fmt::format("{}: cannot be written: {}", path.string(), error.message()));
         }
     } catch (...) {
         std::error_code ignored;
@@ -84,7 +87,8 @@ void write_atomically(const fs::path &path, const std::function<void(const fs::p
 
 void write_file(const fs::path &path, const std::string &content) {
     write_atomically(path, [&](const fs::path &temporary) {
-        const Descriptor file{open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
+        const Descriptor file{
+            open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
         size_t written = 0;
         while (file.fd >= 0 && written < content.size()) {
             const ssize_t n = ::write(file.fd, content.data() + written, content.size() - written);

@@ -54,7 +54,8 @@ Image Image::rgb(int width, int height) {
 }
 
 const Image::Channel *Image::find(const std::string &name) const {
-    const auto it = std::find_if(channels_.begin(), channels_.end(), [&](const Channel &c) { return c.name == name; });
+    const auto it = std::find_if(channels_.begin(), channels_.end(),
+                                 [&](const Channel &c) { return c.name == name; });
     return it == channels_.end() ? nullptr : &*it;
 }
 
@@ -94,7 +95,8 @@ Image read_exr(const std::filesystem::path &path) {
         const int width = window.max.x - window.min.x + 1;
         const int height = window.max.y - window.min.y + 1;
         if (width > max_side || height > max_side) {
-            throw input_error(fmt::format("{}: {} x {} pixels is more than {} a side", path.string(), width, height, max_side));
+            throw input_error(fmt::format("{}: {} x {} pixels is more than {} a side",
+                                          path.string(), width, height, max_side));
         }
         Image image(width, height);
         // R, G, B first, then the file's (alphabetical) order.
@@ -110,7 +112,8 @@ Image read_exr(const std::filesystem::path &path) {
         }
         Imf::FrameBuffer frame;
         for (const Image::Channel &channel : image.channels()) {
-            frame.insert(channel.name, float_slice(image.channel(channel.name).data(), image, window.min.x, window.min.y));
+            frame.insert(channel.name, float_slice(image.channel(channel.name).data(), image,
+                                                   window.min.x, window.min.y));
         }
         file.setFrameBuffer(frame);
         file.readPixels(window.min.y, window.max.y);
@@ -123,7 +126,8 @@ Image read_exr(const std::filesystem::path &path) {
                 image.attributes()[it.name()] = f->value();
             } else if (const auto *d = dynamic_cast<const ImfAttribute<double> *>(&attribute)) {
                 image.attributes()[it.name()] = d->value();
-            } else if (const auto *s = dynamic_cast<const ImfAttribute<std::string> *>(&attribute)) {
+            } else if (const auto *s =
+                           dynamic_cast<const ImfAttribute<std::string> *>(&attribute)) {
                 image.attributes()[it.name()] = s->value();
             }
         }
@@ -138,8 +142,9 @@ Image read_exr(const std::filesystem::path &path) {
 void require_exr_output(const std::filesystem::path &path) {
     require_writable(path);
     if (path.extension() != ".exr") {
-        throw input_error(fmt::format("{}: images are OpenEXR; name it {}", path.string(),
-                                      std::filesystem::path(path).replace_extension(".exr").string()));
+        throw input_error(
+            fmt::format("{}: images are OpenEXR; name it {}", path.string(),
+                        std::filesystem::path(path).replace_extension(".exr").string()));
     }
 }
 
@@ -160,7 +165,8 @@ void write_exr(const Image &image, const std::filesystem::path &path) {
             for (const Image::Channel &channel : image.channels()) {
                 header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
                 // OpenEXR's frame buffers are not const-correct; writing only reads.
-                frame.insert(channel.name, float_slice(const_cast<float *>(channel.values.data()), image, 0, 0));
+                frame.insert(channel.name,
+                             float_slice(const_cast<float *>(channel.values.data()), image, 0, 0));
             }
             Imf::OutputFile file(temporary.c_str(), header);
             file.setFrameBuffer(frame);

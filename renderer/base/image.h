@@ -33,7 +33,9 @@ class Image {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    size_t pixel_count() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
+    size_t pixel_count() const {
+        return static_cast<size_t>(width_) * static_cast<size_t>(height_);
+    }
 
     const std::vector<Channel> &channels() const { return channels_; }
     bool has(const std::string &name) const { return find(name) != nullptr; }
@@ -64,12 +66,14 @@ std::vector<std::string> rgb_names(const std::string &layer = "");
 /// Throws `Error` (bad input) naming the file when it is missing, truncated or not an EXR.
 Image read_exr(const std::filesystem::path &path);
 
-/// Writes the image whole or not at all (temporary file beside it, then rename), ZIP-compressed float32
-/// with the standard `chromaticities` of Rec. 709. Throws `Error` (run failed) naming the file.
+/// Writes the image whole or not at all (temporary file beside it, then rename), ZIP-compressed
+/// float32 with the standard `chromaticities` of Rec. 709. Throws `Error` (run failed) naming the
+/// file.
 void write_exr(const Image &image, const std::filesystem::path &path);
 
-/// The check of a name that a user gave, for before there is an image. Throws `Error` (bad input) unless `write_exr` can write
-/// it and it ends in .exr: other endings would lie about what is in the file.
+/// The check of a name that a user gave, for before there is an image. Throws `Error` (bad input)
+/// unless `write_exr` can write it and it ends in .exr: other endings would lie about what is in
+/// the file.
 void require_exr_output(const std::filesystem::path &path);
 
 }  // namespace rtrays

@@ -21,8 +21,8 @@ namespace rtrays {
 
 namespace {
 
-/// Where the lexer is: the library does not tell its SAX callbacks, so lines are counted as characters are
-/// taken.
+/// Where the lexer is: the library does not tell its SAX callbacks, so lines are counted as
+/// characters are taken.
 struct Position {
     size_t line = 1;
     char last = 0;
@@ -36,7 +36,8 @@ class CountingIterator {
     using pointer = const char *;
     using reference = const char &;
 
-    CountingIterator(const char *current, Position *position) : current_(current), position_(position) {}
+    CountingIterator(const char *current, Position *position)
+        : current_(current), position_(position) {}
 
     reference operator*() const { return *current_; }
     CountingIterator &operator++() {
@@ -64,7 +65,8 @@ std::string escaped(std::string token) {
 /// The "name" of an object, which tells people more than its place in the document.
 const std::string *name_of(const Json &value) {
     const auto found = value.is_object() ? value.find("name") : value.end();
-    return found != value.end() && found->is_string() ? found->get_ptr<const std::string *>() : nullptr;
+    return found != value.end() && found->is_string() ? found->get_ptr<const std::string *>()
+                                                      : nullptr;
 }
 
 /// Builds the document and follows where in it the lexer is.
@@ -281,8 +283,8 @@ std::string shown(const Json &value) {
     return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-/// Says what is wrong with `value` in terms of the schema: the validator only tells where and why in
-/// general ("could not be validated"), never what would have been right.
+/// Says what is wrong with `value` in terms of the schema: the validator only tells where and why
+/// in general ("could not be validated"), never what would have been right.
 std::string explain(const Json &value, const std::vector<const Json *> &nodes,
                     const std::string &description) {
     const std::vector<Json> types = gathered(nodes, "type");
@@ -301,8 +303,8 @@ std::string explain(const Json &value, const std::vector<const Json *> &nodes,
         std::vector<Json> allowed;
         bool closed = false;
         for (const Json *node : nodes) {
-            closed = closed ||
-                     (node->contains("additionalProperties") && node->at("additionalProperties") == false);
+            closed = closed || (node->contains("additionalProperties") &&
+                                node->at("additionalProperties") == false);
             if (node->contains("properties")) {
                 for (const auto &property : node->at("properties").items()) {
                     allowed.emplace_back(property.key());
@@ -310,8 +312,10 @@ std::string explain(const Json &value, const std::vector<const Json *> &nodes,
             }
         }
         for (const auto &member : value.items()) {
-            if (closed && std::find(allowed.begin(), allowed.end(), member.key()) == allowed.end()) {
-                return fmt::format("unknown key '{}'; allowed: {}", member.key(), listed(allowed, ", "));
+            if (closed &&
+                std::find(allowed.begin(), allowed.end(), member.key()) == allowed.end()) {
+                return fmt::format("unknown key '{}'; allowed: {}", member.key(),
+                                   listed(allowed, ", "));
             }
         }
         for (const Json &required : gathered(nodes, "required")) {
@@ -348,11 +352,12 @@ std::string json_location(const std::string &source_name, const std::string &tex
     return pointer.empty() ? location : fmt::format("{}: {}", location, pointer);
 }
 
-void validate_json(const Json &document, const std::string &schema_text, const std::string &source_name,
-                   const std::string &text) {
+void validate_json(const Json &document, const std::string &schema_text,
+                   const std::string &source_name, const std::string &text) {
     const Json schema_document = parse_json(schema_text, "schema of " + source_name);
     valijson::Schema schema;
-    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
+    valijson::SchemaParser().populateSchema(
+        valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
 
     valijson::ValidationResults results;
     valijson::Validator validator;
@@ -360,9 +365,9 @@ void validate_json(const Json &document, const std::string &schema_text, const s
         return;
     }
     // Every enclosing value reports its part's error again: the deepest path is the cause.
-    const auto deepest = std::max_element(results.begin(), results.end(), [](const auto &a, const auto &b) {
-        return a.context.size() < b.context.size();
-    });
+    const auto deepest = std::max_element(
+        results.begin(), results.end(),
+        [](const auto &a, const auto &b) { return a.context.size() < b.context.size(); });
     std::vector<std::string> path;
     std::string pointer;
     std::string description = "does not match the schema";
@@ -374,13 +379,15 @@ void validate_json(const Json &document, const std::string &schema_text, const s
             const std::string &token = deepest->context[i];     // "[key]"
             path.push_back(token.substr(1, token.size() - 2));
             pointer += "/" + escaped(path.back());
-            value = value->is_array() ? &value->at(std::stoul(path.back())) : &value->at(path.back());
+            value =
+                value->is_array() ? &value->at(std::stoul(path.back())) : &value->at(path.back());
             name = name_of(*value) != nullptr ? name_of(*value) : name;
         }
     }
-    throw input_error(fmt::format("{}{}: {}", json_location(source_name, text, pointer),
-                                  name != nullptr ? fmt::format(" (in '{}')", *name) : "",
-                                  explain(*value, schema_nodes(schema_document, path), description)));
+    throw input_error(
+        fmt::format("{}{}: {}", json_location(source_name, text, pointer),
+                    name != nullptr ? fmt::format(" (in '{}')", *name) : "",
+                    explain(*value, schema_nodes(schema_document, path), description)));
 }
 
 }  // namespace rtrays

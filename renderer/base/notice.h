@@ -6,7 +6,8 @@
 
 namespace rtrays {
 
-/// Tells the user what a program does otherwise than its input says: a line "notice: TEXT" on stderr.
+/// Tells the user what a program does otherwise than its input says: a line "notice: TEXT" on
+/// stderr.
 void notice(const std::string &text);
 
 /// While it lives, notices go to `receive` instead (not from several threads at once).

@@ -43,10 +43,12 @@ Process::Process(const std::vector<std::string> &command,
     }
     arguments.push_back(nullptr);
     const auto down = make_pipe(), up = make_pipe();
-    std::signal(SIGPIPE, SIG_IGN);  // of a program that has ended: the answer that does not come tells
+    std::signal(SIGPIPE,
+                SIG_IGN);  // of a program that has ended: the answer that does not come tells
     process_ = fork();
     if (process_ < 0) {
-        throw run_error(fmt::format("{} cannot be started: {}", command.front(), std::strerror(errno)));
+        throw run_error(
+            fmt::format("{} cannot be started: {}", command.front(), std::strerror(errno)));
     }
     if (process_ == 0) {
         for (const auto &[name, value] : environment) {

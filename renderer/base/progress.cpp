@@ -14,7 +14,8 @@ namespace rtrays {
 namespace {
 
 std::atomic<bool> interrupt_flag{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "the handler may only touch a lock-free flag");
+static_assert(std::atomic<bool>::is_always_lock_free,
+              "the handler may only touch a lock-free flag");
 
 std::string format_duration(double seconds) {
     const auto s = static_cast<uint64_t>(seconds + 0.5);
@@ -27,7 +28,11 @@ std::string format_duration(double seconds) {
 }  // namespace
 
 Progress::Progress(std::string task, uint64_t total, std::string what, bool quiet)
-    : task_(std::move(task)), total_(total), what_(std::move(what)), quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
+    : task_(std::move(task)),
+      total_(total),
+      what_(std::move(what)),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
     if (drawn_) {
@@ -43,7 +48,8 @@ void Progress::update(uint64_t done) {
         start_ = last_print_ = now;
     }
     last_done_ = done;
-    const auto interval = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
+    const auto interval =
+        terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
     if (quiet_ || now - last_print_ < interval) {
         return;
     }
@@ -55,13 +61,18 @@ void Progress::update(uint64_t done) {
 void Progress::print(uint64_t done, const char *end) const {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
     const uint64_t advanced = done - first_done_;
-    const double left = advanced > 0 ? elapsed / static_cast<double>(advanced) * static_cast<double>(total_ - done) : 0.0;
-    fmt::print(stderr, "{}{}: {} / {} {}, {} elapsed, {} left{}{}", terminal_ ? "\r" : "", task_, done, total_, what_,
-               format_duration(elapsed), advanced > 0 ? format_duration(left) : "?", terminal_ ? "\x1b[K" : "", end);
+    const double left =
+        advanced > 0 ? elapsed / static_cast<double>(advanced) * static_cast<double>(total_ - done)
+                     : 0.0;
+    fmt::print(stderr, "{}{}: {} / {} {}, {} elapsed, {} left{}{}", terminal_ ? "\r" : "", task_,
+               done, total_, what_, format_duration(elapsed),
+               advanced > 0 ? format_duration(left) : "?", terminal_ ? "\x1b[K" : "", end);
     std::fflush(stderr);
 }
 
-bool interrupted() { return interrupt_flag.load(std::memory_order_relaxed); }
+bool interrupted() {
+    return interrupt_flag.load(std::memory_order_relaxed);
+}
 
 void install_interrupt_handler() {
     struct sigaction action {};

@@ -7,8 +7,8 @@
 
 namespace rtrays {
 
-/// Progress with time left on stderr: one line redrawn in place on a terminal, otherwise a line every ten
-/// seconds. Silent when `quiet`.
+/// Progress with time left on stderr: one line redrawn in place on a terminal, otherwise a line
+/// every ten seconds. Silent when `quiet`.
 class Progress {
   public:
     /// `total` and later `done` are in units of `what` ("spp", "curves").
@@ -17,7 +17,8 @@ class Progress {
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
 
-    /// `done` counts from 0 to `total`; what was done before the first call is not used for the estimate.
+    /// `done` counts from 0 to `total`; what was done before the first call is not used for the
+    /// estimate.
     void update(uint64_t done);
 
   private:
@@ -38,8 +39,8 @@ class Progress {
     Clock::time_point last_print_;
 };
 
-/// Set by SIGINT or SIGTERM once `install_interrupt_handler` was called: long loops poll it, leave a
-/// resumable state and return.
+/// Set by SIGINT or SIGTERM once `install_interrupt_handler` was called: long loops poll it, leave
+/// a resumable state and return.
 bool interrupted();
 void install_interrupt_handler();
 

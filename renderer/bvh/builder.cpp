@@ -13,16 +13,18 @@ namespace rtrays {
 
 namespace {
 
-/// Device memory of a build per triangle, stated in the message when it does not fit: two buffers of
-/// primitives, scratch nodes, the finished nodes (at most as many as scratch) and the leaf triangles.
-constexpr uint64_t bytes_per_triangle = 2 * sizeof(PrimitiveRef) + 2 * sizeof(BvhNode) + sizeof(LeafTriangle);
+/// Device memory of a build per triangle, stated in the message when it does not fit: two buffers
+/// of primitives, scratch nodes, the finished nodes (at most as many as scratch) and the leaf
+/// triangles.
+constexpr uint64_t bytes_per_triangle =
+    2 * sizeof(PrimitiveRef) + 2 * sizeof(BvhNode) + sizeof(LeafTriangle);
 
 uint32_t divide_up(uint32_t a, uint32_t b) {
     return a / b + (a % b != 0 ? 1 : 0);
 }
 
-/// An unsplit node is above the subtree size, so a level has at most this many; no level is deeper than
-/// leaves may be, which bounds nodes and subtrees of the large phase.
+/// An unsplit node is above the subtree size, so a level has at most this many; no level is deeper
+/// than leaves may be, which bounds nodes and subtrees of the large phase.
 struct Capacities {
     uint32_t tasks, chunks, top_nodes, subtrees;
     size_t chunk_bins, task_bins;  ///< a BinSet is one of the usual number of bins and axes
@@ -30,8 +32,8 @@ struct Capacities {
     Capacities(uint32_t triangles, const BvhBuildParameters &parameters) {
         tasks = triangles / parameters.subtree_size + 1;
         chunks = triangles / parameters.chunk_size + tasks + 1;
-        top_nodes =
-            static_cast<uint32_t>(std::min<uint64_t>(uint64_t{BVH_BINNED_DEPTH} * tasks, triangles + 1u));
+        top_nodes = static_cast<uint32_t>(
+            std::min<uint64_t>(uint64_t{BVH_BINNED_DEPTH} * tasks, triangles + 1u));
         subtrees = top_nodes + 1;
         const auto bin_sets = [&](size_t count) {
             const size_t usual = size_t{BVH_BINS} * BVH_BINNED_AXES;
@@ -45,9 +47,8 @@ struct Capacities {
 }  // namespace
 
 BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
-    // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU wants many short
-    // ones.
-    // Layouts by measurement: `make bench`.
+    // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU wants many
+    // short ones. Layouts by measurement: `make bench`.
     if (device.is_cpu) {
         return {1, 1024, 1024, BvhLayout::wide8};
     }
@@ -59,7 +60,8 @@ BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
 
 /// The primitives of the input, and the first task or subtree: the range of all of them.
 struct BvhBuilder::Gathered {
-    Gathered(DeviceContext &device, uint32_t triangles, uint32_t chunk_size, const Capacities &capacities)
+    Gathered(DeviceContext &device, uint32_t triangles, uint32_t chunk_size,
+             const Capacities &capacities)
         : triangle_count(triangles),
           input_chunk_count(divide_up(triangles, chunk_size)),
           input_chunks(device, "bvh input chunks", input_chunk_count),
@@ -84,8 +86,10 @@ struct BvhBuilder::Workspace {
         : state(gathered.state),
           primitives{std::move(gathered.primitives),
                      Buffer<PrimitiveRef>(device, "bvh primitives 1", gathered.triangle_count)},
-          tasks{std::move(gathered.tasks), Buffer<BuildTask>(device, "bvh tasks 1", capacities.tasks)},
-          chunks{std::move(gathered.chunks), Buffer<BuildChunk>(device, "bvh chunks 1", capacities.chunks)},
+          tasks{std::move(gathered.tasks),
+                Buffer<BuildTask>(device, "bvh tasks 1", capacities.tasks)},
+          chunks{std::move(gathered.chunks),
+                 Buffer<BuildChunk>(device, "bvh chunks 1", capacities.chunks)},
           chunk_bins(device, "bvh chunk bins", capacities.chunk_bins),
           task_bins(device, "bvh task bins", capacities.task_bins),
           top_nodes(device, "bvh top nodes", capacities.top_nodes),
@@ -93,8 +97,9 @@ struct BvhBuilder::Workspace {
           scratch_nodes(device, "bvh scratch nodes", gathered.triangle_count) {}
 
     uint64_t bytes() const {
-        return state.bytes() + 2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) + chunk_bins.bytes() +
-               task_bins.bytes() + top_nodes.bytes() + subtrees.bytes() + scratch_nodes.bytes();
+        return state.bytes() + 2 * (primitives[0].bytes() + tasks[0].bytes() + chunks[0].bytes()) +
+               chunk_bins.bytes() + task_bins.bytes() + top_nodes.bytes() + subtrees.bytes() +
+               scratch_nodes.bytes();
     }
 
     BuildState read_state() const { return state.read().front(); }
@@ -121,13 +126,17 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
                         "subtree size {} at least {}",
                         group, parameters.chunk_size, parameters.subtree_size, BVH_LEAF_SIZE));
     }
-    if (parameters.one_group == 0 || (parameters.one_group & (parameters.one_group - 1)) != 0 || parameters.parts == 0) {
-        throw input_error(fmt::format("BVH build parameters: one group of {} is no power of two, or {} parts are none",
-                                      parameters.one_group, parameters.parts));
+    if (parameters.one_group == 0 || (parameters.one_group & (parameters.one_group - 1)) != 0 ||
+        parameters.parts == 0) {
+        throw input_error(fmt::format(
+            "BVH build parameters: one group of {} is no power of two, or {} parts are none",
+            parameters.one_group, parameters.parts));
     }
-    if (parameters.bins < 2 || parameters.bins > 64 || (parameters.axes != 1 && parameters.axes != 3)) {
-        throw input_error(fmt::format("BVH build parameters: {} bins must be 2 to 64, {} axes 1 or 3", parameters.bins,
-                                      parameters.axes));
+    if (parameters.bins < 2 || parameters.bins > 64 ||
+        (parameters.axes != 1 && parameters.axes != 3)) {
+        throw input_error(
+            fmt::format("BVH build parameters: {} bins must be 2 to 64, {} axes 1 or 3",
+                        parameters.bins, parameters.axes));
     }
     const Defines numbering = {{"ONE_GROUP", fmt::format("{}u", parameters.one_group)}};
     Defines binning = numbering;
@@ -163,42 +172,46 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
 void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uint64_t input_bytes) {
     constexpr double gib = 1024.0 * 1024.0 * 1024.0;
     if (triangle_count > BVH_MAX_TRIANGLES) {
-        throw input_error(
-            fmt::format("{} triangles are more than a BVH can hold ({}): take a smaller scene; building it "
-                        "would take {:.1f} GiB of device memory ({} bytes per triangle)",
-                        triangle_count, BVH_MAX_TRIANGLES,
-                        static_cast<double>(triangle_count * bytes_per_triangle) / gib, bytes_per_triangle));
+        throw input_error(fmt::format(
+            "{} triangles are more than a BVH can hold ({}): take a smaller scene; building it "
+            "would take {:.1f} GiB of device memory ({} bytes per triangle)",
+            triangle_count, BVH_MAX_TRIANGLES,
+            static_cast<double>(triangle_count * bytes_per_triangle) / gib, bytes_per_triangle));
     }
     const uint64_t largest = triangle_count * sizeof(BvhNode);
     const uint64_t total = triangle_count * bytes_per_triangle + input_bytes;
     if (largest > device.max_allocation || total > device.global_memory) {
         throw input_error(fmt::format(
-            "building a BVH over {} triangles takes {:.2f} GiB of device memory, {:.2f} GiB of it in one "
-            "piece, but device '{}' has {:.2f} GiB and allows {:.2f} GiB in one piece: take another device or a "
+            "building a BVH over {} triangles takes {:.2f} GiB of device memory, {:.2f} GiB of it "
+            "in one "
+            "piece, but device '{}' has {:.2f} GiB and allows {:.2f} GiB in one piece: take "
+            "another device or a "
             "smaller scene",
-            triangle_count, static_cast<double>(total) / gib, static_cast<double>(largest) / gib, device.name,
-            static_cast<double>(device.global_memory) / gib,
+            triangle_count, static_cast<double>(total) / gib, static_cast<double>(largest) / gib,
+            device.name, static_cast<double>(device.global_memory) / gib,
             static_cast<double>(device.max_allocation) / gib));
     }
 }
 
-BuildState BvhBuilder::gather(Gathered &gathered, uint32_t subtree_size, const Buffer<float> &positions,
-                              const Buffer<uint32_t> &indices) {
+BuildState BvhBuilder::gather(Gathered &gathered, uint32_t subtree_size,
+                              const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
     const auto vertex_count = static_cast<uint32_t>(positions.size() / 3);
     const uint32_t chunk_size = parameters_.chunk_size;
     const uint32_t count = gathered.triangle_count, chunks = gathered.input_chunk_count;
-    check_triangles_.bind({positions, vertex_count, indices, count, chunk_size, gathered.input_chunks});
+    check_triangles_.bind(
+        {positions, vertex_count, indices, count, chunk_size, gathered.input_chunks});
     check_triangles_.enqueue(chunks);
-    begin_build_.bind({gathered.input_chunks, chunks, chunk_size, subtree_size, gathered.state, gathered.tasks,
-                       gathered.chunks, gathered.subtrees});
+    begin_build_.bind({gathered.input_chunks, chunks, chunk_size, subtree_size, gathered.state,
+                       gathered.tasks, gathered.chunks, gathered.subtrees});
     begin_build_.enqueue(parameters_.one_group);
-    gather_primitives_.bind({positions, vertex_count, indices, count, chunk_size, gathered.input_chunks,
-                             gathered.primitives});
+    gather_primitives_.bind({positions, vertex_count, indices, count, chunk_size,
+                             gathered.input_chunks, gathered.primitives});
     gather_primitives_.enqueue(chunks);
     const BuildState state = gathered.state.read().front();
     if (state.bad_index > 0) {
-        throw input_error(fmt::format("{} triangles name a vertex that does not exist (there are {})", state.bad_index,
-                                      vertex_count));
+        throw input_error(
+            fmt::format("{} triangles name a vertex that does not exist (there are {})",
+                        state.bad_index, vertex_count));
     }
     return state;
 }
@@ -208,21 +221,22 @@ void BvhBuilder::split_levels(Workspace &work) {
     for (uint32_t level = 0; state.task_count > 0; ++level) {
         const uint32_t now = level % 2;
         const uint32_t next = 1 - now;
-        bin_primitives_.bind(
-            {work.tasks[now], work.chunks[now], state.chunk_count, work.primitives[now], work.chunk_bins});
+        bin_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count,
+                              work.primitives[now], work.chunk_bins});
         bin_primitives_.enqueue(state.chunk_count);
-        merge_bins_.bind({work.tasks[now], state.task_count, parameters_.parts, work.chunk_bins, work.task_bins});
+        merge_bins_.bind({work.tasks[now], state.task_count, parameters_.parts, work.chunk_bins,
+                          work.task_bins});
         merge_bins_.enqueue(uint64_t{state.task_count} * parameters_.parts);
         choose_splits_.bind({work.tasks[now], state.task_count, work.task_bins});
         choose_splits_.enqueue(state.task_count);
-        partition_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count, work.chunk_bins,
-                                    work.primitives[now], work.primitives[next]});
+        partition_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count,
+                                    work.chunk_bins, work.primitives[now], work.primitives[next]});
         partition_primitives_.enqueue(state.chunk_count);
         merge_children_.bind({work.tasks[now], state.task_count, work.chunks[now]});
         merge_children_.enqueue(2 * uint64_t{state.task_count});
         emit_children_.bind({work.state, work.tasks[now], state.task_count, parameters_.chunk_size,
-                             parameters_.subtree_size, next, work.top_nodes, work.tasks[next], work.chunks[next],
-                             work.subtrees});
+                             parameters_.subtree_size, next, work.top_nodes, work.tasks[next],
+                             work.chunks[next], work.subtrees});
         emit_children_.enqueue(parameters_.one_group);
         state = work.read_state();
     }
@@ -255,18 +269,20 @@ Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t
     return bvh;
 }
 
-std::optional<Bvh> BvhBuilder::build_by_clustering(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
+std::optional<Bvh> BvhBuilder::build_by_clustering(const Buffer<float> &positions,
+                                                   const Buffer<uint32_t> &indices) {
     BvhBuildParameters undivided = parameters_;
     undivided.subtree_size = BVH_MAX_TRIANGLES;
     const auto triangle_count = static_cast<uint32_t>(indices.size() / 3);
-    Gathered gathered(*device_, triangle_count, parameters_.chunk_size, Capacities(triangle_count, undivided));
+    Gathered gathered(*device_, triangle_count, parameters_.chunk_size,
+                      Capacities(triangle_count, undivided));
     const BuildState state = gather(gathered, undivided.subtree_size, positions, indices);
     if (state.primitive_count <= BVH_LEAF_SIZE) {
         return std::nullopt;
     }
     std::optional<Bvh> bvh =
-        hploc_->build({std::move(gathered.state), std::move(gathered.primitives), std::move(gathered.subtrees),
-                       state.primitive_count},
+        hploc_->build({std::move(gathered.state), std::move(gathered.primitives),
+                       std::move(gathered.subtrees), state.primitive_count},
                       positions, indices);
     if (bvh) {
         BvhReport report = bvh->report();
@@ -274,7 +290,8 @@ std::optional<Bvh> BvhBuilder::build_by_clustering(const Buffer<float> &position
         report.triangles = state.primitive_count;
         report.not_finite = state.not_finite;
         report.degenerate = state.degenerate;
-        report.bytes_peak += gathered.input_chunks.bytes() + gathered.tasks.bytes() + gathered.chunks.bytes();
+        report.bytes_peak +=
+            gathered.input_chunks.bytes() + gathered.tasks.bytes() + gathered.chunks.bytes();
         bvh->set_report(report);
     }
     return bvh;
@@ -288,8 +305,8 @@ Bvh BvhBuilder::build_by_binning(const Buffer<float> &positions, const Buffer<ui
     Workspace work(*device_, gathered, capacities);
     split_levels(work);
     BuildState state = work.read_state();
-    build_subtrees_.bind({work.subtrees, state.subtree_count, work.primitives[0], work.primitives[1],
-                          work.state, work.scratch_nodes});
+    build_subtrees_.bind({work.subtrees, state.subtree_count, work.primitives[0],
+                          work.primitives[1], work.state, work.scratch_nodes});
     build_subtrees_.enqueue(state.subtree_count);
     place_subtrees_.bind({work.state, work.subtrees, state.subtree_count, work.top_nodes});
     place_subtrees_.enqueue(parameters_.one_group);
@@ -333,7 +350,8 @@ BvhInput::BvhInput(DeviceContext &device, const std::vector<Eigen::Vector3f> &ve
 
 Bvh BvhBuilder::build(const std::vector<Eigen::Vector3f> &positions,
                       const std::vector<std::array<uint32_t, 3>> &triangles) {
-    require_build_memory(device_->info(), triangles.size(), positions.size() * 12 + triangles.size() * 12);
+    require_build_memory(device_->info(), triangles.size(),
+                         positions.size() * 12 + triangles.size() * 12);
     const BvhInput input(*device_, positions, triangles);
     return build(input.positions, input.indices);
 }

@@ -11,7 +11,8 @@ namespace rtrays {
 /// How a hierarchy is built.
 enum class BvhMethod : uint32_t {
     binned_sah,  ///< top down, by the surface area heuristic over bins
-    hploc,       ///< bottom up, by clustering along a space-filling curve: faster to build, slower to trace
+    hploc,  ///< bottom up, by clustering along a space-filling curve: faster to build, slower to
+            ///< trace
 };
 
 /// All methods by the names that settings give them.
@@ -19,23 +20,28 @@ struct NamedBvhMethod {
     BvhMethod method;
     const char *name;
 };
-inline constexpr NamedBvhMethod bvh_methods[] = {{BvhMethod::binned_sah, "binned_sah"}, {BvhMethod::hploc, "hploc"}};
+inline constexpr NamedBvhMethod bvh_methods[] = {{BvhMethod::binned_sah, "binned_sah"},
+                                                 {BvhMethod::hploc, "hploc"}};
 
 const char *to_string(BvhMethod method);
 
 /// Facts of one build, all but the seconds deterministic.
 struct BvhReport {
-    BvhMethod method = BvhMethod::binned_sah;  ///< that made it: binned_sah where clustering became too deep, or for one leaf
-    double seconds_device = 0;  ///< device time of all stages of the build
-    uint32_t triangles = 0;     ///< in the tree
-    uint32_t left_out = 0;      ///< of the input, not in the tree: rejected when it was built
-    uint32_t not_finite = 0;    ///< rejected: a coordinate is NaN, infinite or beyond 1e12
-    uint32_t degenerate = 0;    ///< rejected: the vertices lie on a line (cross product of the edges is 0)
+    BvhMethod method = BvhMethod::binned_sah;  ///< that made it: binned_sah where clustering became
+                                               ///< too deep, or for one leaf
+    double seconds_device = 0;                 ///< device time of all stages of the build
+    uint32_t triangles = 0;                    ///< in the tree
+    uint32_t left_out = 0;    ///< of the input, not in the tree: rejected when it was built
+    uint32_t not_finite = 0;  ///< rejected: a coordinate is NaN, infinite or beyond 1e12
+    uint32_t degenerate =
+        0;  ///< rejected: the vertices lie on a line (cross product of the edges is 0)
     uint32_t nodes = 0;
     uint32_t leaves = 0;
-    uint32_t depth = 0;       ///< edges from the root to the deepest leaf
-    double sah_cost = 0;      ///< thesis (3.3) with K_T = K_I = 1: expected nodes entered + triangles tested
-    uint32_t wide_nodes = 0;  ///< of the eight-wide layout, else 0: the rest is of the two-wide tree below it
+    uint32_t depth = 0;  ///< edges from the root to the deepest leaf
+    double sah_cost =
+        0;  ///< thesis (3.3) with K_T = K_I = 1: expected nodes entered + triangles tested
+    uint32_t wide_nodes =
+        0;  ///< of the eight-wide layout, else 0: the rest is of the two-wide tree below it
     uint32_t wide_leaves = 0;
     uint64_t bytes = 0;       ///< of the tree and its triangles
     uint64_t bytes_peak = 0;  ///< of device memory held during the build, the tree included
@@ -43,11 +49,12 @@ struct BvhReport {
     uint32_t rejected() const { return not_finite + degenerate; }
 };
 
-/// How a hierarchy lies in memory; a program that traverses it is compiled with `BVH_LAYOUT` defined as its
-/// number.
+/// How a hierarchy lies in memory; a program that traverses it is compiled with `BVH_LAYOUT`
+/// defined as its number.
 enum class BvhLayout : uint32_t {
-    bvh2 = BVH_LAYOUT_BVH2,                 ///< nodes of two children, traversed with a stack
-    bvh2_stackless = BVH_LAYOUT_STACKLESS,  ///< the same in depth-first order, traversed without one
+    bvh2 = BVH_LAYOUT_BVH2,  ///< nodes of two children, traversed with a stack
+    bvh2_stackless =
+        BVH_LAYOUT_STACKLESS,  ///< the same in depth-first order, traversed without one
     wide8 = BVH_LAYOUT_WIDE8,  ///< nodes of eight, for devices whose work-items compute on vectors
 };
 
@@ -56,13 +63,14 @@ struct NamedBvhLayout {
     BvhLayout layout;
     const char *name;
 };
-inline constexpr NamedBvhLayout bvh_layouts[] = {
-    {BvhLayout::bvh2, "bvh2"}, {BvhLayout::bvh2_stackless, "bvh2_stackless"}, {BvhLayout::wide8, "wide8"}};
+inline constexpr NamedBvhLayout bvh_layouts[] = {{BvhLayout::bvh2, "bvh2"},
+                                                 {BvhLayout::bvh2_stackless, "bvh2_stackless"},
+                                                 {BvhLayout::wide8, "wide8"}};
 
 const char *to_string(BvhLayout layout);
 
-/// A hierarchy over the triangles of a scene, in device memory: what kernels/traversal/intersect_bvh.h reads.
-/// It has the buffers of its layout.
+/// A hierarchy over the triangles of a scene, in device memory: what
+/// kernels/traversal/intersect_bvh.h reads. It has the buffers of its layout.
 class Bvh {
   public:
     Bvh() = default;

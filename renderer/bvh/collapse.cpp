@@ -7,9 +7,9 @@ namespace rtrays {
 
 namespace {
 
-/// Nodes over n triangles, node 0 included. A node of less than eight children has only leaves, and more than
-/// eight triangles in them: those are at most n / 9. Of the i with eight children 8 i < i + n / 9 + (leaves,
-/// at most n): at most n / 6.
+/// Nodes over n triangles, node 0 included. A node of less than eight children has only leaves, and
+/// more than eight triangles in them: those are at most n / 9. Of the i with eight children 8 i < i
+/// + n / 9 + (leaves, at most n): at most n / 6.
 uint32_t node_capacity(uint32_t triangles) {
     return triangles / 3 + 2;
 }
@@ -44,7 +44,8 @@ Bvh BvhCollapser::collapse(const Bvh &bvh) {
         open_wide_nodes_.bind({bvh.nodes(), begin, end, scratch, tasks, child_counts});
         open_wide_nodes_.enqueue(end - begin);
         sums_.scan(child_counts, 2 * (end - begin) + 1);
-        link_wide_nodes_.bind({begin, end, counts.leaf_count, child_counts, state, scratch, tasks, leaves});
+        link_wide_nodes_.bind(
+            {begin, end, counts.leaf_count, child_counts, state, scratch, tasks, leaves});
         link_wide_nodes_.enqueue(end - begin);
         counts = state.read().front();
         begin = end;
@@ -63,9 +64,10 @@ Bvh BvhCollapser::collapse(const Bvh &bvh) {
     report.wide_nodes = counts.node_count;
     report.wide_leaves = counts.leaf_count;
     report.bytes = nodes.bytes() + blocks.bytes();
-    report.bytes_peak = std::max(report.bytes_peak, bvh.report().bytes + report.bytes + scratch.bytes() +
-                                                        tasks.bytes() + leaves.bytes() + child_counts.bytes() +
-                                                        sums_.bytes() + state.bytes());
+    report.bytes_peak =
+        std::max(report.bytes_peak, bvh.report().bytes + report.bytes + scratch.bytes() +
+                                        tasks.bytes() + leaves.bytes() + child_counts.bytes() +
+                                        sums_.bytes() + state.bytes());
     return {std::move(nodes), std::move(blocks), report};
 }
 

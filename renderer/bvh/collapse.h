@@ -7,15 +7,15 @@
 
 namespace rtrays {
 
-/// Turns two-wide hierarchies into eight-wide ones on a device (shared/wide_node.h). Deterministic as the
-/// builder is.
+/// Turns two-wide hierarchies into eight-wide ones on a device (shared/wide_node.h). Deterministic
+/// as the builder is.
 class BvhCollapser {
   public:
     BvhCollapser(DeviceContext &device, uint32_t group_size);
 
-    /// `bvh` has the layout bvh2; what it holds may be released afterwards. Throws `Error` (run failed) when
-    /// the device's memory does not suffice: per triangle about 100 bytes while it works, and about 70 for
-    /// the result.
+    /// `bvh` has the layout bvh2; what it holds may be released afterwards. Throws `Error` (run
+    /// failed) when the device's memory does not suffice: per triangle about 100 bytes while it
+    /// works, and about 70 for the result.
     Bvh collapse(const Bvh &bvh);
 
   private:

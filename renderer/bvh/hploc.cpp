@@ -7,7 +7,8 @@ namespace rtrays {
 
 namespace {
 
-/// Of kernels with a work-item per primitive or node: enough for a CPU to loop over, few enough for any GPU.
+/// Of kernels with a work-item per primitive or node: enough for a CPU to loop over, few enough for
+/// any GPU.
 constexpr uint32_t element_group = 64;
 
 /// Of the codes, all that there are.
@@ -15,11 +16,14 @@ constexpr uint32_t code_bits = 63;
 
 }  // namespace
 
-/// What clustering takes besides the clusters and their codes. Ranges above the subtree size are disjoint in each of the
-/// levels of the radix tree, and each of them has one place where it is divided.
+/// What clustering takes besides the clusters and their codes. Ranges above the subtree size are
+/// disjoint in each of the levels of the radix tree, and each of them has one place where it is
+/// divided.
 struct HplocBuilder::Workspace {
     Workspace(DeviceContext &device, uint32_t count, uint32_t subtree_size)
-        : range_capacity(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{HPLOC_LEVELS} * (count / subtree_size), count)) + 1),
+        : range_capacity(static_cast<uint32_t>(std::min<uint64_t>(
+                             uint64_t{HPLOC_LEVELS} * (count / subtree_size), count)) +
+                         1),
           state(device, "bvh cluster state", 1),
           ranges(device, "bvh code ranges", range_capacity),
           subtrees(device, "bvh code subtrees", std::min(range_capacity, count / HPLOC_KEPT) + 1),
@@ -28,7 +32,8 @@ struct HplocBuilder::Workspace {
           cluster_nodes(device, "bvh cluster nodes", count) {}
 
     uint64_t bytes() const {
-        return state.bytes() + ranges.bytes() + subtrees.bytes() + kept.bytes() + nodes.bytes() + cluster_nodes.bytes();
+        return state.bytes() + ranges.bytes() + subtrees.bytes() + kept.bytes() + nodes.bytes() +
+               cluster_nodes.bytes();
     }
 
     uint32_t range_capacity;
@@ -70,19 +75,21 @@ void HplocBuilder::cluster(Workspace &work, uint32_t count) {
     while (state.range_count > levels.back()) {
         const uint32_t begin = levels.back();
         levels.push_back(state.range_count);
-        divide_ranges_.bind({work.codes, begin, levels.back(), subtree_size_, work.state, work.ranges, work.subtrees});
+        divide_ranges_.bind({work.codes, begin, levels.back(), subtree_size_, work.state,
+                             work.ranges, work.subtrees});
         divide_ranges_.enqueue(levels.back() - begin);
         state = work.state.read().front();
     }
-    cluster_subtrees_.bind({work.subtrees, state.subtree_count, work.codes, work.clusters, work.kept, work.nodes,
-                            work.cluster_nodes});
+    cluster_subtrees_.bind({work.subtrees, state.subtree_count, work.codes, work.clusters,
+                            work.kept, work.nodes, work.cluster_nodes});
     cluster_subtrees_.enqueue(state.subtree_count);
     for (size_t level = levels.size() - 1; level-- > 0;) {
-        cluster_ranges_.bind({work.ranges, levels[level], levels[level + 1], work.clusters, work.kept, work.nodes,
-                              work.cluster_nodes});
+        cluster_ranges_.bind({work.ranges, levels[level], levels[level + 1], work.clusters,
+                              work.kept, work.nodes, work.cluster_nodes});
         cluster_ranges_.enqueue(levels[level + 1] - levels[level]);
     }
-    cluster_root_.bind({work.clusters, work.kept, count, work.nodes, work.cluster_nodes, work.state});
+    cluster_root_.bind(
+        {work.clusters, work.kept, count, work.nodes, work.cluster_nodes, work.state});
     cluster_root_.enqueue(1);
 }
 
@@ -98,7 +105,8 @@ std::optional<Bvh> HplocBuilder::build(GatheredPrimitives gathered, const Buffer
     gather_clusters_.bind({gathered.primitives, order, count, clusters});
     gather_clusters_.enqueue(count);
     device_->finish();  // what is no longer needed is released here
-    uint64_t peak = gathered.primitives.bytes() + codes.bytes() + order.bytes() + clusters.bytes() + sort_.bytes(count);
+    uint64_t peak = gathered.primitives.bytes() + codes.bytes() + order.bytes() + clusters.bytes() +
+                    sort_.bytes(count);
     gathered.primitives = {};
 
     Workspace work(*device_, count, subtree_size_);
@@ -106,7 +114,8 @@ std::optional<Bvh> HplocBuilder::build(GatheredPrimitives gathered, const Buffer
     work.clusters = std::move(clusters);
     cluster(work, count);
     const ClusterState state = work.state.read().front();
-    const uint64_t clustering = work.codes.bytes() + order.bytes() + work.clusters.bytes() + work.bytes();
+    const uint64_t clustering =
+        work.codes.bytes() + order.bytes() + work.clusters.bytes() + work.bytes();
     if (state.depth > BVH_MAX_DEPTH) {
         return std::nullopt;
     }
@@ -128,7 +137,8 @@ std::optional<Bvh> HplocBuilder::build(GatheredPrimitives gathered, const Buffer
     report.depth = state.depth;
     report.sah_cost = static_cast<double>(gathered.state.read().front().cost);
     report.bytes = nodes.bytes() + triangles.bytes();
-    report.bytes_peak = std::max(peak, clustering + report.bytes + costs.bytes()) + gathered.state.bytes() + gathered.all.bytes();
+    report.bytes_peak = std::max(peak, clustering + report.bytes + costs.bytes()) +
+                        gathered.state.bytes() + gathered.all.bytes();
     return Bvh(std::move(nodes), std::move(triangles), report);
 }
 

@@ -18,16 +18,19 @@ struct GatheredPrimitives {
     uint32_t count;
 };
 
-/// Builds two-wide hierarchies on a device by clustering (H-PLOC, kernels/bvh/hploc.h). Deterministic: the tree depends on
-/// the primitives alone.
+/// Builds two-wide hierarchies on a device by clustering (H-PLOC, kernels/bvh/hploc.h).
+/// Deterministic: the tree depends on the primitives alone.
 class HplocBuilder {
   public:
-    /// `subtree_size`: a range of at most so many primitives is finished by one work-item; changes no bit of the result.
+    /// `subtree_size`: a range of at most so many primitives is finished by one work-item; changes
+    /// no bit of the result.
     HplocBuilder(DeviceContext &device, uint32_t group_size, uint32_t subtree_size);
 
-    /// None where the tree would be deeper than traversal allows (bvh_node.h). `gathered` has more than BVH_LEAF_SIZE
-    /// primitives. Sets what the report says of the tree, and the peak of memory without positions and indices.
-    std::optional<Bvh> build(GatheredPrimitives gathered, const Buffer<float> &positions, const Buffer<uint32_t> &indices);
+    /// None where the tree would be deeper than traversal allows (bvh_node.h). `gathered` has more
+    /// than BVH_LEAF_SIZE primitives. Sets what the report says of the tree, and the peak of memory
+    /// without positions and indices.
+    std::optional<Bvh> build(GatheredPrimitives gathered, const Buffer<float> &positions,
+                             const Buffer<uint32_t> &indices);
 
   private:
     struct Workspace;

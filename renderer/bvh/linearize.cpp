@@ -40,8 +40,9 @@ Bvh BvhLinearizer::linearize(Bvh bvh) {
 
     report.seconds_device += total_seconds(device_->profiler().stages()) - seconds_before;
     report.bytes = nodes.bytes() + bvh.triangles().bytes();
-    report.bytes_peak = std::max(report.bytes_peak, bvh.report().bytes + nodes.bytes() + parents.bytes() + sizes.bytes() +
-                                                        places.bytes());
+    report.bytes_peak =
+        std::max(report.bytes_peak, bvh.report().bytes + nodes.bytes() + parents.bytes() +
+                                        sizes.bytes() + places.bytes());
     return {std::move(nodes), bvh.take_triangles(), report};
 }
 

@@ -6,10 +6,12 @@
 
 namespace rtrays {
 
-/// Makes two-wide hierarchies ones that are traversed without a stack, on a device (shared/stackless_node.h).
+/// Makes two-wide hierarchies ones that are traversed without a stack, on a device
+/// (shared/stackless_node.h).
 class BvhLinearizer {
   public:
-    /// `subtree_size`: a subtree of at most so many triangles is numbered by one work-item; changes no bit of the result.
+    /// `subtree_size`: a subtree of at most so many triangles is numbered by one work-item; changes
+    /// no bit of the result.
     BvhLinearizer(DeviceContext &device, uint32_t subtree_size);
 
     /// `bvh` has the layout bvh2; its triangles become those of the result.

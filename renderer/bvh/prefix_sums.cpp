@@ -8,7 +8,8 @@ namespace rtrays {
 PrefixSums::PrefixSums(DeviceContext &device, uint32_t group_size, uint32_t block_size)
     : device_(&device), block_size_(block_size) {
     if (block_size < 2) {
-        throw input_error(fmt::format("prefix sums by blocks of {}: at least 2 values each", block_size));
+        throw input_error(
+            fmt::format("prefix sums by blocks of {}: at least 2 values each", block_size));
     }
     const Program program(device, "kernels/bvh/prefix_sums.cl");
     sum_blocks_ = Kernel(program, "sum_blocks", group_size);
@@ -19,7 +20,9 @@ PrefixSums PrefixSums::for_device(DeviceContext &device, uint32_t group_size) {
     return {device, group_size, device.info().is_cpu ? 4096u : 64u};
 }
 
-void PrefixSums::scan(const Buffer<uint32_t> &values, uint32_t count) { scan(values, count, 0); }
+void PrefixSums::scan(const Buffer<uint32_t> &values, uint32_t count) {
+    scan(values, count, 0);
+}
 
 void PrefixSums::scan(const Buffer<uint32_t> &values, uint32_t count, size_t level) {
     const uint32_t blocks = (count + block_size_ - 1) / block_size_;
@@ -39,8 +42,9 @@ void PrefixSums::scan(const Buffer<uint32_t> &values, uint32_t count, size_t lev
 }
 
 uint64_t PrefixSums::bytes() const {
-    return std::accumulate(sums_.begin(), sums_.end(), uint64_t{0},
-                           [](uint64_t sum, const Buffer<uint32_t> &buffer) { return sum + buffer.bytes(); });
+    return std::accumulate(
+        sums_.begin(), sums_.end(), uint64_t{0},
+        [](uint64_t sum, const Buffer<uint32_t> &buffer) { return sum + buffer.bytes(); });
 }
 
 }  // namespace rtrays

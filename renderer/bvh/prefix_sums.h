@@ -17,8 +17,8 @@ class PrefixSums {
     /// By the kind of device: a CPU core takes long blocks, a GPU wants many.
     static PrefixSums for_device(DeviceContext &device, uint32_t group_size);
 
-    /// Enqueues replacing the first `count` of the values by the sum of those before each. With a last value of 0 that
-    /// becomes the sum of all.
+    /// Enqueues replacing the first `count` of the values by the sum of those before each. With a
+    /// last value of 0 that becomes the sum of all.
     void scan(const Buffer<uint32_t> &values, uint32_t count);
 
     uint64_t bytes() const;  ///< of device memory held, as much as the longest scan took
@@ -29,7 +29,8 @@ class PrefixSums {
     DeviceContext *device_;
     uint32_t block_size_;
     Kernel sum_blocks_, scan_blocks_;
-    std::deque<Buffer<uint32_t>> sums_;  ///< of blocks, by level; references stay valid as levels are added
+    std::deque<Buffer<uint32_t>>
+        sums_;  ///< of blocks, by level; references stay valid as levels are added
 };
 
 }  // namespace rtrays

@@ -4,17 +4,23 @@
 namespace rtrays {
 
 RadixSortParameters RadixSortParameters::for_device(const DeviceInfo &device, uint32_t group_size) {
-    // A GPU keeps the counters of a work-item in registers, or near; a CPU those of 256 digits in its first cache.
-    return device.is_cpu ? RadixSortParameters{group_size, 8, 16384} : RadixSortParameters{group_size, 4, 32};
+    // A GPU keeps the counters of a work-item in registers, or near; a CPU those of 256 digits in
+    // its first cache.
+    return device.is_cpu ? RadixSortParameters{group_size, 8, 16384}
+                         : RadixSortParameters{group_size, 4, 32};
 }
 
 RadixSort::RadixSort(DeviceContext &device, const RadixSortParameters &parameters)
-    : device_(&device), parameters_(parameters), sums_(PrefixSums::for_device(device, parameters.group_size)) {
+    : device_(&device),
+      parameters_(parameters),
+      sums_(PrefixSums::for_device(device, parameters.group_size)) {
     if (parameters.digit_bits < 1 || parameters.digit_bits > 8 || parameters.chunk_size == 0) {
-        throw input_error(fmt::format("radix sort by digits of {} bits, {} keys per work-item: 1 to 8 bits, at least 1 key",
-                                      parameters.digit_bits, parameters.chunk_size));
+        throw input_error(fmt::format(
+            "radix sort by digits of {} bits, {} keys per work-item: 1 to 8 bits, at least 1 key",
+            parameters.digit_bits, parameters.chunk_size));
     }
-    const Program program(device, "kernels/bvh/radix_sort.cl", {{"RADIX_BITS", std::to_string(parameters.digit_bits)}});
+    const Program program(device, "kernels/bvh/radix_sort.cl",
+                          {{"RADIX_BITS", std::to_string(parameters.digit_bits)}});
     count_digits_ = Kernel(program, "count_digits", parameters.group_size);
     move_by_digit_ = Kernel(program, "move_by_digit", parameters.group_size);
 }
@@ -39,7 +45,8 @@ void RadixSort::sort(Buffer<uint64_t> &keys, Buffer<uint32_t> &values, uint32_t 
         count_digits_.bind({keys, count, shift, chunk_size, chunks, places});
         count_digits_.enqueue(chunks);
         sums_.scan(places, digit_counts);
-        move_by_digit_.bind({keys, values, count, shift, chunk_size, chunks, places, other_keys, other_values});
+        move_by_digit_.bind(
+            {keys, values, count, shift, chunk_size, chunks, places, other_keys, other_values});
         move_by_digit_.enqueue(chunks);
         std::swap(keys, other_keys);
         std::swap(values, other_values);

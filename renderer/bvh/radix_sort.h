@@ -20,7 +20,8 @@ class RadixSort {
     /// Throws `Error` (bad input) when a parameter is out of range.
     RadixSort(DeviceContext &device, const RadixSortParameters &parameters);
 
-    /// Sorts by the lowest `bits` bits of the keys. Enqueues only; `bytes` says what memory that takes besides.
+    /// Sorts by the lowest `bits` bits of the keys. Enqueues only; `bytes` says what memory that
+    /// takes besides.
     void sort(Buffer<uint64_t> &keys, Buffer<uint32_t> &values, uint32_t bits);
 
     /// Of device memory that sorting so many keys takes besides the keys and values.

@@ -13,7 +13,8 @@ namespace rtrays {
 
 namespace {
 
-/// More than any tree has (bvh_node.h), node 0 of the eight-wide layout and the end of the last included.
+/// More than any tree has (bvh_node.h), node 0 of the eight-wide layout and the end of the last
+/// included.
 constexpr uint32_t level_limit = BVH_STACK_SIZE + 2;
 
 constexpr uint32_t fault_kinds = TRIANGLE_BAD_INDEX + 1;
@@ -27,7 +28,8 @@ BvhRefitter::BvhRefitter(DeviceContext &device, const Bvh &bvh, uint32_t group_s
     count_faults_ = Kernel(program, "count_faults", group_size);
     refit_triangles_ = Kernel(program, "refit_triangles", group_size);
     refit_nodes_ = Kernel(program, "refit_nodes", group_size);
-    Kernel link_parents(program, "link_parents", group_size), find_depths(program, "find_depths", group_size);
+    Kernel link_parents(program, "link_parents", group_size),
+        find_depths(program, "find_depths", group_size);
     Kernel find_levels(program, "find_levels", group_size);
     bvh.visit([&](const auto &nodes, const auto &) {
         const auto count = static_cast<uint32_t>(nodes.size());
@@ -38,7 +40,8 @@ BvhRefitter::BvhRefitter(DeviceContext &device, const Bvh &bvh, uint32_t group_s
         order_ = Buffer<uint32_t>(device, "bvh nodes by level", count);
         find_depths.bind({parents, count, depths, order_});
         find_depths.enqueue(count);
-        RadixSort(device, RadixSortParameters::for_device(device.info(), group_size)).sort(depths, order_, 8);
+        RadixSort(device, RadixSortParameters::for_device(device.info(), group_size))
+            .sort(depths, order_, 8);
         const Buffer<uint32_t> levels(device, "bvh levels", level_limit);
         find_levels.bind({depths, count, level_limit, levels});
         find_levels.enqueue(level_limit);
@@ -50,7 +53,8 @@ BvhRefitter::BvhRefitter(DeviceContext &device, const Bvh &bvh, uint32_t group_s
 bool BvhRefitter::refit(Bvh &bvh, const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
     const uint64_t triangles_built = uint64_t{bvh.report().left_out} + bvh.report().triangles;
     if (indices.size() != 3 * triangles_built) {
-        throw input_error(fmt::format("refitting a BVH over {} triangles to {} vertex indices", triangles_built, indices.size()));
+        throw input_error(fmt::format("refitting a BVH over {} triangles to {} vertex indices",
+                                      triangles_built, indices.size()));
     }
     device_->finish();
     const double seconds_before = total_seconds(device_->profiler().stages());
@@ -62,8 +66,9 @@ bool BvhRefitter::refit(Bvh &bvh, const Buffer<float> &positions, const Buffer<u
     count_faults_.enqueue(triangle_count);
     const std::vector<uint32_t> input = faults_.read();
     if (input[TRIANGLE_BAD_INDEX] > 0) {
-        throw input_error(fmt::format("refitting a BVH: {} triangles name a vertex that does not exist (there are {})",
-                                      input[TRIANGLE_BAD_INDEX], vertex_count));
+        throw input_error(fmt::format(
+            "refitting a BVH: {} triangles name a vertex that does not exist (there are {})",
+            input[TRIANGLE_BAD_INDEX], vertex_count));
     }
     faults_.fill(0);
     bvh.visit([&](const auto &nodes, const auto &triangles) {
@@ -81,7 +86,8 @@ bool BvhRefitter::refit(Bvh &bvh, const Buffer<float> &positions, const Buffer<u
     report.not_finite = input[TRIANGLE_NOT_FINITE];
     report.degenerate = input[TRIANGLE_DEGENERATE];
     bvh.set_report(report);
-    return report.rejected() == report.left_out + tree[TRIANGLE_NOT_FINITE] + tree[TRIANGLE_DEGENERATE];
+    return report.rejected() ==
+           report.left_out + tree[TRIANGLE_NOT_FINITE] + tree[TRIANGLE_DEGENERATE];
 }
 
 }  // namespace rtrays

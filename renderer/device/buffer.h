@@ -14,8 +14,8 @@
 
 namespace rtrays {
 
-/// A device array of `T`. Copies to and from the host are blocking. Every operation throws `Error` (run failed)
-/// naming the buffer when the device refuses it.
+/// A device array of `T`. Copies to and from the host are blocking. Every operation throws `Error`
+/// (run failed) naming the buffer when the device refuses it.
 template <typename T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>, "device records are plain data");
@@ -23,7 +23,8 @@ class Buffer {
   public:
     Buffer() = default;
 
-    /// Uninitialized. PoCL's vectoriser may read past the end (pocl#757), hence 64 bytes of padding.
+    /// Uninitialized. PoCL's vectoriser may read past the end (pocl#757), hence 64 bytes of
+    /// padding.
     Buffer(DeviceContext &device, std::string name, size_t count)
         : device_(&device), name_(std::move(name)), count_(count) {
         memory_ = device.allocate(name_, bytes() + padding);
@@ -36,17 +37,20 @@ class Buffer {
 
     void write(const std::vector<T> &values) {
         if (values.size() != count_) {
-            throw run_error(fmt::format("buffer '{}' holds {} items, not {}", name_, count_, values.size()));
+            throw run_error(
+                fmt::format("buffer '{}' holds {} items, not {}", name_, count_, values.size()));
         }
         if (count_ > 0) {
-            check_cl(clEnqueueWriteBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(), values.data(), 0, nullptr, nullptr),
+            check_cl(clEnqueueWriteBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(),
+                                          values.data(), 0, nullptr, nullptr),
                      "writing buffer " + name_);
         }
     }
 
     void fill(const T &value) {
         if (count_ > 0) {
-            check_cl(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, 0, bytes(), 0, nullptr, nullptr),
+            check_cl(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, 0, bytes(),
+                                         0, nullptr, nullptr),
                      "filling buffer " + name_);
         }
     }
@@ -54,7 +58,8 @@ class Buffer {
     std::vector<T> read() const {
         std::vector<T> values(count_);
         if (count_ > 0) {
-            check_cl(clEnqueueReadBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(), values.data(), 0, nullptr, nullptr),
+            check_cl(clEnqueueReadBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(),
+                                         values.data(), 0, nullptr, nullptr),
                      "reading buffer " + name_);
         }
         return values;

@@ -32,7 +32,8 @@ T device_value(cl_device_id device, cl_device_info what) {
 
 std::string platform_name(cl_platform_id platform) {
     char name[256] = "";
-    check_cl(clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name - 1, name, nullptr), "querying a platform");
+    check_cl(clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name - 1, name, nullptr),
+             "querying a platform");
     return name;
 }
 
@@ -46,7 +47,8 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
             device_text(device, CL_DEVICE_OPENCL_C_VERSION),
             (device_value<cl_device_type>(device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0,
             extensions.find("cl_khr_int64_base_atomics") != std::string::npos,
-            (device_value<cl_device_fp_config>(device, CL_DEVICE_SINGLE_FP_CONFIG) & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0,
+            (device_value<cl_device_fp_config>(device, CL_DEVICE_SINGLE_FP_CONFIG) &
+             CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0,
             device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS),
             device_value<size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE),
             device_value<cl_ulong>(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
@@ -54,15 +56,18 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
 }
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
 DeviceInfo select_device(const std::string &spec) {
     const std::vector<DeviceInfo> devices = list_devices();
     if (devices.empty()) {
-        throw input_error("no OpenCL device found; install one: the CPU device is Debian's package pocl-opencl-icd "
-                          "(scripts/install does it), a GPU's comes with its driver");
+        throw input_error(
+            "no OpenCL device found; install one: the CPU device is Debian's package "
+            "pocl-opencl-icd "
+            "(scripts/install does it), a GPU's comes with its driver");
     }
     std::string listing;
     std::vector<std::string> index(devices.size());
@@ -72,7 +77,8 @@ DeviceInfo select_device(const std::string &spec) {
         platform += i > 0 && !same ? 1 : 0;
         number = same ? number + 1 : 0;
         index[i] = fmt::format("{}:{}", platform, number);
-        listing += fmt::format("\n  {}  {}  ({})", index[i], devices[i].name, devices[i].platform_name);
+        listing +=
+            fmt::format("\n  {}  {}  ({})", index[i], devices[i].name, devices[i].platform_name);
     }
     const auto find = [&](auto &&matches) -> const DeviceInfo * {
         for (size_t i = 0; i < devices.size(); ++i) {
@@ -93,51 +99,60 @@ DeviceInfo select_device(const std::string &spec) {
         found = find([&](size_t i) { return devices[i].is_cpu; });
     } else {
         found = find([&](size_t i) { return index[i] == spec; });
-        found = found != nullptr ? found : find([&](size_t i) { return lower(devices[i].name).find(lower(spec)) != std::string::npos; });
+        found = found != nullptr ? found : find([&](size_t i) {
+            return lower(devices[i].name).find(lower(spec)) != std::string::npos;
+        });
     }
     if (found == nullptr) {
-        throw input_error(fmt::format("no OpenCL device matches '{}'; there are:{}", spec, listing));
+        throw input_error(
+            fmt::format("no OpenCL device matches '{}'; there are:{}", spec, listing));
     }
     return *found;
 }
 
-/// Asks for huge pages under a large buffer in the host's memory, before it is first touched: what kernels read lies anywhere
-/// in it, and every read would wait for its address to be translated, too. A mere wish: no error where it is not granted.
+/// Asks for huge pages under a large buffer in the host's memory, before it is first touched: what
+/// kernels read lies anywhere in it, and every read would wait for its address to be translated,
+/// too. A mere wish: no error where it is not granted.
 void prefer_huge_pages(cl_command_queue queue, cl_mem memory, uint64_t bytes) {
     constexpr uint64_t huge_page = 1u << 21;
     if (bytes < 2 * huge_page) {
         return;
     }
     cl_int status = CL_SUCCESS;
-    void *mapped = clEnqueueMapBuffer(queue, memory, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes, 0, nullptr, nullptr,
-                                      &status);
+    void *mapped = clEnqueueMapBuffer(queue, memory, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0,
+                                      bytes, 0, nullptr, nullptr, &status);
     check_cl(status, "mapping a buffer");
     const auto address = reinterpret_cast<uintptr_t>(mapped);
     const uintptr_t begin = (address + huge_page - 1) / huge_page * huge_page;
     const uintptr_t end = (address + bytes) / huge_page * huge_page;
     madvise(reinterpret_cast<void *>(begin), end - begin, MADV_HUGEPAGE);
-    check_cl(clEnqueueUnmapMemObject(queue, memory, mapped, 0, nullptr, nullptr), "unmapping a buffer");
+    check_cl(clEnqueueUnmapMemObject(queue, memory, mapped, 0, nullptr, nullptr),
+             "unmapping a buffer");
 }
 
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
     cl_uint platform_count = 0;
-    // The loader reports "no platform" as an error (-1001, cl_khr_icd); that is an empty list, not a failure.
+    // The loader reports "no platform" as an error (-1001, cl_khr_icd); that is an empty list, not
+    // a failure.
     if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS) {
         return {};
     }
     std::vector<cl_platform_id> platforms(platform_count);
-    check_cl(clGetPlatformIDs(platform_count, platforms.data(), nullptr), "listing OpenCL platforms");
+    check_cl(clGetPlatformIDs(platform_count, platforms.data(), nullptr),
+             "listing OpenCL platforms");
     std::vector<DeviceInfo> devices;
     for (const cl_platform_id platform : platforms) {
         // A driver without its hardware must not take the devices of the others with it.
         cl_uint count = 0;
-        if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS || count == 0) {
+        if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS ||
+            count == 0) {
             continue;
         }
         std::vector<cl_device_id> ids(count);
-        check_cl(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr), "listing OpenCL devices");
+        check_cl(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr),
+                 "listing OpenCL devices");
         for (const cl_device_id id : ids) {
             devices.push_back(describe(platform, id));
         }
@@ -145,11 +160,13 @@ std::vector<DeviceInfo> list_devices() {
     return devices;
 }
 
-DeviceContext::DeviceContext(const std::string &spec, Binaries binaries) : info_(select_device(spec)), binaries_(binaries) {
+DeviceContext::DeviceContext(const std::string &spec, Binaries binaries)
+    : info_(select_device(spec)), binaries_(binaries) {
     cl_int status = CL_SUCCESS;
     context_ = ClContext(clCreateContext(nullptr, 1, &info_.device, nullptr, nullptr, &status));
     check_cl(status, fmt::format("creating a context on '{}'", info_.name));
-    queue_ = ClQueue(clCreateCommandQueue(context(), info_.device, CL_QUEUE_PROFILING_ENABLE, &status));
+    queue_ =
+        ClQueue(clCreateCommandQueue(context(), info_.device, CL_QUEUE_PROFILING_ENABLE, &status));
     check_cl(status, fmt::format("creating a queue on '{}'", info_.name));
 }
 
@@ -160,10 +177,11 @@ void DeviceContext::finish() {
 
 ClMemory DeviceContext::allocate(const std::string &name, uint64_t bytes) {
     if (bytes > info_.max_allocation) {
-        throw run_error(fmt::format("buffer '{}' needs {:.1f} MiB; '{}' allocates at most {:.1f} MiB at once: take a "
-                                    "device with more memory, or a smaller scene, image or stream", name,
-                                    static_cast<double>(bytes) / 0x1p20, info_.name,
-                                    static_cast<double>(info_.max_allocation) / 0x1p20));
+        throw run_error(fmt::format(
+            "buffer '{}' needs {:.1f} MiB; '{}' allocates at most {:.1f} MiB at once: take a "
+            "device with more memory, or a smaller scene, image or stream",
+            name, static_cast<double>(bytes) / 0x1p20, info_.name,
+            static_cast<double>(info_.max_allocation) / 0x1p20));
     }
     cl_int status = CL_SUCCESS;
     ClMemory memory(clCreateBuffer(context(), CL_MEM_READ_WRITE, bytes, nullptr, &status));

@@ -14,7 +14,8 @@ namespace {
 
 std::string argument_type(cl_kernel kernel, cl_uint index) {
     char name[256] = "";
-    if (clGetKernelArgInfo(kernel, index, CL_KERNEL_ARG_TYPE_NAME, sizeof name - 1, name, nullptr) != CL_SUCCESS) {
+    if (clGetKernelArgInfo(kernel, index, CL_KERNEL_ARG_TYPE_NAME, sizeof name - 1, name,
+                           nullptr) != CL_SUCCESS) {
         return {};  // programs loaded from a binary may have dropped it
     }
     return name;
@@ -23,10 +24,10 @@ std::string argument_type(cl_kernel kernel, cl_uint index) {
 }  // namespace
 
 std::string KernelArgument::type_name(const std::type_info &type) {
-    static const std::map<std::string, std::string> fundamental = {
-        {"unsigned int", "uint"}, {"unsigned long", "ulong"}};
-    const std::unique_ptr<char, decltype(&std::free)> demangled(abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr),
-                                                                &std::free);
+    static const std::map<std::string, std::string> fundamental = {{"unsigned int", "uint"},
+                                                                   {"unsigned long", "ulong"}};
+    const std::unique_ptr<char, decltype(&std::free)> demangled(
+        abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr), &std::free);
     const std::string name = demangled.get();
     const auto found = fundamental.find(name);
     return found == fundamental.end() ? name : found->second;
@@ -38,7 +39,8 @@ Kernel::Kernel(const Program &program, const std::string &name, uint32_t group_s
     kernel_ = ClKernel(clCreateKernel(program.get(), name.c_str(), &status));
     check_cl(status, fmt::format("creating kernel '{}' of {}", name, program.path()));
     cl_uint count = 0;
-    check_cl(clGetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof count, &count, nullptr), "querying kernel " + name);
+    check_cl(clGetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof count, &count, nullptr),
+             "querying kernel " + name);
     for (cl_uint i = 0; i < count; ++i) {
         types_.push_back(argument_type(kernel_.get(), i));
     }
@@ -53,16 +55,19 @@ void Kernel::bind(const std::vector<KernelArgument> &arguments) {
 
 void Kernel::require_argument_count(size_t count) const {
     if (count != types_.size()) {
-        throw run_error(fmt::format("kernel '{}' takes {} arguments, not {}", name_, types_.size(), count));
+        throw run_error(
+            fmt::format("kernel '{}' takes {} arguments, not {}", name_, types_.size(), count));
     }
 }
 
 void Kernel::bind(uint32_t index, const KernelArgument &argument) {
     if (index >= types_.size()) {
-        throw run_error(fmt::format("kernel '{}' takes {} arguments; there is no number {}", name_, types_.size(), index));
+        throw run_error(fmt::format("kernel '{}' takes {} arguments; there is no number {}", name_,
+                                    types_.size(), index));
     }
     if (!types_[index].empty() && types_[index] != argument.type()) {
-        throw run_error(fmt::format("argument {} of kernel '{}' is '{}', not '{}'", index, name_, types_[index], argument.type()));
+        throw run_error(fmt::format("argument {} of kernel '{}' is '{}', not '{}'", index, name_,
+                                    types_[index], argument.type()));
     }
     check_cl(clSetKernelArg(kernel_.get(), index, argument.bytes().size(), argument.bytes().data()),
              fmt::format("binding argument {} of kernel '{}'", index, name_));
@@ -75,7 +80,8 @@ void Kernel::enqueue(uint64_t items) {
     const size_t local = group_size_;
     const size_t global = (items + local - 1) / local * local;
     cl_event event = nullptr;
-    check_cl(clEnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &global, &local, 0, nullptr, &event),
+    check_cl(clEnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &global, &local, 0,
+                                    nullptr, &event),
              fmt::format("launching kernel '{}' with {} work-items", name_, global));
     device_->profiler().add(name_, ClEvent(event));
 }

@@ -12,8 +12,8 @@
 
 namespace rtrays {
 
-/// One kernel argument: a buffer, or a plain value (number or shared record), with its type for the check against
-/// the kernel.
+/// One kernel argument: a buffer, or a plain value (number or shared record), with its type for the
+/// check against the kernel.
 class KernelArgument {
   public:
     template <typename T>
@@ -40,16 +40,18 @@ class KernelArgument {
     std::string bytes_;
 };
 
-/// A kernel with a fixed work-group size. PoCL compiles a kernel at its first enqueue for each group size, so
-/// the size belongs to the kernel and not to the launch.
+/// A kernel with a fixed work-group size. PoCL compiles a kernel at its first enqueue for each
+/// group size, so the size belongs to the kernel and not to the launch.
 class Kernel {
   public:
     Kernel() = default;
 
-    /// `group_size`: work-items per group. Throws `Error` (run failed) when the program has no kernel `name`.
+    /// `group_size`: work-items per group. Throws `Error` (run failed) when the program has no
+    /// kernel `name`.
     Kernel(const Program &program, const std::string &name, uint32_t group_size);
 
-    /// Binds all arguments in order. Throws `Error` (run failed) when their number or a type differs from the kernel's.
+    /// Binds all arguments in order. Throws `Error` (run failed) when their number or a type
+    /// differs from the kernel's.
     void bind(const std::vector<KernelArgument> &arguments);
 
     /// Binds one argument that changes between launches, by position; throws likewise.
@@ -58,8 +60,8 @@ class Kernel {
     /// Throws `Error` unless the kernel takes that many arguments.
     void require_argument_count(size_t count) const;
 
-    /// Enqueues at least `items` work-items (rounded up to whole groups; kernels guard the rest). The launch
-    /// is booked under the kernel's name. Zero items are not launched.
+    /// Enqueues at least `items` work-items (rounded up to whole groups; kernels guard the rest).
+    /// The launch is booked under the kernel's name. Zero items are not launched.
     void enqueue(uint64_t items);
 
   private:

@@ -35,8 +35,8 @@ std::string cl_status_name(cl_int status) {
         RTRAYS_STATUS(CL_INVALID_BUFFER_SIZE)
         RTRAYS_STATUS(CL_INVALID_OPERATION)
 #undef RTRAYS_STATUS
-    default:
-        return fmt::format("OpenCL status {}", status);
+        default:
+            return fmt::format("OpenCL status {}", status);
     }
 }
 

@@ -10,7 +10,8 @@
 
 namespace rtrays {
 
-/// Throws `Error` (run failed) with the status by name unless it is CL_SUCCESS; `what` says what was tried.
+/// Throws `Error` (run failed) with the status by name unless it is CL_SUCCESS; `what` says what
+/// was tried.
 void check_cl(cl_int status, const std::string &what);
 
 /// "CL_OUT_OF_RESOURCES" and the like.

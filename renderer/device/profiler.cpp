@@ -11,7 +11,8 @@ namespace {
 
 cl_ulong event_time(cl_event event, cl_profiling_info which) {
     cl_ulong nanoseconds = 0;
-    check_cl(clGetEventProfilingInfo(event, which, sizeof nanoseconds, &nanoseconds, nullptr), "reading an event's time");
+    check_cl(clGetEventProfilingInfo(event, which, sizeof nanoseconds, &nanoseconds, nullptr),
+             "reading an event's time");
     return nanoseconds;
 }
 
@@ -20,10 +21,12 @@ cl_ulong event_time(cl_event event, cl_profiling_info which) {
 void Profiler::collect() {
     for (const auto &[stage, event] : pending_) {
         cl_int status = CL_COMPLETE;
-        check_cl(clGetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr),
+        check_cl(clGetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status,
+                                &status, nullptr),
                  "reading an event's status");
         if (status < 0) {
-            throw run_error(fmt::format("a kernel failed on the device: {}", cl_status_name(status)));
+            throw run_error(
+                fmt::format("a kernel failed on the device: {}", cl_status_name(status)));
         }
         const cl_ulong begin = event_time(event.get(), CL_PROFILING_COMMAND_START);
         const cl_ulong end = event_time(event.get(), CL_PROFILING_COMMAND_END);

@@ -20,14 +20,18 @@ class Profiler {
     };
 
     /// Takes over the event of one launch of `stage`.
-    void add(const std::string &stage, ClEvent event) { pending_.emplace_back(&stages_[stage], std::move(event)); }
+    void add(const std::string &stage, ClEvent event) {
+        pending_.emplace_back(&stages_[stage], std::move(event));
+    }
 
-    /// Books all events so far; they must have completed. Throws `Error` (run failed) when a launch had failed.
+    /// Books all events so far; they must have completed. Throws `Error` (run failed) when a launch
+    /// had failed.
     void collect();
 
     const std::map<std::string, Stage> &stages() const { return stages_; }
 
-    /// The stages booked so far, which start again from nothing: how users of one device keep accounts apart.
+    /// The stages booked so far, which start again from nothing: how users of one device keep
+    /// accounts apart.
     std::map<std::string, Stage> take();
 
   private:

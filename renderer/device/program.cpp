@@ -21,11 +21,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An exclusive advisory lock on a file, held for the object's life. Without it two processes would only
-/// compile twice, so a cache directory that cannot be locked is not an error.
+/// An exclusive advisory lock on a file, held for the object's life. Without it two processes would
+/// only compile twice, so a cache directory that cannot be locked is not an error.
 class FileLock {
   public:
-    explicit FileLock(const fs::path &path) : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    explicit FileLock(const fs::path &path)
+        : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
         if (fd_ >= 0) {
             flock(fd_, LOCK_EX);
         }
@@ -66,20 +67,26 @@ std::string build_log(cl_program program, cl_device_id device, const std::string
 
 std::string program_binary(cl_program program) {
     size_t size = 0;
-    check_cl(clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr), "reading a program's size");
+    check_cl(clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr),
+             "reading a program's size");
     std::string binary(size, '\0');
     char *pointer = binary.data();
-    check_cl(clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof pointer, &pointer, nullptr), "reading a program's binary");
+    check_cl(clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof pointer, &pointer, nullptr),
+             "reading a program's binary");
     return binary;
 }
 
-std::string cache_file(const std::string &key) { return (fs::path(program_cache_directory()) / (key + ".clbin")).string(); }
+std::string cache_file(const std::string &key) {
+    return (fs::path(program_cache_directory()) / (key + ".clbin")).string();
+}
 
 }  // namespace
 
 std::string program_options(const DeviceInfo &device) {
     const std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
-    return device.is_cpu || !device.rounds_division ? options : options + " -cl-fp32-correctly-rounded-divide-sqrt";
+    return device.is_cpu || !device.rounds_division
+               ? options
+               : options + " -cl-fp32-correctly-rounded-divide-sqrt";
 }
 
 std::string program_cache_directory() {
@@ -97,7 +104,8 @@ std::string program_cache_directory() {
     return (home.empty() ? fs::temp_directory_path().string() : home + "/.cache") + "/rtrays";
 }
 
-Program::Program(DeviceContext &device, const std::string &path, const Defines &defines, const SourceOverlays &overlays)
+Program::Program(DeviceContext &device, const std::string &path, const Defines &defines,
+                 const SourceOverlays &overlays)
     : device_(&device), path_(path) {
     const auto start = std::chrono::steady_clock::now();
     const std::string text = expand_source(path, overlays);
@@ -111,7 +119,8 @@ Program::Program(DeviceContext &device, const std::string &path, const Defines &
     source += text;
     const DeviceInfo &info = device.info();
     const std::string key =
-        content_hash(fmt::format("{}\n{}\n{}\n{}\n{}", info.platform_name, info.name, info.driver, program_options(info), source));
+        content_hash(fmt::format("{}\n{}\n{}\n{}\n{}", info.platform_name, info.name, info.driver,
+                                 program_options(info), source));
 
     std::error_code ignored;  // a cache that cannot be created only costs time
     fs::create_directories(program_cache_directory(), ignored);
@@ -120,7 +129,8 @@ Program::Program(DeviceContext &device, const std::string &path, const Defines &
     if (!from_cache_) {
         compile(source, key);
     }
-    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    build_seconds_ =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 bool Program::load(const std::string &key) {
@@ -130,18 +140,19 @@ bool Program::load(const std::string &key) {
     } catch (const Error &) {
         return false;
     }
-    if (content.size() < hash_digits || content_hash(content.substr(hash_digits)) != content.substr(0, hash_digits)) {
+    if (content.size() < hash_digits ||
+        content_hash(content.substr(hash_digits)) != content.substr(0, hash_digits)) {
         return false;
     }
     binary_bytes_ = content.size() - hash_digits;
     const auto *binary = reinterpret_cast<const unsigned char *>(content.data()) + hash_digits;
     cl_int status = CL_SUCCESS;
     cl_int loaded = CL_SUCCESS;
-    program_ = ClProgram(clCreateProgramWithBinary(device_->context(), 1, &device_->info().device, &binary_bytes_, &binary,
-                                                   &loaded, &status));
+    program_ = ClProgram(clCreateProgramWithBinary(device_->context(), 1, &device_->info().device,
+                                                   &binary_bytes_, &binary, &loaded, &status));
     return status == CL_SUCCESS && loaded == CL_SUCCESS &&
-           clBuildProgram(program_.get(), 1, &device_->info().device, program_options(device_->info()).c_str(), nullptr, nullptr) ==
-               CL_SUCCESS;
+           clBuildProgram(program_.get(), 1, &device_->info().device,
+                          program_options(device_->info()).c_str(), nullptr, nullptr) == CL_SUCCESS;
 }
 
 void Program::compile(const std::string &source, const std::string &key) {
@@ -150,7 +161,8 @@ void Program::compile(const std::string &source, const std::string &key) {
     program_ = ClProgram(clCreateProgramWithSource(device_->context(), 1, &text, nullptr, &status));
     check_cl(status, "creating program " + path_);
     const std::string options = program_options(device_->info());
-    status = clBuildProgram(program_.get(), 1, &device_->info().device, options.c_str(), nullptr, nullptr);
+    status = clBuildProgram(program_.get(), 1, &device_->info().device, options.c_str(), nullptr,
+                            nullptr);
     if (status != CL_SUCCESS) {
         throw run_error(fmt::format("building {}: {}\n{}", path_, cl_status_name(status),
                                     build_log(program_.get(), device_->info().device, source)));

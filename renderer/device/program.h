@@ -14,10 +14,11 @@ using Defines = std::map<std::string, std::string>;
 
 /// An OpenCL program made from one stage file, its includes and a generated block of defines.
 ///
-/// Binaries are kept on disk in `program_cache_directory()`, keyed by expanded source, defines, options, device
-/// and driver; each file carries a checksum, is written atomically and made under a lock, so that processes
-/// share one compilation. A file that does not load is compiled anew. Where the device's binaries are left to its driver,
-/// what others have kept is loaded and nothing is added.
+/// Binaries are kept on disk in `program_cache_directory()`, keyed by expanded source, defines,
+/// options, device and driver; each file carries a checksum, is written atomically and made under a
+/// lock, so that processes share one compilation. A file that does not load is compiled anew. Where
+/// the device's binaries are left to its driver, what others have kept is loaded and nothing is
+/// added.
 class Program {
   public:
     /// Throws `Error` (run failed) with the whole build log when the compiler rejects the source.
@@ -46,8 +47,8 @@ class Program {
 /// $RTRAYS_CACHE_DIR, else $XDG_CACHE_HOME/rtrays, else ~/.cache/rtrays.
 std::string program_cache_directory();
 
-/// The compiler options of every program: strict floating point, no contraction by the sources' own pragma. CPUs round
-/// divisions correctly without being asked.
+/// The compiler options of every program: strict floating point, no contraction by the sources' own
+/// pragma. CPUs round divisions correctly without being asked.
 std::string program_options(const DeviceInfo &device);
 
 }  // namespace rtrays

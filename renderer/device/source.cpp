@@ -95,7 +95,8 @@ class Expander {
     void include(const std::string &from, unsigned line, const std::string &wanted) {
         const std::filesystem::path relative = std::filesystem::path(from).parent_path() / wanted;
         std::string rooted = wanted;
-        const std::string own_root = "renderer/";  // host code includes device code by its full path
+        const std::string own_root =
+            "renderer/";  // host code includes device code by its full path
         if (rooted.compare(0, own_root.size(), own_root) == 0) {
             rooted = rooted.substr(own_root.size());
         }
@@ -118,7 +119,9 @@ class Expander {
 
 }  // namespace
 
-std::string device_source(const std::string &path) { return required_source(path, {}); }
+std::string device_source(const std::string &path) {
+    return required_source(path, {});
+}
 
 std::string source_place(const std::string &expanded, size_t line) {
     std::istringstream stream(expanded);
@@ -135,6 +138,8 @@ std::string source_place(const std::string &expanded, size_t line) {
     return fmt::format("{}:{}", file, number);
 }
 
-std::string expand_source(const std::string &path, const SourceOverlays &overlays) { return Expander(overlays).run(path); }
+std::string expand_source(const std::string &path, const SourceOverlays &overlays) {
+    return Expander(overlays).run(path);
+}
 
 }  // namespace rtrays

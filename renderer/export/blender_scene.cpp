@@ -32,7 +32,8 @@ std::string missing_in_cycles(const BxdfComponent &part) {
         case Kind::lambert:
             return part.fresnel == Fresnel::ideal || part.fresnel_of_wo
                        ? ""
-                       : "a Fresnel term of a diffuse component there knows the direction of the eye alone, "
+                       : "a Fresnel term of a diffuse component there knows the direction of the "
+                         "eye alone, "
                          "not that "
                          "of the light";
         case Kind::oren_nayar:
@@ -42,7 +43,8 @@ std::string missing_in_cycles(const BxdfComponent &part) {
             return "";
         case Kind::microfacet_reflection:
             if (part.fresnel != Fresnel::ideal) {
-                return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF takes it at the normal "
+                return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF takes it at "
+                       "the normal "
                        "instead "
                        "of the half vector";
             }
@@ -50,10 +52,12 @@ std::string missing_in_cycles(const BxdfComponent &part) {
                 return "its tangents are others on meshes";
             }
             // bsdf_microfacet_ggx_sample and its like: alpha_x * alpha_y <= 1e-7 is a mirror.
-            return part.alpha[0] * part.alpha[1] <= 1.01e-7 ? "it takes a surface so smooth for a mirror"
-                                                            : "";
+            return part.alpha[0] * part.alpha[1] <= 1.01e-7
+                       ? "it takes a surface so smooth for a mirror"
+                       : "";
         case Kind::microfacet_refraction:
-            return "its rough Glass BSDF takes the Fresnel term at the normal instead of the half vector";
+            return "its rough Glass BSDF takes the Fresnel term at the normal instead of the half "
+                   "vector";
         case Kind::blinn:
         case Kind::ward:
         case Kind::ward_original:
@@ -62,9 +66,10 @@ std::string missing_in_cycles(const BxdfComponent &part) {
     throw run_error("unknown kind of component");
 }
 
-/// What shines is coarser: Cycles chooses among triangles by a float, and the more there are the darker it renders them. Three
-/// spheres (scenes/analytic/three_lamps.json) come out up to 0.02 % too dark where each has 64 columns, 0.1 % with 128, 0.4 %
-/// with 256. Seen from any side a sphere of 64 has the disc it should to within 9e-4, 2e-4 in the root mean square.
+/// What shines is coarser: Cycles chooses among triangles by a float, and the more there are the
+/// darker it renders them. Three spheres (scenes/analytic/three_lamps.json) come out up to 0.02 %
+/// too dark where each has 64 columns, 0.1 % with 128, 0.4 % with 256. Seen from any side a sphere
+/// of 64 has the disc it should to within 9e-4, 2e-4 in the root mean square.
 constexpr TessellationGrid bright_grid{32, 64};
 
 template <typename Vector>
@@ -100,7 +105,9 @@ class SceneWriter {
         }
         for (uint32_t shape = 0; shape < arrays_.shapes.name.size(); ++shape) {
             const bool is_bright = arrays_.shapes.light[shape] != no_index;
-            meshes.push_back(write_mesh(tessellated(arrays_.shapes, shape, is_bright ? bright_grid : TessellationGrid()), 0));
+            meshes.push_back(write_mesh(
+                tessellated(arrays_.shapes, shape, is_bright ? bright_grid : TessellationGrid()),
+                0));
         }
         for (uint32_t texture = 0; texture < arrays_.textures.name.size(); ++texture) {
             textures.push_back(write_texture(texture));
@@ -136,8 +143,9 @@ class SceneWriter {
         const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
         const Eigen::Vector3d eye =
             scene_.origin() + Eigen::Vector3d(cameras.world_from_camera[i].topRightCorner<3, 1>());
-        const double extent =
-            bounds.isEmpty() ? 1 : std::sqrt(bounds.squaredExteriorDistance(eye)) + bounds.diagonal().norm();
+        const double extent = bounds.isEmpty() ? 1
+                                               : std::sqrt(bounds.squaredExteriorDistance(eye)) +
+                                                     bounds.diagonal().norm();
         return {{"name", cameras.name[i]},
                 {"world_from_camera", matrix(cameras.world_from_camera[i])},
                 {"fov", cameras.fov[i]},
@@ -158,11 +166,11 @@ class SceneWriter {
                 if (!missing.empty() && !part.weight.isZero(0)) {
                     const std::string name = bxdf_names()[static_cast<size_t>(part.kind)];
                     const std::string term = fresnel_names()[static_cast<size_t>(part.fresnel)];
-                    throw input_error(
-                        fmt::format("{}material '{}', component {} ({}{}{}): Cycles cannot do that: {}",
-                                    user_of(i), materials.name[i], c, name,
-                                    part.fresnel == Fresnel::ideal ? "" : " with Fresnel term ",
-                                    part.fresnel == Fresnel::ideal ? "" : term, missing));
+                    throw input_error(fmt::format(
+                        "{}material '{}', component {} ({}{}{}): Cycles cannot do that: {}",
+                        user_of(i), materials.name[i], c, name,
+                        part.fresnel == Fresnel::ideal ? "" : " with Fresnel term ",
+                        part.fresnel == Fresnel::ideal ? "" : term, missing));
                 }
                 components.push_back(write_component(part));
             }
@@ -175,9 +183,11 @@ class SceneWriter {
 
     /// "'NODE': " of the first object of that material.
     std::string user_of(uint32_t material) const {
-        const auto of = [&](const std::vector<uint32_t> &users, const std::vector<std::string> &names) {
+        const auto of = [&](const std::vector<uint32_t> &users,
+                            const std::vector<std::string> &names) {
             const auto found = std::find(users.begin(), users.end(), material);
-            return found == users.end() ? std::string() : names[static_cast<size_t>(found - users.begin())];
+            return found == users.end() ? std::string()
+                                        : names[static_cast<size_t>(found - users.begin())];
         };
         const std::string mesh = of(arrays_.meshes.material, arrays_.meshes.name);
         const std::string shape = of(arrays_.shapes.material, arrays_.shapes.name);
@@ -207,23 +217,26 @@ class SceneWriter {
         const TextureArrays &textures = arrays_.textures;
         return {{"name", textures.name[i]},
                 {"file", image_file(textures.image[i], textures.name[i])},
-                {"filter", textures.filter[i] == TextureArrays::Filter::nearest ? "nearest" : "bilinear"},
+                {"filter",
+                 textures.filter[i] == TextureArrays::Filter::nearest ? "nearest" : "bilinear"},
                 {"wrap", textures.wrap[i] == TextureArrays::Wrap::clamp ? "clamp" : "repeat"},
                 {"uv_scale", numbers(textures.uv_scale[i])},
                 {"uv_offset", numbers(textures.uv_offset[i])}};
     }
 
     /// The image as linear floats, written once.
-    std::string image_file(const std::shared_ptr<const TextureImage> &image, const std::string &name) {
+    std::string image_file(const std::shared_ptr<const TextureImage> &image,
+                           const std::string &name) {
         std::string &file = images_[image.get()];
         if (file.empty()) {
             TextureImage linear = *image;
             if (linear.floats.empty()) {
                 linear.floats.resize(linear.bytes.size());
-                std::transform(
-                    linear.bytes.begin(), linear.bytes.end(), linear.floats.begin(), [&](uint8_t byte) {
-                        return static_cast<float>(linear.srgb ? srgb_decoded(byte / 255.0) : byte / 255.0);
-                    });
+                std::transform(linear.bytes.begin(), linear.bytes.end(), linear.floats.begin(),
+                               [&](uint8_t byte) {
+                                   return static_cast<float>(
+                                       linear.srgb ? srgb_decoded(byte / 255.0) : byte / 255.0);
+                               });
                 linear.bytes.clear();
             }
             const std::filesystem::path path = folder_.new_file(name, ".exr");
@@ -253,9 +266,9 @@ class SceneWriter {
         const ShapeArrays &shapes = arrays_.shapes;
         for (size_t i = 0; i < shapes.name.size(); ++i) {
             if (!can_be_tessellated(shapes.kind[i])) {
-                throw input_error(
-                    fmt::format("'{}': Cycles has triangles, and they make no {}", shapes.name[i],
-                                shapes.kind[i] == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
+                throw input_error(fmt::format(
+                    "'{}': Cycles has triangles, and they make no {}", shapes.name[i],
+                    shapes.kind[i] == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
             }
         }
     }

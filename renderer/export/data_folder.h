@@ -22,8 +22,8 @@ class DataFolder {
   public:
     explicit DataFolder(const std::filesystem::path &scene_file);
 
-    /// A file of it that is not taken, named after an object. Throws `Error` (run failed) when the folder
-    /// cannot be made.
+    /// A file of it that is not taken, named after an object. Throws `Error` (run failed) when the
+    /// folder cannot be made.
     std::filesystem::path new_file(const std::string &name, const std::string &extension);
 
     /// As the scene refers to it.

@@ -29,14 +29,17 @@ const Format &format_of(const std::filesystem::path &path) {
             name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
             return format;
         }
-        known += fmt::format("{}{} ({})", known.empty() ? "" : " or ", format.ending, format.renderer);
+        known +=
+            fmt::format("{}{} ({})", known.empty() ? "" : " or ", format.ending, format.renderer);
     }
-    throw input_error(fmt::format("{}: the name of an exported scene ends in {}", path.string(), known));
+    throw input_error(
+        fmt::format("{}: the name of an exported scene ends in {}", path.string(), known));
 }
 
 }  // namespace
 
-void export_scene(const Scene &scene, const std::filesystem::path &path, const ExportSettings &settings) {
+void export_scene(const Scene &scene, const std::filesystem::path &path,
+                  const ExportSettings &settings) {
     format_of(path).write(scene, path, settings);
 }
 

@@ -24,8 +24,8 @@ std::string formula(const BxdfComponent *parts, uint32_t count) {
         const BxdfComponent &part = parts[i];
         text += (i > 0 ? " + " : "") + bxdf_names()[static_cast<size_t>(part.kind)];
         if (part.fresnel != BxdfComponent::Fresnel::ideal) {
-            const std::string term =
-                fresnel_names()[static_cast<size_t>(part.fresnel)] + (part.fresnel_of_wo ? " of wo" : "");
+            const std::string term = fresnel_names()[static_cast<size_t>(part.fresnel)] +
+                                     (part.fresnel_of_wo ? " of wo" : "");
             text += part.complement ? " * (1 - " + term + ")" : " * " + term;
         }
     }
@@ -61,8 +61,8 @@ const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
         {"microfacet_reflection * conductor", "conductor", false, &BsdfWriter::write_conductor},
         {"ideal_reflection * dielectric + ideal_refraction * (1 - dielectric)", "dielectric", true,
          &BsdfWriter::write_dielectric},
-        {"microfacet_reflection * dielectric + microfacet_refraction * (1 - dielectric)", "dielectric", true,
-         &BsdfWriter::write_dielectric},
+        {"microfacet_reflection * dielectric + microfacet_refraction * (1 - dielectric)",
+         "dielectric", true, &BsdfWriter::write_dielectric},
         // A rough coat is no roughplastic: Mitsuba's lets less light through to its base.
         {"ideal_reflection * dielectric + lambert * (1 - dielectric)", "plastic", false,
          &BsdfWriter::write_plastic},
@@ -88,15 +88,15 @@ const BsdfWriter::Recipe &BsdfWriter::recipe(uint32_t material) const {
 std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
     const MaterialArrays &materials = arrays_.materials;
     const BxdfComponent *parts = &materials.component[materials.first_component[material]];
-    const bool depends_on_uv =
-        std::any_of(parts, parts + materials.component_count[material], [](const BxdfComponent &part) {
+    const bool depends_on_uv = std::any_of(
+        parts, parts + materials.component_count[material], [](const BxdfComponent &part) {
             return part.texture != no_index || (is_rough(part) && part.alpha[0] != part.alpha[1]);
         });
     if (depends_on_uv && uv == UvConvention::none) {
-        throw input_error(
-            fmt::format("material '{}': a texture or an anisotropic roughness needs a surface whose texture "
-                        "coordinates are those of Mitsuba: a mesh that has some, a sphere or a cylinder",
-                        materials.name[material]));
+        throw input_error(fmt::format(
+            "material '{}': a texture or an anisotropic roughness needs a surface whose texture "
+            "coordinates are those of Mitsuba: a mesh that has some, a sphere or a cylinder",
+            materials.name[material]));
     }
     std::string &id = written_[{material, depends_on_uv ? uv : UvConvention::none}];
     if (id.empty()) {
@@ -127,41 +127,47 @@ void BsdfWriter::write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts
         add_colour(bsdf, "k", parts[0].k);
     }
     write_roughness(bsdf, parts[0]);
-    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture, uv);
+    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture,
+                 uv);
 }
 
-void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts,
+                                  UvConvention uv) {
     if (parts[0].eta != parts[1].eta || parts[0].alpha != parts[1].alpha ||
         parts[0].distribution != parts[1].distribution) {
         throw input_error(
-            "what is reflected and what is refracted must have one eta, roughness and distribution");
+            "what is reflected and what is refracted must have one eta, roughness and "
+            "distribution");
     }
     add_number(bsdf, "int_ior", parts[0].eta[0]);
     add_number(bsdf, "ext_ior", 1);
     write_roughness(bsdf, parts[0]);
-    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture, uv);
-    write_weight(bsdf, "specular_transmittance", parts[1].weight.cast<double>(), parts[1].texture, uv);
+    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture,
+                 uv);
+    write_weight(bsdf, "specular_transmittance", parts[1].weight.cast<double>(), parts[1].texture,
+                 uv);
 }
 
 void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
     const double eta = parts[0].eta[0];
     if (parts[1].eta[0] != eta || !(eta > 1) || eta > 3) {
-        throw input_error(
-            fmt::format("the coat and what it lets through must have one eta, in (1, 3], not {} and {}", eta,
-                        parts[1].eta[0]));
+        throw input_error(fmt::format(
+            "the coat and what it lets through must have one eta, in (1, 3], not {} and {}", eta,
+            parts[1].eta[0]));
     }
     add_number(bsdf, "int_ior", eta);
     add_number(bsdf, "ext_ior", 1);
     add_boolean(bsdf, "nonlinear", false);
-    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture, uv);
+    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture,
+                 uv);
     // Mitsuba multiplies by that, for the light that goes to and fro below the coat.
     const Vector3d factor = plastic_base_weight(Vector3d::Ones(), eta, false);
     write_weight(bsdf, "diffuse_reflectance", parts[1].weight.cast<double>().cwiseQuotient(factor),
                  parts[1].texture, uv);
 }
 
-void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vector3d &weight, uint32_t texture,
-                              UvConvention uv) {
+void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vector3d &weight,
+                              uint32_t texture, UvConvention uv) {
     if (texture == no_index) {
         add_colour(bsdf, name, weight);
         return;
@@ -170,8 +176,9 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
     pugi::xml_node node = add_object(bsdf, "texture", "bitmap");
     node.append_attribute("name") = name;
     add_property(node, "string", "filename", image_file(texture, weight));
-    add_property(node, "string", "filter_type",
-                 textures.filter[texture] == TextureArrays::Filter::nearest ? "nearest" : "bilinear");
+    add_property(
+        node, "string", "filter_type",
+        textures.filter[texture] == TextureArrays::Filter::nearest ? "nearest" : "bilinear");
     add_property(node, "string", "wrap_mode",
                  textures.wrap[texture] == TextureArrays::Wrap::clamp ? "clamp" : "repeat");
     const TextureImage &image = *textures.image[texture];
@@ -188,7 +195,8 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
         return;
     }
     if (to_scale[0] == 0 || to_scale[1] == 0) {
-        throw input_error(fmt::format("texture '{}': Mitsuba takes no scale of 0", textures.name[texture]));
+        throw input_error(
+            fmt::format("texture '{}': Mitsuba takes no scale of 0", textures.name[texture]));
     }
     pugi::xml_node transform = node.append_child("transform");
     transform.append_attribute("name") = "to_uv";
@@ -208,14 +216,17 @@ std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight) {
     TextureImage written = *image;
     if (weight != Vector3d::Ones()) {
         // A bitmap takes no factor: its texels do.
-        written.floats.resize(3 * static_cast<size_t>(image->width) * static_cast<size_t>(image->height));
+        written.floats.resize(3 * static_cast<size_t>(image->width) *
+                              static_cast<size_t>(image->height));
         for (size_t i = 0; i < written.floats.size(); ++i) {
             double value = image->floats.empty() ? image->bytes[i] / 255.0 : image->floats[i];
             value = image->floats.empty() && image->srgb ? srgb_decoded(value) : value;
-            written.floats[i] = static_cast<float>(value * weight[static_cast<Eigen::Index>(i % 3)]);
+            written.floats[i] =
+                static_cast<float>(value * weight[static_cast<Eigen::Index>(i % 3)]);
         }
     }
-    const std::filesystem::path path = folder_.new_file(name, written.floats.empty() ? ".png" : ".exr");
+    const std::filesystem::path path =
+        folder_.new_file(name, written.floats.empty() ? ".png" : ".exr");
     write_texture_file(written, path);
     return file = folder_.relative(path);
 }

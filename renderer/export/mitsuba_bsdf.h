@@ -20,8 +20,8 @@ class BsdfWriter {
     BsdfWriter(const SceneArrays &arrays, pugi::xml_node scene, Names &ids, DataFolder &folder)
         : arrays_(arrays), scene_(scene), ids_(ids), folder_(folder) {}
 
-    /// The id of the BSDF for that material. Throws `Error` (bad input) naming the material and what Mitsuba
-    /// has none for.
+    /// The id of the BSDF for that material. Throws `Error` (bad input) naming the material and
+    /// what Mitsuba has none for.
     std::string id(uint32_t material, UvConvention uv);
 
   private:
@@ -41,8 +41,8 @@ class BsdfWriter {
     void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
 
-    void write_weight(pugi::xml_node bsdf, const char *name, const Eigen::Vector3d &weight, uint32_t texture,
-                      UvConvention uv);
+    void write_weight(pugi::xml_node bsdf, const char *name, const Eigen::Vector3d &weight,
+                      uint32_t texture, UvConvention uv);
     std::string image_file(uint32_t texture, const Eigen::Vector3d &weight);
 
     const SceneArrays &arrays_;

@@ -11,9 +11,10 @@
 
 namespace rtrays::mitsuba {
 
-/// Appends <TAG name="NAME" value="VALUE"/>. Numbers are written with as many digits as it takes to read them
-/// back.
-inline void add_property(pugi::xml_node parent, const char *tag, const char *name, const std::string &value) {
+/// Appends <TAG name="NAME" value="VALUE"/>. Numbers are written with as many digits as it takes to
+/// read them back.
+inline void add_property(pugi::xml_node parent, const char *tag, const char *name,
+                         const std::string &value) {
     pugi::xml_node node = parent.append_child(tag);
     node.append_attribute("name") = name;
     node.append_attribute("value") = value.c_str();
@@ -32,9 +33,11 @@ template <typename Vector>
 void add_colour(pugi::xml_node parent, const char *name, const Vector &rgb) {
     const auto text = [](double value) {
         const auto rounded = static_cast<float>(value);
-        return static_cast<double>(rounded) == value ? fmt::format("{}", rounded) : fmt::format("{}", value);
+        return static_cast<double>(rounded) == value ? fmt::format("{}", rounded)
+                                                     : fmt::format("{}", value);
     };
-    add_property(parent, "rgb", name, fmt::format("{}, {}, {}", text(rgb[0]), text(rgb[1]), text(rgb[2])));
+    add_property(parent, "rgb", name,
+                 fmt::format("{}, {}, {}", text(rgb[0]), text(rgb[1]), text(rgb[2])));
 }
 
 inline pugi::xml_node add_object(pugi::xml_node parent, const char *tag, const std::string &type,

@@ -40,8 +40,9 @@ class SceneWriter {
         root_.append_attribute("version") = "3.0.0";
         add_default("spp", fmt::format("{}", settings.samples_per_pixel));
         // One more for the camera's own vertex; none for no limit.
-        add_default("max_depth",
-                    settings.max_depth == 0 ? "-1" : fmt::format("{}", uint64_t{settings.max_depth} + 1));
+        add_default("max_depth", settings.max_depth == 0
+                                     ? "-1"
+                                     : fmt::format("{}", uint64_t{settings.max_depth} + 1));
         add_property(add_object(root_, "integrator", "path"), "integer", "max_depth", "$max_depth");
         reserve_names();
         write_camera();
@@ -59,8 +60,8 @@ class SceneWriter {
   private:
     /// Nodes keep their names, materials (often of the same names) make way.
     void reserve_names() {
-        for (const auto *names :
-             {&arrays_.cameras.name, &arrays_.meshes.name, &arrays_.shapes.name, &arrays_.lights.name}) {
+        for (const auto *names : {&arrays_.cameras.name, &arrays_.meshes.name, &arrays_.shapes.name,
+                                  &arrays_.lights.name}) {
             for (const std::string &name : *names) {
                 ids_.reserve(name);
             }
@@ -83,7 +84,8 @@ class SceneWriter {
         const pugi::xml_node sensor =
             add_object(root_, "sensor", lens ? "thinlens" : "perspective", cameras.name[camera]);
         constexpr const char *axes[] = {"x", "y", "smaller", "larger"};
-        add_property(sensor, "string", "fov_axis", axes[static_cast<size_t>(cameras.fov_axis[camera])]);
+        add_property(sensor, "string", "fov_axis",
+                     axes[static_cast<size_t>(cameras.fov_axis[camera])]);
         add_number(sensor, "fov", cameras.fov[camera] / degree);
         if (lens) {
             add_number(sensor, "aperture_radius", cameras.aperture_radius[camera]);
@@ -93,14 +95,16 @@ class SceneWriter {
         // Nothing is clipped here: the planes there go to the near and far side of everything.
         const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
         const Vector3d eye = world.topRightCorner<3, 1>();
-        const double extent =
-            bounds.isEmpty() ? 1 : std::sqrt(bounds.squaredExteriorDistance(eye)) + bounds.diagonal().norm();
+        const double extent = bounds.isEmpty() ? 1
+                                               : std::sqrt(bounds.squaredExteriorDistance(eye)) +
+                                                     bounds.diagonal().norm();
         if (extent > 0) {
             add_number(sensor, "near_clip", 1e-5 * extent);
             add_number(sensor, "far_clip", 1e3 * extent);
         }
         add_transform(sensor, world * scaling({-1, 1, -1}));  // cameras look along +z there
-        add_property(add_object(sensor, "sampler", "independent"), "integer", "sample_count", "$spp");
+        add_property(add_object(sensor, "sampler", "independent"), "integer", "sample_count",
+                     "$spp");
         const pugi::xml_node film = add_object(sensor, "film", "hdrfilm");
         add_property(film, "integer", "width", fmt::format("{}", scene_.film_width()));
         add_property(film, "integer", "height", fmt::format("{}", scene_.film_height()));
@@ -110,8 +114,8 @@ class SceneWriter {
     }
 
     /// Appends a shape with its BSDF (before it) and its emitter.
-    pugi::xml_node add_shape(const char *type, const std::string &name, uint32_t material, uint32_t light,
-                             UvConvention uv) {
+    pugi::xml_node add_shape(const char *type, const std::string &name, uint32_t material,
+                             uint32_t light, UvConvention uv) {
         std::string bsdf;
         try {
             bsdf = bsdfs_.id(material, uv);
@@ -122,7 +126,8 @@ class SceneWriter {
         pugi::xml_node reference = pugi::xml_node(shape).append_child("ref");
         reference.append_attribute("id") = bsdf.c_str();
         if (light != no_index) {
-            add_colour(add_object(shape, "emitter", "area"), "radiance", arrays_.lights.radiance[light]);
+            add_colour(add_object(shape, "emitter", "area"), "radiance",
+                       arrays_.lights.radiance[light]);
         }
         return shape;
     }
@@ -174,7 +179,8 @@ class SceneWriter {
                 break;
         }
         if (!can_be_tessellated(shapes.kind[index])) {
-            throw input_error(fmt::format("'{}': Mitsuba has no {}, and triangles make none", name, kind_name(shapes.kind[index])));
+            throw input_error(fmt::format("'{}': Mitsuba has no {}, and triangles make none", name,
+                                          kind_name(shapes.kind[index])));
         }
         write_mesh(tessellated(shapes, index), 0);
     }
@@ -190,8 +196,10 @@ class SceneWriter {
     }
 
     static bool is_upright_circle(const Matrix4d &world) {
-        const Vector3d x = world.col(0).head<3>(), y = world.col(1).head<3>(), z = world.col(2).head<3>();
-        return std::abs(x.norm() - y.norm()) <= 1e-6 * x.norm() && is_orthogonal(x, y) && is_orthogonal(x, z) && is_orthogonal(y, z);
+        const Vector3d x = world.col(0).head<3>(), y = world.col(1).head<3>(),
+                       z = world.col(2).head<3>();
+        return std::abs(x.norm() - y.norm()) <= 1e-6 * x.norm() && is_orthogonal(x, y) &&
+               is_orthogonal(x, z) && is_orthogonal(y, z);
     }
 
     static void write_cylinder(const pugi::xml_node &shape, const Matrix4d &world) {
@@ -256,9 +264,9 @@ class SceneWriter {
 
     void require_only_surroundings(const std::string &name) {
         if (!surroundings_.empty()) {
-            throw input_error(
-                fmt::format("'{}': Mitsuba has one light all around at most, and there is '{}' already", name,
-                            surroundings_));
+            throw input_error(fmt::format(
+                "'{}': Mitsuba has one light all around at most, and there is '{}' already", name,
+                surroundings_));
         }
         surroundings_ = name;
     }

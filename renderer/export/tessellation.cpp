@@ -29,19 +29,21 @@ struct Quadric {
     ShapeArrays::Kind kind;
     Vertex (*at)(double phi, double t, double flare);
     bool first_is_pole, last_is_pole;
-    double area;  ///< that the triangles are to have; 0: as they are
+    double area;   ///< that the triangles are to have; 0: as they are
     bool is_flat;  ///< one row will do
 };
 
 /// The normal is (cos phi, sin phi) times `outwards`, and `upwards` along z.
-Vertex of_revolution(double phi, double radius, double z, double outwards, double upwards, double v) {
+Vertex of_revolution(double phi, double radius, double z, double outwards, double upwards,
+                     double v) {
     const double cosine = std::cos(phi), sine = std::sin(phi);
     return {{radius * cosine, radius * sine, z}, {outwards * cosine, outwards * sine, upwards}, v};
 }
 
 Vertex on_sphere(double phi, double t, double /*flare*/) {
     const double theta = pi * (1 - t);
-    return of_revolution(phi, std::sin(theta), std::cos(theta), std::sin(theta), std::cos(theta), t);
+    return of_revolution(phi, std::sin(theta), std::cos(theta), std::sin(theta), std::cos(theta),
+                         t);
 }
 
 Vertex on_cylinder(double phi, double t, double /*flare*/) {
@@ -77,7 +79,8 @@ constexpr Quadric quadrics[] = {
 };
 
 const Quadric *quadric_of(ShapeArrays::Kind kind) {
-    const auto *found = std::find_if(std::begin(quadrics), std::end(quadrics), [&](const Quadric &q) { return q.kind == kind; });
+    const auto *found = std::find_if(std::begin(quadrics), std::end(quadrics),
+                                     [&](const Quadric &q) { return q.kind == kind; });
     return found == std::end(quadrics) ? nullptr : found;
 }
 
@@ -116,15 +119,18 @@ MeshArrays tessellated(const ShapeArrays &shapes, uint32_t shape, const Tessella
     std::vector<Vector3d> position, normal;
     MeshArrays mesh;
     for (uint32_t row = 0; row <= rows; ++row) {
-        const bool is_pole = (row == 0 && quadric->first_is_pole) || (row == rows && quadric->last_is_pole);
+        const bool is_pole =
+            (row == 0 && quadric->first_is_pole) || (row == rows && quadric->last_is_pole);
         for (uint32_t column = 0; column <= columns; ++column) {
             const double u = static_cast<double>(column) / columns;
-            const Vertex vertex = quadric->at(2 * pi * u, static_cast<double>(row) / rows, shapes.flare[shape]);
+            const Vertex vertex =
+                quadric->at(2 * pi * u, static_cast<double>(row) / rows, shapes.flare[shape]);
             position.push_back(vertex.position);
             normal.push_back(vertex.normal);
             // A pole has the u of the middle of the triangle that ends there.
-            const Vector2d uv = quadric->is_flat ? Vector2d((vertex.position.head<2>().array() + 1) / 2)
-                                                 : Vector2d(is_pole ? (column + 0.5) / columns : u, vertex.v);
+            const Vector2d uv = quadric->is_flat
+                                    ? Vector2d((vertex.position.head<2>().array() + 1) / 2)
+                                    : Vector2d(is_pole ? (column + 0.5) / columns : u, vertex.v);
             mesh.uv.push_back(uv.cast<float>());
         }
     }
@@ -135,11 +141,13 @@ MeshArrays tessellated(const ShapeArrays &shapes, uint32_t shape, const Tessella
         area += 0.5 * twice_area(position, triangle).norm();
     }
     const double mean = area / static_cast<double>(mesh.triangle.size());
-    mesh.triangle.erase(std::remove_if(mesh.triangle.begin(), mesh.triangle.end(),  // those of no area, at the poles
-                                       [&](const Triangle &triangle) {
-                                           return !(0.5 * twice_area(position, triangle).norm() > 1e-6 * mean);
-                                       }),
-                        mesh.triangle.end());
+    mesh.triangle.erase(
+        std::remove_if(mesh.triangle.begin(),
+                       mesh.triangle.end(),  // those of no area, at the poles
+                       [&](const Triangle &triangle) {
+                           return !(0.5 * twice_area(position, triangle).norm() > 1e-6 * mean);
+                       }),
+        mesh.triangle.end());
 
     const double scale = quadric->area > 0 ? std::sqrt(quadric->area / area) : 1;
     const Matrix4d &world = shapes.world_from_object[shape];

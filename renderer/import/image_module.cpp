@@ -16,7 +16,8 @@ namespace rtrays {
 
 namespace {
 
-/// Texels of an image: beyond this a header is damaged or the image is no texture. 1.6 GB of floats.
+/// Texels of an image: beyond this a header is damaged or the image is no texture. 1.6 GB of
+/// floats.
 constexpr int64_t most_texels = int64_t(1) << 27;
 
 Error file_error(const std::filesystem::path &path, const std::string &what) {
@@ -52,16 +53,18 @@ std::vector<int> colour_channels(const OIIO::ImageSpec &spec, const std::filesys
     for (const std::string &name : spec.channelnames) {
         names += (names.empty() ? "" : ", ") + name;
     }
-    throw file_error(path,
-                     fmt::format("has the channels {}; a texture needs R, G, B or one grey channel", names));
+    throw file_error(
+        path,
+        fmt::format("has the channels {}; a texture needs R, G, B or one grey channel", names));
 }
 
 void check_header(const OIIO::ImageSpec &spec, const std::filesystem::path &path) {
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep || spec.nchannels < 1 ||
         static_cast<int64_t>(spec.width) * spec.height > most_texels / spec.nchannels * 3) {
         throw file_error(
-            path, fmt::format("an image of {} x {} x {}{} with {} channels is no texture", spec.width,
-                              spec.height, spec.depth, spec.deep ? " deep samples" : "", spec.nchannels));
+            path,
+            fmt::format("an image of {} x {} x {}{} with {} channels is no texture", spec.width,
+                        spec.height, spec.depth, spec.deep ? " deep samples" : "", spec.nchannels));
     }
     if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
         spec.height != spec.full_height) {
@@ -92,7 +95,8 @@ std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
 
 void read_image(const std::filesystem::path &path, RawImage &image) {
     OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] = 1;  // colours as stored, not multiplied by the alpha that is dropped
+    config["oiio:UnassociatedAlpha"] =
+        1;  // colours as stored, not multiplied by the alpha that is dropped
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
     if (input == nullptr) {
         throw file_error(path, "is no image that can be read: " + in_one_line(OIIO::geterror()));
@@ -112,7 +116,8 @@ void read_image(const std::filesystem::path &path, RawImage &image) {
 
 void write_image(const std::filesystem::path &path, int width, int height, const uint8_t *rgb) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    if (output == nullptr || !output->open(path.string(), OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::UINT8)) ||
+    if (output == nullptr ||
+        !output->open(path.string(), OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::UINT8)) ||
         !output->write_image(OIIO::TypeDesc::UINT8, rgb) || !output->close()) {
         throw run_error(fmt::format("{}: cannot be written: {}", path.string(),
                                     output == nullptr ? OIIO::geterror() : output->geterror()));
@@ -129,11 +134,13 @@ extern "C" void rtrays_read_image_file(const std::filesystem::path &path, rtrays
         rtrays::read_image(path, image);
     } catch (const rtrays::Error &) {
         throw;
-    } catch (const std::exception &error) {  // a damaged header may ask for more memory than there is
+    } catch (
+        const std::exception &error) {  // a damaged header may ask for more memory than there is
         throw rtrays::file_error(path, std::string("cannot be read: ") + error.what());
     }
 }
 
-extern "C" void rtrays_write_image_file(const std::filesystem::path &path, int width, int height, const uint8_t *rgb) {
+extern "C" void rtrays_write_image_file(const std::filesystem::path &path, int width, int height,
+                                        const uint8_t *rgb) {
     rtrays::write_image(path, width, height, rgb);
 }

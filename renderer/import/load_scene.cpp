@@ -20,12 +20,15 @@ Scene load_scene(const std::string &path, bool quiet) {
     }
     const std::string text = read_file(file);  // first, so that a missing file is called just that
     if (!is_mitsuba && file.extension() != ".json") {
-        throw input_error(fmt::format("{}: '{}' is not a known scene format; known: .json, .xml (Mitsuba 3) and model files "
-                                      "(.ply, .obj, .gltf, .glb, .fbx, .dae, .3ds, .stl, ...)",
-                                      path, file.extension().string()));
+        throw input_error(fmt::format(
+            "{}: '{}' is not a known scene format; known: .json, .xml (Mitsuba 3) and model files "
+            "(.ply, .obj, .gltf, .glb, .fbx, .dae, .3ds, .stl, ...)",
+            path, file.extension().string()));
     }
-    // scenes/cornell_box/scene.json is called cornell_box, scenes/analytic/furnace_050.json furnace_050.
-    const bool named_by_folder = file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();
+    // scenes/cornell_box/scene.json is called cornell_box, scenes/analytic/furnace_050.json
+    // furnace_050.
+    const bool named_by_folder =
+        file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();
     const std::filesystem::path named =
         named_by_folder ? std::filesystem::absolute(file).parent_path().filename() : file.stem();
     const auto parse = is_mitsuba ? parse_mitsuba_xml : parse_scene_json;

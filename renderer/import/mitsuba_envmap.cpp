@@ -56,7 +56,8 @@ TextureImage to_mitsuba_envmap(const TextureImage &image) {
         wide.floats.clear();
         for (size_t i = 0; i < image.floats.size(); i += 3) {
             for (int copy = 0; copy < 2; ++copy) {
-                wide.floats.insert(wide.floats.end(), image.floats.begin() + static_cast<std::ptrdiff_t>(i),
+                wide.floats.insert(wide.floats.end(),
+                                   image.floats.begin() + static_cast<std::ptrdiff_t>(i),
                                    image.floats.begin() + static_cast<std::ptrdiff_t>(i + 3));
             }
         }
@@ -72,8 +73,8 @@ TextureImage to_mitsuba_envmap(const TextureImage &image) {
 
 TextureImage from_mitsuba_envmap(const TextureImage &image) {
     if (image.width < 2 || image.height < 3) {
-        throw input_error(
-            fmt::format("an image of {}x{} texels: Mitsuba wants 2x3 at least", image.width, image.height));
+        throw input_error(fmt::format("an image of {}x{} texels: Mitsuba wants 2x3 at least",
+                                      image.width, image.height));
     }
     const TextureImage rows = decoded(image);
     if (image.height % 2 == 1) {

@@ -8,8 +8,8 @@ struct IndexOfRefraction {
     double value;
 };
 
-/// What scene files may call instead of a number (Mitsuba 3.9, ior.h; most values are those of the Blender
-/// wiki and of Wikipedia's list of refractive indices, at 589 nm).
+/// What scene files may call instead of a number (Mitsuba 3.9, ior.h; most values are those of the
+/// Blender wiki and of Wikipedia's list of refractive indices, at 589 nm).
 inline constexpr IndexOfRefraction indices_of_refraction[] = {
     {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},

@@ -23,13 +23,17 @@ using namespace mitsuba;
 class SceneReader {
   public:
     SceneReader(const Document &document, const std::string &source_name, Scene &scene)
-        : document_(document), source_name_(source_name), scene_(scene), materials_(document, scene) {}
+        : document_(document),
+          source_name_(source_name),
+          scene_(scene),
+          materials_(document, scene) {}
 
     void read() {
         for (const Element &element : document_.elements()) {
             const std::string tag = element.tag();
-            const auto found = std::find_if(std::begin(handlers), std::end(handlers),
-                                            [&](const Handler &handler) { return tag == handler.tag; });
+            const auto found =
+                std::find_if(std::begin(handlers), std::end(handlers),
+                             [&](const Handler &handler) { return tag == handler.tag; });
             if (found == std::end(handlers)) {
                 throw element.error("this element has no counterpart here");
             }
@@ -69,7 +73,8 @@ class SceneReader {
         const std::string wanted = element.has("id") ? element.attribute("id") : element.tag();
         const std::string name = node_names_.unique(wanted.empty() ? element.tag() : wanted);
         Node &node = scene_.graph().root().add_child(std::make_unique<Node>(name));
-        element.located([&] { node.set_core(std::make_shared<TransformCore>(name, world_from_object)); });
+        element.located(
+            [&] { node.set_core(std::make_shared<TransformCore>(name, world_from_object)); });
         node.set_core(std::make_shared<VisibilityCore>(name, true));
         return node;
     }
@@ -87,9 +92,9 @@ class SceneReader {
             throw element.error("a shape has one emitter and one BSDF at most");
         }
         Node &node = add_node(element, shape.world_from_geometry);
-        const std::shared_ptr<MaterialCore> material = bsdfs.empty()
-                                                           ? materials_.standard(!emitters.empty())
-                                                           : materials_.read(bsdfs[0], shape.uv, node.name());
+        const std::shared_ptr<MaterialCore> material =
+            bsdfs.empty() ? materials_.standard(!emitters.empty())
+                          : materials_.read(bsdfs[0], shape.uv, node.name());
         if (shape.is_flipped) {
             check_flipped(element, *material, !emitters.empty());
         }
@@ -105,7 +110,8 @@ class SceneReader {
         }
     }
 
-    /// Spheres and cylinders have their front outside: flipped they must look the same from both sides.
+    /// Spheres and cylinders have their front outside: flipped they must look the same from both
+    /// sides.
     static void check_flipped(const Element &element, const MaterialCore &material, bool emits) {
         const std::vector<MaterialComponent> components = material.components();
         const bool refracts =
@@ -115,7 +121,8 @@ class SceneReader {
             });
         if (emits || refracts || !material.two_sided()) {
             throw element.error(
-                "flip_normals: the front of this shape is outside here; use a two-sided BSDF without an "
+                "flip_normals: the front of this shape is outside here; use a two-sided BSDF "
+                "without an "
                 "emitter, or a "
                 "mesh");
         }
@@ -150,7 +157,8 @@ class SceneReader {
                 // One for the camera's own vertex.
                 const std::vector<double> depth = parse_numbers(child, child.attribute("value"));
                 if (depth.size() == 1 && depth[0] >= 2) {
-                    settings.push_back(fmt::format("here --set integrator.max_depth={}", depth[0] - 1));
+                    settings.push_back(
+                        fmt::format("here --set integrator.max_depth={}", depth[0] - 1));
                 }
             }
         }

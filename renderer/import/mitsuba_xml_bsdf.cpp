@@ -20,9 +20,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Beyond this roughness Mitsuba's base below a rough coat is darker than one below a smooth coat by more
-/// than a tenth (measured: 0.961 of it at 0.1, 0.915 at 0.2, 0.851 at 0.3, for an index of 1.5, away from
-/// grazing angles), so that the models cannot be said to agree.
+/// Beyond this roughness Mitsuba's base below a rough coat is darker than one below a smooth coat
+/// by more than a tenth (measured: 0.961 of it at 0.1, 0.915 at 0.2, 0.851 at 0.3, for an index
+/// of 1.5, away from grazing angles), so that the models cannot be said to agree.
 constexpr double roughest_plastic = 0.2;
 
 double index_of_refraction(Object &object, const char *name, double initial) {
@@ -73,7 +73,9 @@ struct MaterialReader::Draft {
     ParameterTextures textures;
     bool depends_on_uv = false;
 
-    void set_type(const char *name) { type = static_type(find_type(material_types(), name, "material")); }
+    void set_type(const char *name) {
+        type = static_type(find_type(material_types(), name, "material"));
+    }
 };
 
 std::string NameList::unique(const std::string &wanted) {
@@ -111,8 +113,9 @@ std::shared_ptr<MaterialCore> MaterialReader::read(const Element &bsdf, UvConven
     const Draft draft = read_bsdf(bsdf, uv);
     const bool has_id = bsdf.has("id");
     const std::string name = material_names_.unique(has_id ? bsdf.attribute("id") : default_name);
-    const auto core = bsdf.located(
-        [&] { return std::make_shared<MaterialCore>(name, draft.type, draft.values, draft.textures); });
+    const auto core = bsdf.located([&] {
+        return std::make_shared<MaterialCore>(name, draft.type, draft.values, draft.textures);
+    });
     if (has_id) {
         scene_.graph().share("materials." + name, core);
     }
@@ -149,8 +152,8 @@ MaterialReader::Draft MaterialReader::read_bsdf(const Element &bsdf, UvConventio
 void MaterialReader::read_twosided(Object &object, Draft &draft) {
     const std::vector<Element> inner = object.objects("bsdf");
     if (inner.size() != 1) {
-        throw object.element().error(
-            fmt::format("has {} BSDFs; only one, for both sides, has a counterpart here", inner.size()));
+        throw object.element().error(fmt::format(
+            "has {} BSDFs; only one, for both sides, has a counterpart here", inner.size()));
     }
     const std::string type = inner[0].attribute("type");
     if (type == "twosided" || type == "dielectric" || type == "roughdielectric") {
@@ -184,7 +187,8 @@ void MaterialReader::read_conductor(Object &object, Draft &draft) {
     const std::optional<Vector3d> k = object.colour("k");
     const std::optional<std::string> material = object.text("material");
     if (eta.has_value() != k.has_value() || (eta.has_value() && material.has_value())) {
-        throw object.element().error("needs eta and k, or a material, or neither of them (an ideal mirror)");
+        throw object.element().error(
+            "needs eta and k, or a material, or neither of them (an ideal mirror)");
     }
     if (eta.has_value()) {
         draft.values["eta"] = *eta;
@@ -192,13 +196,14 @@ void MaterialReader::read_conductor(Object &object, Draft &draft) {
     } else if (!material.has_value() || *material == none) {
         draft.values["fresnel"] = std::string("ideal");
     } else {
-        const auto found = std::find_if(std::begin(metal_names), std::end(metal_names),
-                                        [&](const MetalName &row) { return *material == row.mitsuba; });
+        const auto found =
+            std::find_if(std::begin(metal_names), std::end(metal_names),
+                         [&](const MetalName &row) { return *material == row.mitsuba; });
         if (found == std::end(metal_names)) {
             throw object.property("material")
-                .error(fmt::format(
-                    "'{}' has no constants here; give eta and k as <rgb>, or one of: Ag, Au, Cu, none",
-                    *material));
+                .error(fmt::format("'{}' has no constants here; give eta and k as <rgb>, or one "
+                                   "of: Ag, Au, Cu, none",
+                                   *material));
         }
         draft.values["preset"] = std::string(found->ours);
     }
@@ -221,15 +226,18 @@ void MaterialReader::read_plastic(Object &object, Draft &draft) {
         read_roughness(object, draft);
         const double alpha = std::get<Vector2d>(draft.values.at("roughness")).maxCoeff();
         if (alpha > roughest_plastic) {
-            throw object.element().error(fmt::format(
-                "alpha {}: the diffuse base of so rough a plastic is darker in Mitsuba than here by more "
-                "than a tenth; make it at most {}, or a plastic, or a diffuse",
-                alpha, roughest_plastic));
+            throw object.element().error(
+                fmt::format("alpha {}: the diffuse base of so rough a plastic is darker in Mitsuba "
+                            "than here by more "
+                            "than a tenth; make it at most {}, or a plastic, or a diffuse",
+                            alpha, roughest_plastic));
         }
-        notice(object.element()
-                   .error("the coat is rough for what it reflects and smooth for what it lets through to "
-                          "the diffuse base: up to a tenth brighter than in Mitsuba")
-                   .what());
+        notice(
+            object.element()
+                .error(
+                    "the coat is rough for what it reflects and smooth for what it lets through to "
+                    "the diffuse base: up to a tenth brighter than in Mitsuba")
+                .what());
     }
 }
 
@@ -249,20 +257,21 @@ void MaterialReader::read_roughness(Object &object, Draft &draft) {
     draft.values["distribution"] = names[object.choice("distribution", names, 0)];
     if (roughness.minCoeff() < 1e-4 || roughness.maxCoeff() > 1) {
         throw object.element().error(
-            fmt::format("alpha: [{}, {}] is not within [0.0001, 1]; a smooth surface is a {}", roughness[0],
-                        roughness[1], object.type().substr(5)));
+            fmt::format("alpha: [{}, {}] is not within [0.0001, 1]; a smooth surface is a {}",
+                        roughness[0], roughness[1], object.type().substr(5)));
     }
     if (roughness[0] != roughness[1]) {
         draft.depends_on_uv = true;
         if (draft.uv == UvConvention::none) {
             throw object.element().error(
-                "alpha_u and alpha_v differ, but this shape has no tangents in common with Mitsuba's");
+                "alpha_u and alpha_v differ, but this shape has no tangents in common with "
+                "Mitsuba's");
         }
     }
 }
 
-void MaterialReader::read_colour(Object &object, const char *property, const char *parameter, double initial,
-                                 Draft &draft) {
+void MaterialReader::read_colour(Object &object, const char *property, const char *parameter,
+                                 double initial, Draft &draft) {
     const std::vector<Element> textures = object.objects("texture", property);
     if (textures.empty()) {
         const Vector3d colour = object.colour(property).value_or(Vector3d::Constant(initial));
@@ -310,12 +319,13 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &
         throw object.property("to_uv").error("textures can be scaled and moved here, not turned");
     }
     const Vector2d scale(to_uv(0, 0), to_uv(1, 1));
-    // Mitsuba looks up row scale v + offset from the top. With v = v' here that is 1 - scale v' - offset from
-    // the bottom, with v = 1 - v' it is scale v' + 1 - scale - offset.
+    // Mitsuba looks up row scale v + offset from the top. With v = v' here that is 1 - scale v' -
+    // offset from the bottom, with v = 1 - v' it is scale v' + 1 - scale - offset.
     const bool flipped = draft.uv == UvConvention::flipped;
     values["uv_scale"] = Vector2d(scale[0], flipped ? scale[1] : -scale[1]);
     // Of a matrix from the plane: its third column moves, too, where it is one of 3 by 3.
-    values["uv_offset"] = Vector2d(to_uv(0, 3), flipped ? 1 - scale[1] - to_uv(1, 3) : 1 - to_uv(1, 3));
+    values["uv_offset"] =
+        Vector2d(to_uv(0, 3), flipped ? 1 - scale[1] - to_uv(1, 3) : 1 - to_uv(1, 3));
     object.finish();
 
     const std::filesystem::path path = element.path(*file);
@@ -329,7 +339,9 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &
         const std::string name =
             texture_names_.unique(has_id ? element.attribute("id") : path.stem().string());
         texture = std::make_shared<Texture>(
-            name, files_.load(path, raw || holds_floats ? TextureEncoding::linear : TextureEncoding::srgb),
+            name,
+            files_.load(path,
+                        raw || holds_floats ? TextureEncoding::linear : TextureEncoding::srgb),
             values);
         if (has_id) {
             scene_.graph().share("textures." + name, texture);

@@ -14,8 +14,8 @@
 
 namespace rtrays::mitsuba {
 
-/// How the texture coordinates of a geometry relate to Mitsuba's of the same one. An image has v = 0 at its
-/// top there and at its bottom here.
+/// How the texture coordinates of a geometry relate to Mitsuba's of the same one. An image has v =
+/// 0 at its top there and at its bottom here.
 enum class UvConvention {
     none,     ///< they have nothing in common
     same,     ///< (u, v)
@@ -37,9 +37,10 @@ class MaterialReader {
     /// Shares what has an id with the graph of `scene`, for `--set scene.materials.ID.PROPERTY`.
     MaterialReader(const Document &document, Scene &scene) : document_(document), scene_(scene) {}
 
-    /// The material of a "bsdf" element on a geometry with such coordinates; `default_name` if it has no id.
-    /// Throws `LocatedError` when it cannot be mapped.
-    std::shared_ptr<MaterialCore> read(const Element &bsdf, UvConvention uv, const std::string &default_name);
+    /// The material of a "bsdf" element on a geometry with such coordinates; `default_name` if it
+    /// has no id. Throws `LocatedError` when it cannot be mapped.
+    std::shared_ptr<MaterialCore> read(const Element &bsdf, UvConvention uv,
+                                       const std::string &default_name);
 
     /// What a shape without a BSDF has: grey, and black if it emits.
     std::shared_ptr<MaterialCore> standard(bool emits);

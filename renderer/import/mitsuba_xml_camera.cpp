@@ -18,7 +18,8 @@ constexpr double degree = 3.14159265358979323846 / 180;
 int pixels(Object &film, const char *name, int initial) {
     const double value = film.number(name, initial);
     if (value != std::floor(value) || value < 1 || value > (1 << 16)) {
-        throw film.property(name).error(fmt::format("{} is no number of pixels from 1 to 65536", value));
+        throw film.property(name).error(
+            fmt::format("{} is no number of pixels from 1 to 65536", value));
     }
     return static_cast<int>(value);
 }
@@ -39,8 +40,8 @@ void read_film(Object &sensor, const Document &document, PlacedCamera &placed) {
         placed.width = pixels(film, "width", placed.width);
         placed.height = pixels(film, "height", placed.height);
         // How the file is written, and what concerns wider filters than ours.
-        for (const char *name : {"file_format", "pixel_format", "component_format", "banner", "compensate",
-                                 "sample_border", "high_quality_edges"}) {
+        for (const char *name : {"file_format", "pixel_format", "component_format", "banner",
+                                 "compensate", "sample_border", "high_quality_edges"}) {
             film.ignore(name);
         }
         for (const Element &element : film.objects("rfilter")) {
@@ -79,7 +80,8 @@ void read_angle(Object &sensor, int width, int height, ParameterValues &values) 
         if (!(fov > 0 && fov < 180)) {
             throw sensor.property("fov").error(fmt::format("{} is not within (0, 180)", fov));
         }
-        fov = 2 * std::atan(std::tan(0.5 * fov * degree) * width / std::hypot(width, height)) / degree;
+        fov = 2 * std::atan(std::tan(0.5 * fov * degree) * width / std::hypot(width, height)) /
+              degree;
         axis = "x";
     }
     values["fov"] = fov;
@@ -118,7 +120,8 @@ void read_sampler(Object &sensor, const Document &document, PlacedCamera &placed
 PlacedCamera read_camera(Object &sensor, const Document &document) {
     const bool has_lens = sensor.type() == "thinlens";
     if (!has_lens && sensor.type() != "perspective") {
-        throw sensor.element().error("this sensor has no counterpart here; there are: perspective, thinlens");
+        throw sensor.element().error(
+            "this sensor has no counterpart here; there are: perspective, thinlens");
     }
     return sensor.element().located([&] {
         PlacedCamera placed;
@@ -131,20 +134,23 @@ PlacedCamera read_camera(Object &sensor, const Document &document) {
                 throw sensor.element().error("needs an aperture_radius");
             }
             values["aperture_radius"] = *radius;
-            values["focus_distance"] = sensor.number("focus_distance", sensor.number("far_clip", 10000));
+            values["focus_distance"] =
+                sensor.number("focus_distance", sensor.number("far_clip", 10000));
         } else {
             sensor.ignore("focus_distance");  // everything is in focus
         }
         for (const char *name : {"principal_point_offset_x", "principal_point_offset_y"}) {
             if (sensor.number(name, 0) != 0) {
-                throw sensor.property(name).error("the image is centred on the axis of the camera here");
+                throw sensor.property(name).error(
+                    "the image is centred on the axis of the camera here");
             }
         }
         read_pose(sensor, placed);
         read_clipping(sensor, placed);
         read_sampler(sensor, document, placed);
         sensor.finish();
-        placed.camera = std::make_shared<CameraCore>(sensor.id(), has_lens ? "thin_lens" : "pinhole", values);
+        placed.camera =
+            std::make_shared<CameraCore>(sensor.id(), has_lens ? "thin_lens" : "pinhole", values);
         return placed;
     });
 }

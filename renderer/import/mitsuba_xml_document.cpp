@@ -15,17 +15,19 @@ namespace {
 
 constexpr int deepest_include = 16;
 constexpr int deepest_element = 64;
-constexpr const char *tags_with_id[] = {"bsdf",    "texture", "shape",      "emitter", "sensor", "film",
-                                        "sampler", "rfilter", "integrator", "medium",  "phase",  "volume"};
+constexpr const char *tags_with_id[] = {"bsdf",       "texture", "shape",   "emitter",
+                                        "sensor",     "film",    "sampler", "rfilter",
+                                        "integrator", "medium",  "phase",   "volume"};
 
 size_t line_of(const std::string &text, ptrdiff_t offset) {
     const auto end = std::min(static_cast<size_t>(std::max<ptrdiff_t>(offset, 0)), text.size());
-    return 1 +
-           static_cast<size_t>(std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(end), '\n'));
+    return 1 + static_cast<size_t>(
+                   std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(end), '\n'));
 }
 
 bool is_name_character(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
 }
 
 }  // namespace
@@ -49,8 +51,9 @@ std::string Element::attribute(const char *name) const {
             --length;
         }
         if (length == 0) {
-            throw error(fmt::format("undefined parameter '${}'; add <default name=\"{}\" value=\"...\"/>",
-                                    whole, whole));
+            throw error(
+                fmt::format("undefined parameter '${}'; add <default name=\"{}\" value=\"...\"/>",
+                            whole, whole));
         }
         value += parameters_->at(whole.substr(0, length));
         i += 1 + length;
@@ -74,8 +77,8 @@ void Element::check_attributes(const std::vector<std::string> &known) const {
     std::vector<std::string> met;
     for (const pugi::xml_attribute attribute : node_.attributes()) {
         if (std::find(known.begin(), known.end(), attribute.name()) == known.end()) {
-            throw error(
-                fmt::format("unknown attribute '{}'; known: {}", attribute.name(), fmt::join(known, ", ")));
+            throw error(fmt::format("unknown attribute '{}'; known: {}", attribute.name(),
+                                    fmt::join(known, ", ")));
         }
         if (std::find(met.begin(), met.end(), attribute.name()) != met.end()) {
             throw error(fmt::format("duplicate attribute '{}'", attribute.name()));
@@ -91,8 +94,8 @@ LocatedError Element::error(const std::string &message) const {
             shown += fmt::format(" {}=\"{}\"", attribute, raw_attribute(attribute));
         }
     }
-    return LocatedError(fmt::format("{}:{}: {}>: {}", file_->name, line_of(file_->text, node_.offset_debug()),
-                                    shown, message));
+    return LocatedError(fmt::format("{}:{}: {}>: {}", file_->name,
+                                    line_of(file_->text, node_.offset_debug()), shown, message));
 }
 
 Document::Document(const std::string &text, const std::string &source_name,
@@ -109,7 +112,8 @@ void Document::add_file(SourceFile &file, int depth) {
     const pugi::xml_parse_result result =
         file.xml.load_buffer(file.text.data(), file.text.size(), pugi::parse_default);
     const auto fail = [&](ptrdiff_t offset, const std::string &message) {
-        return LocatedError(fmt::format("{}:{}: {}", file.name, line_of(file.text, offset), message));
+        return LocatedError(
+            fmt::format("{}:{}: {}", file.name, line_of(file.text, offset), message));
     };
     if (!result) {
         throw fail(result.offset, fmt::format("not well-formed XML: {}", result.description()));
@@ -118,11 +122,13 @@ void Document::add_file(SourceFile &file, int depth) {
     const pugi::xml_node root = file.xml.document_element();
     for (const pugi::xml_node node : file.xml.children()) {
         if (node != root && node.type() == pugi::node_element) {
-            throw fail(node.offset_debug(), fmt::format("<{}> stands beside the scene", node.name()));
+            throw fail(node.offset_debug(),
+                       fmt::format("<{}> stands beside the scene", node.name()));
         }
     }
     if (std::string(root.name()) != "scene") {
-        throw fail(root.offset_debug(), fmt::format("the root element is <{}>, not <scene>", root.name()));
+        throw fail(root.offset_debug(),
+                   fmt::format("the root element is <{}>, not <scene>", root.name()));
     }
     const Element scene(root, file, parameters_);
     scene.check_attributes({"version"});
@@ -130,10 +136,10 @@ void Document::add_file(SourceFile &file, int depth) {
     int major = 0;
     std::from_chars(version.data(), version.data() + version.size(), major);
     if (major != 2 && major != 3) {
-        throw scene.error(
-            fmt::format("version '{}' is not one of Mitsuba 2 or 3; older files name things otherwise: "
-                        "convert them with Mitsuba's own tools",
-                        version));
+        throw scene.error(fmt::format(
+            "version '{}' is not one of Mitsuba 2 or 3; older files name things otherwise: "
+            "convert them with Mitsuba's own tools",
+            version));
     }
     for (const Element &element : scene.children()) {
         add_element(element, depth);
@@ -155,7 +161,8 @@ void Document::add_element(const Element &element, int depth) {
     if (tag == "include") {
         element.check_attributes({"filename"});
         if (depth == deepest_include) {
-            throw element.error(fmt::format("files include each other more than {} deep", deepest_include));
+            throw element.error(
+                fmt::format("files include each other more than {} deep", deepest_include));
         }
         const std::filesystem::path path = element.path(element.attribute("filename"));
         SourceFile &file = files_.emplace_back();
@@ -176,11 +183,12 @@ void Document::register_ids(const Element &element) {
         const auto [next, level] = pending.back();
         pending.pop_back();
         if (level > deepest_element) {
-            throw next.error(fmt::format("elements are nested deeper than {} levels", deepest_element));
+            throw next.error(
+                fmt::format("elements are nested deeper than {} levels", deepest_element));
         }
         const std::string tag = next.tag();
-        const bool may_have_id =
-            std::find(std::begin(tags_with_id), std::end(tags_with_id), tag) != std::end(tags_with_id);
+        const bool may_have_id = std::find(std::begin(tags_with_id), std::end(tags_with_id), tag) !=
+                                 std::end(tags_with_id);
         if (may_have_id && next.has("id")) {
             const std::string id = next.attribute("id");
             const auto [found, is_new] = ids_.emplace(id, next);
@@ -202,8 +210,9 @@ const Element &Document::referenced(const Element &reference) const {
         for (const auto &entry : ids_) {
             ids.push_back(entry.first);
         }
-        throw reference.error(fmt::format("there is no object with the id '{}'; there are: {}", id,
-                                          ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", "))));
+        throw reference.error(
+            fmt::format("there is no object with the id '{}'; there are: {}", id,
+                        ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", "))));
     }
     return found->second;
 }

@@ -38,8 +38,8 @@ class Element {
     std::string tag() const { return node_.name(); }
     bool has(const char *attribute) const { return !node_.attribute(attribute).empty(); }
 
-    /// The attribute with its parameters substituted; "" when there is none. Throws `LocatedError` for a
-    /// parameter that is not defined.
+    /// The attribute with its parameters substituted; "" when there is none. Throws `LocatedError`
+    /// for a parameter that is not defined.
     std::string attribute(const char *name) const;
 
     /// As it stands in the file.
@@ -80,8 +80,10 @@ class Element {
 /// A scene file with all that it includes.
 class Document {
   public:
-    /// Throws `Error` (bad input) naming source and line when the text is no scene of Mitsuba 2 or 3.
-    Document(const std::string &text, const std::string &source_name, const std::filesystem::path &directory);
+    /// Throws `Error` (bad input) naming source and line when the text is no scene of Mitsuba 2
+    /// or 3.
+    Document(const std::string &text, const std::string &source_name,
+             const std::filesystem::path &directory);
     Document(const Document &) = delete;
     Document &operator=(const Document &) = delete;
 

@@ -22,7 +22,8 @@ Matrix4d turned_about_y(const Matrix4d &to_world) {
     return to_world * scaling({-1, 1, -1});
 }
 
-std::shared_ptr<LightCore> make_light(const Object &object, const char *type, const ParameterValues &values) {
+std::shared_ptr<LightCore> make_light(const Object &object, const char *type,
+                                      const ParameterValues &values) {
     return std::make_shared<LightCore>(object.id(), type, values);
 }
 
@@ -58,11 +59,13 @@ PlacedLight read_directional(Object &object, TextureFiles &) {
         const Vector3d z = -direction->stableNormalized(), x = z.unitOrthogonal();
         world.topLeftCorner<3, 3>() << x, z.cross(x), z;
     }
-    return {make_light(object, "directional", {{"irradiance", object.emission("irradiance", 1)}}), world};
+    return {make_light(object, "directional", {{"irradiance", object.emission("irradiance", 1)}}),
+            world};
 }
 
 PlacedLight read_constant(Object &object, TextureFiles &) {
-    return {make_light(object, "dome", {{"radiance", object.emission("radiance", 1)}}), Matrix4d::Identity()};
+    return {make_light(object, "dome", {{"radiance", object.emission("radiance", 1)}}),
+            Matrix4d::Identity()};
 }
 
 PlacedLight read_envmap(Object &object, TextureFiles &files) {
@@ -75,7 +78,8 @@ PlacedLight read_envmap(Object &object, TextureFiles &files) {
     pose_of(to_world, "an environment");  // neither can it be mirrored
     const auto image = std::make_shared<TextureImage>(
         from_mitsuba_envmap(*files.load(object.element().path(*file), TextureEncoding::linear)));
-    return {std::make_shared<LightCore>(object.id(), image, ParameterValues{{"scale", scale}}), to_world};
+    return {std::make_shared<LightCore>(object.id(), image, ParameterValues{{"scale", scale}}),
+            to_world};
 }
 
 struct Type {
@@ -95,7 +99,8 @@ std::shared_ptr<LightCore> read_area_light(Object &object) {
         throw object.element().error("this emitter has no counterpart at a shape; there is: area");
     }
     return object.element().located([&] {
-        const auto light = make_light(object, "diffuse_area", {{"radiance", object.emission("radiance", 1)}});
+        const auto light =
+            make_light(object, "diffuse_area", {{"radiance", object.emission("radiance", 1)}});
         object.finish();
         return light;
     });
@@ -113,8 +118,8 @@ PlacedLight read_light(Object &object, TextureFiles &files) {
         }
         names += (names.empty() ? "" : ", ") + std::string(type.name);
     }
-    throw object.element().error(
-        fmt::format("this emitter has no counterpart here; there are: {}, and area at a shape", names));
+    throw object.element().error(fmt::format(
+        "this emitter has no counterpart here; there are: {}, and area at a shape", names));
 }
 
 }  // namespace rtrays::mitsuba

@@ -25,13 +25,15 @@ bool contains(const Table &table, const std::string &value) {
     return std::find(std::begin(table), std::end(table), value) != std::end(table);
 }
 
-/// Equal energy at all wavelengths, CIE XYZ = (1, 1, 1), in linear Rec. 709 (IEC 61966-2-1): what a spectrum
-/// of the value 1 is as light. As a reflectance it is (1, 1, 1): those are relative to white.
+/// Equal energy at all wavelengths, CIE XYZ = (1, 1, 1), in linear Rec. 709 (IEC 61966-2-1): what a
+/// spectrum of the value 1 is as light. As a reflectance it is (1, 1, 1): those are relative to
+/// white.
 const Vector3d illuminant_e(1.204794, 0.948292, 0.908916);
 
 double srgb_channel(const Element &element, double value) {
     if (value < 0 || value > 1) {
-        throw element.error(fmt::format("{} is not within [0, 1], where the sRGB curve is defined", value));
+        throw element.error(
+            fmt::format("{} is not within [0, 1], where the sRGB curve is defined", value));
     }
     return srgb_decoded(value);
 }
@@ -57,7 +59,9 @@ std::vector<double> parse_numbers(const Element &element, const std::string &tex
     std::vector<double> numbers;
     const char *at = text.data();
     const char *const end = at + text.size();
-    const auto separates = [](char c) { return c == ',' || c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+    const auto separates = [](char c) {
+        return c == ',' || c == ' ' || c == '\t' || c == '\n' || c == '\r';
+    };
     while (true) {
         while (at != end && separates(*at)) {
             ++at;
@@ -100,9 +104,9 @@ Object::Object(const Element &element, const Document &document)
                 throw child.error("takes no elements");
             }
         } else {
-            throw child.error(
-                fmt::format("has no place in a <{}>; known are the properties {}, the objects {}, and ref",
-                            element.tag(), fmt::join(property_tags, ", "), fmt::join(object_tags, ", ")));
+            throw child.error(fmt::format(
+                "has no place in a <{}>; known are the properties {}, the objects {}, and ref",
+                element.tag(), fmt::join(property_tags, ", "), fmt::join(object_tags, ", ")));
         }
     }
 }
@@ -112,8 +116,8 @@ const Element *Object::find(const std::string &name, const std::vector<const cha
     asked_.insert(name);
     const auto found = properties_.find(name);
     if (found == properties_.end()) {
-        const bool is_object =
-            std::any_of(parts_.begin(), parts_.end(), [&](const Part &part) { return part.name == name; });
+        const bool is_object = std::any_of(parts_.begin(), parts_.end(),
+                                           [&](const Part &part) { return part.name == name; });
         if (is_object) {
             throw element_.error(fmt::format("'{}' must be {}", name, expected));
         }
@@ -121,12 +125,14 @@ const Element *Object::find(const std::string &name, const std::vector<const cha
     }
     const Element &property = found->second;
     if (!contains(tags, property.tag())) {
-        throw property.error(fmt::format("must be {}: <{} name=\"{}\" .../>", expected, tags.front(), name));
+        throw property.error(
+            fmt::format("must be {}: <{} name=\"{}\" .../>", expected, tags.front(), name));
     }
     property.check_attributes(property.tag() == "point" || property.tag() == "vector"
                                   ? std::vector<std::string>{"name", "value", "x", "y", "z"}
-                              : property.tag() == "transform" ? std::vector<std::string>{"name"}
-                                                              : std::vector<std::string>{"name", "value"});
+                              : property.tag() == "transform"
+                                  ? std::vector<std::string>{"name"}
+                                  : std::vector<std::string>{"name", "value"});
     return &property;
 }
 
@@ -177,11 +183,13 @@ std::string Object::text(const std::string &name, const std::string &initial) {
     return text(name).value_or(initial);
 }
 
-size_t Object::choice(const std::string &name, const std::vector<std::string> &choices, size_t initial) {
+size_t Object::choice(const std::string &name, const std::vector<std::string> &choices,
+                      size_t initial) {
     const std::string value = text(name, choices[initial]);
     const auto found = std::find(choices.begin(), choices.end(), value);
     if (found == choices.end()) {
-        throw property(name).error(fmt::format("'{}' is not one of: {}", value, fmt::join(choices, ", ")));
+        throw property(name).error(
+            fmt::format("'{}' is not one of: {}", value, fmt::join(choices, ", ")));
     }
     return static_cast<size_t>(found - choices.begin());
 }
@@ -222,7 +230,8 @@ std::optional<Vector3d> Object::colour(const std::string &name) {
     }
     if (tag == "spectrum" && value.find(':') != std::string::npos) {
         throw found->error(
-            "a spectrum by wavelengths has no place in a renderer of three channels; give it as <rgb>");
+            "a spectrum by wavelengths has no place in a renderer of three channels; give it as "
+            "<rgb>");
     }
     const std::vector<double> numbers = parse_numbers(*found, value);
     const bool is_colour = tag == "rgb" || tag == "srgb";
@@ -244,7 +253,8 @@ Vector3d Object::emission(const std::string &name, double initial) {
 
 Eigen::Matrix4d Object::transform(const std::string &name) {
     const Element *found = find(name, {"transform"}, "a transform");
-    return found == nullptr ? Eigen::Matrix4d(Eigen::Matrix4d::Identity()) : parse_transform(*found);
+    return found == nullptr ? Eigen::Matrix4d(Eigen::Matrix4d::Identity())
+                            : parse_transform(*found);
 }
 
 std::vector<Element> Object::objects(const std::string &tag, const std::string &name) {
@@ -261,16 +271,17 @@ std::vector<Element> Object::objects(const std::string &tag, const std::string &
 void Object::finish() const {
     for (const auto &[name, property] : properties_) {
         if (asked_.count(name) == 0) {
-            throw property.error(
-                fmt::format("a {} of type '{}' has no such property here; it has: {}", element_.tag(), type_,
-                            asked_.empty() ? "none" : fmt::format("{}", fmt::join(asked_, ", "))));
+            throw property.error(fmt::format(
+                "a {} of type '{}' has no such property here; it has: {}", element_.tag(), type_,
+                asked_.empty() ? "none" : fmt::format("{}", fmt::join(asked_, ", "))));
         }
     }
     for (const Part &part : parts_) {
         const std::string tag = part.element.tag();
         if (asked_parts_.count({tag, ""}) == 0 && asked_parts_.count({tag, part.name}) == 0) {
-            throw part.place.error(fmt::format("a {} of type '{}' takes no {}{} here", element_.tag(), type_,
-                                               tag, part.name.empty() ? "" : " as '" + part.name + "'"));
+            throw part.place.error(fmt::format("a {} of type '{}' takes no {}{} here",
+                                               element_.tag(), type_, tag,
+                                               part.name.empty() ? "" : " as '" + part.name + "'"));
         }
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An object of a Mitsuba scene (a shape, a BSDF, ...): its typed properties and the objects within it.
+// An object of a Mitsuba scene (a shape, a BSDF, ...): its typed properties and the objects within
+// it.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,15 +17,16 @@ namespace rtrays::mitsuba {
 /// Gives out properties by name and type and remembers which: what nobody asked for is unknown.
 class Object {
   public:
-    /// Throws `LocatedError` when a property has no name, two have the same, or there is an element that is
-    /// neither a property nor an object.
+    /// Throws `LocatedError` when a property has no name, two have the same, or there is an element
+    /// that is neither a property nor an object.
     Object(const Element &element, const Document &document);
 
     const Element &element() const { return element_; }
     const std::string &type() const { return type_; }
     std::string id() const { return element_.attribute("id"); }
 
-    // Properties. All throw `LocatedError` naming the line when the value is of another type or malformed.
+    // Properties. All throw `LocatedError` naming the line when the value is of another type or
+    // malformed.
 
     bool has(const std::string &name);
     double number(const std::string &name, double initial);
@@ -40,8 +42,8 @@ class Object {
     /// A reflectance or another number per channel: a colour, or one number for all.
     std::optional<Eigen::Vector3d> colour(const std::string &name);
 
-    /// What an emitter emits: likewise, but a spectrum of one value is that of illuminant E, which is not
-    /// white in Rec. 709.
+    /// What an emitter emits: likewise, but a spectrum of one value is that of illuminant E, which
+    /// is not white in Rec. 709.
     Eigen::Vector3d emission(const std::string &name, double initial);
 
     /// World from object, or the identity.
@@ -53,14 +55,15 @@ class Object {
     /// The element of a property that is there.
     const Element &property(const std::string &name) const { return properties_.at(name); }
 
-    /// The objects of one tag, references resolved; of those with a name only the ones that are called
-    /// `name`.
+    /// The objects of one tag, references resolved; of those with a name only the ones that are
+    /// called `name`.
     std::vector<Element> objects(const std::string &tag, const std::string &name = "");
 
     /// Asks for a property whose value does not matter.
     void ignore(const std::string &name) { asked_.insert(name); }
 
-    /// Throws `LocatedError` naming the first property or object that nobody asked for and those that were.
+    /// Throws `LocatedError` naming the first property or object that nobody asked for and those
+    /// that were.
     void finish() const;
 
   private:
@@ -70,7 +73,8 @@ class Object {
         Element place;
     };
 
-    const Element *find(const std::string &name, const std::vector<const char *> &tags, const char *expected);
+    const Element *find(const std::string &name, const std::vector<const char *> &tags,
+                        const char *expected);
 
     Element element_;
     std::string type_;
@@ -80,11 +84,13 @@ class Object {
     std::set<std::pair<std::string, std::string>> asked_parts_;
 };
 
-/// Numbers separated by commas or blanks. Throws `LocatedError` when one is malformed or not finite.
+/// Numbers separated by commas or blanks. Throws `LocatedError` when one is malformed or not
+/// finite.
 std::vector<double> parse_numbers(const Element &element, const std::string &text);
 
-/// The similarity that the transform is but for the digits that a file leaves out (a part in 10^4): so moves
-/// what must stay round, or rigid. Throws `Error` (bad input) naming `what` when it shears or stretches.
+/// The similarity that the transform is but for the digits that a file leaves out (a part in 10^4):
+/// so moves what must stay round, or rigid. Throws `Error` (bad input) naming `what` when it shears
+/// or stretches.
 Eigen::Matrix4d nearest_similarity(const Eigen::Matrix4d &transform, const std::string &what);
 
 /// A "transform" element: its operations in the order written, the first one applied first.

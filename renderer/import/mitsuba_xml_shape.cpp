@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of our geometries a shape is (Mitsuba 3.9, src/shapes/*.cpp: parameters, defaults, parametrisations).
+// Which of our geometries a shape is (Mitsuba 3.9, src/shapes/*.cpp: parameters, defaults,
+// parametrisations).
 #include "renderer/import/mitsuba_xml_shape.h"
 
 #include <fmt/format.h>
@@ -56,10 +57,12 @@ MeshCore::Geometry cube() {
     return geometry;
 }
 
-/// Of a shape that must stay round: Mitsuba warns where it does not, and goes on with one of the radii.
+/// Of a shape that must stay round: Mitsuba warns where it does not, and goes on with one of the
+/// radii.
 Matrix4d round_transform(Object &object) {
     const Matrix4d to_world = object.transform();
-    return object.element().located([&] { return nearest_similarity(to_world, "a " + object.type()); });
+    return object.element().located(
+        [&] { return nearest_similarity(to_world, "a " + object.type()); });
 }
 
 double radius_of(Object &object) {
@@ -70,8 +73,8 @@ double radius_of(Object &object) {
     return radius;
 }
 
-/// Columns s, t, n: the frame that Mitsuba builds around a unit vector (Duff et al. 2017, "Building an
-/// orthonormal basis, revisited"); the texture of a cylinder begins where it says.
+/// Columns s, t, n: the frame that Mitsuba builds around a unit vector (Duff et al. 2017, "Building
+/// an orthonormal basis, revisited"); the texture of a cylinder begins where it says.
 Eigen::Matrix3d frame_around(const Vector3d &n) {
     const double sign = std::copysign(1.0, n.z());
     const double a = -1 / (sign + n.z());  // |sign + z| >= 1
@@ -85,7 +88,8 @@ Eigen::Matrix3d frame_around(const Vector3d &n) {
 
 MeshCore::Geometry geometry_of(const std::filesystem::path &path, bool without_normals) {
     MeshFileOptions options;
-    options.normals = without_normals ? MeshFileOptions::Normals::none : MeshFileOptions::Normals::stored;
+    options.normals =
+        without_normals ? MeshFileOptions::Normals::none : MeshFileOptions::Normals::stored;
     const std::shared_ptr<MeshCore> mesh = load_mesh_file(path, path.stem().string(), options);
     return {mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()};
 }
@@ -113,7 +117,8 @@ Shape ShapeReader::read(Object &object) {
         }
         names += (names.empty() ? "" : ", ") + std::string(type.name);
     }
-    throw object.element().error(fmt::format("this shape has no counterpart here; there are: {}", names));
+    throw object.element().error(
+        fmt::format("this shape has no counterpart here; there are: {}", names));
 }
 
 Shape ShapeReader::read_rectangle(Object &object) {
@@ -141,7 +146,8 @@ Shape ShapeReader::read_sphere(Object &object) {
     }
     const Matrix4d to_world = round_transform(object);
     const Vector3d center = object.vector("center").value_or(Vector3d::Zero());
-    Shape shape{core, to_world * translation(center) * scaling(Vector3d::Constant(radius_of(object))),
+    Shape shape{core,
+                to_world * translation(center) * scaling(Vector3d::Constant(radius_of(object))),
                 UvConvention::flipped};
     shape.is_flipped = object.boolean("flip_normals", false);
     return shape;
@@ -194,9 +200,10 @@ Shape ShapeReader::read_file(Object &object) {
     const bool flip_v = object.boolean("flip_tex_coords", is_obj);
     const std::filesystem::path path = object.element().path(*file);
 
-    // The file's own normals are transformed; where there are none Mitsuba makes them of the triangles in
-    // world space. That is the same for all similarities that do not mirror.
-    const bool is_plain = similarity_scale(to_world) > 0 && to_world.topLeftCorner<3, 3>().determinant() > 0;
+    // The file's own normals are transformed; where there are none Mitsuba makes them of the
+    // triangles in world space. That is the same for all similarities that do not mirror.
+    const bool is_plain =
+        similarity_scale(to_world) > 0 && to_world.topLeftCorner<3, 3>().determinant() > 0;
     const std::string key =
         fmt::format("{} {} {}", face_normals, flip_normals, path.lexically_normal().string());
     std::shared_ptr<Core> core = is_plain ? shared_[key] : nullptr;
@@ -214,8 +221,8 @@ Shape ShapeReader::read_file(Object &object) {
                 make_smooth_normals(geometry);
             }
         }
-        core = std::make_shared<MeshCore>(path.stem().string(),
-                                          flip_normals ? turned(std::move(geometry)) : std::move(geometry));
+        core = std::make_shared<MeshCore>(
+            path.stem().string(), flip_normals ? turned(std::move(geometry)) : std::move(geometry));
         if (is_plain) {
             shared_[key] = core;
         }

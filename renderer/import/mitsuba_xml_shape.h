@@ -24,7 +24,8 @@ struct Shape {
 /// Makes geometry of shapes; what several shapes have in common is shared.
 class ShapeReader {
   public:
-    /// Throws `LocatedError` when the shape cannot be mapped; BSDF and emitter are left in `object`.
+    /// Throws `LocatedError` when the shape cannot be mapped; BSDF and emitter are left in
+    /// `object`.
     Shape read(Object &object);
 
   private:

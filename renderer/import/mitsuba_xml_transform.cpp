@@ -74,7 +74,8 @@ Matrix4d matrix(const Element &element) {
         result.topLeftCorner<3, 3>() =
             Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data());
     } else {
-        throw element.error(fmt::format("has {} numbers; a matrix has 16, or 9, row by row", numbers.size()));
+        throw element.error(
+            fmt::format("has {} numbers; a matrix has 16, or 9, row by row", numbers.size()));
     }
     return result;
 }
@@ -94,7 +95,8 @@ Matrix4d operation(const Element &element) {
     }
     if (tag == "translate" || tag == "scale") {
         element.check_attributes({"x", "y", "z", "value"});
-        return tag == "scale" ? scaling(coordinates(element, 1)) : translation(coordinates(element, 0));
+        return tag == "scale" ? scaling(coordinates(element, 1))
+                              : translation(coordinates(element, 0));
     }
     if (tag == "rotate") {
         return rotate(element);
@@ -116,13 +118,14 @@ Matrix4d nearest_similarity(const Matrix4d &transform, const std::string &what) 
     const Eigen::Matrix3d axes = transform.topLeftCorner<3, 3>();
     const double scale = axes.col(0).stableNorm();  // above zero: transforms are invertible
     const Eigen::Matrix3d unit = axes / scale;
-    const double error = (unit.transpose() * unit - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    const double error =
+        (unit.transpose() * unit - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
     if (error > 2 * tolerance) {
         const Vector3d scales = axes.colwise().stableNorm();
-        throw input_error(
-            fmt::format("{} cannot be sheared or stretched; the transform scales its axes by {:.6g}, "
-                        "{:.6g} and {:.6g}",
-                        what, scales[0], scales[1], scales[2]));
+        throw input_error(fmt::format(
+            "{} cannot be sheared or stretched; the transform scales its axes by {:.6g}, "
+            "{:.6g} and {:.6g}",
+            what, scales[0], scales[1], scales[2]));
     }
     if (error < exact) {
         return transform;
@@ -130,7 +133,8 @@ Matrix4d nearest_similarity(const Matrix4d &transform, const std::string &what) 
     const double sign = unit.determinant() < 0 ? -1 : 1;
     Matrix4d similarity = transform;
     similarity.topLeftCorner<3, 3>() =
-        sign * scale * Eigen::Quaterniond(Eigen::Matrix3d(sign * unit)).normalized().toRotationMatrix();
+        sign * scale *
+        Eigen::Quaterniond(Eigen::Matrix3d(sign * unit)).normalized().toRotationMatrix();
     return similarity;
 }
 

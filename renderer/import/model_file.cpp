@@ -28,13 +28,13 @@ bool is_ply(const std::filesystem::path &path) {
 }
 
 /// One mesh per material.
-void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names, ModelNotes &notes,
-                    bool quiet) {
+void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
+                    ModelNotes &notes, bool quiet) {
     PlyFile file = read_ply(path, notes, quiet);
     const std::string stem = path.stem().string();
     const std::filesystem::path mtl = std::filesystem::path(path).replace_extension(".mtl");
-    Node &model =
-        add_model_node(scene.graph().root(), names.unique(stem, "model"), Eigen::Matrix4d::Identity());
+    Node &model = add_model_node(scene.graph().root(), names.unique(stem, "model"),
+                                 Eigen::Matrix4d::Identity());
     if (file.material.empty() || !std::filesystem::exists(mtl)) {
         if (!file.material.empty()) {
             notes.add(fmt::format("there is no {} for its material_index: everything is grey",
@@ -46,11 +46,13 @@ void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames 
         model.set_core(std::make_shared<MeshCore>(stem, std::move(file.geometry)));
         return;
     }
-    const std::vector<std::shared_ptr<MaterialCore>> materials = read_model_materials(mtl, scene, notes);
+    const std::vector<std::shared_ptr<MaterialCore>> materials =
+        read_model_materials(mtl, scene, notes);
     for (auto &[index, geometry] : split_geometry(file.geometry, file.material)) {
         if (static_cast<size_t>(index) >= materials.size()) {
-            throw input_error(fmt::format("{}: there is a material_index {}, but {} has only {} materials",
-                                          path.string(), index, mtl.filename().string(), materials.size()));
+            throw input_error(
+                fmt::format("{}: there is a material_index {}, but {} has only {} materials",
+                            path.string(), index, mtl.filename().string(), materials.size()));
         }
         const std::shared_ptr<MaterialCore> &material = materials[static_cast<size_t>(index)];
         const std::string name = names.unique(material->name(), "mesh");
@@ -60,14 +62,16 @@ void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames 
     }
 }
 
-/// A camera that looks down on the model a little from the side, its bounding sphere just inside the image.
+/// A camera that looks down on the model a little from the side, its bounding sphere just inside
+/// the image.
 void add_camera(Scene &scene, ModelNames &names, ModelNotes &notes) {
     constexpr double fov = 40;
     const Eigen::AlignedBox3d bounds = scene.graph().bounds();
     const double size = 0.5 * bounds.diagonal().norm();
     const double radius = size > 0 ? size : 1;
     const Eigen::Vector3d towards = Eigen::Vector3d(0.5, 0.35, 1).normalized();
-    const Eigen::Vector3d origin = bounds.center() + radius / std::sin(0.5 * fov * degree) * towards;
+    const Eigen::Vector3d origin =
+        bounds.center() + radius / std::sin(0.5 * fov * degree) * towards;
     const std::string name = names.unique("camera", "camera");
     Node &node = add_model_node(scene.graph().root(), name,
                                 look_at(origin, bounds.center(), Eigen::Vector3d::UnitY()));
@@ -79,8 +83,8 @@ void add_camera(Scene &scene, ModelNames &names, ModelNotes &notes) {
 void add_dome(Scene &scene, ModelNames &names, ModelNotes &notes) {
     const std::string name = names.unique("dome", "dome");
     Node &node = add_model_node(scene.graph().root(), name, Eigen::Matrix4d::Identity());
-    node.set_core(
-        std::make_shared<LightCore>(name, "dome", ParameterValues{{"radiance", Eigen::Vector3d(1, 1, 1)}}));
+    node.set_core(std::make_shared<LightCore>(
+        name, "dome", ParameterValues{{"radiance", Eigen::Vector3d(1, 1, 1)}}));
     notes.add(fmt::format("it has no light: '{}' of radiance 1 is added", name));
 }
 

@@ -31,7 +31,8 @@ namespace {
 /// What to do with an importer: read one thing or another.
 using Read = std::function<const aiScene *(Assimp::Importer &)>;
 
-/// What the child writes: one byte of progress in percent at a time, then this byte and why it failed.
+/// What the child writes: one byte of progress in percent at a time, then this byte and why it
+/// failed.
 constexpr uint8_t failure = 255;
 
 class PercentWriter : public Assimp::ProgressHandler {
@@ -39,7 +40,8 @@ class PercentWriter : public Assimp::ProgressHandler {
     explicit PercentWriter(int pipe) : pipe_(pipe) {}
 
     bool Update(float fraction) override {
-        const auto percent = static_cast<uint8_t>(fraction >= 0 && fraction <= 1 ? 100 * fraction : 0);
+        const auto percent =
+            static_cast<uint8_t>(fraction >= 0 && fraction <= 1 ? 100 * fraction : 0);
         if (percent > last_) {
             last_ = percent;
             return write(pipe_, &percent, 1) == 1;
@@ -58,8 +60,8 @@ void set_limit(decltype(RLIMIT_CPU) resource, rlim_t value, rlim_t last) {
     setrlimit(resource, &limit);
 }
 
-/// Half of the machine's memory beyond what the process has: what a reader needs more for is no model we
-/// could render. The address sanitizer reserves more than any limit; it has its own.
+/// Half of the machine's memory beyond what the process has: what a reader needs more for is no
+/// model we could render. The address sanitizer reserves more than any limit; it has its own.
 void limit_memory() {
 #ifndef __SANITIZE_ADDRESS__
     size_t pages = 0;
@@ -70,8 +72,8 @@ void limit_memory() {
 #endif
 }
 
-/// Seconds of processor time for files of so many bytes: a tenth of the speed at which the slowest readers
-/// go.
+/// Seconds of processor time for files of so many bytes: a tenth of the speed at which the slowest
+/// readers go.
 rlim_t time_limit(uintmax_t bytes) {
     return 20 + static_cast<rlim_t>(bytes / 200000);
 }
@@ -81,8 +83,8 @@ void configure(Assimp::Importer &importer) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
 }
 
-/// Only async-signal-safe calls would be sure to work if other threads held locks; glibc makes its allocator
-/// safe across fork, and Assimp shares no other lock with us.
+/// Only async-signal-safe calls would be sure to work if other threads held locks; glibc makes its
+/// allocator safe across fork, and Assimp shares no other lock with us.
 [[noreturn]] void read_in_child(const Read &read, rlim_t seconds, int pipe) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGXCPU}) {
@@ -167,23 +169,27 @@ void try_in_child(const Read &read, const std::filesystem::path &path, bool quie
     while (child > 0 && (waited = waitpid(child, &status, 0)) < 0 && errno == EINTR) {
     }
     if (child < 0 || waited < 0) {
-        throw run_error(fmt::format("{}: no process to read it in: {}", path.string(), std::strerror(errno)));
+        throw run_error(
+            fmt::format("{}: no process to read it in: {}", path.string(), std::strerror(errno)));
     }
     if (interrupted()) {
         throw Error(ExitCode::interrupted, "interrupted");
     }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-        reason = fmt::format("the reader (Assimp) came to no end within {} s of processor time", seconds);
+        reason = fmt::format("the reader (Assimp) came to no end within {} s of processor time",
+                             seconds);
     } else if (WIFSIGNALED(status) || (WEXITSTATUS(status) != 0 && reason.empty())) {
-        reason = fmt::format("the reader (Assimp) broke down on it{}; the file is damaged",
-                             WIFSIGNALED(status) ? fmt::format(" ({})", strsignal(WTERMSIG(status))) : "");
+        reason = fmt::format(
+            "the reader (Assimp) broke down on it{}; the file is damaged",
+            WIFSIGNALED(status) ? fmt::format(" ({})", strsignal(WTERMSIG(status))) : "");
     }
     if (status != 0) {
         throw input_error(fmt::format("{}: cannot be read: {}", path.string(), reason));
     }
 }
 
-std::shared_ptr<const aiScene> read_fenced(const Read &read, const std::filesystem::path &path, bool quiet) {
+std::shared_ptr<const aiScene> read_fenced(const Read &read, const std::filesystem::path &path,
+                                           bool quiet) {
     if (!std::filesystem::is_regular_file(path)) {
         throw input_error(fmt::format("{}: no such file", path.string()));
     }
@@ -192,7 +198,8 @@ std::shared_ptr<const aiScene> read_fenced(const Read &read, const std::filesyst
     configure(*importer);
     const aiScene *scene = read(*importer);
     if (scene == nullptr) {
-        throw input_error(fmt::format("{}: cannot be read: {}", path.string(), importer->GetErrorString()));
+        throw input_error(
+            fmt::format("{}: cannot be read: {}", path.string(), importer->GetErrorString()));
     }
     return {importer, scene};
 }
@@ -205,8 +212,9 @@ bool assimp_reads(const std::string &extension) {
 }
 
 std::shared_ptr<const aiScene> read_by_assimp(const std::filesystem::path &path, bool quiet) {
-    return read_fenced([&](Assimp::Importer &importer) { return importer.ReadFile(path.string(), 0); }, path,
-                       quiet);
+    return read_fenced(
+        [&](Assimp::Importer &importer) { return importer.ReadFile(path.string(), 0); }, path,
+        quiet);
 }
 
 std::shared_ptr<const aiScene> read_mtl_by_assimp(const std::filesystem::path &path) {

@@ -33,8 +33,8 @@ Vector3d direction(const Vector3d &v) {
 Vector3d face_normal(const Geometry &geometry, const Triangle &t) {
     const Vector3d &origin = geometry.vertices[t[0]];
     // Of unit edges: the product of two long (or short) ones leaves the range of double.
-    return direction(
-        direction(geometry.vertices[t[1]] - origin).cross(direction(geometry.vertices[t[2]] - origin)));
+    return direction(direction(geometry.vertices[t[1]] - origin)
+                         .cross(direction(geometry.vertices[t[2]] - origin)));
 }
 
 /// All of a vertex; no padding, so that bytes can be compared.
@@ -107,8 +107,9 @@ size_t add_face(const uint32_t *corners, size_t count, size_t face, const std::s
                 Geometry &geometry, ModelNotes &notes) {
     for (size_t i = 0; i < count; ++i) {
         if (corners[i] >= geometry.vertices.size()) {
-            throw input_error(fmt::format("mesh '{}': face {} has vertex {}, but there are only {} vertices",
-                                          mesh, face, corners[i], geometry.vertices.size()));
+            throw input_error(
+                fmt::format("mesh '{}': face {} has vertex {}, but there are only {} vertices",
+                            mesh, face, corners[i], geometry.vertices.size()));
         }
     }
     if (count < 3) {
@@ -134,7 +135,8 @@ size_t add_face(const uint32_t *corners, size_t count, size_t face, const std::s
 }
 
 void join_vertices(Geometry &geometry) {
-    // Open addressing, at most half full: a map of nodes takes ten times as long for millions of vertices.
+    // Open addressing, at most half full: a map of nodes takes ten times as long for millions of
+    // vertices.
     size_t slots = 16;
     while (slots < 2 * geometry.vertices.size()) {
         slots *= 2;
@@ -204,8 +206,8 @@ void repair_normals(Geometry &geometry, const std::string &mesh, ModelNotes &not
 
 void append_geometry(Geometry &geometry, Geometry part, const Eigen::Matrix4d &transform) {
     const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
-    // The rows of the inverse transpose are those of the cofactor matrix up to the determinant, whose sign
-    // counts.
+    // The rows of the inverse transpose are those of the cofactor matrix up to the determinant,
+    // whose sign counts.
     Eigen::Matrix3d cofactors;
     for (int i = 0; i < 3; ++i) {
         cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
@@ -246,14 +248,16 @@ void append_geometry(Geometry &geometry, Geometry part, const Eigen::Matrix4d &t
     }
 }
 
-std::map<int64_t, Geometry> split_geometry(const Geometry &geometry, const std::vector<int64_t> &groups) {
+std::map<int64_t, Geometry> split_geometry(const Geometry &geometry,
+                                           const std::vector<int64_t> &groups) {
     std::map<int64_t, std::vector<size_t>> members;
     for (size_t i = 0; i < groups.size(); ++i) {
         members[groups[i]].push_back(i);
     }
     std::map<int64_t, Geometry> parts;
     std::vector<uint32_t> moved(geometry.vertices.size());
-    std::vector<int64_t> moved_by(geometry.vertices.size(), -1);  // place of the group that `moved` is of
+    std::vector<int64_t> moved_by(geometry.vertices.size(),
+                                  -1);  // place of the group that `moved` is of
     int64_t place = 0;
     for (const auto &[group, triangles] : members) {
         Geometry &part = parts[group];

@@ -74,7 +74,8 @@ constexpr UnusedMap unused_maps[] = {
 
 Vector3d colour(const aiMaterial &source, const char *key, const Vector3d &otherwise) {
     aiColor3D value;
-    return source.Get(key, 0, 0, value) == aiReturn_SUCCESS ? Vector3d(value.r, value.g, value.b) : otherwise;
+    return source.Get(key, 0, 0, value) == aiReturn_SUCCESS ? Vector3d(value.r, value.g, value.b)
+                                                            : otherwise;
 }
 
 /// Numbers too are (key, type, index) in Assimp; the last two are zero for all that is no texture.
@@ -85,7 +86,8 @@ bool has_number(const aiMaterial &source, const char *key) {
 
 double number(const aiMaterial &source, const char *key, double otherwise) {
     ai_real value = 0;
-    return source.Get(key, 0, 0, value) == aiReturn_SUCCESS ? static_cast<double>(value) : otherwise;
+    return source.Get(key, 0, 0, value) == aiReturn_SUCCESS ? static_cast<double>(value)
+                                                            : otherwise;
 }
 
 constexpr const char *const metalness_key = "$mat.metallicFactor";
@@ -101,7 +103,8 @@ bool has_map(const aiMaterial &source, aiTextureType type) {
 }
 
 aiTextureType colour_map(const aiMaterial &source) {
-    return has_map(source, aiTextureType_BASE_COLOR) ? aiTextureType_BASE_COLOR : aiTextureType_DIFFUSE;
+    return has_map(source, aiTextureType_BASE_COLOR) ? aiTextureType_BASE_COLOR
+                                                     : aiTextureType_DIFFUSE;
 }
 
 /// A file that goes when the object does, for readers that know no other source.
@@ -142,8 +145,10 @@ std::filesystem::path image_path(std::string file) {
     return file;
 }
 
-/// Where an image may be: as the file says, or, when that is a path of another machine, beside the model.
-std::filesystem::path find_image(const std::filesystem::path &directory, const std::filesystem::path &file) {
+/// Where an image may be: as the file says, or, when that is a path of another machine, beside the
+/// model.
+std::filesystem::path find_image(const std::filesystem::path &directory,
+                                 const std::filesystem::path &file) {
     const std::filesystem::path stated = directory / file;
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(stated, ignored)) {
@@ -204,8 +209,8 @@ ParameterTextures textured(const char *parameter, const std::shared_ptr<Texture>
 /// Scales the colours so that no channel of them adds up to more than one; whether that was needed.
 bool conserve_energy(ModelSurface &s) {
     const Vector3d highlight = s.has_highlight() ? s.specular : Vector3d::Zero();
-    const double most =
-        s.is_plain() ? (s.diffuse + highlight).maxCoeff() : s.diffuse.cwiseMax(s.specular).maxCoeff();
+    const double most = s.is_plain() ? (s.diffuse + highlight).maxCoeff()
+                                     : s.diffuse.cwiseMax(s.specular).maxCoeff();
     if (most > 1) {
         s.diffuse /= most;
         s.specular /= most;
@@ -246,9 +251,11 @@ void add_physical(const ModelSurface &s, double share, CompositeBuilder &composi
     }
     if (metal < 1) {
         share *= 1 - metal;
-        const std::string coat = composite.add_reflection(s.alpha, "dielectric", Vector3d::Constant(share));
+        const std::string coat =
+            composite.add_reflection(s.alpha, "dielectric", Vector3d::Constant(share));
         composite.values[coat + "fresnel_eta"] = s.eta;
-        const std::string base = composite.add("lambert", "dielectric", share * s.diffuse, s.diffuse_texture);
+        const std::string base =
+            composite.add("lambert", "dielectric", share * s.diffuse, s.diffuse_texture);
         composite.values[base + "fresnel_eta"] = s.eta;
         composite.values[base + "fresnel_complement"] = true;
     }
@@ -261,19 +268,22 @@ std::shared_ptr<MaterialCore> make_composite(const ModelSurface &s, const std::s
     if (s.is_physical) {
         add_physical(s, share, composite);
     } else if (s.only_reflects) {
-        // An exponent of zero is a mirror here: the model asks for reflections, not for a highlight.
-        const std::string part = composite.add_reflection(s.exponent > 0 ? s.alpha : 0, "schlick",
-                                                          Vector3d::Constant(share), s.specular_texture);
+        // An exponent of zero is a mirror here: the model asks for reflections, not for a
+        // highlight.
+        const std::string part = composite.add_reflection(
+            s.exponent > 0 ? s.alpha : 0, "schlick", Vector3d::Constant(share), s.specular_texture);
         composite.values[part + "fresnel_reflectance"] = s.specular;
     } else {
         composite.add("lambert", "ideal", share * s.diffuse, s.diffuse_texture);
         if (s.has_highlight()) {
-            const std::string part = composite.add("blinn", "ideal", share * s.specular, s.specular_texture);
+            const std::string part =
+                composite.add("blinn", "ideal", share * s.specular, s.specular_texture);
             composite.values[part + "exponent"] = s.exponent;
         }
     }
     if (share < 1) {
-        const std::string part = composite.add("ideal_refraction", "ideal", Vector3d::Constant(1 - share));
+        const std::string part =
+            composite.add("ideal_refraction", "ideal", Vector3d::Constant(1 - share));
         composite.values[part + "eta"] = 1.0;
     }
     return composite.build(name);
@@ -281,8 +291,8 @@ std::shared_ptr<MaterialCore> make_composite(const ModelSurface &s, const std::s
 
 }  // namespace
 
-ModelMaterials::ModelMaterials(std::shared_ptr<const aiScene> model, std::filesystem::path directory,
-                               ModelNotes &notes)
+ModelMaterials::ModelMaterials(std::shared_ptr<const aiScene> model,
+                               std::filesystem::path directory, ModelNotes &notes)
     : model_(std::move(model)), directory_(std::move(directory)), notes_(notes) {}
 
 std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file, bool is_colour) {
@@ -298,11 +308,13 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
     }
     if (inside->mHeight == 0) {  // a file as it is; the width counts its bytes
         const std::string format = inside->achFormatHint;
-        const TemporaryFile copy(inside->pcData, inside->mWidth, format.empty() ? "" : "." + format);
+        const TemporaryFile copy(inside->pcData, inside->mWidth,
+                                 format.empty() ? "" : "." + format);
         try {
             image = load_texture_file(copy.path(), encoding);
         } catch (const Error &error) {
-            throw Error(error.exit_code(), fmt::format("the embedded image '{}', as {}", file, error.what()));
+            throw Error(error.exit_code(),
+                        fmt::format("the embedded image '{}', as {}", file, error.what()));
         }
         return image;
     }
@@ -337,8 +349,10 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
     const auto type = static_cast<aiTextureType>(type_number);
     aiString file;
     aiTextureMapping mapping = aiTextureMapping_UV;
-    aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-    if (source.GetTexture(type, 0, &file, &mapping, nullptr, nullptr, nullptr, modes) != aiReturn_SUCCESS) {
+    aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap,
+                                 aiTextureMapMode_Wrap};
+    if (source.GetTexture(type, 0, &file, &mapping, nullptr, nullptr, nullptr, modes) !=
+        aiReturn_SUCCESS) {
         return nullptr;
     }
     if (mapping != aiTextureMapping_UV) {
@@ -364,15 +378,16 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
     }
     const Vector2d scale(placement.mScaling.x, placement.mScaling.y);
     const Vector2d offset(placement.mTranslation.x, placement.mTranslation.y);
-    const std::string key =
-        fmt::format("{} {} {} {} {} {}", file.C_Str(), clamps, scale[0], scale[1], offset[0], offset[1]);
+    const std::string key = fmt::format("{} {} {} {} {} {}", file.C_Str(), clamps, scale[0],
+                                        scale[1], offset[0], offset[1]);
     std::shared_ptr<Texture> &made = textures_[key];
     if (made == nullptr) {
-        made = std::make_shared<Texture>(names_.unique(image_path(file.C_Str()).stem().string(), "texture"),
-                                         load(file.C_Str(), true),
-                                         ParameterValues{{"wrap", std::string(clamps ? "clamp" : "repeat")},
-                                                         {"uv_scale", scale},
-                                                         {"uv_offset", offset}});
+        made = std::make_shared<Texture>(
+            names_.unique(image_path(file.C_Str()).stem().string(), "texture"),
+            load(file.C_Str(), true),
+            ParameterValues{{"wrap", std::string(clamps ? "clamp" : "repeat")},
+                            {"uv_scale", scale},
+                            {"uv_offset", offset}});
     }
     return made;
 }
@@ -396,7 +411,8 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
     const auto is_one_of = [&](std::initializer_list<int> models) {
         return std::find(models.begin(), models.end(), illumination) != models.end();
     };
-    surface.refracts = is_one_of({4, 6, 7, 9}) || number(source, "$mat.transmission.factor", 0) > 0.5;
+    surface.refracts =
+        is_one_of({4, 6, 7, 9}) || number(source, "$mat.transmission.factor", 0) > 0.5;
     surface.only_reflects = is_one_of({3, 5}) && surface.diffuse.isZero();
 
     const std::string alpha_mode = text(source, "$mat.gltf.alphaMode");
@@ -407,10 +423,11 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
         surface.opacity = 1;
     }
     surface.diffuse_texture = texture(source, colour_map(source), name);
-    surface.specular_texture = surface.is_physical ? nullptr : texture(source, aiTextureType_SPECULAR, name);
+    surface.specular_texture =
+        surface.is_physical ? nullptr : texture(source, aiTextureType_SPECULAR, name);
 
-    surface.emission =
-        colour(source, "$clr.emissive", Vector3d::Zero()) * number(source, "$mat.emissiveIntensity", 1);
+    surface.emission = colour(source, "$clr.emissive", Vector3d::Zero()) *
+                       number(source, "$mat.emissiveIntensity", 1);
     for (const aiTextureType type : {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR}) {
         if (has_map(source, type) && !surface.emission.isZero()) {
             notes_.add("maps of emission are replaced by their mean", name);
@@ -420,13 +437,13 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
     }
     if (surface.is_physical && has_map(source, aiTextureType_METALNESS)) {
         notes_.add("maps of metalness and roughness are replaced by their mean", name);
-        const Vector3d mean =
-            mean_of(source, aiTextureType_METALNESS, false);  // glTF: roughness green, metalness blue
+        const Vector3d mean = mean_of(source, aiTextureType_METALNESS,
+                                      false);  // glTF: roughness green, metalness blue
         roughness *= mean.y();
         surface.metalness *= mean.z();
     }
-    surface.alpha =
-        surface.is_physical ? roughness * roughness : std::sqrt(2 / (std::max(surface.exponent, 0.0) + 2));
+    surface.alpha = surface.is_physical ? roughness * roughness
+                                        : std::sqrt(2 / (std::max(surface.exponent, 0.0) + 2));
     for (const UnusedMap &map : unused_maps) {
         if (has_map(source, map.type)) {
             notes_.add(map.note, name);
@@ -435,7 +452,8 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
     return surface;
 }
 
-std::shared_ptr<MaterialCore> ModelMaterials::material(const aiMaterial &source, const std::string &name) {
+std::shared_ptr<MaterialCore> ModelMaterials::material(const aiMaterial &source,
+                                                       const std::string &name) {
     try {
         ModelSurface surface = read(source, name);
         if (surface.is_plain() && surface.specular.maxCoeff() > 0 && !surface.has_highlight()) {

@@ -20,24 +20,25 @@ struct ModelSurface;
 
 /// Turns the materials of a model file into ours, the first row that holds:
 ///
-///   metalness and roughness (glTF)         transmission above a half: glass. Else a metal (Schlick) and,
-///   under a
+///   metalness and roughness (glTF)         transmission above a half: glass. Else a metal
+///   (Schlick) and, under a
 ///                                          dielectric coat, Lambert, mixed by metalness; alpha =
 ///                                          roughness^2, GGX
 ///   illum 4, 6, 7, 9 (MTL)                 glass of Ni and Tf
-///   illum 3, 5 without diffuse colour      metal (Schlick) of reflectance Ks; alpha^2 = 2 / (Ns + 2), GGX
-///   specular colour Ks and exponent Ns     lambert_blinn, scaled where it would reflect more than it
-///   receives any                                    lambert
+///   illum 3, 5 without diffuse colour      metal (Schlick) of reflectance Ks; alpha^2 = 2 / (Ns +
+///   2), GGX specular colour Ks and exponent Ns     lambert_blinn, scaled where it would reflect
+///   more than it receives any                                    lambert
 ///
-/// An opacity below one lets that share of the light be scattered and the rest pass straight on. What is
-/// emitted is radiance. Images of colours are sRGB, unless they hold floats.
+/// An opacity below one lets that share of the light be scattered and the rest pass straight on.
+/// What is emitted is radiance. Images of colours are sRGB, unless they hold floats.
 class ModelMaterials {
   public:
     /// `model` holds the embedded images; files are relative to `directory`.
-    ModelMaterials(std::shared_ptr<const aiScene> model, std::filesystem::path directory, ModelNotes &notes);
+    ModelMaterials(std::shared_ptr<const aiScene> model, std::filesystem::path directory,
+                   ModelNotes &notes);
 
-    /// The material, with the name given. Throws `Error` (bad input) naming the material and what is wrong
-    /// with it, an image that is missing among them.
+    /// The material, with the name given. Throws `Error` (bad input) naming the material and what
+    /// is wrong with it, an image that is missing among them.
     std::shared_ptr<MaterialCore> material(const aiMaterial &source, const std::string &name);
 
     /// The textures made so far, by file and placement.

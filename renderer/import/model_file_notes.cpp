@@ -23,9 +23,10 @@ void ModelNotes::add(const std::string &text, const std::string &name) {
 void ModelNotes::tell() const {
     for (const auto &[text, objects] : notes_) {
         const std::string names =
-            objects.count == 0 ? ""
-                               : fmt::format(" ({}: {}{})", objects.count, fmt::join(objects.first, ", "),
-                                             objects.count > objects.first.size() ? ", ..." : "");
+            objects.count == 0
+                ? ""
+                : fmt::format(" ({}: {}{})", objects.count, fmt::join(objects.first, ", "),
+                              objects.count > objects.first.size() ? ", ..." : "");
         notice(fmt::format("{}: {}{}", file_, text, names));
     }
 }

@@ -8,7 +8,8 @@
 
 namespace rtrays {
 
-/// What an import leaves out or changes: each kind is told once, however many objects it happened to.
+/// What an import leaves out or changes: each kind is told once, however many objects it happened
+/// to.
 class ModelNotes {
   public:
     explicit ModelNotes(std::string file) : file_(std::move(file)) {}

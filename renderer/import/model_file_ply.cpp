@@ -76,7 +76,8 @@ Scalar scalar_of(const std::string &name) {
     throw input_error(fmt::format("header: '{}' is no type of a PLY file", shown(name)));
 }
 
-/// The property of a line "property TYPE NAME" or "property list TYPE TYPE NAME" after its first word.
+/// The property of a line "property TYPE NAME" or "property list TYPE TYPE NAME" after its first
+/// word.
 PlyProperty parse_property(std::istringstream &words) {
     PlyProperty property;
     std::string type;
@@ -124,7 +125,8 @@ PlyHeader parse_header(const std::string &content) {
             const std::string formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
             const auto *const found = std::find(std::begin(formats), std::end(formats), format);
             if (found == std::end(formats)) {
-                throw input_error(fmt::format("header: '{}' is no format of a PLY file", shown(format)));
+                throw input_error(
+                    fmt::format("header: '{}' is no format of a PLY file", shown(format)));
             }
             header.encoding = static_cast<Encoding>(found - std::begin(formats));
             has_format = true;
@@ -132,9 +134,12 @@ PlyHeader parse_header(const std::string &content) {
             PlyElement element;
             std::string count;
             words >> element.name >> count;
-            const auto parsed = std::from_chars(count.data(), count.data() + count.size(), element.count);
-            if (count.empty() || parsed.ec != std::errc() || parsed.ptr != count.data() + count.size()) {
-                throw input_error(fmt::format("header: '{}' is no number of elements", shown(count)));
+            const auto parsed =
+                std::from_chars(count.data(), count.data() + count.size(), element.count);
+            if (count.empty() || parsed.ec != std::errc() ||
+                parsed.ptr != count.data() + count.size()) {
+                throw input_error(
+                    fmt::format("header: '{}' is no number of elements", shown(count)));
             }
             for (const PlyElement &before : header.elements) {
                 if (before.name == element.name) {
@@ -151,14 +156,15 @@ PlyHeader parse_header(const std::string &content) {
             properties.push_back(parse_property(words));
             for (size_t i = 0; i + 1 < properties.size(); ++i) {
                 if (properties[i].name == properties.back().name) {
-                    throw input_error(
-                        fmt::format("header: there are two properties '{}'", shown(properties[i].name)));
+                    throw input_error(fmt::format("header: there are two properties '{}'",
+                                                  shown(properties[i].name)));
                 }
             }
         } else if (keyword == "end_header") {
             break;
         } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-            throw input_error(fmt::format("header: '{}' is no keyword of a PLY file", shown(keyword)));
+            throw input_error(
+                fmt::format("header: '{}' is no keyword of a PLY file", shown(keyword)));
         }
     }
     if (!has_format) {
@@ -183,7 +189,8 @@ class AsciiData {
         if (parsed.ec == std::errc::result_out_of_range) {
             value = 0;  // as small as no float is; one as large is caught below, with its vertex
             const std::string_view digits(at_, static_cast<size_t>(parsed.ptr - at_));
-            if (digits.find("e-") == std::string_view::npos && digits.find("E-") == std::string_view::npos) {
+            if (digits.find("e-") == std::string_view::npos &&
+                digits.find("E-") == std::string_view::npos) {
                 value = HUGE_VAL;
             }
         } else if (parsed.ec != std::errc()) {
@@ -194,7 +201,9 @@ class AsciiData {
     }
 
     /// A row takes at least a digit per number and what is between them.
-    static uint64_t smallest_row(const PlyElement &element) { return 2 * element.properties.size(); }
+    static uint64_t smallest_row(const PlyElement &element) {
+        return 2 * element.properties.size();
+    }
 
     size_t left() const {
         return static_cast<size_t>(end_ - at_) + 1;
@@ -208,7 +217,8 @@ class AsciiData {
 template <bool swapped>
 class BinaryData {
   public:
-    explicit BinaryData(std::string_view data) : at_(data.data()), end_(data.data() + data.size()) {}
+    explicit BinaryData(std::string_view data)
+        : at_(data.data()), end_(data.data() + data.size()) {}
 
     double next(Scalar scalar) {
         switch (scalar) {
@@ -235,7 +245,8 @@ class BinaryData {
     static uint64_t smallest_row(const PlyElement &element) {
         uint64_t size = 0;
         for (const PlyProperty &property : element.properties) {
-            size += scalars[static_cast<size_t>(property.list_count.value_or(property.scalar))].size;
+            size +=
+                scalars[static_cast<size_t>(property.list_count.value_or(property.scalar))].size;
         }
         return size;
     }
@@ -280,8 +291,9 @@ struct Rows {
 
 enum Coordinate { x, y, z, nx, ny, nz, u, v, coordinate_count, unknown = coordinate_count };
 constexpr std::pair<const char *, Coordinate> coordinate_names[] = {
-    {"x", x}, {"y", y}, {"z", z}, {"nx", nx},       {"ny", ny},       {"nz", nz},       {"u", u},
-    {"v", v}, {"s", u}, {"t", v}, {"texture_u", u}, {"texture_v", v}, {"texture_s", u}, {"texture_t", v}};
+    {"x", x},         {"y", y},         {"z", z},         {"nx", nx},      {"ny", ny},
+    {"nz", nz},       {"u", u},         {"v", v},         {"s", u},        {"t", v},
+    {"texture_u", u}, {"texture_v", v}, {"texture_s", u}, {"texture_t", v}};
 
 template <typename Data>
 class BodyReader {
@@ -334,8 +346,9 @@ class BodyReader {
     }
 
     void skip(const PlyProperty &property) {
-        const uint32_t count =
-            property.list_count ? index_of(data_.next(*property.list_count), "length of a list") : 1;
+        const uint32_t count = property.list_count
+                                   ? index_of(data_.next(*property.list_count), "length of a list")
+                                   : 1;
         for (uint32_t i = 0; i < count; ++i) {
             data_.next(property.scalar);
         }
@@ -441,7 +454,8 @@ class BodyReader {
     Rows rows_;
 };
 
-Rows read_rows(const PlyHeader &header, std::string_view data, ModelNotes &notes, Progress &progress) {
+Rows read_rows(const PlyHeader &header, std::string_view data, ModelNotes &notes,
+               Progress &progress) {
     const auto read = [&](auto source) {
         return BodyReader<decltype(source)>(source, notes, progress, data.size()).read(header);
     };
@@ -473,7 +487,8 @@ PlyFile read_ply(const std::filesystem::path &path, ModelNotes &notes, bool quie
         file.geometry.triangles.reserve(rows.corner_count.size());
         const uint32_t *corners = rows.corners.data();
         for (size_t face = 0; face < rows.corner_count.size(); ++face) {
-            const size_t added = add_face(corners, rows.corner_count[face], face, name, file.geometry, notes);
+            const size_t added =
+                add_face(corners, rows.corner_count[face], face, name, file.geometry, notes);
             corners += rows.corner_count[face];
             if (!rows.material.empty()) {
                 file.material.insert(file.material.end(), added, rows.material.at(face));

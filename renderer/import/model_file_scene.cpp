@@ -37,7 +37,8 @@ Vector3d vector(const aiColor3D &c) {
 
 Matrix4d matrix(const aiMatrix4x4 &m) {
     Matrix4d result;
-    result << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
+    result << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
+        m.d3, m.d4;
     return result;
 }
 
@@ -56,9 +57,9 @@ struct ModelSource {
     Vector3d position(const aiCamera &camera) const {
         return is_gltf() ? Vector3d(Vector3d::Zero()) : vector(camera.mPosition);
     }
-    /// The angle of view along x. Assimp 5.2.5 multiplies that along y of glTF by the aspect ratio, which is
-    /// no angle of anything, and loses that of Collada cameras without a name: 45 degrees, made radians
-    /// twice.
+    /// The angle of view along x. Assimp 5.2.5 multiplies that along y of glTF by the aspect ratio,
+    /// which is no angle of anything, and loses that of Collada cameras without a name: 45 degrees,
+    /// made radians twice.
     double fov(const aiCamera &camera) const {
         const double stated = static_cast<double>(camera.mHorizontalFOV);
         const double aspect = camera.mAspect > 0 ? static_cast<double>(camera.mAspect) : 1;
@@ -79,8 +80,8 @@ ModelSource open_model(const std::filesystem::path &path, bool quiet) {
 }
 
 /// The triangles of one mesh; none when it consists of points and lines.
-MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh, const std::string &name,
-                               unsigned channel, ModelNotes &notes) {
+MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
+                               const std::string &name, unsigned channel, ModelNotes &notes) {
     MeshCore::Geometry geometry;
     const bool has_normals = mesh.HasNormals() && !source.is_stl();
     const bool has_uvs = mesh.HasTextureCoords(channel);
@@ -95,7 +96,8 @@ MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh, co
         }
     }
     for (unsigned face = 0; face < mesh.mNumFaces; ++face) {
-        add_face(mesh.mFaces[face].mIndices, mesh.mFaces[face].mNumIndices, face, name, geometry, notes);
+        add_face(mesh.mFaces[face].mIndices, mesh.mFaces[face].mNumIndices, face, name, geometry,
+                 notes);
     }
     if (mesh.HasVertexColors(0)) {
         notes.add("colours of vertices are left out", name);
@@ -112,8 +114,8 @@ MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh, co
 const aiMesh &mesh_at(const ModelSource &source, unsigned index) {
     if (index >= source.scene->mNumMeshes ||
         source.scene->mMeshes[index]->mMaterialIndex >= source.scene->mNumMaterials) {
-        throw input_error(
-            fmt::format("{}: a mesh or a material is missing; the file is damaged", source.path.string()));
+        throw input_error(fmt::format("{}: a mesh or a material is missing; the file is damaged",
+                                      source.path.string()));
     }
     return *source.scene->mMeshes[index];
 }
@@ -150,26 +152,29 @@ class SceneWriter {
   private:
     /// Nodes by way of a list: a chain of them may be longer than the call stack.
     void write_nodes() {
-        std::vector<std::pair<const aiNode *, Node *>> pending{{model_.mRootNode, &scene_.graph().root()}};
+        std::vector<std::pair<const aiNode *, Node *>> pending{
+            {model_.mRootNode, &scene_.graph().root()}};
         while (!pending.empty()) {
             const auto [from, parent] = pending.back();
             pending.pop_back();
             const std::string wanted = from->mName.C_Str();
             Node *node = nullptr;
             try {
-                node = &add_model_node(*parent, names_.unique(wanted, "node"), matrix(from->mTransformation));
+                node = &add_model_node(*parent, names_.unique(wanted, "node"),
+                                       matrix(from->mTransformation));
             } catch (const Error &) {
-                notes_.add("nodes whose transform cannot be inverted are left out, with all below them",
-                           wanted);
+                notes_.add(
+                    "nodes whose transform cannot be inverted are left out, with all below them",
+                    wanted);
                 continue;
             }
             nodes_.emplace(wanted, node);
             for (unsigned i = 0; i < from->mNumMeshes; ++i) {
                 // A node has one geometry.
-                Node &holder =
-                    from->mNumMeshes == 1
-                        ? *node
-                        : add_model_node(*node, names_.unique(node->name(), "mesh"), Matrix4d::Identity());
+                Node &holder = from->mNumMeshes == 1
+                                   ? *node
+                                   : add_model_node(*node, names_.unique(node->name(), "mesh"),
+                                                    Matrix4d::Identity());
                 write_mesh(from->mMeshes[i], holder);
             }
             for (unsigned i = from->mNumChildren; i > 0; --i) {
@@ -181,10 +186,12 @@ class SceneWriter {
     void write_mesh(unsigned index, Node &node) {
         const aiMesh &mesh = mesh_at(source_, index);
         const aiMaterial &material = *model_.mMaterials[mesh.mMaterialIndex];
-        const std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : fmt::format("mesh {}", index);
+        const std::string name =
+            mesh.mName.length > 0 ? mesh.mName.C_Str() : fmt::format("mesh {}", index);
         std::shared_ptr<MeshCore> &core = mesh_cores_[index];
         if (core == nullptr) {
-            MeshCore::Geometry geometry = geometry_of(source_, mesh, name, uv_channel(material), notes_);
+            MeshCore::Geometry geometry =
+                geometry_of(source_, mesh, name, uv_channel(material), notes_);
             if (geometry.triangles.empty()) {
                 notes_.add("meshes without triangles are left out", name);
                 return;
@@ -193,9 +200,10 @@ class SceneWriter {
         }
         std::shared_ptr<MaterialCore> &made = material_cores_[mesh.mMaterialIndex];
         if (made == nullptr) {
-            made = source_.is_stl() ? default_model_material()
-                                    : materials_.material(material, material_names_.unique(
-                                                                        material_name(material), "material"));
+            made = source_.is_stl()
+                       ? default_model_material()
+                       : materials_.material(
+                             material, material_names_.unique(material_name(material), "material"));
             scene_.graph().share("materials." + made->name(), made);
         }
         if (!made->parameters().textures().empty() && core->uvs().empty()) {
@@ -214,7 +222,8 @@ class SceneWriter {
     /// A node of its own for a light or a camera, placed in that of its name.
     Node &placed(const aiString &name, const char *what, const Matrix4d &transform) {
         Node &node = owner(name);
-        return add_model_node(node, names_.unique(fmt::format("{} {}", name.C_Str(), what), what), transform);
+        return add_model_node(node, names_.unique(fmt::format("{} {}", name.C_Str(), what), what),
+                              transform);
     }
 
     static Matrix4d pose(const Vector3d &position, const Vector3d &direction, const Vector3d &up) {
@@ -239,21 +248,24 @@ class SceneWriter {
             notes_.add("ambient lights and those without direction or size are left out", name);
             return;
         }
-        const bool falls_off = light.mType == aiLightSource_POINT || light.mType == aiLightSource_SPOT;
+        const bool falls_off =
+            light.mType == aiLightSource_POINT || light.mType == aiLightSource_SPOT;
         if (falls_off && (light.mAttenuationConstant != 0 || light.mAttenuationLinear != 0)) {
             notes_.add(
-                "lights fall off with the square of the distance, whatever the file says; their colours are "
+                "lights fall off with the square of the distance, whatever the file says; their "
+                "colours are "
                 "taken as W/sr",
                 name);
         }
         if (light.mType == aiLightSource_POINT) {
             Node &node = placed(light.mName, "light", translation(position));
-            node.set_core(
-                std::make_shared<LightCore>(node.name(), "point", ParameterValues{{"intensity", colour}}));
+            node.set_core(std::make_shared<LightCore>(node.name(), "point",
+                                                      ParameterValues{{"intensity", colour}}));
             return;
         }
         // An area light faces +z, the others shine along -z.
-        Matrix4d transform = pose(position, is_area ? Vector3d(-direction) : direction, vector(light.mUp));
+        Matrix4d transform =
+            pose(position, is_area ? Vector3d(-direction) : direction, vector(light.mUp));
         if (is_area) {
             transform = transform * scaling({0.5 * light.mSize.x, 0.5 * light.mSize.y, 1});
         }
@@ -274,7 +286,8 @@ class SceneWriter {
 
     ParameterValues spot(const aiLight &light, const Vector3d &colour) {
         constexpr double widest = 90;
-        constexpr double softest = 0.99;  // the light falls off between the cones: they cannot be one
+        constexpr double softest =
+            0.99;  // the light falls off between the cones: they cannot be one
         const double to_degrees = source_.half_angle() * 180 / pi;
         double outer = to_degrees * light.mAngleOuterCone;
         if (outer > widest) {
@@ -293,15 +306,16 @@ class SceneWriter {
             notes_.add("cameras without an angle of view are left out", name);
             return;
         }
-        Node &node =
-            placed(camera.mName, "camera", pose(source_.position(camera), direction, vector(camera.mUp)));
+        Node &node = placed(camera.mName, "camera",
+                            pose(source_.position(camera), direction, vector(camera.mUp)));
         node.set_core(std::make_shared<CameraCore>(
             node.name(), "pinhole",
             ParameterValues{{"fov", fov * 180 / pi}, {"fov_axis", std::string("x")}}));
         if (has_camera_) {
             notes_.add("of several cameras the first is used; the others are kept", name);
         } else if (camera.mAspect > 0) {
-            const double height = std::round(scene_.film_width() / static_cast<double>(camera.mAspect));
+            const double height =
+                std::round(scene_.film_width() / static_cast<double>(camera.mAspect));
             scene_.set_film_size(scene_.film_width(),
                                  static_cast<int>(std::min(std::max(height, 1.0), 4096.0)));
         }
@@ -333,7 +347,8 @@ auto with_file(const std::filesystem::path &path, const Body &body) {
 
 }  // namespace
 
-MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &notes, bool quiet) {
+MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &notes,
+                                       bool quiet) {
     const ModelSource source = open_model(path, quiet);
     return with_file(path, [&] {
         MeshCore::Geometry geometry;
@@ -345,7 +360,8 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
             pending.pop_back();
             for (unsigned i = 0; i < node->mNumMeshes; ++i) {
                 const aiMesh &mesh = mesh_at(source, node->mMeshes[i]);
-                append_geometry(geometry, geometry_of(source, mesh, mesh.mName.C_Str(), 0, notes), transform);
+                append_geometry(geometry, geometry_of(source, mesh, mesh.mName.C_Str(), 0, notes),
+                                transform);
             }
             for (unsigned i = node->mNumChildren; i > 0; --i) {
                 pending.emplace_back(node->mChildren[i - 1], transform);
@@ -356,8 +372,8 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
     });
 }
 
-void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names, ModelNotes &notes,
-                      bool quiet) {
+void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
+                      ModelNotes &notes, bool quiet) {
     ModelSource source = open_model(path, quiet);
     with_file(path, [&] { SceneWriter(std::move(source), scene, names, notes).write(); });
 }
@@ -374,7 +390,8 @@ std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::files
             if (i == 0 && material_name(source) == AI_DEFAULT_MATERIAL_NAME) {
                 continue;  // that of the triangle the file was read by
             }
-            made.push_back(materials.material(source, names.unique(material_name(source), "material")));
+            made.push_back(
+                materials.material(source, names.unique(material_name(source), "material")));
             scene.graph().share("materials." + made.back()->name(), made.back());
         }
         for (const auto &entry : materials.textures()) {

@@ -20,11 +20,12 @@ namespace rtrays {
 bool assimp_reads(const std::string &extension);
 
 /// All triangles of the file, placed by its nodes.
-MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &notes, bool quiet);
+MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &notes,
+                                       bool quiet);
 
 /// Adds the nodes, meshes, materials, lights and cameras of the file to an empty scene.
-void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names, ModelNotes &notes,
-                      bool quiet);
+void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
+                      ModelNotes &notes, bool quiet);
 
 /// The materials of an MTL file, in its order, shared by the scene.
 std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path,

@@ -10,9 +10,9 @@ namespace rtrays {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path &path) {
-    throw input_error(
-        fmt::format("{}: this build reads no such file; configure with -DRTRAYS_MODELS=ON (needs Assimp)",
-                    path.string()));
+    throw input_error(fmt::format(
+        "{}: this build reads no such file; configure with -DRTRAYS_MODELS=ON (needs Assimp)",
+        path.string()));
 }
 
 }  // namespace
@@ -26,12 +26,13 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
     refuse(path);
 }
 
-void read_model_scene(const std::filesystem::path &path, Scene &, ModelNames &, ModelNotes &, bool) {
+void read_model_scene(const std::filesystem::path &path, Scene &, ModelNames &, ModelNotes &,
+                      bool) {
     refuse(path);
 }
 
-std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path, Scene &,
-                                                                ModelNotes &) {
+std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path,
+                                                                Scene &, ModelNotes &) {
     refuse(path);
 }
 

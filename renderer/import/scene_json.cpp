@@ -26,7 +26,8 @@ namespace rtrays {
 
 namespace {
 
-/// Builds the graph from a document that the schema has accepted; what a schema cannot say is checked here.
+/// Builds the graph from a document that the schema has accepted; what a schema cannot say is
+/// checked here.
 class SceneReader {
   public:
     SceneReader(const Json &document, SceneSource source, Scene &scene)
@@ -62,8 +63,9 @@ class SceneReader {
             if (document_.contains("camera")) {
                 scene_.set_active_camera(document_.at("camera"));
             } else if (cameras.size() > 1) {
-                throw input_error(fmt::format("the scene has several cameras; choose one by \"camera\": {}",
-                                              fmt::join(cameras, ", ")));
+                throw input_error(
+                    fmt::format("the scene has several cameras; choose one by \"camera\": {}",
+                                fmt::join(cameras, ", ")));
             }
         });
     }
@@ -83,7 +85,8 @@ class SceneReader {
     }
 
     template <typename Map>
-    typename Map::mapped_type reference(const Map &shared, const std::string &name, const char *what) const {
+    typename Map::mapped_type reference(const Map &shared, const std::string &name,
+                                        const char *what) const {
         const auto found = shared.find(name);
         if (found == shared.end()) {
             std::vector<std::string> names;
@@ -102,17 +105,20 @@ class SceneReader {
         const auto lookup = [this](const Json &texture, const std::string &texture_name,
                                    const std::string &at) {
             return texture.is_string()
-                       ? source_.located(at, [&] { return reference(textures_, texture, "texture"); })
+                       ? source_.located(at,
+                                         [&] { return reference(textures_, texture, "texture"); })
                        : read_texture(texture, texture_name, source_, at, files_);
         };
         return read_material(value, name, source_, path, lookup);
     }
 
-    std::shared_ptr<LightCore> light(const Json &value, const std::string &name, const std::string &path) {
+    std::shared_ptr<LightCore> light(const Json &value, const std::string &name,
+                                     const std::string &path) {
         const LightType &type = find_type(light_types(), value.at("type"), "light");
         if (type.kind != LightArrays::Kind::environment) {
             return std::make_shared<LightCore>(
-                name, type.name, parameter_values(value, type.name, type.parameters, {}, source_, path));
+                name, type.name,
+                parameter_values(value, type.name, type.parameters, {}, source_, path));
         }
         check_keys(value, type.name, {"file"}, {"scale"});
         const ParameterValues values =
@@ -123,10 +129,12 @@ class SceneReader {
         });
     }
 
-    std::shared_ptr<CameraCore> camera(const Json &value, const std::string &name, const std::string &path) {
+    std::shared_ptr<CameraCore> camera(const Json &value, const std::string &name,
+                                       const std::string &path) {
         const CoreType &type = find_type(camera_types(), value.at("type"), "camera");
         return std::make_shared<CameraCore>(
-            name, type.name, parameter_values(value, type.name, type.parameters, {}, source_, path));
+            name, type.name,
+            parameter_values(value, type.name, type.parameters, {}, source_, path));
     }
 
     void read_nodes(const Json &nodes, const std::string &path, Node &parent) {
@@ -140,15 +148,16 @@ class SceneReader {
         Node &node = *source_.located(path + "/name", [&] {
             if (name.find('.') != std::string::npos) {
                 throw input_error(fmt::format(
-                    "'{}': a name must not contain a dot, which separates it from its properties", name));
+                    "'{}': a name must not contain a dot, which separates it from its properties",
+                    name));
             }
             return &parent.add_child(std::make_unique<Node>(name));
         });
         const auto with = [&](const char *key, const auto &build) {
             if (value.contains(key)) {
                 const std::string at = path + "/" + key;
-                node.set_core(
-                    source_.located(at, [&]() -> std::shared_ptr<Core> { return build(value.at(key), at); }));
+                node.set_core(source_.located(
+                    at, [&]() -> std::shared_ptr<Core> { return build(value.at(key), at); }));
             }
         };
         // Every node gets these two, so that each can be moved and hidden by name.
@@ -182,8 +191,8 @@ class SceneReader {
 Scene parse_scene_json(const std::string &text, const std::string &source_name,
                        const std::string &default_name, const std::filesystem::path &directory) {
     const Json document = parse_json(text, source_name);
-    validate_json(document, std::string(embedded::scene_schemas().text("scene.schema.json")), source_name,
-                  text);
+    validate_json(document, std::string(embedded::scene_schemas().text("scene.schema.json")),
+                  source_name, text);
     Scene scene;
     scene.set_name(document.value("name", default_name));
     SceneReader reader(document, {text, source_name, directory}, scene);

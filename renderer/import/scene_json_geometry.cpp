@@ -16,14 +16,15 @@ namespace rtrays {
 
 namespace {
 
-void add_polygon(const Json &polygon, size_t index, const std::string &name, MeshCore::Geometry &geometry) {
+void add_polygon(const Json &polygon, size_t index, const std::string &name,
+                 MeshCore::Geometry &geometry) {
     std::vector<uint32_t> corners;
     for (const Json &item : polygon) {
         const auto corner = item.get<uint64_t>();
         if (corner >= geometry.vertices.size()) {
             throw input_error(
-                fmt::format("mesh '{}': polygon {} has vertex {}, but there are only {} vertices", name,
-                            index, corner, geometry.vertices.size()));
+                fmt::format("mesh '{}': polygon {} has vertex {}, but there are only {} vertices",
+                            name, index, corner, geometry.vertices.size()));
         }
         corners.push_back(static_cast<uint32_t>(corner));
     }
@@ -35,8 +36,8 @@ void add_polygon(const Json &polygon, size_t index, const std::string &name, Mes
     }
 }
 
-std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name, const SceneSource &source,
-                                const std::string &path) {
+std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name,
+                                const SceneSource &source, const std::string &path) {
     check_keys(value, "mesh", {"vertices", "polygons"}, {"normals", "uvs"});
     MeshCore::Geometry geometry;
     for (const Json &vertex : value.at("vertices")) {
@@ -59,34 +60,38 @@ std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name, cons
             add_polygon(polygons[i], i, name, geometry);
         }
     } catch (const Error &error) {
-        source.located(fmt::format("{}/polygons/{}", path, i), [&]() -> void { throw Error(error); });
+        source.located(fmt::format("{}/polygons/{}", path, i),
+                       [&]() -> void { throw Error(error); });
     }
     return std::make_shared<MeshCore>(name, std::move(geometry));
 }
 
-std::shared_ptr<Core> read_morph(const Json &value, const std::string &name, const SceneSource &source,
-                                 const std::string &path) {
+std::shared_ptr<Core> read_morph(const Json &value, const std::string &name,
+                                 const SceneSource &source, const std::string &path) {
     check_keys(value, "morph", {"keyframes"}, {});
     std::vector<MorphedMesh::Key> keys;
     const Json &keyframes = value.at("keyframes");
     for (size_t i = 0; i < keyframes.size(); ++i) {
         const std::string at = fmt::format("{}/keyframes/{}/geometry", path, i);
-        const std::shared_ptr<Core> core = read_geometry(keyframes[i].at("geometry"), name, source, at);
+        const std::shared_ptr<Core> core =
+            read_geometry(keyframes[i].at("geometry"), name, source, at);
         const auto *mesh = dynamic_cast<const MeshCore *>(core.get());
         if (mesh == nullptr || mesh->is_animated()) {
             source.located(at, [&]() -> void {
-                throw input_error(fmt::format("mesh '{}': keyframe {} is no mesh, file, rectangle or box", name, i));
+                throw input_error(fmt::format(
+                    "mesh '{}': keyframe {} is no mesh, file, rectangle or box", name, i));
             });
         }
-        keys.push_back({keyframes[i].at("time"), {mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()}});
+        keys.push_back({keyframes[i].at("time"),
+                        {mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()}});
     }
     return std::make_shared<MorphedMesh>(name, std::move(keys));
 }
 
 }  // namespace
 
-std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, const SceneSource &source,
-                                    const std::string &path) {
+std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name,
+                                    const SceneSource &source, const std::string &path) {
     return source.located(path, [&]() -> std::shared_ptr<Core> {
         const std::string type = value.at("type");
         if (type == "mesh") {
@@ -109,8 +114,8 @@ std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, 
             return std::make_shared<MeshCore>(name, type == "box" ? box() : rectangle());
         }
         const ShapeType &shape = find_type(shape_types(), type, "geometry");
-        return std::make_shared<ShapeCore>(name, type,
-                                           parameter_values(value, type, shape.parameters, {}, source, path));
+        return std::make_shared<ShapeCore>(
+            name, type, parameter_values(value, type, shape.parameters, {}, source, path));
     });
 }
 

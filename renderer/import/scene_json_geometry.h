@@ -9,8 +9,9 @@
 
 namespace rtrays {
 
-/// Geometry of any type: a mesh or a shape. Throws `Error` (bad input) naming source, line and path.
-std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name, const SceneSource &source,
-                                    const std::string &path);
+/// Geometry of any type: a mesh or a shape. Throws `Error` (bad input) naming source, line and
+/// path.
+std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name,
+                                    const SceneSource &source, const std::string &path);
 
 }  // namespace rtrays

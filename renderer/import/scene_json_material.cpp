@@ -13,9 +13,11 @@ namespace {
 
 const std::string texture_suffix = "_texture";
 
-/// The "NAME_texture" members of `object` by the parameter NAME of the table, and their keys into `keys`.
-ParameterTextures read_textures(const Json &object, const ParameterTable &table, const std::string &prefix,
-                                const std::string &name, const std::string &path, const TextureLookup &lookup,
+/// The "NAME_texture" members of `object` by the parameter NAME of the table, and their keys into
+/// `keys`.
+ParameterTextures read_textures(const Json &object, const ParameterTable &table,
+                                const std::string &prefix, const std::string &name,
+                                const std::string &path, const TextureLookup &lookup,
                                 std::vector<std::string> &keys) {
     ParameterTextures textures;
     for (const Parameter &parameter : table) {
@@ -25,8 +27,8 @@ ParameterTextures read_textures(const Json &object, const ParameterTable &table,
         const std::string key = parameter.name.substr(prefix.size()) + texture_suffix;
         keys.push_back(key);
         if (object.contains(key)) {
-            textures[parameter.name] =
-                lookup(object.at(key), name + "." + parameter.name + texture_suffix, path + "/" + key);
+            textures[parameter.name] = lookup(
+                object.at(key), name + "." + parameter.name + texture_suffix, path + "/" + key);
         }
     }
     return textures;
@@ -64,8 +66,8 @@ std::shared_ptr<MaterialCore> read_composite(const Json &value, const std::strin
         parts.push_back(part);
     }
     const std::shared_ptr<const MaterialType> type = composite_type(parts);
-    ParameterValues values =
-        parameter_values(value, "composite", common_material_parameters(), {"components"}, source, path);
+    ParameterValues values = parameter_values(value, "composite", common_material_parameters(),
+                                              {"components"}, source, path);
     ParameterTextures textures;
     for (size_t i = 0; i < parts.size(); ++i) {
         const std::string at = fmt::format("{}/components/{}", path, i);
@@ -73,7 +75,8 @@ std::shared_ptr<MaterialCore> read_composite(const Json &value, const std::strin
         const std::string fresnel_prefix = prefix + "fresnel_";
         const Json &component = components[i];
         std::vector<std::string> others = {"bxdf", "fresnel"};
-        textures.merge(read_textures(component, type->parameters, prefix, name, at, lookup, others));
+        textures.merge(
+            read_textures(component, type->parameters, prefix, name, at, lookup, others));
 
         ParameterTable rows;
         for (Parameter &row : without_prefix(type->parameters, prefix)) {
@@ -81,12 +84,14 @@ std::shared_ptr<MaterialCore> read_composite(const Json &value, const std::strin
                 rows.push_back(std::move(row));
             }
         }
-        add_with_prefix(parameter_values(component, parts[i].bxdf, rows, others, source, at), prefix, values);
+        add_with_prefix(parameter_values(component, parts[i].bxdf, rows, others, source, at),
+                        prefix, values);
         if (component.contains("fresnel")) {
-            add_with_prefix(parameter_values(component.at("fresnel"), parts[i].fresnel + " Fresnel term",
-                                             without_prefix(type->parameters, fresnel_prefix), {}, source,
-                                             at + "/fresnel"),
-                            fresnel_prefix, values);
+            add_with_prefix(
+                parameter_values(component.at("fresnel"), parts[i].fresnel + " Fresnel term",
+                                 without_prefix(type->parameters, fresnel_prefix), {}, source,
+                                 at + "/fresnel"),
+                fresnel_prefix, values);
         }
     }
     return std::make_shared<MaterialCore>(name, type, values, textures);
@@ -94,14 +99,16 @@ std::shared_ptr<MaterialCore> read_composite(const Json &value, const std::strin
 
 }  // namespace
 
-std::shared_ptr<Texture> read_texture(const Json &value, const std::string &name, const SceneSource &source,
-                                      const std::string &path, TextureFiles &files) {
-    const ParameterValues values =
-        parameter_values(value, "texture", Texture::parameter_table(), {"file", "encoding"}, source, path);
+std::shared_ptr<Texture> read_texture(const Json &value, const std::string &name,
+                                      const SceneSource &source, const std::string &path,
+                                      TextureFiles &files) {
+    const ParameterValues values = parameter_values(value, "texture", Texture::parameter_table(),
+                                                    {"file", "encoding"}, source, path);
     return source.located(path + "/file", [&] {
         const TextureEncoding encoding =
             value.at("encoding") == "srgb" ? TextureEncoding::srgb : TextureEncoding::linear;
-        return std::make_shared<Texture>(name, files.load(source.file(value.at("file")), encoding), values);
+        return std::make_shared<Texture>(name, files.load(source.file(value.at("file")), encoding),
+                                         values);
     });
 }
 

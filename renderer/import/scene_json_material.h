@@ -11,13 +11,15 @@
 
 namespace rtrays {
 
-/// A texture of the scene file. Throws `Error` (bad input) naming source, line, path and image file.
-std::shared_ptr<Texture> read_texture(const Json &value, const std::string &name, const SceneSource &source,
-                                      const std::string &path, TextureFiles &files);
+/// A texture of the scene file. Throws `Error` (bad input) naming source, line, path and image
+/// file.
+std::shared_ptr<Texture> read_texture(const Json &value, const std::string &name,
+                                      const SceneSource &source, const std::string &path,
+                                      TextureFiles &files);
 
 /// Finds or reads what stands where a texture may: its name or itself.
-using TextureLookup = std::function<std::shared_ptr<Texture>(const Json &value, const std::string &name,
-                                                             const std::string &path)>;
+using TextureLookup = std::function<std::shared_ptr<Texture>(
+    const Json &value, const std::string &name, const std::string &path)>;
 
 /// A material of any type. Throws `Error` (bad input) naming source, line and path.
 std::shared_ptr<MaterialCore> read_material(const Json &value, const std::string &name,

@@ -23,7 +23,8 @@ Eigen::Matrix4d operation(const Json &value) {
         return scaling(vector3(argument));
     }
     if (name == "rotate") {
-        return rotation(vector3(argument.at("axis")), argument.at("degrees").get<double>() * degree);
+        return rotation(vector3(argument.at("axis")),
+                        argument.at("degrees").get<double>() * degree);
     }
     if (name == "look_at") {
         return look_at(vector3(argument.at("origin")), vector3(argument.at("target")),
@@ -39,7 +40,8 @@ Eigen::Matrix4d operation(const Json &value) {
 }
 
 /// The product of a list of operations.
-Eigen::Matrix4d read_operations(const Json &operations, const SceneSource &source, const std::string &path) {
+Eigen::Matrix4d read_operations(const Json &operations, const SceneSource &source,
+                                const std::string &path) {
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     for (size_t i = 0; i < operations.size(); ++i) {
         source.located(fmt::format("{}/{}", path, i), [&] {
@@ -55,8 +57,9 @@ std::shared_ptr<TransformCore> read_animation(const Json &keyframes, const std::
                                               const SceneSource &source, const std::string &path) {
     std::vector<Keyframe> keys;
     for (size_t i = 0; i < keyframes.size(); ++i) {
-        keys.push_back({keyframes[i].at("time"), read_operations(keyframes[i].at("transform"), source,
-                                                                 fmt::format("{}/{}/transform", path, i))});
+        keys.push_back(
+            {keyframes[i].at("time"), read_operations(keyframes[i].at("transform"), source,
+                                                      fmt::format("{}/{}/transform", path, i))});
     }
     return source.located(path, [&] { return std::make_shared<AnimatedTransform>(name, keys); });
 }
@@ -68,16 +71,17 @@ std::shared_ptr<TransformCore> read_transform(const Json &node, const std::strin
     if (node.contains("animation")) {
         if (node.contains("transform")) {
             source.located(path, [&]() -> void {
-                throw input_error(
-                    fmt::format("'{}' has a transform and an animation: an animated node stands where its "
-                                "keyframes put it; give the transform to a node above or below",
-                                name));
+                throw input_error(fmt::format(
+                    "'{}' has a transform and an animation: an animated node stands where its "
+                    "keyframes put it; give the transform to a node above or below",
+                    name));
             });
         }
         return read_animation(node.at("animation"), name, source, path + "/animation");
     }
     const std::string at = path + "/transform";
-    const Eigen::Matrix4d matrix = read_operations(node.value("transform", Json::array()), source, at);
+    const Eigen::Matrix4d matrix =
+        read_operations(node.value("transform", Json::array()), source, at);
     return source.located(at, [&] { return std::make_shared<TransformCore>(name, matrix); });
 }
 

@@ -9,8 +9,8 @@
 
 namespace rtrays {
 
-/// The "transform" or the "animation" of a node, the identity when it has neither. Throws `Error` (bad input)
-/// naming source, line and path.
+/// The "transform" or the "animation" of a node, the identity when it has neither. Throws `Error`
+/// (bad input) naming source, line and path.
 std::shared_ptr<TransformCore> read_transform(const Json &node, const std::string &name,
                                               const SceneSource &source, const std::string &path);
 

@@ -16,7 +16,9 @@ struct FromJson {
 
     bool operator()(bool &value) const { return json.is_boolean() && (json.get_to(value), true); }
     bool operator()(double &value) const { return json.is_number() && (json.get_to(value), true); }
-    bool operator()(std::string &value) const { return json.is_string() && (json.get_to(value), true); }
+    bool operator()(std::string &value) const {
+        return json.is_string() && (json.get_to(value), true);
+    }
     bool operator()(Eigen::Matrix4d &) const { return false; }  // no table has one
     template <int size>
     bool operator()(Eigen::Matrix<double, size, 1> &value) const {
@@ -24,9 +26,9 @@ struct FromJson {
             value.setConstant(json.get<double>());
             return size < 4;
         }
-        const bool numbers =
-            json.is_array() && json.size() == size &&
-            std::all_of(json.begin(), json.end(), [](const Json &item) { return item.is_number(); });
+        const bool numbers = json.is_array() && json.size() == size &&
+                             std::all_of(json.begin(), json.end(),
+                                         [](const Json &item) { return item.is_number(); });
         for (int i = 0; numbers && i < size; ++i) {
             value[i] = json[static_cast<size_t>(i)].get<double>();
         }
@@ -41,8 +43,8 @@ bool contains(const std::vector<std::string> &names, const std::string &name) {
 [[noreturn]] void unknown_key(const std::string &key, const std::string &type,
                               std::vector<std::string> allowed) {
     std::sort(allowed.begin(), allowed.end());
-    throw input_error(
-        fmt::format("unknown key '{}' of the {}; allowed: {}", key, type, fmt::join(allowed, ", ")));
+    throw input_error(fmt::format("unknown key '{}' of the {}; allowed: {}", key, type,
+                                  fmt::join(allowed, ", ")));
 }
 
 }  // namespace
@@ -60,7 +62,8 @@ PropertyValue parameter_value(const Json &value, const Parameter &parameter) {
     return result;
 }
 
-ParameterValues parameter_values(const Json &object, const std::string &type, const ParameterTable &table,
+ParameterValues parameter_values(const Json &object, const std::string &type,
+                                 const ParameterTable &table,
                                  const std::vector<std::string> &others, const SceneSource &source,
                                  const std::string &path) {
     ParameterValues values;
@@ -70,9 +73,9 @@ ParameterValues parameter_values(const Json &object, const std::string &type, co
             continue;
         }
         source.located(path + "/" + key, [&] {
-            const auto found = std::find_if(table.begin(), table.end(), [&](const Parameter &parameter) {
-                return parameter.name == key;
-            });
+            const auto found =
+                std::find_if(table.begin(), table.end(),
+                             [&](const Parameter &parameter) { return parameter.name == key; });
             if (found == table.end()) {
                 std::vector<std::string> allowed = others;
                 for (const Parameter &parameter : table) {
@@ -88,7 +91,8 @@ ParameterValues parameter_values(const Json &object, const std::string &type, co
     return values;
 }
 
-void check_keys(const Json &object, const std::string &type, const std::vector<std::string> &required,
+void check_keys(const Json &object, const std::string &type,
+                const std::vector<std::string> &required,
                 const std::vector<std::string> &optional) {
     for (const std::string &key : required) {
         if (!object.contains(key)) {

@@ -34,7 +34,9 @@ struct SceneSource {
         }
     }
 
-    std::filesystem::path file(const Json &value) const { return directory / value.get<std::string>(); }
+    std::filesystem::path file(const Json &value) const {
+        return directory / value.get<std::string>();
+    }
 
   private:
     /// An error that already says where.
@@ -45,20 +47,22 @@ struct SceneSource {
 
 Eigen::Vector3d vector3(const Json &value);
 
-/// `value` as the type of the parameter; one number stands for all of two or three equal ones. Throws `Error`
-/// (bad input) when it is of another type.
+/// `value` as the type of the parameter; one number stands for all of two or three equal ones.
+/// Throws `Error` (bad input) when it is of another type.
 PropertyValue parameter_value(const Json &value, const Parameter &parameter);
 
-/// The members of `object` as values of the parameters of the same name; "type" and those in `others` are
-/// somebody else's. Throws `Error` (bad input) with source, line and path for a key that the table does not
-/// have, naming `type` and the keys that it has, and for a value that is illegal.
-ParameterValues parameter_values(const Json &object, const std::string &type, const ParameterTable &table,
+/// The members of `object` as values of the parameters of the same name; "type" and those in
+/// `others` are somebody else's. Throws `Error` (bad input) with source, line and path for a key
+/// that the table does not have, naming `type` and the keys that it has, and for a value that is
+/// illegal.
+ParameterValues parameter_values(const Json &object, const std::string &type,
+                                 const ParameterTable &table,
                                  const std::vector<std::string> &others, const SceneSource &source,
                                  const std::string &path);
 
-/// Throws `Error` (bad input) naming `type` and the key when `object` lacks one of `required` or has one that
-/// is neither of them nor in `optional`.
-void check_keys(const Json &object, const std::string &type, const std::vector<std::string> &required,
-                const std::vector<std::string> &optional);
+/// Throws `Error` (bad input) naming `type` and the key when `object` lacks one of `required` or
+/// has one that is neither of them nor in `optional`.
+void check_keys(const Json &object, const std::string &type,
+                const std::vector<std::string> &required, const std::vector<std::string> &optional);
 
 }  // namespace rtrays

@@ -30,9 +30,10 @@ Function *image_function(const char *name, const std::filesystem::path &path) {
     }();
     if (module == nullptr) {
         throw file_error(
-            path, fmt::format("this build knows no images: there is no {} beside the program; configure "
-                              "with -DRTRAYS_TEXTURES=ON (needs OpenImageIO)",
-                              image_module_name));
+            path,
+            fmt::format("this build knows no images: there is no {} beside the program; configure "
+                        "with -DRTRAYS_TEXTURES=ON (needs OpenImageIO)",
+                        image_module_name));
     }
     return reinterpret_cast<Function *>(dlsym(module, name));
 }
@@ -45,8 +46,9 @@ void check_texels(const TextureImage &image, const std::filesystem::path &path) 
             const auto width = static_cast<size_t>(image.width);
             throw file_error(
                 path,
-                fmt::format("texel ({}, {}) has the {} value {}: texels must be finite and not negative",
-                            i / 3 % width, i / 3 / width, channels[i % 3], value));
+                fmt::format(
+                    "texel ({}, {}) has the {} value {}: texels must be finite and not negative",
+                    i / 3 % width, i / 3 / width, channels[i % 3], value));
         }
     }
 }
@@ -99,7 +101,8 @@ void write_texture_file(const TextureImage &image, const std::filesystem::path &
 
 std::shared_ptr<const TextureImage> TextureFiles::load(const std::filesystem::path &path,
                                                        TextureEncoding encoding) {
-    std::shared_ptr<const TextureImage> &image = images_[{std::filesystem::weakly_canonical(path), encoding}];
+    std::shared_ptr<const TextureImage> &image =
+        images_[{std::filesystem::weakly_canonical(path), encoding}];
     if (image == nullptr) {
         image = load_texture_file(path, encoding);
     }

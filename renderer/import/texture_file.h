@@ -13,10 +13,10 @@ namespace rtrays {
 /// How the numbers of an image file stand for linear values.
 enum class TextureEncoding { srgb, linear };
 
-/// Reads an image (PNG, JPEG, TIFF, EXR, HDR, ... as OpenImageIO does): the channels R, G and B, or one grey
-/// one for all three; alpha is dropped. 8 bits stay 8 bits, everything else becomes linear floats. Throws
-/// `Error` (bad input) naming the file when it is missing, damaged or empty, has other channels, values that
-/// are negative or not finite, or is of floats and said to be sRGB.
+/// Reads an image (PNG, JPEG, TIFF, EXR, HDR, ... as OpenImageIO does): the channels R, G and B, or
+/// one grey one for all three; alpha is dropped. 8 bits stay 8 bits, everything else becomes linear
+/// floats. Throws `Error` (bad input) naming the file when it is missing, damaged or empty, has
+/// other channels, values that are negative or not finite, or is of floats and said to be sRGB.
 std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::path &path,
                                                       TextureEncoding encoding);
 
@@ -28,12 +28,14 @@ void write_texture_file(const TextureImage &image, const std::filesystem::path &
 class TextureFiles {
   public:
     /// As `load_texture_file`.
-    std::shared_ptr<const TextureImage> load(const std::filesystem::path &path, TextureEncoding encoding);
+    std::shared_ptr<const TextureImage> load(const std::filesystem::path &path,
+                                             TextureEncoding encoding);
 
     size_t loaded() const { return images_.size(); }
 
   private:
-    std::map<std::pair<std::filesystem::path, TextureEncoding>, std::shared_ptr<const TextureImage>> images_;
+    std::map<std::pair<std::filesystem::path, TextureEncoding>, std::shared_ptr<const TextureImage>>
+        images_;
 };
 
 }  // namespace rtrays

@@ -19,8 +19,8 @@ double turn(const Vector2d &a, const Vector2d &b, const Vector2d &c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// The corners in the plane of the polygon, scaled to its size and counter-clockwise; empty when it has no
-/// area.
+/// The corners in the plane of the polygon, scaled to its size and counter-clockwise; empty when it
+/// has no area.
 std::vector<Vector2d> project(const std::vector<Eigen::Vector3d> &vertices,
                               const std::vector<uint32_t> &corners) {
     const size_t n = corners.size();
@@ -62,7 +62,8 @@ bool is_convex(const std::vector<Vector2d> &points) {
             return false;
         }
     }
-    // Turning left throughout is not enough: a pentagram does too. Every diagonal of the fan must turn left.
+    // Turning left throughout is not enough: a pentagram does too. Every diagonal of the fan must
+    // turn left.
     for (size_t i = 1; i + 1 < n; ++i) {
         if (turn(points[0], points[i], points[i + 1]) < 0) {
             return false;
@@ -71,8 +72,8 @@ bool is_convex(const std::vector<Vector2d> &points) {
     return true;
 }
 
-/// Whether the corner at `at` of what is left can be cut off: it turns left (or not at all) and no other
-/// corner lies in its triangle.
+/// Whether the corner at `at` of what is left can be cut off: it turns left (or not at all) and no
+/// other corner lies in its triangle.
 bool is_ear(const std::vector<Vector2d> &points, const std::vector<uint32_t> &left, size_t at) {
     const size_t n = left.size();
     const Vector2d &a = points[left[(at + n - 1) % n]];
@@ -100,8 +101,8 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d> &vertices,
     }
     for (const uint32_t corner : corners) {
         if (corner >= vertices.size()) {
-            throw input_error(
-                fmt::format("has corner {}, but there are only {} vertices", corner, vertices.size()));
+            throw input_error(fmt::format("has corner {}, but there are only {} vertices", corner,
+                                          vertices.size()));
         }
     }
     const std::vector<Vector2d> points =

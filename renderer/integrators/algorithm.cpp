@@ -9,11 +9,13 @@
 
 namespace rtrays {
 
-std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features, uint32_t light_count,
-                                   uint32_t light_vertices, bool apart) {
-    features = features.with(Feature::vertex_joins, features.has(Feature::vertex_joins) &&
-                                                        algorithm == "bdpt" && light_vertices > 0)
-                   .with(Feature::branches, features.has(Feature::branches) && algorithm == "whitted");
+std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features,
+                                   uint32_t light_count, uint32_t light_vertices, bool apart) {
+    features =
+        features
+            .with(Feature::vertex_joins,
+                  features.has(Feature::vertex_joins) && algorithm == "bdpt" && light_vertices > 0)
+            .with(Feature::branches, features.has(Feature::branches) && algorithm == "whitted");
     const FeatureMask camera = features.with(Feature::from_light, false).closed();
     const FeatureMask light = features.with(Feature::from_light)
                                   .with(Feature::light_strategy, algorithm != "light_tracing")

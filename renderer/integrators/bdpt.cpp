@@ -11,10 +11,11 @@ namespace rtrays {
 namespace {
 
 /// A round whose paths all start in the first, with more stages before its paths are extended.
-std::vector<RoundStage> with_stages(std::vector<RoundStage> round, const std::vector<RoundStage> &stages) {
+std::vector<RoundStage> with_stages(std::vector<RoundStage> round,
+                                    const std::vector<RoundStage> &stages) {
     round.front().rounds = 1;
-    const auto extend =
-        std::find_if(round.begin(), round.end(), [](const RoundStage &s) { return s.name == "extend_path"; });
+    const auto extend = std::find_if(round.begin(), round.end(),
+                                     [](const RoundStage &s) { return s.name == "extend_path"; });
     round.insert(extend, stages.begin(), stages.end());
     return round;
 }
@@ -25,7 +26,8 @@ std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t li
                               uint32_t light_vertices, bool apart) {
     std::vector<RoundStage> joins;
     for (uint32_t vertex = 0; vertex < light_vertices; ++vertex) {
-        // Both ends together have as many scattering events as the longest path that all strategies find.
+        // Both ends together have as many scattering events as the longest path that all strategies
+        // find.
         const uint32_t rounds = light_vertices - vertex;
         joins.push_back({"connect_vertices", vertex, rounds});
         joins.push_back({"intersect_any", SELECT_LIGHT, rounds});
@@ -37,8 +39,9 @@ std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t li
     }
     if (apart) {
         const FeatureMask joined_only = camera.with(Feature::explicit_light, false);
-        passes.push_back(
-            {"joins", camera, with_stages(path_tracing_round(joined_only, light_count, false), joins), false});
+        passes.push_back({"joins", camera,
+                          with_stages(path_tracing_round(joined_only, light_count, false), joins),
+                          false});
     }
     passes.insert(passes.begin(), {"light", light,
                                    with_stages(light_tracing_round(light),

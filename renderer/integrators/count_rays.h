@@ -5,8 +5,8 @@
 
 namespace rtrays {
 
-/// The same rounds with stages that count their rays by depth (thesis table 4.2 gives rays after one bounce), where
-/// the totals are counted.
+/// The same rounds with stages that count their rays by depth (thesis table 4.2 gives rays after
+/// one bounce), where the totals are counted.
 std::vector<Pass> counting_passes(std::vector<Pass> passes);
 
 }  // namespace rtrays

@@ -11,7 +11,8 @@ std::vector<RoundStage> light_tracing_round(FeatureMask features) {
         round.push_back({"end_shadow_rays"});
     };
     const bool emitters = features.has(Feature::area_lights) || features.has(Feature::shape_lights);
-    if (emitters && (features.has(Feature::light_emitters) || !features.has(Feature::light_strategy))) {
+    if (emitters &&
+        (features.has(Feature::light_emitters) || !features.has(Feature::light_strategy))) {
         connect("connect_emitter");  // emitters seen directly
     }
     if (features.has(Feature::scattering)) {

@@ -3,13 +3,16 @@
 
 namespace rtrays {
 
-std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count, bool adds_hits,
-                                           const std::string &secondary) {
-    std::vector<RoundStage> round = {{"generate_camera_rays"}, {"begin_round"}, {"intersect_nearest"}};
-    const bool emitters = features.has(Feature::area_lights) || features.has(Feature::shape_lights) ||
+std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count,
+                                           bool adds_hits, const std::string &secondary) {
+    std::vector<RoundStage> round = {
+        {"generate_camera_rays"}, {"begin_round"}, {"intersect_nearest"}};
+    const bool emitters = features.has(Feature::area_lights) ||
+                          features.has(Feature::shape_lights) ||
                           features.has(Feature::infinite_lights);
     if ((emitters && adds_hits) || features.has(Feature::light_strategy)) {
-        round.push_back({"evaluate_emission"});  // implicit paths, and emitters seen directly; the ratio R_0
+        round.push_back(
+            {"evaluate_emission"});  // implicit paths, and emitters seen directly; the ratio R_0
     }
     if (features.has(Feature::explicit_light)) {
         const bool independent = features.has(Feature::independent_lights);
@@ -29,9 +32,11 @@ std::vector<Pass> path_tracing_passes(FeatureMask features, uint32_t light_count
         return {{"camera", features, path_tracing_round(features, light_count, true)}};
     }
     const FeatureMask hits = features.with(Feature::explicit_light, false);
-    std::vector<Pass> passes = {{"implicit", features, path_tracing_round(hits, light_count, true)}};
+    std::vector<Pass> passes = {
+        {"implicit", features, path_tracing_round(hits, light_count, true)}};
     if (features.has(Feature::explicit_light)) {
-        passes.push_back({"explicit", features, path_tracing_round(features, light_count, false), false});
+        passes.push_back(
+            {"explicit", features, path_tracing_round(features, light_count, false), false});
     }
     return passes;
 }

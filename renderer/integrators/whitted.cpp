@@ -8,8 +8,9 @@ namespace rtrays {
 
 std::vector<RoundStage> whitted_round(FeatureMask features, uint32_t light_count) {
     // Where nothing is a mirror or smooth glass, no path goes beyond its first hit.
-    return features.has(Feature::delta) ? path_tracing_round(features, light_count, true, "follow_branches")
-                                        : ray_casting_round(features, light_count);
+    return features.has(Feature::delta)
+               ? path_tracing_round(features, light_count, true, "follow_branches")
+               : ray_casting_round(features, light_count);
 }
 
 }  // namespace rtrays

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// One event of a path by the functions of the stages of its round and in their order, for the kernels in which a work-item
-// follows a path on its own (trace_paths.cl, finish_paths.cl): the image has the bits of the wavefront's. Such paths lie
-// in the work-item's own memory.
+// One event of a path by the functions of the stages of its round and in their order, for the
+// kernels in which a work-item follows a path on its own (trace_paths.cl, finish_paths.cl): the
+// image has the bits of the wavefront's. Such paths lie in the work-item's own memory.
 #pragma once
 
 #define PATH_STATES_PRIVATE 1
 
-// A header is pasted where it is named first, so that must not be a block that is off: what more than one stage needs comes
-// before the blocks of some features.
+// A header is pasted where it is named first, so that must not be a block that is off: what more
+// than one stage needs comes before the blocks of some features.
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/extend_path.cl"
 #include "renderer/kernels/intersect_nearest.cl"
@@ -16,9 +16,9 @@
 #if FEATURE_lights
 #include "renderer/kernels/light/light.h"
 #endif
-#define MEETS_LIGHT      \
-    (FEATURE_from_camera && \
-     (FEATURE_area_lights || FEATURE_shape_lights || FEATURE_infinite_lights || FEATURE_light_strategy))
+#define MEETS_LIGHT                                                         \
+    (FEATURE_from_camera && (FEATURE_area_lights || FEATURE_shape_lights || \
+                             FEATURE_infinite_lights || FEATURE_light_strategy))
 #if MEETS_LIGHT
 #include "renderer/kernels/evaluate_emission.cl"
 #endif
@@ -49,13 +49,17 @@ DEVICE void count_rays(GLOBAL StreamCounters *counters, RayCounts rays) {
 #if JOINS_LIGHT
 
 /// Joins the path's hit to a light, or to each of them.
-DEVICE void add_light_samples(PathStates paths, TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS
-                              IntegratorSettings settings, ulong first_sample, PRIVATE RayCounts *rays) {
+DEVICE void add_light_samples(PathStates paths,
+                              TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
+                                  LIGHT_PARAMETERS IntegratorSettings settings,
+                              ulong first_sample, PRIVATE RayCounts *rays) {
     const uint count = FEATURE_independent_lights ? lighting.light_count : 1u;
     for (uint light = 0u; light < count; ++light) {
         const uint chosen = FEATURE_independent_lights ? light : SELECT_LIGHT;
-        if (join_to_light(paths, 0u, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample, chosen)) {
-            add_unblocked(paths, 0u, GEOMETRY_ARGUMENTS get_ray_origin(paths, 0u), get_shadow_vector(paths, 0u));
+        if (join_to_light(paths, 0u, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings,
+                          first_sample, chosen)) {
+            add_unblocked(paths, 0u, GEOMETRY_ARGUMENTS get_ray_origin(paths, 0u),
+                          get_shadow_vector(paths, 0u));
             ++rays->shadow;
         }
     }
@@ -63,22 +67,27 @@ DEVICE void add_light_samples(PathStates paths, TRAVERSAL_PARAMETERS SURFACE_PAR
 
 #endif
 
-/// Takes the path in slot 0 one event on; that of a light path is not its first, which the camera may see, too. False
-/// when it ends there.
-DEVICE bool advance_path(PathStates paths, TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS
-                         MAYBE_UNUSED CameraRecord camera, MAYBE_UNUSED GLOBAL long *film, IntegratorSettings settings,
-                         ulong first_sample, PRIVATE RayCounts *rays, MAYBE_UNUSED GLOBAL StreamCounters *counters) {
+/// Takes the path in slot 0 one event on; that of a light path is not its first, which the camera
+/// may see, too. False when it ends there.
+DEVICE bool advance_path(PathStates paths,
+                         TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
+                             LIGHT_PARAMETERS MAYBE_UNUSED CameraRecord camera,
+                         MAYBE_UNUSED GLOBAL long *film, IntegratorSettings settings,
+                         ulong first_sample, PRIVATE RayCounts *rays,
+                         MAYBE_UNUSED GLOBAL StreamCounters *counters) {
     find_hit(paths, 0u, GEOMETRY_ARGUMENTS get_ray_origin(paths, 0u), get_ray_direction(paths, 0u));
     ++rays->nearest;
 #if MEETS_LIGHT
     add_emission(paths, 0u, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings);
 #endif
 #if JOINS_LIGHT
-    add_light_samples(paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample,
-                      rays);
+    add_light_samples(
+        paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings,
+        first_sample, rays);
 #endif
 #if FEATURE_from_light
-    if (join_hit(paths, 0u, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera, settings, first_sample)) {
+    if (join_hit(paths, 0u, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera, settings,
+                 first_sample)) {
         splat(paths, 0u, GEOMETRY_ARGUMENTS film, counters);
         ++rays->shadow;
     }

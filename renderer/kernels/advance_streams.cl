@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Stages that keep the counters of the streams. They know nothing of paths, so one program serves all scenes.
+// Stages that keep the counters of the streams. They know nothing of paths, so one program serves
+// all scenes.
 
 #include "renderer/kernels/stream.h"
 
-/// Stage reset_streams: all slots free, work taken up to `first_work`. Ray counts and errors are kept.
+/// Stage reset_streams: all slots free, work taken up to `first_work`. Ray counts and errors are
+/// kept.
 __kernel void reset_streams(uint first_work, STREAM_PARAMETERS) {
     const uint i = get_global_id(0);
     if (i < capacity) {

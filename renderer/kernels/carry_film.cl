@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stage carry_film: normalises the film's sums. One work-item per channel of a pixel and kind of sum.
-// Reads and writes: film. Runs where the sums might leave their words, and before they are read.
+// Stage carry_film: normalises the film's sums. One work-item per channel of a pixel and kind of
+// sum. Reads and writes: film. Runs where the sums might leave their words, and before they are
+// read.
 
 #include "renderer/kernels/film/film.h"
 

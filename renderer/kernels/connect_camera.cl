@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Stage connect_camera: joins the hit of each light path to a point of the lens ("light" paths of thesis 2.8).
-// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, log_strategies, active queue. Writes: ray_origin (now
-// that of the shadow ray), shadow_vector, shadow_radiance, splat_pixel; log_arrival. To: the shadow queue.
+// Stage connect_camera: joins the hit of each light path to a point of the lens ("light" paths of
+// thesis 2.8). Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, log_strategies,
+// active queue. Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance,
+// splat_pixel; log_arrival. To: the shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -19,8 +20,10 @@
 
 #if FEATURE_emission_density
 
-/// At the first hit: log2 of p_o,explicit / (p_o E), E being the density per area with which the path arrives.
-DEVICE float explicit_over_light(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS SurfaceHit hit) {
+/// At the first hit: log2 of p_o,explicit / (p_o E), E being the density per area with which the
+/// path arrives.
+DEVICE float explicit_over_light(PathStates paths, uint slot,
+                                 SURFACE_PARAMETERS LIGHT_PARAMETERS SurfaceHit hit) {
     const LightRecord light = lights[get_light(paths, slot)];
     SurfacePoint start;
     start.position = get_ray_origin(paths, slot);
@@ -34,7 +37,9 @@ DEVICE float explicit_over_light(PathStates paths, uint slot, SURFACE_PARAMETERS
     const float3 way = hit.point.position - start.position;
     const float squared = light.kind < LIGHT_DIRECTIONAL ? dot(way, way) : 1.0f;
     return get_log_arrival(paths, slot) +
-           log2_quotient(sampling_over_emission(SURFACE_ARGUMENTS light, hit.point.position, start) * squared, cosine);
+           log2_quotient(
+               sampling_over_emission(SURFACE_ARGUMENTS light, hit.point.position, start) * squared,
+               cosine);
 }
 
 #endif
@@ -51,14 +56,16 @@ DEVICE bool join_hit(PathStates paths, uint slot,
     const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
 #if FEATURE_emission_density
     if (depth == 0u) {
-        set_log_arrival(paths, slot, explicit_over_light(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS hit));
+        set_log_arrival(paths, slot,
+                        explicit_over_light(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS hit));
     }
 #endif
 #if FEATURE_vertex_joins
     if (depth > 0u) {
         const float3 from = hit.point.position - get_ray_origin(paths, slot);
         const float cosine = fabs(dot(hit.point.normal, get_ray_direction(paths, slot)));
-        set_log_arrival(paths, slot, log_inverse_pdf_a(get_pdf_w(paths, slot), cosine, dot(from, from)));
+        set_log_arrival(paths, slot,
+                        log_inverse_pdf_a(get_pdf_w(paths, slot), cosine, dot(from, from)));
     }
 #endif
 #if FEATURE_depth_limit
@@ -71,9 +78,10 @@ DEVICE bool join_hit(PathStates paths, uint slot,
         return false;
     }
 #endif
-    const uint4 words = path_sample(settings, get_pixel(paths, slot), first_sample + get_sample(paths, slot),
-                                    BLOCK_LIGHT(depth));
-    const CameraJoin join = join_camera(camera, hit.point.position, uniform_float(words.x), uniform_float(words.y));
+    const uint4 words = path_sample(settings, get_pixel(paths, slot),
+                                    first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
+    const CameraJoin join =
+        join_camera(camera, hit.point.position, uniform_float(words.x), uniform_float(words.y));
     if (!(join.pdf_w > 0.0f)) {
         return false;
     }
@@ -86,31 +94,38 @@ DEVICE bool join_hit(PathStates paths, uint slot,
     if (!(cos_wo > 0.0f && cos_wi > 0.0f)) {
         return false;
     }
-    // Radiance from wi to wo, as a camera path would have it. f_cos holds the cosine with the shading normal where the
-    // path's area measure has that with the geometric one (Veach 1997, 5.3).
-    const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, shading_frame(MATERIAL_ARGUMENTS hit, wo), wi);
+    // Radiance from wi to wo, as a camera path would have it. f_cos holds the cosine with the
+    // shading normal where the path's area measure has that with the geometric one (Veach
+    // 1997, 5.3).
+    const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
+                                         shading_frame(MATERIAL_ARGUMENTS hit, wo), wi);
     if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
         return false;
     }
-    const float camera_pdf_a = join.pdf_w * cos_wo / squared;  // P_1, the density of camera paths here
+    const float camera_pdf_a =
+        join.pdf_w * cos_wo / squared;  // P_1, the density of camera paths here
     const float light_paths = (float)settings.light_paths;
-    float3 radiance = get_throughput(paths, slot) * bsdf.f_cos * (camera_pdf_a / cos_wi / light_paths);
+    float3 radiance =
+        get_throughput(paths, slot) * bsdf.f_cos * (camera_pdf_a / cos_wi / light_paths);
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        // p_I / p_L and p_E / p_L: what the vertices before gave, and this one's densities (kernels/light/mis.h).
+        // p_I / p_L and p_E / p_L: what the vertices before gave, and this one's densities
+        // (kernels/light/mis.h).
         const float log_first = log2_quotient(camera_pdf_a, light_paths);
         const float log_back = log2_quotient(bsdf.pdf_w, cos_wi);
         const float log_arrival = get_log_arrival(paths, slot);
 #if FEATURE_vertex_joins
         if (all_strategies(settings, depth + 1u)) {
-            radiance *= join_weight(-INFINITY,
-                                    log_first + strategies_before(get_log_strategies(paths, slot), log_arrival, log_back,
-                                                                  settings.beta),
-                                    settings.beta);
+            radiance *=
+                join_weight(-INFINITY,
+                            log_first + strategies_before(get_log_strategies(paths, slot),
+                                                          log_arrival, log_back, settings.beta),
+                            settings.beta);
         } else
 #endif
         {
-            radiance *= light_path_weight(get_log_ratio(paths, slot), log_arrival, depth, log_back, log_first, settings.beta);
+            radiance *= light_path_weight(get_log_ratio(paths, slot), log_arrival, depth, log_back,
+                                          log_first, settings.beta);
         }
     }
 #endif
@@ -124,15 +139,18 @@ DEVICE bool join_hit(PathStates paths, uint slot,
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void connect_camera(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
+__kernel void connect_camera(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord
+                                 camera,
                              IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
-        if (join_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera, settings, first_sample)) {
+        const uint slot =
+            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
+        if (join_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera,
+                     settings, first_sample)) {
             push_slot(&shadow, slot);
         }
     }

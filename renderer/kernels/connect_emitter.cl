@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stage connect_emitter: joins the start of each new light path to the camera (emitters seen directly).
-// Reads: pixel, sample, active queue. Writes: shadow_vector, shadow_radiance, splat_pixel; ray_origin of the shadow ray is
-// that of the path.
-// To: the shadow queue.
+// Stage connect_emitter: joins the start of each new light path to the camera (emitters seen
+// directly). Reads: pixel, sample, active queue. Writes: shadow_vector, shadow_radiance,
+// splat_pixel; ray_origin of the shadow ray is that of the path. To: the shadow queue.
 
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/light/mis.h"
@@ -13,25 +12,29 @@
 #include "renderer/shared/scene_buffers.h"
 
 #if FEATURE_light_strategy
-#define SEEN_BY_CAMERA_ALONE ((settings.strategies & (STRATEGY_LIGHT | STRATEGY_LIGHT_EMITTERS)) == STRATEGY_LIGHT)
+#define SEEN_BY_CAMERA_ALONE \
+    ((settings.strategies & (STRATEGY_LIGHT | STRATEGY_LIGHT_EMITTERS)) == STRATEGY_LIGHT)
 #else
 #define SEEN_BY_CAMERA_ALONE false
 #endif
 
 /// Prepares the shadow ray. False when the camera does not look there.
-DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
+DEVICE bool join_start(PathStates paths, uint slot,
+                       SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
                        IntegratorSettings settings, ulong first_sample) {
     const uint path = get_pixel(paths, slot);
     const ulong sample = first_sample + get_sample(paths, slot);
     if (get_depth(paths, slot) > 0u || SEEN_BY_CAMERA_ALONE) {
         return false;
     }
-    const EmissionSample start = path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, sample);
+    const EmissionSample start =
+        path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, sample);
     if (start.is_delta != 0u || start.at_infinity != 0u) {
         return false;
     }
     const uint4 words = path_sample(settings, path, sample, BLOCK_CAMERA);
-    const CameraJoin join = join_camera(camera, start.point.position, uniform_float(words.x), uniform_float(words.y));
+    const CameraJoin join =
+        join_camera(camera, start.point.position, uniform_float(words.x), uniform_float(words.y));
     const float3 way = join.lens_point - start.point.position;
     const float squared = dot(way, way);
     const float facing = dot(start.point.normal, way);  // cos times distance
@@ -45,7 +48,8 @@ DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PAR
 #if FEATURE_light_emitters
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L of a path of one edge, kernels/light/mis.h.
-        radiance *= camera_path_weight(0.0f, log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
+        radiance *=
+            camera_path_weight(0.0f, log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
     }
 #endif
     set_shadow_vector(paths, slot, join.lens_point - start.origin);
@@ -54,14 +58,15 @@ DEVICE bool join_start(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PAR
     return true;
 }
 
-__kernel void connect_emitter(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera, IntegratorSettings settings,
-                           ulong first_sample, STREAM_PARAMETERS) {
+__kernel void connect_emitter(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
+                              IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
-        if (join_start(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS camera, settings, first_sample)) {
+        if (join_start(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS camera, settings,
+                       first_sample)) {
             push_slot(&shadow, slot);
         }
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Stage connect_vertices: joins the hit of each camera path to vertex `chosen` of the light path of the same
-// number.
-// Reads: hit, ray_direction, throughput, depth, log_arrival, log_strategies, light vertices, active queue.
-// Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance. To: the shadow queue.
+// Stage connect_vertices: joins the hit of each camera path to vertex `chosen` of the light path of
+// the same number. Reads: hit, ray_direction, throughput, depth, log_arrival, log_strategies, light
+// vertices, active queue. Writes: ray_origin (now that of the shadow ray), shadow_vector,
+// shadow_radiance. To: the shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -18,19 +18,20 @@
 
 /// What one end of a join has to do with it.
 typedef struct JoinEnd {
-    float3 f_cos;          ///< of radiance towards the camera: f |cos(ns)| of the direction from the light
-    float pdf_w;           ///< per solid angle, with which a path from this end goes to the other
-    float log_strategies;  ///< log2 of what this side adds to p_others / p_own, but for p_arrive (light/mis.h)
+    float3 f_cos;  ///< of radiance towards the camera: f |cos(ns)| of the direction from the light
+    float pdf_w;   ///< per solid angle, with which a path from this end goes to the other
+    float log_strategies;  ///< log2 of what this side adds to p_others / p_own, but for p_arrive
+                           ///< (light/mis.h)
 } JoinEnd;
 
-/// The end at `hit` of a path that came from direction `before` and is joined to what lies in direction
-/// `other`; both unit, away from it.
-DEVICE JoinEnd join_end(MATERIAL_PARAMETERS SurfaceHit hit, float3 before, float3 other, bool from_camera,
-                        float log_arrival, float log_strategies, float beta) {
-    const BsdfValue onwards =
-        bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, shading_frame(MATERIAL_ARGUMENTS hit, before), other);
-    const BsdfValue back =
-        bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, shading_frame(MATERIAL_ARGUMENTS hit, other), before);
+/// The end at `hit` of a path that came from direction `before` and is joined to what lies in
+/// direction `other`; both unit, away from it.
+DEVICE JoinEnd join_end(MATERIAL_PARAMETERS SurfaceHit hit, float3 before, float3 other,
+                        bool from_camera, float log_arrival, float log_strategies, float beta) {
+    const BsdfValue onwards = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
+                                            shading_frame(MATERIAL_ARGUMENTS hit, before), other);
+    const BsdfValue back = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
+                                         shading_frame(MATERIAL_ARGUMENTS hit, other), before);
     JoinEnd end;
     end.f_cos = from_camera ? onwards.f_cos : back.f_cos;
     end.pdf_w = onwards.pdf_w;
@@ -44,9 +45,10 @@ DEVICE bool is_black(float3 value) {
 }
 
 /// Prepares the shadow ray. False when there is nothing to gain.
-DEVICE bool join_to_vertex(
-    PathStates paths, uint slot,
-    SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS IntegratorSettings settings, uint chosen) {
+DEVICE bool join_to_vertex(PathStates paths, uint slot,
+                           SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS
+                               IntegratorSettings settings,
+                           uint chosen) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint events = get_depth(paths, slot) + chosen + 2u;
     if (primitive == NO_HIT || !all_strategies(settings, events)) {
@@ -57,8 +59,8 @@ DEVICE bool join_to_vertex(
         return false;
     }
 #endif
-    const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot), settings.light_paths,
-                                      paths.capacity);
+    const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot),
+                                      settings.light_paths, paths.capacity);
     const WordPlace place =
         light_vertex_place(vertex_words, paths.capacity, settings.light_vertices, row, chosen);
     if (!has_light_vertex(place)) {
@@ -80,33 +82,36 @@ DEVICE bool join_to_vertex(
     const float squared = dot(way, way);
     const float3 wi = way / sqrt(squared);
     const float3 wo = -get_ray_direction(paths, slot), from_light = -vertex.direction;
-    const float cos_here = fabs(dot(hit.point.normal, wi)), cos_there = fabs(dot(lit.point.normal, wi));
+    const float cos_here = fabs(dot(hit.point.normal, wi)),
+                cos_there = fabs(dot(lit.point.normal, wi));
     const float cos_arrived = fabs(dot(lit.point.normal, from_light));
-    // The same point twice is compared so that it counts as no join, and so is a hit in the plane of its
-    // surface.
+    // The same point twice is compared so that it counts as no join, and so is a hit in the plane
+    // of its surface.
     if (!(squared > 0.0f && cos_here > 0.0f && cos_there > 0.0f && cos_arrived > 0.0f &&
           fabs(dot(hit.point.normal, wo)) > 0.0f)) {
         return false;
     }
-    const JoinEnd here = join_end(MATERIAL_ARGUMENTS hit, wo, wi, true, get_log_arrival(paths, slot),
-                                  get_log_strategies(paths, slot), settings.beta);
+    const JoinEnd here =
+        join_end(MATERIAL_ARGUMENTS hit, wo, wi, true, get_log_arrival(paths, slot),
+                 get_log_strategies(paths, slot), settings.beta);
     if (is_black(here.f_cos)) {
         return false;
     }
-    const JoinEnd there = join_end(MATERIAL_ARGUMENTS lit, from_light, -wi, false, vertex.log_arrival,
-                                   vertex.log_strategies, settings.beta);
+    const JoinEnd there = join_end(MATERIAL_ARGUMENTS lit, from_light, -wi, false,
+                                   vertex.log_arrival, vertex.log_strategies, settings.beta);
     if (is_black(there.f_cos)) {
         return false;
     }
     // With which a path from either end arrives at the other, per area.
     const float log_here = log2_quotient(there.pdf_w, squared) + log2_of(cos_here);
     const float log_there = log2_quotient(here.pdf_w, squared) + log2_of(cos_there);
-    const float weight =
-        join_weight(log_here + here.log_strategies, log_there + there.log_strategies, settings.beta);
-    // As in connect_camera: f_cos there holds the cosine with the shading normal where the area measure of
-    // the light path has that with the geometric one (Veach 1997, 5.3). Where the way is short its weight,
-    // falling with d^(2 beta), comes before the quotient by d^2.
-    const float3 light = vertex.throughput * there.f_cos * (weight * cos_there / cos_arrived / squared);
+    const float weight = join_weight(log_here + here.log_strategies,
+                                     log_there + there.log_strategies, settings.beta);
+    // As in connect_camera: f_cos there holds the cosine with the shading normal where the area
+    // measure of the light path has that with the geometric one (Veach 1997, 5.3). Where the way is
+    // short its weight, falling with d^(2 beta), comes before the quotient by d^2.
+    const float3 light =
+        vertex.throughput * there.f_cos * (weight * cos_there / cos_arrived / squared);
     const float3 origin = offset_ray_origin(hit.point, wi);
     set_ray_origin(paths, slot, origin);
     set_shadow_vector(paths, slot, offset_ray_origin(lit.point, -wi) - origin);
@@ -121,8 +126,10 @@ __kernel void connect_vertices(SURFACE_PARAMETERS MATERIAL_PARAMETERS Integrator
     shadow.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
-        if (join_to_vertex(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings,
+        const uint slot =
+            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
+        if (join_to_vertex(paths, slot,
+                           SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings,
                            chosen)) {
             push_slot(&shadow, slot);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stages count_nearest_rays and count_shadow_rays: count the rays of the active paths, and of the shadow queue, by depth.
-// Reads: depth; active queue or shadow queue. Writes: ray counts.
+// Stages count_nearest_rays and count_shadow_rays: count the rays of the active paths, and of the
+// shadow queue, by depth. Reads: depth; active queue or shadow queue. Writes: ray counts.
 
 #include "renderer/kernels/film/film.h"
 #include "renderer/kernels/stream.h"
@@ -16,7 +16,8 @@ DEVICE void count_ray(GLOBAL long *counts, uint kind, uint depth) {
 __kernel void count_nearest_rays(GLOBAL long *ray_counts, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        count_ray(ray_counts, RAY_NEAREST, get_depth(paths, active_queue(queues, counters, capacity)[i]));
+        count_ray(ray_counts, RAY_NEAREST,
+                  get_depth(paths, active_queue(queues, counters, capacity)[i]));
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Stage evaluate_emission: adds what the hit of each active path, or the light at infinity, emits towards it: emitters
-// seen directly, and implicit paths.
-// Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, log_strategies, depth, active queue.
-// Writes: radiance, log_arrival; at the first hit log_ratio.
+// Stage evaluate_emission: adds what the hit of each active path, or the light at infinity, emits
+// towards it: emitters seen directly, and implicit paths. Reads: hit, ray_origin, ray_direction,
+// throughput, pdf_w, log_ratio, log_strategies, depth, active queue. Writes: radiance, log_arrival;
+// at the first hit log_ratio.
 
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
@@ -16,15 +16,17 @@
 /// What a path meets: radiance towards it, and how else it might have been found.
 typedef struct Emission {
     float3 radiance;
-    float explicit_pdf_w;  ///< density per solid angle with which light sampling at the vertex before would have found it
+    float explicit_pdf_w;  ///< density per solid angle with which light sampling at the vertex
+                           ///< before would have found it
 #if FEATURE_light_strategy
-    float line_pdf;        ///< p_o p_d of kernels/light/mis.h; of what the camera sees directly, p_o
+    float line_pdf;  ///< p_o p_d of kernels/light/mis.h; of what the camera sees directly, p_o
 #endif
 } Emission;
 
-/// False when nothing is emitted this way. The densities are set where the path may have been found otherwise:
-/// `by_light_sampling`, `by_light_path`.
-DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS bool by_light_sampling,
+/// False when nothing is emitted this way. The densities are set where the path may have been found
+/// otherwise: `by_light_sampling`, `by_light_path`.
+DEVICE bool emission_met(PathStates paths, uint slot,
+                         SURFACE_PARAMETERS LIGHT_PARAMETERS bool by_light_sampling,
                          MAYBE_UNUSED bool by_light_path, PRIVATE Emission *met) {
     const uint primitive = get_hit_primitive(paths, slot);
     const float3 direction = get_ray_direction(paths, slot);
@@ -37,12 +39,15 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
         }
         met->radiance = infinite_radiance(LIGHT_ARGUMENTS direction);
         if (by_light_sampling) {
-            met->explicit_pdf_w = lights[lighting.infinite_light].selection * infinite_pdf_w(LIGHT_ARGUMENTS direction);
+            met->explicit_pdf_w = lights[lighting.infinite_light].selection *
+                                  infinite_pdf_w(LIGHT_ARGUMENTS direction);
         }
 #if FEATURE_light_strategy
         if (by_light_path) {
             // What is infinitely far is not joined to the camera.
-            met->line_pdf = get_depth(paths, slot) > 0u ? infinite_line_pdf(LIGHT_ARGUMENTS from, direction) : 0.0f;
+            met->line_pdf = get_depth(paths, slot) > 0u
+                                ? infinite_line_pdf(LIGHT_ARGUMENTS from, direction)
+                                : 0.0f;
         }
 #endif
         return true;
@@ -58,14 +63,15 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     const LightRecord light = lights[light_of_hit(LIGHT_ARGUMENTS primitive, hit.emitter)];
     met->radiance = light_radiance(light);
     if (by_light_sampling) {
-        met->explicit_pdf_w =
-            light_pdf_a(SURFACE_ARGUMENTS LIGHT_ARGUMENTS light, primitive, hit.emitter, from, hit.point) *
-            solid_angle_per_area(hit.point.position - from, hit.point.normal);
+        met->explicit_pdf_w = light_pdf_a(SURFACE_ARGUMENTS LIGHT_ARGUMENTS light, primitive,
+                                          hit.emitter, from, hit.point) *
+                              solid_angle_per_area(hit.point.position - from, hit.point.normal);
     }
 #if FEATURE_light_strategy
     if (by_light_path) {
-        met->line_pdf = get_depth(paths, slot) > 0u ? emission_line_pdf(LIGHT_ARGUMENTS light, primitive, hit.emitter)
-                                                    : emission_pdf_a(LIGHT_ARGUMENTS light, primitive, hit.emitter);
+        met->line_pdf = get_depth(paths, slot) > 0u
+                            ? emission_line_pdf(LIGHT_ARGUMENTS light, primitive, hit.emitter)
+                            : emission_pdf_a(LIGHT_ARGUMENTS light, primitive, hit.emitter);
     }
 #endif
     return true;
@@ -76,13 +82,15 @@ DEVICE bool emission_met(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
 
 #if FEATURE_light_strategy
 
-/// Sets R_0 of kernels/light/mis.h at the first hit, A_i at every hit. There `pdf_w` is that of the ray.
+/// Sets R_0 of kernels/light/mis.h at the first hit, A_i at every hit. There `pdf_w` is that of the
+/// ray.
 DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings) {
     const uint primitive = get_hit_primitive(paths, slot);
     const bool first = get_depth(paths, slot) == 0u;
     float log_arrival = -INFINITY;
     if (primitive != NO_HIT) {
-        const SurfacePoint hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot)).point;
+        const SurfacePoint hit =
+            surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot)).point;
         const float3 way = hit.position - get_ray_origin(paths, slot);
         const float cosine = fabs(dot(hit.normal, get_ray_direction(paths, slot)));
         const float strategies = first ? (float)settings.light_paths : 1.0f;
@@ -98,7 +106,8 @@ DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSet
 
 #endif
 
-DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
+DEVICE void add_emission(PathStates paths, uint slot,
+                         SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
     bool by_light_sampling = false, by_light_path = false;
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
@@ -118,7 +127,8 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
 #if FEATURE_scattering
     if (get_depth(paths, slot) > 0u) {
 #if FEATURE_direction_density
-        // After a delta event light sampling had no chance: only implicit paths find this light, whatever the strategy.
+        // After a delta event light sampling had no chance: only implicit paths find this light,
+        // whatever the strategy.
         if (get_pdf_w(paths, slot) < INFINITY) {
             if ((settings.strategies & STRATEGY_IMPLICIT) == 0u) {
                 return;
@@ -131,7 +141,8 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     }
 #endif
     Emission met;
-    if (!emission_met(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS by_light_sampling, by_light_path, &met)) {
+    if (!emission_met(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS by_light_sampling,
+                      by_light_path, &met)) {
         return;
     }
     float3 radiance = met.radiance;
@@ -139,8 +150,10 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
     radiance *= get_throughput(paths, slot);
 #endif
 #if FEATURE_direction_density
-    // p_E / p_I of thesis (2.73), both per solid angle. The density of a sampled direction is positive.
-    const float by_explicit = by_light_sampling ? met.explicit_pdf_w / get_pdf_w(paths, slot) : 0.0f;
+    // p_E / p_I of thesis (2.73), both per solid angle. The density of a sampled direction is
+    // positive.
+    const float by_explicit =
+        by_light_sampling ? met.explicit_pdf_w / get_pdf_w(paths, slot) : 0.0f;
 #if FEATURE_light_strategy
     if (by_light_path) {
         float log_light = get_log_ratio(paths, slot);
@@ -153,7 +166,7 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
         radiance *= camera_path_weight(by_explicit, log_light, settings.beta);
     } else
 #endif
-    if (by_light_sampling) {
+        if (by_light_sampling) {
         radiance *= power_heuristic(by_explicit, settings.beta);
     }
 #endif
@@ -162,7 +175,8 @@ DEVICE void add_emission(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_P
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, STREAM_PARAMETERS) {
+__kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+                                STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);

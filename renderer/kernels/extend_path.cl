@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Stage extend_path: samples the next direction of each active path, or ends the path and adds it to the film.
-// Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray, throughput, pdf_w, log_ratio,
-// log_strategies, depth; film, half film.
-// To: the active queue of the next round, or the free queue.
+// Stage extend_path: samples the next direction of each active path, or ends the path and adds it
+// to the film. Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray,
+// throughput, pdf_w, log_ratio, log_strategies, depth; film, half film. To: the active queue of the
+// next round, or the free queue.
 
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/geometry/prefetch_hit.h"
@@ -21,7 +21,8 @@
 #include "renderer/kernels/bsdf/reverse.h"
 
 /// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
-DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
+DEVICE bool scatter(PathStates paths, uint slot,
+                    SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
                     ulong first_sample) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
@@ -29,23 +30,26 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
         return false;
     }
 #if FEATURE_depth_limit
-    // The ray of the last scattering event counts only where it may find light: implicit paths, or after a delta event.
-    // That event of a light path is the one that is joined to the camera.
+    // The ray of the last scattering event counts only where it may find light: implicit paths, or
+    // after a delta event. That event of a light path is the one that is joined to the camera.
 #if FEATURE_from_light
     const uint last_ray = 1u;
 #else
-    const uint last_ray = FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u ? 0u : 1u;
+    const uint last_ray =
+        FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u ? 0u : 1u;
 #endif
     if (depth + last_ray >= settings.max_depth) {
         return false;
     }
 #endif
     const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
-    const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
-    const uint4 words = path_sample(settings, get_pixel(paths, slot), first_sample + get_sample(paths, slot),
-                                    BLOCK_SCATTER(depth));
-    const BsdfSample sample = bsdf_sample(MATERIAL_ARGUMENTS hit.material, frame, uniform_float(words.w),
-                                          uniform_float(words.x), uniform_float(words.y));
+    const SurfaceFrame frame =
+        shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
+    const uint4 words = path_sample(settings, get_pixel(paths, slot),
+                                    first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
+    const BsdfSample sample =
+        bsdf_sample(MATERIAL_ARGUMENTS hit.material, frame, uniform_float(words.w),
+                    uniform_float(words.x), uniform_float(words.y));
     if (!(sample.pdf_w > 0.0f)) {
         return false;
     }
@@ -65,11 +69,12 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
     }
 #if FEATURE_roulette
     if (settings.termination == TERMINATION_ROULETTE) {
-        // Thesis 2.7.2: from the first bounce, continuation proportional to throughput. The bound below 1 ends
-        // paths between surfaces that absorb nothing; it is close to 1 because the variance is infinite where the
-        // squared albedo exceeds it. Left out of all MIS densities, kept in the contribution.
-        // Inside glass radiance is larger by eta^2, which the path loses again on its way out: that part is left out
-        // (PBRT 4th ed., 13.2.2). What a light path carries is measured by what it began with.
+        // Thesis 2.7.2: from the first bounce, continuation proportional to throughput. The bound
+        // below 1 ends paths between surfaces that absorb nothing; it is close to 1 because the
+        // variance is infinite where the squared albedo exceeds it. Left out of all MIS densities,
+        // kept in the contribution. Inside glass radiance is larger by eta^2, which the path loses
+        // again on its way out: that part is left out (PBRT 4th ed., 13.2.2). What a light path
+        // carries is measured by what it began with.
 #if FEATURE_roulette_scale
         const float scale = get_roulette_scale(paths, slot) * scale_change;
         set_roulette_scale(paths, slot, scale);
@@ -99,17 +104,20 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         const bool is_delta = !(sample.pdf_w < INFINITY);
 #if FEATURE_from_light
-        set_log_ratio(paths, slot,
-                      continue_light_ratio(get_log_ratio(paths, slot), get_log_arrival(paths, slot), depth, is_delta,
-                                           both.log_forward, both.log_ratio, settings.beta));
+        set_log_ratio(
+            paths, slot,
+            continue_light_ratio(get_log_ratio(paths, slot), get_log_arrival(paths, slot), depth,
+                                 is_delta, both.log_forward, both.log_ratio, settings.beta));
 #else
-        set_log_ratio(paths, slot, continue_camera_ratio(get_log_ratio(paths, slot), depth, is_delta, both.log_forward,
-                                                         both.log_ratio));
+        set_log_ratio(paths, slot,
+                      continue_camera_ratio(get_log_ratio(paths, slot), depth, is_delta,
+                                            both.log_forward, both.log_ratio));
 #endif
 #if FEATURE_vertex_joins
-        set_log_strategies(paths, slot,
-                           continue_strategies(get_log_strategies(paths, slot), get_log_arrival(paths, slot), is_delta,
-                                               both.log_forward, both.log_ratio, settings.beta));
+        set_log_strategies(
+            paths, slot,
+            continue_strategies(get_log_strategies(paths, slot), get_log_arrival(paths, slot),
+                                is_delta, both.log_forward, both.log_ratio, settings.beta));
 #endif
     }
 #endif
@@ -119,7 +127,8 @@ DEVICE bool scatter(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PAR
 #endif
 
 /// Adds a path that ends here to the film.
-DEVICE void end_path(PathStates paths, uint slot, GLOBAL long *film, HALF_FILM_PARAMETERS MAYBE_UNUSED ulong first_sample,
+DEVICE void end_path(PathStates paths, uint slot, GLOBAL long *film,
+                     HALF_FILM_PARAMETERS MAYBE_UNUSED ulong first_sample,
                      GLOBAL StreamCounters *counters) {
 #if FEATURE_from_camera
 #if FEATURE_convergence
@@ -134,15 +143,17 @@ DEVICE void end_path(PathStates paths, uint slot, GLOBAL long *film, HALF_FILM_P
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film, HALF_FILM_PARAMETERS
-                          IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
+__kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film,
+                          HALF_FILM_PARAMETERS IntegratorSettings settings, ulong first_sample,
+                          STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer extended, ended;
     extended.count = 0u;
     ended.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
+        const uint slot =
+            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
 #if FEATURE_scattering
         if (scatter(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS settings, first_sample)) {
             push_slot(&extended, slot);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Stage finish_paths: the round of the last few paths of a batch, in which a work-item takes one path FINISH_EVENTS events
-// on. Light caught in glass goes on for thousands of events, and then the launches of a round cost more than its paths.
-// Reads and writes: path states, active queue. Writes: film; ray counts. To: the active queue of the next round.
+// Stage finish_paths: the round of the last few paths of a batch, in which a work-item takes one
+// path FINISH_EVENTS events on. Light caught in glass goes on for thousands of events, and then the
+// launches of a round cost more than its paths. Reads and writes: path states, active queue.
+// Writes: film; ray counts. To: the active queue of the next round.
 
 #include "renderer/kernels/advance_path.h"
 #include "renderer/shared/finish_paths.h"
 
-__kernel void finish_paths(TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
-                           GLOBAL long *film, HALF_FILM_PARAMETERS IntegratorSettings settings, ulong first_sample,
-                           STREAM_PARAMETERS) {
+__kernel void finish_paths(TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
+                               LIGHT_PARAMETERS CameraRecord camera,
+                           GLOBAL long *film, HALF_FILM_PARAMETERS IntegratorSettings settings,
+                           ulong first_sample, STREAM_PARAMETERS) {
     const uint i = get_global_id(0);
     if (i >= active_count(counters)) {
         return;
@@ -22,8 +24,9 @@ __kernel void finish_paths(TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARA
     RayCounts rays = {0u, 0u};
     bool goes_on = true;
     for (uint event = 0u; goes_on && event < FINISH_EVENTS; ++event) {
-        goes_on = advance_path(paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera, film,
-                               settings, first_sample, &rays, counters);
+        goes_on = advance_path(
+            paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera,
+            film, settings, first_sample, &rays, counters);
     }
     count_rays(counters, rays);
     if (!goes_on) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Stage follow_branches: moves each active path on by ideal reflection or refraction: no direction is drawn, every such
-// component of every vertex has its turn. Where a path ends it comes back to the last vertex of which components are
-// left; the path is the tree of Whitted 1980, "An improved illumination model for shaded display", depth first, and what
-// its branches find adds up in one radiance. Departure: adaptive termination (Hall and Greenberg 1983) is a setting.
-// Reads: hit, ray_direction, throughput, depth, pending, active queue, branches. Writes: ray, throughput, pdf_w, depth,
-// pending, branches; film.
-// To: the active queue of the next round, or the free queue.
+// Stage follow_branches: moves each active path on by ideal reflection or refraction: no direction
+// is drawn, every such component of every vertex has its turn. Where a path ends it comes back to
+// the last vertex of which components are left; the path is the tree of Whitted 1980, "An improved
+// illumination model for shaded display", depth first, and what its branches find adds up in one
+// radiance. Departure: adaptive termination (Hall and Greenberg 1983) is a setting. Reads: hit,
+// ray_direction, throughput, depth, pending, active queue, branches. Writes: ray, throughput,
+// pdf_w, depth, pending, branches; film. To: the active queue of the next round, or the free queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -21,7 +21,8 @@
 #if FEATURE_delta && FEATURE_from_camera
 
 /// The hit of a path as a vertex of which no component was followed. False where none can be.
-DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settings, PRIVATE Branch *vertex) {
+DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settings,
+                          PRIVATE Branch *vertex) {
     vertex->hit_primitive = get_hit_primitive(paths, slot);
     vertex->depth = get_depth(paths, slot);
     vertex->component = 0u;
@@ -38,10 +39,12 @@ DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settin
     return true;
 }
 
-/// Follows the vertex' next ideal component that leads anywhere, and keeps the vertex if there are more. False when
-/// nothing is left.
-DEVICE bool follow(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS
-                   IntegratorSettings settings, Branch vertex) {
+/// Follows the vertex' next ideal component that leads anywhere, and keeps the vertex if there are
+/// more. False when nothing is left.
+DEVICE bool follow(PathStates paths, uint slot,
+                   SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS IntegratorSettings
+                       settings,
+                   Branch vertex) {
 #if FEATURE_shapes
     const float3 at = make_float3(vertex.hit_u, vertex.hit_v, vertex.hit_w);
 #else
@@ -51,7 +54,8 @@ DEVICE bool follow(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARA
     const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -vertex.direction);
     const MaterialRecord material = materials[hit.material];
     for (uint i = vertex.component; i < material.component_count; ++i) {
-        const BsdfSample sample = bsdf_delta(MATERIAL_ARGUMENTS material, frame, material.first_component + i);
+        const BsdfSample sample =
+            bsdf_delta(MATERIAL_ARGUMENTS material, frame, material.first_component + i);
         const float3 throughput = vertex.throughput * sample.weight;
         const float largest = max(throughput.x, max(throughput.y, throughput.z));
         if (!(sample.pdf_w > 0.0f && largest > 0.0f)) {
@@ -67,7 +71,9 @@ DEVICE bool follow(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARA
             // Depths grow along the stack: it holds at most one vertex for each below the limit.
             const uint pending = get_pending(paths, slot);
             vertex.component = i + 1u;
-            store_branch(record_place(branch_words, BRANCH_WORDS, paths.capacity, settings.max_depth, slot, pending), vertex);
+            store_branch(record_place(branch_words, BRANCH_WORDS, paths.capacity,
+                                      settings.max_depth, slot, pending),
+                         vertex);
             set_pending(paths, slot, pending + 1u);
         }
 #endif
@@ -85,19 +91,22 @@ DEVICE bool follow(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARA
 }
 
 /// Moves the path on, from its hit or from a vertex before. False when its tree is done.
-DEVICE bool next_branch(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS
-                        IntegratorSettings settings) {
+DEVICE bool next_branch(PathStates paths, uint slot,
+                        SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS IntegratorSettings
+                            settings) {
     Branch vertex;
     if (branch_of_hit(paths, slot, settings, &vertex) &&
-        follow(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings, vertex)) {
+        follow(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings,
+               vertex)) {
         return true;
     }
 #if FEATURE_branches
     for (uint pending = get_pending(paths, slot); pending > 0u; --pending) {
         set_pending(paths, slot, pending - 1u);
-        vertex = load_branch(
-            record_place(branch_words, BRANCH_WORDS, paths.capacity, settings.max_depth, slot, pending - 1u));
-        if (follow(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings, vertex)) {
+        vertex = load_branch(record_place(branch_words, BRANCH_WORDS, paths.capacity,
+                                          settings.max_depth, slot, pending - 1u));
+        if (follow(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings,
+                   vertex)) {
             return true;
         }
     }
@@ -105,15 +114,16 @@ DEVICE bool next_branch(PathStates paths, uint slot, SURFACE_PARAMETERS MATERIAL
     return false;
 }
 
-__kernel void follow_branches(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film, IntegratorSettings settings,
-                              BRANCH_PARAMETERS STREAM_PARAMETERS) {
+__kernel void follow_branches(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film,
+                              IntegratorSettings settings, BRANCH_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer extended, ended;
     extended.count = 0u;
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
-        if (next_branch(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings)) {
+        if (next_branch(paths, slot,
+                        SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings)) {
             push_slot(&extended, slot);
         } else {
             add_path(paths, slot, film, counters);

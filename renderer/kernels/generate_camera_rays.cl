@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stage generate_camera_rays: starts a camera path in every free slot while samples of the batch are left.
-// Reads: free queue, list of live pixels. Writes: path states. To: the active queue of this round.
+// Stage generate_camera_rays: starts a camera path in every free slot while samples of the batch
+// are left. Reads: free queue, list of live pixels. Writes: path states. To: the active queue of
+// this round.
 
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/sampling/sampler.h"
@@ -11,8 +12,8 @@
 #include "renderer/shared/scene_buffers.h"
 
 /// Starts sample `sample` of the batch in a pixel.
-DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, IntegratorSettings settings, ulong first_sample,
-                       uint pixel, uint sample) {
+DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera,
+                       IntegratorSettings settings, ulong first_sample, uint pixel, uint sample) {
     const uint4 words = path_sample(settings, pixel, first_sample + sample, BLOCK_CAMERA);
     const float x = (float)(pixel % camera.width) + uniform_float(words.x);
     const float y = (float)(pixel / camera.width) + uniform_float(words.y);
@@ -40,9 +41,11 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera, Integra
 #endif
 }
 
-/// Starts item `item` of a batch of `work`: the samples of a pixel follow each other, so that the sums of the film that they
-/// end in are in a cache. Paths that are joined to light paths go over all pixels sample by sample, as those do.
-DEVICE void start_item(PathStates paths, uint slot, CameraRecord camera, IntegratorSettings settings, ulong first_sample,
+/// Starts item `item` of a batch of `work`: the samples of a pixel follow each other, so that the
+/// sums of the film that they end in are in a cache. Paths that are joined to light paths go over
+/// all pixels sample by sample, as those do.
+DEVICE void start_item(PathStates paths, uint slot, CameraRecord camera,
+                       IntegratorSettings settings, ulong first_sample,
                        LIVE_PIXELS_PARAMETERS uint item, MAYBE_UNUSED uint work) {
     const uint pixels = LIVE_COUNT(camera.width * camera.height);
 #if FEATURE_vertex_joins
@@ -56,7 +59,8 @@ DEVICE void start_item(PathStates paths, uint slot, CameraRecord camera, Integra
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings, ulong first_sample, uint work,
+__kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings,
+                                   ulong first_sample, uint work,
                                    LIVE_PIXELS_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     const WorkItems items = take_work(counters);
@@ -64,7 +68,8 @@ __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings setti
     started.count = 0u;
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
-        start_item(paths, slot, camera, settings, first_sample, LIVE_PIXELS_ARGUMENTS items.first + i, work);
+        start_item(paths, slot, camera, settings, first_sample,
+                   LIVE_PIXELS_ARGUMENTS items.first + i, work);
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stage generate_light_paths: starts a light path in every free slot while light paths of the batch are left.
-// Reads: free queue. Writes: path states; rows of the light vertices, emptied. To: the active queue of this round.
+// Stage generate_light_paths: starts a light path in every free slot while light paths of the batch
+// are left. Reads: free queue. Writes: path states; rows of the light vertices, emptied. To: the
+// active queue of this round.
 
 #include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/light/mis.h"
@@ -15,36 +16,44 @@
 #include "renderer/shared/scene_buffers.h"
 
 /// Starts light path `path` of a sample of the batch.
-DEVICE void start_path(PathStates paths, uint slot, SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+DEVICE void start_path(PathStates paths, uint slot,
+                       SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
                        ulong first_sample, uint path, uint sample) {
     set_pixel(paths, slot, path);
     set_sample(paths, slot, sample);
     set_depth(paths, slot, 0u);
-    const EmissionSample emission = path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, first_sample + sample);
+    const EmissionSample emission =
+        path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, first_sample + sample);
     set_ray_origin(paths, slot, emission.origin);
     set_ray_direction(paths, slot, emission.direction);
 #if FEATURE_scattering
     set_throughput(paths, slot, emission.weight);
 #endif
 #if FEATURE_roulette_scale
-    set_roulette_scale(paths, slot, max(emission.weight.x, max(emission.weight.y, emission.weight.z)));
+    set_roulette_scale(paths, slot,
+                       max(emission.weight.x, max(emission.weight.y, emission.weight.z)));
 #endif
 #if FEATURE_emission_density
     set_light(paths, slot, emission.light);
-    // Directions leave surfaces in proportion to the cosine: p_d per projected solid angle is 1 / pi there. What cannot
-    // be hit no implicit path finds.
+    // Directions leave surfaces in proportion to the cosine: p_d per projected solid angle is 1 /
+    // pi there. What cannot be hit no implicit path finds.
     const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
-    const float log_ratio = emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
+    const float log_ratio =
+        emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
     set_log_ratio(paths, slot, log_ratio);
 #if FEATURE_vertex_joins
     set_log_strategies(paths, slot, log_ratio);
 #endif
-    set_log_arrival(paths, slot, log2_quotient(1.0f, emission.pdf_direction));  // distance and cosine of the first hit follow there
+    set_log_arrival(
+        paths, slot,
+        log2_quotient(
+            1.0f, emission.pdf_direction));  // distance and cosine of the first hit follow there
 #endif
 }
 
-__kernel void generate_light_paths(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, ulong first_sample,
-                                   uint work, VERTEX_PARAMETERS STREAM_PARAMETERS) {
+__kernel void generate_light_paths(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+                                   ulong first_sample, uint work,
+                                   VERTEX_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     const WorkItems items = take_work(counters);
     PushBuffer started;
@@ -52,11 +61,12 @@ __kernel void generate_light_paths(SURFACE_PARAMETERS LIGHT_PARAMETERS Integrato
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
         start_path(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample,
-                   (items.first + i) % settings.light_paths, (items.first + i) / settings.light_paths);
+                   (items.first + i) % settings.light_paths,
+                   (items.first + i) / settings.light_paths);
 #if FEATURE_vertex_joins
         for (uint vertex = 0; vertex < settings.light_vertices; ++vertex) {
-            clear_light_vertex(
-                light_vertex_place(vertex_words, capacity, settings.light_vertices, (items.first + i) % capacity, vertex));
+            clear_light_vertex(light_vertex_place(vertex_words, capacity, settings.light_vertices,
+                                                  (items.first + i) % capacity, vertex));
         }
 #endif
         push_slot(&started, slot);

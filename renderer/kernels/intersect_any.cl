@@ -7,7 +7,8 @@
 #include "renderer/shared/path_state.h"
 
 /// Adds the light sample of a path unless something is in the way.
-DEVICE void add_unblocked(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin, float3 way) {
+DEVICE void add_unblocked(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin,
+                          float3 way) {
     if (!is_blocked(GEOMETRY_ARGUMENTS origin, way)) {
         set_radiance(paths, slot, get_radiance(paths, slot) + get_shadow_radiance(paths, slot));
     }
@@ -19,7 +20,8 @@ __kernel void intersect_any(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, counters->shadow) {
         const uint slot = path_at(paths, queues + QUEUE_SHADOW * capacity, i, i_end);
-        add_unblocked(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot));
+        add_unblocked(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot),
+                      get_shadow_vector(paths, slot));
     }
 }
 

@@ -10,7 +10,8 @@
 #include "renderer/shared/scene_records.h"
 
 /// Triangles through the hierarchy, then the few shapes one after the other.
-DEVICE void find_hit(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin, float3 direction) {
+DEVICE void find_hit(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin,
+                     float3 direction) {
     uint primitive = NO_HIT;
     float3 at = make_float3(0.0f, 0.0f, 0.0f);
     float t = INFINITY;
@@ -41,7 +42,8 @@ __kernel void intersect_nearest(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
-        find_hit(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_ray_direction(paths, slot));
+        find_hit(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot),
+                 get_ray_direction(paths, slot));
     }
 }
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The list of the pixels that have not stopped, in ascending order: a stable compaction, which does not depend on the
-// order of work-items. Blocks of pixels are counted, the counts summed up, the blocks written one behind the other.
+// The list of the pixels that have not stopped, in ascending order: a stable compaction, which does
+// not depend on the order of work-items. Blocks of pixels are counted, the counts summed up, the
+// blocks written one behind the other.
 
 #include "renderer/shared/live_pixels.h"
 
 /// Pixels of block `block` as a loop over `pixel`.
-#define FOR_EACH_PIXEL(pixel, block, pixels) \
-    for (uint pixel = (block) * LIVE_BLOCK, pixel##_end = min(pixel + LIVE_BLOCK, (pixels)); pixel < pixel##_end; ++pixel)
+#define FOR_EACH_PIXEL(pixel, block, pixels)                                               \
+    for (uint pixel = (block)*LIVE_BLOCK, pixel##_end = min(pixel + LIVE_BLOCK, (pixels)); \
+         pixel < pixel##_end; ++pixel)
 
-/// Stage count_live_pixels: one work-item per block. Reads: stopping counts. Writes: the block's number of live pixels.
-__kernel void count_live_pixels(GLOBAL const ulong *stopped_at, uint pixels, GLOBAL uint *live_blocks) {
+/// Stage count_live_pixels: one work-item per block. Reads: stopping counts. Writes: the block's
+/// number of live pixels.
+__kernel void count_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
+                                GLOBAL uint *live_blocks) {
     const uint block = get_global_id(0);
     if (block >= LIVE_BLOCKS(pixels)) {
         return;
@@ -21,7 +25,8 @@ __kernel void count_live_pixels(GLOBAL const ulong *stopped_at, uint pixels, GLO
     live_blocks[block] = live;
 }
 
-/// Stage place_live_blocks (one work-item): turns the blocks' numbers into where they begin in the list. Writes: its length.
+/// Stage place_live_blocks (one work-item): turns the blocks' numbers into where they begin in the
+/// list. Writes: its length.
 __kernel void place_live_blocks(uint pixels, GLOBAL uint *live_blocks, GLOBAL uint *live_count) {
     if (get_global_id(0) != 0u) {
         return;
@@ -35,9 +40,10 @@ __kernel void place_live_blocks(uint pixels, GLOBAL uint *live_blocks, GLOBAL ui
     *live_count = begin;
 }
 
-/// Stage list_live_pixels: one work-item per block. Reads: stopping counts, the blocks' places. Writes: the list.
-__kernel void list_live_pixels(GLOBAL const ulong *stopped_at, uint pixels, GLOBAL const uint *live_blocks,
-                               GLOBAL uint *live_pixels) {
+/// Stage list_live_pixels: one work-item per block. Reads: stopping counts, the blocks' places.
+/// Writes: the list.
+__kernel void list_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
+                               GLOBAL const uint *live_blocks, GLOBAL uint *live_pixels) {
     const uint block = get_global_id(0);
     if (block >= LIVE_BLOCKS(pixels)) {
         return;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Stage sample_light: joins the hit of each active path to a point sampled on a light (explicit paths).
-// Reads: hit, ray_direction, throughput, log_ratio, log_arrival, log_strategies, active queue. Writes: ray_origin (now
-// that of the shadow ray), shadow_vector, shadow_radiance. To: the shadow queue.
+// Stage sample_light: joins the hit of each active path to a point sampled on a light (explicit
+// paths). Reads: hit, ray_direction, throughput, log_ratio, log_arrival, log_strategies, active
+// queue. Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance. To: the
+// shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -18,17 +19,18 @@
 
 #if FEATURE_light_strategy
 
-/// log2 of p_L / p_E of kernels/light/mis.h; where vertices are joined, of all that light paths take part in.
-DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETERS SurfaceHit hit, float3 wo,
-                                 LightSample light, IntegratorSettings settings) {
+/// log2 of p_L / p_E of kernels/light/mis.h; where vertices are joined, of all that light paths
+/// take part in.
+DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETERS SurfaceHit hit,
+                                 float3 wo, LightSample light, IntegratorSettings settings) {
     const uint depth = get_depth(paths, slot);
     const float cos_wo = fabs(dot(hit.point.normal, wo));
     // What is subtracted below is finite, and no infinity from another.
     if (!(cos_wo > 0.0f)) {
         return -INFINITY;
     }
-    const float log_arrive =
-        log2_quotient(light.arrival_pdf_a * fabs(dot(hit.point.normal, light.wi)), light.sampling_over_emission);
+    const float log_arrive = log2_quotient(
+        light.arrival_pdf_a * fabs(dot(hit.point.normal, light.wi)), light.sampling_over_emission);
     const float log_ratio = get_log_ratio(paths, slot);
 #if FEATURE_vertex_joins
     const bool all = all_strategies(settings, depth + 1u);
@@ -40,10 +42,12 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETER
         return log_ratio + log_arrive;
     }
     const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, light.wi);
-    const float log_back = log2_quotient(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w, cos_wo);
+    const float log_back =
+        log2_quotient(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w, cos_wo);
 #if FEATURE_vertex_joins
     if (all) {
-        return log_arrive + strategies_before(get_log_strategies(paths, slot), get_log_arrival(paths, slot), log_back,
+        return log_arrive + strategies_before(get_log_strategies(paths, slot),
+                                              get_log_arrival(paths, slot), log_back,
                                               settings.beta);
     }
 #endif
@@ -52,9 +56,11 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETER
 
 #endif
 
-/// Prepares the shadow ray of a path to the light `chosen` or SELECT_LIGHT. False when there is nothing to gain.
+/// Prepares the shadow ray of a path to the light `chosen` or SELECT_LIGHT. False when there is
+/// nothing to gain.
 DEVICE bool join_to_light(PathStates paths, uint slot,
-                          SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+                          SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings
+                              settings,
                           ulong first_sample, uint chosen) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
@@ -76,11 +82,13 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
     const uint stream = chosen == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(chosen);
     const uint4 words = sample_words(settings, stream, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
-    const LightSample light = sample_lights(SURFACE_ARGUMENTS LIGHT_ARGUMENTS chosen, hit.point.position, words);
+    const LightSample light =
+        sample_lights(SURFACE_ARGUMENTS LIGHT_ARGUMENTS chosen, hit.point.position, words);
     if (!(light.pdf_w > 0.0f)) {
         return false;
     }
-    const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
+    const SurfaceFrame frame =
+        shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
     const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, frame, light.wi);
     if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
         return false;
@@ -93,11 +101,12 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
     const float by_implicit = by_hit ? bsdf.pdf_w / light.pdf_w : 0.0f;
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        const float log_light = light_over_explicit(paths, slot, MATERIAL_ARGUMENTS hit, frame.wo, light, settings);
+        const float log_light =
+            light_over_explicit(paths, slot, MATERIAL_ARGUMENTS hit, frame.wo, light, settings);
         radiance *= camera_path_weight(by_implicit, log_light, settings.beta);
     } else
 #endif
-    if (by_hit) {
+        if (by_hit) {
         radiance *= power_heuristic(by_implicit, settings.beta);
     }
 #endif
@@ -110,15 +119,19 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+__kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS
+                               IntegratorSettings settings,
                            ulong first_sample, uint chosen, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
-        if (join_to_light(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample, chosen)) {
+        const uint slot =
+            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
+        if (join_to_light(paths, slot,
+                          SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings,
+                          first_sample, chosen)) {
             push_slot(&shadow, slot);
         }
     }

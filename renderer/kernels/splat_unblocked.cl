@@ -8,11 +8,13 @@
 #include "renderer/shared/path_state.h"
 
 /// Adds what a light path brings to the film unless something is in the way.
-DEVICE void splat(PathStates paths, uint slot, GEOMETRY_PARAMETERS GLOBAL long *film, GLOBAL StreamCounters *counters) {
+DEVICE void splat(PathStates paths, uint slot, GEOMETRY_PARAMETERS GLOBAL long *film,
+                  GLOBAL StreamCounters *counters) {
     const uint pixel = get_splat_pixel(paths, slot);
     const float3 radiance = get_shadow_radiance(paths, slot);
     prefetch_pixel(film, pixel, radiance);
-    if (!is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot), get_shadow_vector(paths, slot))) {
+    if (!is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot),
+                    get_shadow_vector(paths, slot))) {
         add_to_pixel(film, pixel, radiance, counters);
     }
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Stage stop_converged: writes down the number of samples at which a live pixel has converged. One work-item per live pixel.
-// Reads: film (carried), list of live pixels. Reads and writes: half film (carried here), stopping counts.
-// Runs between batches, at the checks of convergence control.
+// Stage stop_converged: writes down the number of samples at which a live pixel has converged. One
+// work-item per live pixel. Reads: film (carried), list of live pixels. Reads and writes: half film
+// (carried here), stopping counts. Runs between batches, at the checks of convergence control.
 
 #include "renderer/kernels/film/convergence.h"
 
-__kernel void stop_converged(GLOBAL const long *film, GLOBAL long *half_film, GLOBAL const uint *live_pixels,
-                             uint live_count, GLOBAL ulong *stopped_at, float error, ulong samples) {
+__kernel void stop_converged(GLOBAL const long *film, GLOBAL long *half_film,
+                             GLOBAL const uint *live_pixels, uint live_count,
+                             GLOBAL ulong *stopped_at, float error, ulong samples) {
     const uint i = get_global_id(0);
     if (i >= live_count) {
         return;
@@ -16,7 +17,8 @@ __kernel void stop_converged(GLOBAL const long *film, GLOBAL long *half_film, GL
     for (uint sum = 0; sum < HALF_FILM_SUMS; ++sum) {
         film_carry_sum(half_words, HALF_FILM_SUMS, sum);
     }
-    const float3 all = film_colour_sum(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), PIXEL_SUMS);
+    const float3 all =
+        film_colour_sum(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), PIXEL_SUMS);
     if (has_converged(all, film_colour_sum(half_words, HALF_FILM_SUMS), error)) {
         stopped_at[pixel] = samples;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stage store_vertex: keeps the hit of each light path where camera paths can be joined to it.
-// Reads: hit, ray_direction, throughput, log_arrival, log_strategies, active queue. Writes: light vertices.
+// Reads: hit, ray_direction, throughput, log_arrival, log_strategies, active queue. Writes: light
+// vertices.
 
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
@@ -13,7 +14,8 @@
 #include "renderer/shared/scene_records.h"
 
 DEVICE void keep_hit(PathStates paths, uint slot,
-                     SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS IntegratorSettings settings) {
+                     SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS IntegratorSettings
+                         settings) {
     const uint depth = get_depth(paths, slot);
     LightVertex vertex;
     vertex.hit_primitive = get_hit_primitive(paths, slot);
@@ -36,17 +38,19 @@ DEVICE void keep_hit(PathStates paths, uint slot,
     vertex.throughput = get_throughput(paths, slot);
     vertex.log_arrival = get_log_arrival(paths, slot);
     vertex.log_strategies = get_log_strategies(paths, slot);
-    const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot), settings.light_paths,
-                                      paths.capacity);
-    store_light_vertex(light_vertex_place(vertex_words, paths.capacity, settings.light_vertices, row, depth),
-                       vertex);
+    const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot),
+                                      settings.light_paths, paths.capacity);
+    store_light_vertex(
+        light_vertex_place(vertex_words, paths.capacity, settings.light_vertices, row, depth),
+        vertex);
 }
 
 __kernel void store_vertex(SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
                            VERTEX_PARAMETERS STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = hit_path_at(SURFACE_ARGUMENTS paths, active_queue(queues, counters, capacity), i, i_end);
+        const uint slot = hit_path_at(SURFACE_ARGUMENTS paths,
+                                      active_queue(queues, counters, capacity), i, i_end);
         keep_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings);
     }
 }

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Queues of path slots between the stages. One buffer holds them all, `capacity` entries each; their lengths are
-// in StreamCounters.
+// Queues of path slots between the stages. One buffer holds them all, `capacity` entries each;
+// their lengths are in StreamCounters.
 #pragma once
 
 #include "renderer/shared/compat.h"
 #include "renderer/shared/stream_counters.h"
 
-// Queue numbers within the buffer: active queues 0 and 1 take turns. The free and the shadow queue share their
-// room: one lives from extend_path to generate_camera_rays, the other from sample_light to intersect_any.
+// Queue numbers within the buffer: active queues 0 and 1 take turns. The free and the shadow queue
+// share their room: one lives from extend_path to generate_camera_rays, the other from sample_light
+// to intersect_any.
 #define QUEUE_FREE 2u
 #define QUEUE_SHADOW 2u
 
-/// Entries of a queue that one work-item takes, one after the other: 1 on a GPU, more on a CPU, where what it
-/// appends then costs one atomic operation for all of them.
+/// Entries of a queue that one work-item takes, one after the other: 1 on a GPU, more on a CPU,
+/// where what it appends then costs one atomic operation for all of them.
 #ifndef STREAM_CHUNK
 #define STREAM_CHUNK 1
 #endif
 
 /// The entries [begin, end) of this work-item in a queue of `count`.
-#define FOR_EACH_ENTRY(i, count)                                                                             \
-    for (uint i = (uint)get_global_id(0) * STREAM_CHUNK, i##_end = min(i + STREAM_CHUNK, (uint)(count)); i < i##_end; ++i)
+#define FOR_EACH_ENTRY(i, count)                              \
+    for (uint i = (uint)get_global_id(0) * STREAM_CHUNK,      \
+              i##_end = min(i + STREAM_CHUNK, (uint)(count)); \
+         i < i##_end; ++i)
 
 /// Slots to append to a queue.
 typedef struct PushBuffer {
@@ -27,11 +30,15 @@ typedef struct PushBuffer {
     uint count;
 } PushBuffer;
 
-DEVICE void push_slot(PRIVATE PushBuffer *buffer, uint slot) { buffer->slots[buffer->count++] = slot; }
+DEVICE void push_slot(PRIVATE PushBuffer *buffer, uint slot) {
+    buffer->slots[buffer->count++] = slot;
+}
 
-/// The one way to append: checked. An overflow is counted and ends the run with an error; nothing is overwritten.
-DEVICE void append_slots(GLOBAL uint *queues, uint queue, uint capacity, volatile GLOBAL uint *length,
-                         GLOBAL StreamCounters *counters, PRIVATE const PushBuffer *buffer) {
+/// The one way to append: checked. An overflow is counted and ends the run with an error; nothing
+/// is overwritten.
+DEVICE void append_slots(GLOBAL uint *queues, uint queue, uint capacity,
+                         volatile GLOBAL uint *length, GLOBAL StreamCounters *counters,
+                         PRIVATE const PushBuffer *buffer) {
     if (buffer->count == 0u) {
         return;
     }
@@ -45,8 +52,8 @@ DEVICE void append_slots(GLOBAL uint *queues, uint queue, uint capacity, volatil
     }
 }
 
-/// Work for the free slots of this work-item: `count` slots from entry `slots` of the free queue on, to be given items
-/// from `first` on, those beyond the batch's work excepted.
+/// Work for the free slots of this work-item: `count` slots from entry `slots` of the free queue
+/// on, to be given items from `first` on, those beyond the batch's work excepted.
 typedef struct WorkItems {
     uint slots;
     uint first;
@@ -54,7 +61,8 @@ typedef struct WorkItems {
 } WorkItems;
 
 /// Items of work are paths of the batch. There are at most 2^31 and
-/// a round overshoots them by at most `capacity`, so the counter does not wrap before the host sees the end.
+/// a round overshoots them by at most `capacity`, so the counter does not wrap before the host sees
+/// the end.
 DEVICE WorkItems take_work(GLOBAL StreamCounters *counters) {
     WorkItems items;
     items.slots = min((uint)get_global_id(0) * STREAM_CHUNK, counters->free_slots);
@@ -64,13 +72,16 @@ DEVICE WorkItems take_work(GLOBAL StreamCounters *counters) {
 }
 
 /// Paths worked on in this round.
-DEVICE uint active_count(GLOBAL const StreamCounters *counters) { return counters->active[counters->parity]; }
+DEVICE uint active_count(GLOBAL const StreamCounters *counters) {
+    return counters->active[counters->parity];
+}
 
-DEVICE GLOBAL const uint *active_queue(GLOBAL const uint *queues, GLOBAL const StreamCounters *counters, uint capacity) {
+DEVICE GLOBAL const uint *active_queue(GLOBAL const uint *queues,
+                                       GLOBAL const StreamCounters *counters, uint capacity) {
     return queues + counters->parity * capacity;
 }
 
-DEVICE void append_active(GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity, uint parity,
-                          PRIVATE const PushBuffer *buffer) {
+DEVICE void append_active(GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity,
+                          uint parity, PRIVATE const PushBuffer *buffer) {
     append_slots(queues, parity, capacity, &counters->active[parity], counters, buffer);
 }

@@ -45,7 +45,8 @@ Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
             }
         }
         const bool flat = scene.shapes.kind[i] == ShapeArrays::Kind::disc;
-        const double stretch = flat ? world.leftCols<2>().operatorNorm() : world.leftCols<3>().operatorNorm();
+        const double stretch =
+            flat ? world.leftCols<2>().operatorNorm() : world.leftCols<3>().operatorNorm();
         shapes.push_back({world.col(3), stretch * std::sqrt(static_cast<double>(record.bound2))});
     }
     Eigen::AlignedBox3d box;
@@ -65,12 +66,14 @@ Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
         extent.radius = std::max(extent.radius, (position.cast<double>() - extent.centre).norm());
     }
     for (const Extent &shape : shapes) {
-        extent.radius = std::max(extent.radius, (shape.centre - extent.centre).norm() + shape.radius);
+        extent.radius =
+            std::max(extent.radius, (shape.centre - extent.centre).norm() + shape.radius);
     }
     return extent;
 }
 
-void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &light, CompiledScene &compiled) {
+void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &light,
+                        CompiledScene &compiled) {
     std::vector<double> areas(meshes.triangle_count[mesh]);
     for (uint32_t i = 0; i < areas.size(); ++i) {
         areas[i] = triangle_area(meshes, meshes.first_triangle[mesh] + i);
@@ -81,22 +84,24 @@ void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &li
     light.triangle_count = meshes.triangle_count[mesh];
     for (uint32_t i = 0; i < areas.size(); ++i) {
         const uint32_t triangle = meshes.first_triangle[mesh] + i;
-        compiled.surface_triangles[triangle].emitter = static_cast<uint32_t>(compiled.emitter_triangles.size());
+        compiled.surface_triangles[triangle].emitter =
+            static_cast<uint32_t>(compiled.emitter_triangles.size());
         const double density = areas[i] > 0.0 ? table.probability[i] / areas[i] : 0.0;
-        compiled.emitter_triangles.push_back({triangle, static_cast<uint32_t>(compiled.lights.size()), table.end[i],
-                                              static_cast<float>(density)});
+        compiled.emitter_triangles.push_back({triangle,
+                                              static_cast<uint32_t>(compiled.lights.size()),
+                                              table.end[i], static_cast<float>(density)});
     }
 }
 
-/// One light's record, without selection, and its power in W (mean of the channels), which drives selection. A power
-/// of 0: it is no light.
+/// One light's record, without selection, and its power in W (mean of the channels), which drives
+/// selection. A power of 0: it is no light.
 struct Compiled {
     LightRecord record{};
     double power = 0;
 };
 
-Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings &settings, const Extent &extent,
-                       CompiledScene &compiled) {
+Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings &settings,
+                       const Extent &extent, CompiledScene &compiled) {
     using Kind = LightArrays::Kind;
     const LightArrays &lights = scene.lights;
     Compiled light;
@@ -113,83 +118,102 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
         return light;
     }
     switch (lights.kind[i]) {
-    case Kind::diffuse_area:
-        light.power = pi * lights.area[i] * mean;
-        if (lights.mesh[i] != no_index) {
-            compile_mesh_light(scene.meshes, lights.mesh[i], record, compiled);
-            compiled.features = compiled.features.with(Feature::area_lights)
-                                    .with(Feature::light_triangles,
-                                          compiled.features.has(Feature::light_triangles) || record.triangle_count > 1);
-        } else {
-            const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
-            record.kind = is_disc ? LIGHT_DISC : settings.spheres_by_area ? LIGHT_SPHERE_BY_AREA : LIGHT_SPHERE;
-            record.first_triangle = lights.shape[i];
-            record.area = static_cast<float>(lights.area[i]);
-            compiled.shapes[lights.shape[i]].light = static_cast<uint32_t>(compiled.lights.size());
-            compiled.features = compiled.features.with(Feature::shape_lights);
+        case Kind::diffuse_area:
+            light.power = pi * lights.area[i] * mean;
+            if (lights.mesh[i] != no_index) {
+                compile_mesh_light(scene.meshes, lights.mesh[i], record, compiled);
+                compiled.features = compiled.features.with(Feature::area_lights)
+                                        .with(Feature::light_triangles,
+                                              compiled.features.has(Feature::light_triangles) ||
+                                                  record.triangle_count > 1);
+            } else {
+                const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
+                record.kind = is_disc                    ? LIGHT_DISC
+                              : settings.spheres_by_area ? LIGHT_SPHERE_BY_AREA
+                                                         : LIGHT_SPHERE;
+                record.first_triangle = lights.shape[i];
+                record.area = static_cast<float>(lights.area[i]);
+                compiled.shapes[lights.shape[i]].light =
+                    static_cast<uint32_t>(compiled.lights.size());
+                compiled.features = compiled.features.with(Feature::shape_lights);
+            }
+            break;
+        case Kind::point:
+            record.kind = LIGHT_POINT;
+            light.power = 4.0 * pi * mean;
+            compiled.features = compiled.features.with(Feature::point_lights);
+            break;
+        case Kind::spot: {
+            record.kind = LIGHT_SPOT;
+            const double inner = lights.inner_angle[i], outer = lights.outer_angle[i];
+            record.outer_angle = static_cast<float>(outer);
+            // Differences of cosines as products of sines, without cancellation.
+            record.versine_outer = static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2));
+            record.versine_range = static_cast<float>(2.0 * std::sin(0.5 * (outer + inner)) *
+                                                      std::sin(0.5 * (outer - inner)));
+            record.angle_scale = static_cast<float>(1.0 / (outer - inner));
+            // The integral of the linear fall: 2 pi (1 - sinc-like mean of the cosines between the
+            // cones).
+            light.power =
+                2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner)) * mean;
+            compiled.features = compiled.features.with(Feature::spot_lights);
+            break;
         }
-        break;
-    case Kind::point:
-        record.kind = LIGHT_POINT;
-        light.power = 4.0 * pi * mean;
-        compiled.features = compiled.features.with(Feature::point_lights);
-        break;
-    case Kind::spot: {
-        record.kind = LIGHT_SPOT;
-        const double inner = lights.inner_angle[i], outer = lights.outer_angle[i];
-        record.outer_angle = static_cast<float>(outer);
-        // Differences of cosines as products of sines, without cancellation.
-        record.versine_outer = static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2));
-        record.versine_range = static_cast<float>(2.0 * std::sin(0.5 * (outer + inner)) * std::sin(0.5 * (outer - inner)));
-        record.angle_scale = static_cast<float>(1.0 / (outer - inner));
-        // The integral of the linear fall: 2 pi (1 - sinc-like mean of the cosines between the cones).
-        light.power = 2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner)) * mean;
-        compiled.features = compiled.features.with(Feature::spot_lights);
-        break;
-    }
-    case Kind::directional:
-        record.kind = LIGHT_DIRECTIONAL;
-        light.power = disc * mean;
-        compiled.features = compiled.features.with(Feature::directional_lights);
-        break;
-    case Kind::dome:
-    case Kind::environment: {
-        if (compiled.lighting.infinite_light != NO_EMITTER) {
-            throw input_error(fmt::format("light '{}': the scene has another dome or environment; there can be one", lights.name[i]));
+        case Kind::directional:
+            record.kind = LIGHT_DIRECTIONAL;
+            light.power = disc * mean;
+            compiled.features = compiled.features.with(Feature::directional_lights);
+            break;
+        case Kind::dome:
+        case Kind::environment: {
+            if (compiled.lighting.infinite_light != NO_EMITTER) {
+                throw input_error(fmt::format(
+                    "light '{}': the scene has another dome or environment; there can be one",
+                    lights.name[i]));
+            }
+            const bool dome = lights.kind[i] == Kind::dome;
+            record.kind = dome ? LIGHT_DOME : LIGHT_ENVIRONMENT;
+            light.power =
+                disc * mean * (dome ? 4.0 * pi : compile_environment(*lights.image[i], compiled));
+            if (light.power > 0.0) {
+                compiled.lighting.infinite_light = static_cast<uint32_t>(compiled.lights.size());
+                compiled.features = compiled.features.with(Feature::infinite_lights)
+                                        .with(dome ? Feature::dome : Feature::environment);
+            }
+            break;
         }
-        const bool dome = lights.kind[i] == Kind::dome;
-        record.kind = dome ? LIGHT_DOME : LIGHT_ENVIRONMENT;
-        light.power = disc * mean * (dome ? 4.0 * pi : compile_environment(*lights.image[i], compiled));
-        if (light.power > 0.0) {
-            compiled.lighting.infinite_light = static_cast<uint32_t>(compiled.lights.size());
-            compiled.features = compiled.features.with(Feature::infinite_lights).with(dome ? Feature::dome : Feature::environment);
-        }
-        break;
-    }
     }
     return light;
 }
 
-/// Selection probabilities: uniform, by power, the mean of both (which bounds the loss of either), or 1 for each. Light
-/// paths start at one light each: where all are sampled in turn, at one by the mean of both.
-void select_lights(const std::vector<double> &powers, LightSelection selection, std::vector<LightRecord> &lights) {
+/// Selection probabilities: uniform, by power, the mean of both (which bounds the loss of either),
+/// or 1 for each. Light paths start at one light each: where all are sampled in turn, at one by the
+/// mean of both.
+void select_lights(const std::vector<double> &powers, LightSelection selection,
+                   std::vector<LightRecord> &lights) {
     const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
-    const double by_power = selection == LightSelection::power ? 1.0 : selection == LightSelection::uniform ? 0.0 : 0.5;
+    const double by_power = selection == LightSelection::power     ? 1.0
+                            : selection == LightSelection::uniform ? 0.0
+                                                                   : 0.5;
     std::vector<double> weights(lights.size());
     for (size_t i = 0; i < lights.size(); ++i) {
-        weights[i] = by_power * powers[i] / total + (1.0 - by_power) / static_cast<double>(lights.size());
+        weights[i] =
+            by_power * powers[i] / total + (1.0 - by_power) / static_cast<double>(lights.size());
     }
     const SelectionTable table = selection_table(weights);
     for (size_t i = 0; i < lights.size(); ++i) {
         lights[i].selection_end = table.end[i];
         lights[i].emission_selection = static_cast<float>(table.probability[i]);
-        lights[i].selection = selection == LightSelection::independent ? 1.0f : lights[i].emission_selection;
+        lights[i].selection =
+            selection == LightSelection::independent ? 1.0f : lights[i].emission_selection;
     }
 }
 
-/// A point light at the camera: a white surface at the middle of the scene that faces it has radiance 1.
+/// A point light at the camera: a white surface at the middle of the scene that faces it has
+/// radiance 1.
 Compiled headlight(const Extent &extent, CompiledScene &compiled) {
-    const double away = (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
+    const double away =
+        (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     const double intensity = pi * std::pow(std::max(away, extent.radius), 2);
     Compiled light;
     light.record.kind = LIGHT_POINT;
@@ -202,10 +226,12 @@ Compiled headlight(const Extent &extent, CompiledScene &compiled) {
 
 }  // namespace
 
-void compile_lights(const SceneArrays &scene, const CompileSettings &settings, CompiledScene &compiled) {
+void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
+                    CompiledScene &compiled) {
     Extent extent = extent_of(scene, compiled);
     // A margin for the rounding of points on these surfaces, and never nothing.
-    extent.radius = std::max(extent.radius * (1.0 + 0x1p-10) + extent.centre.norm() * 0x1p-20, 1e-15);
+    extent.radius =
+        std::max(extent.radius * (1.0 + 0x1p-10) + extent.centre.norm() * 0x1p-20, 1e-15);
     LightingRecord &lighting = compiled.lighting;
     lighting.infinite_light = NO_EMITTER;
     copy3(extent.centre, lighting.scene_centre);
@@ -213,9 +239,10 @@ void compile_lights(const SceneArrays &scene, const CompileSettings &settings, C
     const auto &kinds = scene.shapes.kind;
     const auto last_plane = std::find(kinds.rbegin(), kinds.rend(), ShapeArrays::Kind::plane);
     lighting.plane_end = static_cast<uint32_t>(kinds.rend() - last_plane);
-    // Beyond any point of the scene, planes apart, whose horizon is cut a million radii away; in lengths of such a
-    // shadow ray hits keep their relative precision.
-    const double camera = (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
+    // Beyond any point of the scene, planes apart, whose horizon is cut a million radii away; in
+    // lengths of such a shadow ray hits keep their relative precision.
+    const double camera =
+        (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
     std::vector<double> powers;
     const auto add = [&](const Compiled &light) {

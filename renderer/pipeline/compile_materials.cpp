@@ -41,8 +41,12 @@ constexpr std::array<FresnelRow, 5> fresnels = {{
     {FRESNEL_SCHLICK, Feature::fresnel_schlick},
 }};
 
-bool is_delta(uint32_t kind) { return kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION; }
-bool refracts(uint32_t kind) { return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION; }
+bool is_delta(uint32_t kind) {
+    return kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION;
+}
+bool refracts(uint32_t kind) {
+    return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
+}
 
 BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &features) {
     const KindRow &kind = kinds[static_cast<size_t>(component.kind)];
@@ -51,17 +55,19 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
     BxdfRecord record{};
     record.kind = kind.record_kind;
     record.flags = fresnel.flag | (component.complement ? BXDF_FLAG_COMPLEMENT : 0u) |
-                   (component.fresnel_of_wo ? BXDF_FLAG_FRESNEL_OF_WO : 0u) | (beckmann ? BXDF_FLAG_BECKMANN : 0u);
+                   (component.fresnel_of_wo ? BXDF_FLAG_FRESNEL_OF_WO : 0u) |
+                   (beckmann ? BXDF_FLAG_BECKMANN : 0u);
     record.texture = component.texture == no_index ? NO_TEXTURE : component.texture;
-    record.parameter =
-        static_cast<float>(component.kind == BxdfComponent::Kind::blinn ? component.exponent : component.sigma);
+    record.parameter = static_cast<float>(
+        component.kind == BxdfComponent::Kind::blinn ? component.exponent : component.sigma);
     record.alpha_x = static_cast<float>(component.alpha.x());
     record.alpha_y = static_cast<float>(component.alpha.y());
     copy3(component.weight, record.weight);
     copy3(component.eta, record.eta);
     copy3(component.k, record.k);
 
-    const bool microfacet = record.kind == BXDF_MICROFACET_REFLECTION || record.kind == BXDF_MICROFACET_REFRACTION;
+    const bool microfacet =
+        record.kind == BXDF_MICROFACET_REFLECTION || record.kind == BXDF_MICROFACET_REFRACTION;
     features = features.with(kind.feature);
     if (component.fresnel != BxdfComponent::Fresnel::ideal) {
         features = features.with(Feature::fresnel).with(fresnel.feature);
@@ -90,21 +96,24 @@ void compile_texture(const TextureArrays &textures, size_t index, CompiledScene 
     record.first_word = static_cast<uint32_t>(compiled.texels.size());
     record.width = static_cast<uint32_t>(image.width);
     record.height = static_cast<uint32_t>(image.height);
-    record.flags = (image.bytes.empty() ? TEXTURE_FLOAT : 0u) | (image.srgb ? TEXTURE_SRGB : 0u) |
-                   (textures.filter[index] == TextureArrays::Filter::bilinear ? TEXTURE_BILINEAR : 0u) |
-                   (textures.wrap[index] == TextureArrays::Wrap::clamp ? TEXTURE_CLAMP : 0u);
+    record.flags =
+        (image.bytes.empty() ? TEXTURE_FLOAT : 0u) | (image.srgb ? TEXTURE_SRGB : 0u) |
+        (textures.filter[index] == TextureArrays::Filter::bilinear ? TEXTURE_BILINEAR : 0u) |
+        (textures.wrap[index] == TextureArrays::Wrap::clamp ? TEXTURE_CLAMP : 0u);
     for (int i = 0; i < 2; ++i) {
         record.uv_scale[i] = static_cast<float>(textures.uv_scale[index][i]);
         record.uv_offset[i] = static_cast<float>(textures.uv_offset[index][i]);
     }
     compiled.textures.push_back(record);
     for (size_t i = 0; i + 2 < image.bytes.size(); i += 3) {
-        compiled.texels.push_back(static_cast<uint32_t>(image.bytes[i]) | static_cast<uint32_t>(image.bytes[i + 1]) << 8 |
+        compiled.texels.push_back(static_cast<uint32_t>(image.bytes[i]) |
+                                  static_cast<uint32_t>(image.bytes[i + 1]) << 8 |
                                   static_cast<uint32_t>(image.bytes[i + 2]) << 16);
     }
     const size_t first = compiled.texels.size();
     compiled.texels.resize(first + image.floats.size());
-    std::memcpy(compiled.texels.data() + first, image.floats.data(), image.floats.size() * sizeof(float));
+    std::memcpy(compiled.texels.data() + first, image.floats.data(),
+                image.floats.size() * sizeof(float));
 }
 
 }  // namespace
@@ -123,14 +132,20 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             }
             const BxdfRecord compiled_component = compile_component(component, features);
             record.flags |= refracts(compiled_component.kind) ? MATERIAL_BOUNDARY : 0u;
-            record.flags |= compiled_component.alpha_x != compiled_component.alpha_y ? MATERIAL_TURNS : 0u;
+            record.flags |=
+                compiled_component.alpha_x != compiled_component.alpha_y ? MATERIAL_TURNS : 0u;
             all_delta = all_delta && is_delta(compiled_component.kind);
             compiled.components.push_back(compiled_component);
         }
-        record.component_count = static_cast<uint32_t>(compiled.components.size()) - record.first_component;
-        record.flags |= (materials.two_sided[i] == 0 ? MATERIAL_ONE_SIDED : 0u) | (all_delta ? MATERIAL_DELTA : 0u);
-        features = features.with(Feature::composite, features.has(Feature::composite) || record.component_count != 1)
-                       .with(Feature::one_sided, features.has(Feature::one_sided) || materials.two_sided[i] == 0);
+        record.component_count =
+            static_cast<uint32_t>(compiled.components.size()) - record.first_component;
+        record.flags |= (materials.two_sided[i] == 0 ? MATERIAL_ONE_SIDED : 0u) |
+                        (all_delta ? MATERIAL_DELTA : 0u);
+        features = features
+                       .with(Feature::composite,
+                             features.has(Feature::composite) || record.component_count != 1)
+                       .with(Feature::one_sided,
+                             features.has(Feature::one_sided) || materials.two_sided[i] == 0);
         compiled.materials.push_back(record);
     }
     features = features.with(Feature::scattering, !compiled.components.empty());

@@ -13,7 +13,8 @@ namespace rtrays {
 
 namespace {
 
-/// Corner normals of all triangles. A vertex without one, in a triangle that has others, has the geometric normal.
+/// Corner normals of all triangles. A vertex without one, in a triangle that has others, has the
+/// geometric normal.
 void compile_normals(const MeshArrays &meshes, CompiledScene &compiled) {
     compiled.triangle_normals.resize(meshes.triangle.size());
     for (size_t i = 0; i < meshes.triangle.size() && !meshes.normal.empty(); ++i) {
@@ -41,7 +42,9 @@ SelectionTable selection_table(const std::vector<double> &weights) {
     for (size_t i = 0; i < weights.size(); ++i) {
         sum += weights[i];
         // Every end but the last stays below 2^32; the last stands for 2^32 itself.
-        const double end = i + 1 == weights.size() ? scale : std::min(std::round(sum / total * scale), scale - 1.0);
+        const double end = i + 1 == weights.size()
+                               ? scale
+                               : std::min(std::round(sum / total * scale), scale - 1.0);
         table.probability.push_back((end - previous) / scale);
         table.end.push_back(static_cast<uint32_t>(std::min(end, scale - 1.0)));
         previous = end;
@@ -66,14 +69,16 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     camera.height = static_cast<uint32_t>(height);
     camera.pixel_area = static_cast<float>(pixel * pixel);
     copy3(Eigen::Vector3d(world.block<3, 1>(0, 3)), camera.position);
-    copy3(Eigen::Vector3d(forward - 0.5 * pixel * width * right + 0.5 * pixel * height * up), camera.corner);
+    copy3(Eigen::Vector3d(forward - 0.5 * pixel * width * right + 0.5 * pixel * height * up),
+          camera.corner);
     copy3(Eigen::Vector3d(pixel * right), camera.step_x);
     copy3(Eigen::Vector3d(-pixel * up), camera.step_y);
     copy3(right, camera.axis_x);
     copy3(up, camera.axis_y);
     camera.aperture_radius = static_cast<float>(cameras.aperture_radius[index]);
     // All of a pinhole's image is in focus; with 1 the lens code gives the pinhole's bits.
-    camera.focus_distance = camera.aperture_radius > 0.0f ? static_cast<float>(cameras.focus_distance[index]) : 1.0f;
+    camera.focus_distance =
+        camera.aperture_radius > 0.0f ? static_cast<float>(cameras.focus_distance[index]) : 1.0f;
     return camera;
 }
 
@@ -96,8 +101,11 @@ void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene
         surface.emitter = NO_EMITTER;
         compiled.surface_triangles.push_back(surface);
     }
-    const auto any = [](const std::vector<uint8_t> &flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); };
-    const bool uv_read = compiled.features.has(Feature::textures) || compiled.features.has(Feature::tangents);
+    const auto any = [](const std::vector<uint8_t> &flags) {
+        return std::find(flags.begin(), flags.end(), 1) != flags.end();
+    };
+    const bool uv_read =
+        compiled.features.has(Feature::textures) || compiled.features.has(Feature::tangents);
     compiled.features = compiled.features.with(Feature::triangles, !meshes.triangle.empty())
                             .with(Feature::smooth_normals, any(meshes.has_normals))
                             .with(Feature::texture_coordinates, uv_read && any(meshes.has_uv));
@@ -118,9 +126,10 @@ void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene
 
 CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings) {
     CompiledScene compiled;
-    compiled.camera =
-        compile_camera(scene.cameras(), static_cast<size_t>(scene.active_camera()), settings.width, settings.height);
-    compiled.features = compiled.features.with(Feature::lens, compiled.camera.aperture_radius > 0.0f);
+    compiled.camera = compile_camera(scene.cameras(), static_cast<size_t>(scene.active_camera()),
+                                     settings.width, settings.height);
+    compiled.features =
+        compiled.features.with(Feature::lens, compiled.camera.aperture_radius > 0.0f);
     compile_materials(scene.arrays(), compiled);
     compile_triangles(scene.arrays(), settings.every_array, compiled);
     compiled.shapes = compile_shapes(scene.arrays().shapes);

@@ -36,10 +36,18 @@ Quadric quadric_of(Kind kind, double flare) {
             return {1, 0, 0, -1, 0, 1, 2 * margin, SHAPE_UV_HEIGHT};
         case Kind::cone:  // its apex in the origin: nothing cancels near it
             return {1, -1, 0, 0, -1, 0, 2 * margin, SHAPE_UV_DEPTH};
-        case Kind::paraboloid:  // nothing of it is below 0; rounding must not make a hole in the apex
+        case Kind::paraboloid:  // nothing of it is below 0; rounding must not make a hole in the
+                                // apex
             return {1, 0, -1, 0, -unbounded, 1, 2 * margin, SHAPE_UV_HEIGHT};
         case Kind::hyperboloid:
-            return {1, static_cast<float>(-flare), 0, -1, -1, 1, (2 + flare) * margin, SHAPE_UV_SYMMETRIC};
+            return {1,
+                    static_cast<float>(-flare),
+                    0,
+                    -1,
+                    -1,
+                    1,
+                    (2 + flare) * margin,
+                    SHAPE_UV_SYMMETRIC};
         case Kind::disc:
             return {0, 0, 1, 0, -unbounded, unbounded, 1, SHAPE_UV_DISC};
         case Kind::plane:
@@ -52,8 +60,8 @@ Quadric quadric_of(Kind kind, double flare) {
 
 void set_transform(const Eigen::Matrix4d &world_from_object, ShapeRecord &record) {
     const Eigen::Matrix<float, 3, 4> world = world_from_object.topRows<3>().cast<float>();
-    // The inverse of the rounded matrix, so that the two differ from inverses by the rounding of one of them
-    // only.
+    // The inverse of the rounded matrix, so that the two differ from inverses by the rounding of
+    // one of them only.
     const Eigen::Matrix3d linear = world.leftCols<3>().cast<double>();
     const Eigen::Matrix3d exact_inverse = linear.inverse();
     const Eigen::Matrix3f inverse = exact_inverse.cast<float>();
@@ -61,14 +69,17 @@ void set_transform(const Eigen::Matrix4d &world_from_object, ShapeRecord &record
         std::copy_n(Eigen::RowVector4f(world.row(row)).data(), 4, record.world_from_object[row]);
         std::copy_n(Eigen::RowVector3f(inverse.row(row)).data(), 3, record.object_from_world[row]);
     }
-    record.error2 = static_cast<float>(std::pow(16 * std::ldexp(1.0, -24) * linear.norm() * exact_inverse.norm(), 2));
+    record.error2 = static_cast<float>(
+        std::pow(16 * std::ldexp(1.0, -24) * linear.norm() * exact_inverse.norm(), 2));
     if (!world.allFinite() || !inverse.allFinite()) {
         throw input_error("its transform cannot be inverted in single precision");
     }
 }
 
-/// The surface |z_n| = 4: |z_k+1| <= r needs |z_k|^2 <= r + |c|, from the last iterate back to the first.
-void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iterations, ShapeRecord &record) {
+/// The surface |z_n| = 4: |z_k+1| <= r needs |z_k|^2 <= r + |c|, from the last iterate back to the
+/// first.
+void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iterations,
+               ShapeRecord &record) {
     const double modulus = constant.norm();
     if (!(modulus <= 1e6)) {
         throw input_error("the modulus of its Julia constant exceeds 1e6");
@@ -88,8 +99,8 @@ void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iteration
     record.d = static_cast<float>(constant[3]);
     record.z_lower = static_cast<float>(slice);
     // r^2 - |c| >= r from here on: |z| >= r stays.
-    record.z_upper =
-        static_cast<float>(std::max(4.0, (1.0 + 1e-6) * (1.0 + std::sqrt(1.0 + 4.0 * modulus)) / 2.0));
+    record.z_upper = static_cast<float>(
+        std::max(4.0, (1.0 + 1e-6) * (1.0 + std::sqrt(1.0 + 4.0 * modulus)) / 2.0));
     record.bound2 = static_cast<float>(bound2 * margin);
     record.uv_kind = SHAPE_UV_NONE;
 }
@@ -108,8 +119,8 @@ std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes) {
         try {
             Eigen::Matrix4d world_from_object = shapes.world_from_object[i];
             if (kind == Kind::julia) {
-                set_julia(shapes.julia_constant[i], shapes.julia_slice[i], shapes.julia_iterations[i],
-                          record);
+                set_julia(shapes.julia_constant[i], shapes.julia_slice[i],
+                          shapes.julia_iterations[i], record);
             } else {
                 const Quadric quadric = quadric_of(kind, shapes.flare[i]);
                 record.a = quadric.a;
@@ -146,17 +157,20 @@ std::vector<ShapeBounds> bound_shapes(const std::vector<ShapeRecord> &shapes) {
                 linear(row, column) = shape.world_from_object[row][column];
             }
         }
-        // (R + e)^2 <= 1.05 R^2 + 21 e^2, where the largest stretch of the transform makes R of the object's radius.
+        // (R + e)^2 <= 1.05 R^2 + 21 e^2, where the largest stretch of the transform makes R of the
+        // object's radius.
         const double stretch = linear.jacobiSvd().singularValues()[0];
         const bool bounded = shape.bound2 < SHAPE_UNBOUNDED;
-        to.bound2[lane] = bounded ? static_cast<float>(1.05 * stretch * stretch * shape.bound2) : INFINITY;
+        to.bound2[lane] =
+            bounded ? static_cast<float>(1.05 * stretch * stretch * shape.bound2) : INFINITY;
         to.error2[lane] = 21.0f * shape.error2;
     }
     return bounds;
 }
 
 FeatureMask shape_features(const ShapeArrays &shapes) {
-    const auto julias = static_cast<size_t>(std::count(shapes.kind.begin(), shapes.kind.end(), Kind::julia));
+    const auto julias =
+        static_cast<size_t>(std::count(shapes.kind.begin(), shapes.kind.end(), Kind::julia));
     return FeatureMask()
         .with(Feature::shapes, !shapes.kind.empty())
         .with(Feature::julia, julias > 0)

@@ -11,8 +11,8 @@ namespace rtrays {
 
 /// The shapes as the device reads them, in their order. `light` is still the index into LightArrays
 /// (`no_index`, which is NO_EMITTER, for none).
-/// @throws Error (input_error) for a transform that float cannot hold or invert, and for a Julia set whose
-/// surface is empty or beyond float; the message names the node.
+/// @throws Error (input_error) for a transform that float cannot hold or invert, and for a Julia
+/// set whose surface is empty or beyond float; the message names the node.
 std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes);
 
 /// Balls around them, in eights (kernels/geometry/shape_bounds.h).

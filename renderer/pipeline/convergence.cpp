@@ -10,7 +10,8 @@
 namespace rtrays {
 
 std::string ConvergenceRule::describe() const {
-    return fmt::format("biased by convergence control: error {}, interval {}, start {}", error, interval, start);
+    return fmt::format("biased by convergence control: error {}, interval {}, start {}", error,
+                       interval, start);
 }
 
 uint64_t ConvergenceState::camera_paths(uint64_t samples) const {
@@ -22,8 +23,9 @@ uint64_t ConvergenceState::camera_paths(uint64_t samples) const {
 }
 
 bool ConvergenceState::is_consistent(uint64_t samples) const {
-    return std::all_of(stopped_at.begin(), stopped_at.end(),
-                       [&](uint64_t at) { return at == 0 || (at <= samples && rule.is_check(at)); });
+    return std::all_of(stopped_at.begin(), stopped_at.end(), [&](uint64_t at) {
+        return at == 0 || (at <= samples && rule.is_check(at));
+    });
 }
 
 nlohmann::json convergence_report(const ConvergenceState &state, uint64_t samples) {
@@ -41,7 +43,8 @@ nlohmann::json convergence_report(const ConvergenceState &state, uint64_t sample
         const auto stopped = stops.find(check);
         live -= stopped == stops.end() ? 0 : stopped->second;
         report["checks"].push_back(
-            {{"samples", check}, {"live", static_cast<double>(live) / static_cast<double>(state.stopped_at.size())}});
+            {{"samples", check},
+             {"live", static_cast<double>(live) / static_cast<double>(state.stopped_at.size())}});
     }
     return report;
 }

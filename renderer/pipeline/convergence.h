@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Convergence control (thesis 3.3.7): every `interval` samples from `start` on, pixels that have converged
-// (kernels/film/convergence.h) get no more camera paths. A pixel that stops by its own estimate is biased in general: it
-// stops sooner where it has missed what is rare.
+// Convergence control (thesis 3.3.7): every `interval` samples from `start` on, pixels that have
+// converged (kernels/film/convergence.h) get no more camera paths. A pixel that stops by its own
+// estimate is biased in general: it stops sooner where it has missed what is rare.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,13 @@
 namespace rtrays {
 
 struct ConvergenceRule {
-    float error = 0;        ///< relative change from N to 2N samples below which a pixel stops, above 0
+    float error = 0;  ///< relative change from N to 2N samples below which a pixel stops, above 0
     uint32_t interval = 0;  ///< samples between two checks, even
     uint32_t start = 0;     ///< samples of the first check, even
 
-    bool is_check(uint64_t samples) const { return samples >= start && (samples - start) % interval == 0; }
+    bool is_check(uint64_t samples) const {
+        return samples >= start && (samples - start) % interval == 0;
+    }
 
     /// The first check after that many samples.
     uint64_t next_check(uint64_t samples) const {
@@ -31,7 +33,8 @@ struct ConvergenceRule {
 struct ConvergenceState {
     ConvergenceRule rule;
     std::vector<uint64_t> stopped_at;  ///< by pixel: number of samples at which it stopped, 0: live
-    std::vector<int64_t> half_words;   ///< sums over the samples of even number; per pixel HALF_FILM_PIXEL_WORDS
+    std::vector<int64_t>
+        half_words;  ///< sums over the samples of even number; per pixel HALF_FILM_PIXEL_WORDS
 
     /// Samples of a pixel in a film of `samples`.
     uint64_t samples_of(size_t pixel, uint64_t samples) const {
@@ -45,7 +48,8 @@ struct ConvergenceState {
     bool is_consistent(uint64_t samples) const;
 };
 
-/// {"error", "interval", "start", "camera_paths", "checks": [{"samples", "live": share of the pixels that went on}, ...]}.
+/// {"error", "interval", "start", "camera_paths", "checks": [{"samples", "live": share of the
+/// pixels that went on}, ...]}.
 nlohmann::json convergence_report(const ConvergenceState &state, uint64_t samples);
 
 }  // namespace rtrays

@@ -6,8 +6,9 @@
 
 namespace rtrays {
 
-ConvergenceControl::ConvergenceControl(DeviceContext &device, const ConvergenceRule &rule, uint32_t pixels,
-                                       FeatureMask camera, uint32_t group_size, const SourceOverlays &overlays)
+ConvergenceControl::ConvergenceControl(DeviceContext &device, const ConvergenceRule &rule,
+                                       uint32_t pixels, FeatureMask camera, uint32_t group_size,
+                                       const SourceOverlays &overlays)
     : rule_(rule),
       pixels_(pixels),
       half_film_(device, "half_film", size_t{pixels} * HALF_FILM_PIXEL_WORDS),
@@ -29,7 +30,8 @@ ConvergenceControl::ConvergenceControl(DeviceContext &device, const ConvergenceR
 }
 
 StageArguments ConvergenceControl::arguments() const {
-    return {{StageInput::half_film, {half_film_}}, {StageInput::live_pixels, {live_pixels_, live_count_}}};
+    return {{StageInput::half_film, {half_film_}},
+            {StageInput::live_pixels, {live_pixels_, live_count_}}};
 }
 
 void ConvergenceControl::reset() {
@@ -39,7 +41,8 @@ void ConvergenceControl::reset() {
 }
 
 void ConvergenceControl::check(const Buffer<int64_t> &film, uint64_t samples) {
-    stop_converged_.bind({film, half_film_, live_pixels_, live_count_, stopped_at_, rule_.error, samples});
+    stop_converged_.bind(
+        {film, half_film_, live_pixels_, live_count_, stopped_at_, rule_.error, samples});
     stop_converged_.enqueue(live_count_);
     list_live_pixels();
 }
@@ -54,7 +57,9 @@ void ConvergenceControl::list_live_pixels() {
     live_count_ = live_total_.read().front();
 }
 
-ConvergenceState ConvergenceControl::state() const { return {rule_, stopped_at_.read(), half_film_.read()}; }
+ConvergenceState ConvergenceControl::state() const {
+    return {rule_, stopped_at_.read(), half_film_.read()};
+}
 
 void ConvergenceControl::restore(const ConvergenceState &state) {
     stopped_at_.write(state.stopped_at);

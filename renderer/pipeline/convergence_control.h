@@ -10,18 +10,21 @@
 
 namespace rtrays {
 
-/// Convergence control on the device: the half film, the pixels' stopping counts and the list of those that are live. The
-/// host learns no more than how many these are.
+/// Convergence control on the device: the half film, the pixels' stopping counts and the list of
+/// those that are live. The host learns no more than how many these are.
 class ConvergenceControl {
   public:
     /// `camera`: features of the camera pass, whose film `check` is given. All `pixels` are live.
-    ConvergenceControl(DeviceContext &device, const ConvergenceRule &rule, uint32_t pixels, FeatureMask camera,
-                       uint32_t group_size, const SourceOverlays &overlays);
+    ConvergenceControl(DeviceContext &device, const ConvergenceRule &rule, uint32_t pixels,
+                       FeatureMask camera, uint32_t group_size, const SourceOverlays &overlays);
 
     const ConvergenceRule &rule() const { return rule_; }
     uint32_t live_count() const { return live_count_; }
-    const Buffer<uint32_t> &live_pixels() const { return live_pixels_; }  ///< ascending; the first `live_count` count
-    /// The half film and the list, as the stages of the pass take them: to be bound anew after each call that changes them.
+    const Buffer<uint32_t> &live_pixels() const {
+        return live_pixels_;
+    }  ///< ascending; the first `live_count` count
+    /// The half film and the list, as the stages of the pass take them: to be bound anew after each
+    /// call that changes them.
     StageArguments arguments() const;
 
     /// All pixels live again, no samples.

@@ -12,11 +12,12 @@ namespace rtrays {
 
 namespace {
 
-constexpr std::array<std::pair<Feature, const char *>, static_cast<size_t>(Feature::count)> feature_table = {{
+constexpr std::array<std::pair<Feature, const char *>, static_cast<size_t>(Feature::count)>
+    feature_table = {{
 #define ROW(name, text) {Feature::name, #name},
-    RTRAYS_FEATURES(ROW)
+        RTRAYS_FEATURES(ROW)
 #undef ROW
-}};
+    }};
 
 /// What a feature's code is built upon: without the second the first is off.
 constexpr std::pair<Feature, Feature> requirements[] = {
@@ -108,7 +109,8 @@ FeatureMask FeatureMask::closed() const {
     FeatureMask mask = *this;
     const auto drop = [&] {
         for (const auto &[feature, served] : servants) {
-            mask = mask.with(feature, mask.has(feature) && (mask.has(served[0]) || mask.has(served[1])));
+            mask = mask.with(feature,
+                             mask.has(feature) && (mask.has(served[0]) || mask.has(served[1])));
         }
         for (const auto &[feature, needed] : requirements) {
             mask = mask.with(feature, mask.has(feature) && mask.has(needed));
@@ -120,7 +122,8 @@ FeatureMask FeatureMask::closed() const {
         drop();
     }
     // What follows from the others.
-    const bool from_light = mask.has(Feature::from_light), strategy = mask.has(Feature::light_strategy);
+    const bool from_light = mask.has(Feature::from_light),
+               strategy = mask.has(Feature::light_strategy);
     const bool joins = mask.has(Feature::vertex_joins);
     return mask.with(Feature::from_camera, !from_light)
         .with(Feature::convergence, mask.has(Feature::convergence) && !from_light)
@@ -130,7 +133,8 @@ FeatureMask FeatureMask::closed() const {
                                         (mask.has(Feature::delta) && mask.has(Feature::lights)))))
         .with(Feature::emission_density, from_light && strategy)
         .with(Feature::arrival_density, joins || (from_light && strategy))
-        .with(Feature::roulette_scale, mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light));
+        .with(Feature::roulette_scale,
+              mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light));
 }
 
 namespace {
@@ -157,7 +161,8 @@ class FieldList {
 
 }  // namespace
 
-#define FEATURE_VARIABLE(name, text) [[maybe_unused]] const bool FEATURE_##name = mask.has(Feature::name);
+#define FEATURE_VARIABLE(name, text) \
+    [[maybe_unused]] const bool FEATURE_##name = mask.has(Feature::name);
 #define ROW(feature, type, name) list.add(feature, #type, #name);
 
 std::vector<PathStateField> path_state_fields(FeatureMask mask) {

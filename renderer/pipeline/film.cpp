@@ -20,20 +20,24 @@ namespace {
 constexpr int state_version = 3;
 const std::string magic = "RTRaysFilm";
 
-size_t pixel_words(const FilmState &film) { return FILM_PIXEL_WORDS(film.variance); }
+size_t pixel_words(const FilmState &film) {
+    return FILM_PIXEL_WORDS(film.variance);
+}
 
 /// Of one pass.
 size_t word_count(const FilmState &film) {
     return static_cast<size_t>(film.width) * static_cast<size_t>(film.height) * pixel_words(film);
 }
 
-/// The value of one sum, whose words are `stride` apart: words times their units. Carried words below the top one are
-/// non-negative and smaller than the unit above, so that adding from the top cancels only where it is exact; the twelve
-/// roundings of 2^-53 keep the error below 2^-49 of the result.
+/// The value of one sum, whose words are `stride` apart: words times their units. Carried words
+/// below the top one are non-negative and smaller than the unit above, so that adding from the top
+/// cancels only where it is exact; the twelve roundings of 2^-53 keep the error below 2^-49 of the
+/// result.
 double sum_value(const int64_t *words, size_t stride, int lowest, int step) {
     double value = 0;
     for (int k = FILM_WORDS - 1; k >= 0; --k) {
-        value += std::ldexp(static_cast<double>(words[static_cast<size_t>(k) * stride]), lowest + k * step);
+        value += std::ldexp(static_cast<double>(words[static_cast<size_t>(k) * stride]),
+                            lowest + k * step);
     }
     return value;
 }
@@ -54,12 +58,14 @@ void FilmState::add_range(SampleRange range) {
     }
     for (const SampleRange &present : ranges) {
         if (range.begin < present.end && present.begin < range.end) {
-            throw input_error(fmt::format("samples {}:{} overlap {}:{}, which the film holds already: render others", range.begin, range.end,
-                                          present.begin, present.end));
+            throw input_error(fmt::format(
+                "samples {}:{} overlap {}:{}, which the film holds already: render others",
+                range.begin, range.end, present.begin, present.end));
         }
     }
     ranges.push_back(range);
-    std::sort(ranges.begin(), ranges.end(), [](const SampleRange &a, const SampleRange &b) { return a.begin < b.begin; });
+    std::sort(ranges.begin(), ranges.end(),
+              [](const SampleRange &a, const SampleRange &b) { return a.begin < b.begin; });
     std::vector<SampleRange> joined;
     for (const SampleRange &r : ranges) {
         if (!joined.empty() && joined.back().end == r.begin) {
@@ -73,8 +79,10 @@ void FilmState::add_range(SampleRange range) {
 
 void require_valid(const FilmState &film) {
     if (film.non_finite > 0 || film.out_of_range > 0) {
-        throw run_error(fmt::format("{} samples were not finite and {} beyond the film's range of 2^40; they are not in the image",
-                                    film.non_finite, film.out_of_range));
+        throw run_error(
+            fmt::format("{} samples were not finite and {} beyond the film's range of 2^40; they "
+                        "are not in the image",
+                        film.non_finite, film.out_of_range));
     }
 }
 
@@ -88,7 +96,9 @@ Image develop_film(const FilmState &film) {
     }
     std::vector<float> &samples = image.add_channel("samples");
     for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
-        samples[pixel] = static_cast<float>(film.convergence ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
+        samples[pixel] = static_cast<float>(
+            film.convergence ? film.convergence->samples_of(pixel, film.samples())
+                             : film.samples());
     }
     const bool layers = film.passes.size() > 1;
     for (size_t pass = 0; pass < film.passes.size() && layers; ++pass) {
@@ -103,32 +113,39 @@ Image develop_film(const FilmState &film) {
     for (size_t c = 0; c < FILM_CHANNELS; ++c) {
         std::vector<double> mean(image.pixel_count()), mean_variance(image.pixel_count());
         for (size_t pass = 0; pass < film.passes.size(); ++pass) {
-            // A sample of the camera's is one of n; a sample of the light pass is the sum over its paths.
+            // A sample of the camera's is one of n; a sample of the light pass is the sum over its
+            // paths.
             const bool splats = film.passes[pass] == "light";
             const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
             const bool stops = !splats && film.convergence;
             const int64_t *const first = film.words.data() + pass * word_count(film) + c;
-            std::vector<float> *const layer = layers ? &image.channel(rgb_names(film.passes[pass])[c]) : nullptr;
+            std::vector<float> *const layer =
+                layers ? &image.channel(rgb_names(film.passes[pass])[c]) : nullptr;
             for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
                 const int64_t *words = first + pixel * pixel_words(film);
-                const auto n = static_cast<double>(stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
+                const auto n = static_cast<double>(
+                    stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
                 const double own = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
                 mean[pixel] += own;
                 if (layer != nullptr) {
                     (*layer)[pixel] = static_cast<float>(own);
                 }
                 if (film.variance && n * paths > 1) {
-                    // Squares are rounded by up to 2^-21 each: where all samples are equal the difference may come out
-                    // below zero by that much of the mean's square; 0 is then the nearest variance.
-                    const double square =
-                        sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
-                    mean_variance[pixel] += std::max(square - own * own / paths, 0.0) / (n - 1.0 / paths);
+                    // Squares are rounded by up to 2^-21 each: where all samples are equal the
+                    // difference may come out below zero by that much of the mean's square; 0 is
+                    // then the nearest variance.
+                    const double square = sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST,
+                                                    FILM_SQUARE_STEP) /
+                                          n;
+                    mean_variance[pixel] +=
+                        std::max(square - own * own / paths, 0.0) / (n - 1.0 / paths);
                 }
             }
         }
         std::copy(mean.begin(), mean.end(), image.channel(colour[c]).begin());
         if (film.variance) {
-            std::copy(mean_variance.begin(), mean_variance.end(), image.channel(variance[c]).begin());
+            std::copy(mean_variance.begin(), mean_variance.end(),
+                      image.channel(variance[c]).begin());
         }
     }
     return image;
@@ -142,7 +159,8 @@ void merge_film(FilmState &film, const FilmState &other) {
     };
     require(film.width == other.width && film.height == other.height, "size");
     require(film.variance == other.variance, "their layers");
-    require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1), "their passes");
+    require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1),
+            "their passes");
     require(film.seed == other.seed, "seed");
     require(film.config == other.config, "scene or settings");
     FilmState merged = film;
@@ -150,8 +168,10 @@ void merge_film(FilmState &film, const FilmState &other) {
     if (other_pass) {
         require(film.ranges == other.ranges, "samples, and are different passes,");
     } else if (film.convergence || other.convergence) {
-        throw input_error("films whose pixels were stopped as they converged hold what their first samples decided; only another "
-                          "pass can be merged into them");
+        throw input_error(
+            "films whose pixels were stopped as they converged hold what their first samples "
+            "decided; only another "
+            "pass can be merged into them");
     } else {
         for (const SampleRange &range : other.ranges) {
             merged.add_range(range);
@@ -185,23 +205,31 @@ void merge_film(FilmState &film, const FilmState &other) {
 }
 
 void save_film(const FilmState &film, const std::filesystem::path &path) {
-    Json header = {{"version", state_version},   {"width", film.width},
-                   {"height", film.height},      {"variance", film.variance},
-                   {"seed", film.seed},          {"config", film.config},
-                   {"ranges", Json::array()},    {"device_seconds", film.device_seconds},
-                   {"non_finite", film.non_finite}, {"out_of_range", film.out_of_range},
-                   {"wall_seconds", film.wall_seconds}, {"passes", film.passes},
+    Json header = {{"version", state_version},
+                   {"width", film.width},
+                   {"height", film.height},
+                   {"variance", film.variance},
+                   {"seed", film.seed},
+                   {"config", film.config},
+                   {"ranges", Json::array()},
+                   {"device_seconds", film.device_seconds},
+                   {"non_finite", film.non_finite},
+                   {"out_of_range", film.out_of_range},
+                   {"wall_seconds", film.wall_seconds},
+                   {"passes", film.passes},
                    {"light_paths", film.light_paths}};
     for (const SampleRange &range : film.ranges) {
         header["ranges"].push_back({range.begin, range.end});
     }
     if (film.convergence) {
         const ConvergenceRule &rule = film.convergence->rule;
-        header["convergence"] = {{"error", rule.error}, {"interval", rule.interval}, {"start", rule.start}};
+        header["convergence"] = {
+            {"error", rule.error}, {"interval", rule.interval}, {"start", rule.start}};
     }
     std::string content = magic + "\n" + header.dump() + "\n";
     const auto append = [&](const auto &values) {
-        content.append(reinterpret_cast<const char *>(values.data()), values.size() * sizeof values[0]);
+        content.append(reinterpret_cast<const char *>(values.data()),
+                       values.size() * sizeof values[0]);
     };
     append(film.words);
     if (film.convergence) {
@@ -213,7 +241,9 @@ void save_film(const FilmState &film, const std::filesystem::path &path) {
 
 FilmState load_film(const std::filesystem::path &path) {
     const std::string file = read_file(path);
-    const auto fail = [&](const char *why) { return input_error(fmt::format("{}: {}", path.string(), why)); };
+    const auto fail = [&](const char *why) {
+        return input_error(fmt::format("{}: {}", path.string(), why));
+    };
     if (file.compare(std::min(hash_digits, file.size()), magic.size(), magic) != 0) {
         throw fail("not a film state: name a file that --state wrote");
     }
@@ -223,7 +253,8 @@ FilmState load_film(const std::filesystem::path &path) {
     }
     const size_t header_begin = magic.size() + 1;
     const size_t header_end = content.find('\n', header_begin);
-    const Json header = parse_json(content.substr(header_begin, header_end - header_begin), path.string());
+    const Json header =
+        parse_json(content.substr(header_begin, header_end - header_begin), path.string());
     if (header.at("version").get<int>() != state_version) {
         throw fail("film state of another version of the program: render it again");
     }
@@ -246,9 +277,10 @@ FilmState load_film(const std::filesystem::path &path) {
     if (header.contains("convergence")) {
         const Json &rule = header.at("convergence");
         const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
-        film.convergence = ConvergenceState{{rule.at("error"), rule.at("interval"), rule.at("start")},
-                                            std::vector<uint64_t>(pixels),
-                                            std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
+        film.convergence =
+            ConvergenceState{{rule.at("error"), rule.at("interval"), rule.at("start")},
+                             std::vector<uint64_t>(pixels),
+                             std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
     }
     size_t at = header_end + 1;
     const auto take = [&](auto &values) {

@@ -17,7 +17,8 @@ constexpr double most_per_pixel = 256;
 constexpr double worth_going_on = 0.9;  ///< of the cost before: more trials are costly themselves
 
 /// Renders sample by sample; their scatter gives the variance. Adds to `seconds`.
-PilotTrial attempt(const Scene &scene, const RenderSettings &settings, DeviceContext &device, double &seconds) {
+PilotTrial attempt(const Scene &scene, const RenderSettings &settings, DeviceContext &device,
+                   double &seconds) {
     RenderSession session(scene, settings, device);
     PilotTrial trial;
     std::vector<double> sums, squares;
@@ -48,7 +49,8 @@ PilotTrial attempt(const Scene &scene, const RenderSettings &settings, DeviceCon
 
 }  // namespace
 
-Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings, DeviceContext &device) {
+Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings,
+                         DeviceContext &device) {
     RenderSettings small = settings;
     small.seed = ~settings.seed;
     small.passes = "all";
@@ -66,8 +68,9 @@ Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings, Dev
     };
     const auto cost = [](const PilotTrial &trial) { return trial.variance * trial.rays; };
     const auto best = [&] {
-        return *std::min_element(pilot.trials.begin(), pilot.trials.end(),
-                                 [&](const PilotTrial &a, const PilotTrial &b) { return cost(a) < cost(b); });
+        return *std::min_element(
+            pilot.trials.begin(), pilot.trials.end(),
+            [&](const PilotTrial &a, const PilotTrial &b) { return cost(a) < cost(b); });
     };
     const auto add_trial = [&](double per_pixel) {
         small.light_paths = paths_of(per_pixel, small_pixels);
@@ -79,7 +82,8 @@ Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings, Dev
     }
     const auto pays = [&] {
         const auto last = pilot.trials.rbegin();
-        return cost(*last) < worth_going_on * cost(*(last + 1)) && best().per_pixel == last->per_pixel;
+        return cost(*last) < worth_going_on * cost(*(last + 1)) &&
+               best().per_pixel == last->per_pixel;
     };
     while (pays() && pilot.trials.back().per_pixel < most_per_pixel) {
         add_trial(4 * pilot.trials.back().per_pixel);

@@ -13,17 +13,20 @@
 
 namespace rtrays {
 
-RenderSession::RenderSession(const Scene &scene, const RenderSettings &settings, DeviceContext &device)
+RenderSession::RenderSession(const Scene &scene, const RenderSettings &settings,
+                             DeviceContext &device)
     : state_(std::make_unique<State>(scene, settings, device)) {}
 RenderSession::~RenderSession() = default;
 RenderSession::RenderSession(RenderSession &&) noexcept = default;
 
-uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function<void(uint64_t)> &on_batch) {
+uint64_t RenderSession::render(uint64_t begin, uint64_t end,
+                               const std::function<void(uint64_t)> &on_batch) {
     State &s = *state_;
     s.require_next(begin, end);
     while (begin < end && !interrupted()) {
         const uint64_t count = s.batch_size(begin, end);
-        const uint64_t camera_paths = count * (s.convergence != nullptr ? s.convergence->live_count() : s.pixels());
+        const uint64_t camera_paths =
+            count * (s.convergence != nullptr ? s.convergence->live_count() : s.pixels());
         s.ranges.add_range({begin, begin + count});
         const auto start = Clock::now();
         const double compiled_before = s.compile_seconds;
@@ -38,7 +41,9 @@ uint64_t RenderSession::render(uint64_t begin, uint64_t end, const std::function
     return begin;
 }
 
-bool RenderSession::is_complete() const { return state_->live_paths_per_sample() == 0; }
+bool RenderSession::is_complete() const {
+    return state_->live_paths_per_sample() == 0;
+}
 
 void RenderSession::restart(uint32_t seed) {
     state_->numbers.seed = state_->settings.seed = seed;
@@ -49,9 +54,11 @@ void RenderSession::restart(uint32_t seed) {
 }
 
 void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
-    if (state_->settings.max_depth == 0 || max_depth == 0 || state_->features.has(Feature::branches)) {
-        throw input_error(fmt::format("{}: integrator.max_depth={} cannot become {} in a session", state_->settings.algorithm,
-                                      state_->settings.max_depth, max_depth));
+    if (state_->settings.max_depth == 0 || max_depth == 0 ||
+        state_->features.has(Feature::branches)) {
+        throw input_error(fmt::format("{}: integrator.max_depth={} cannot become {} in a session",
+                                      state_->settings.algorithm, state_->settings.max_depth,
+                                      max_depth));
     }
     state_->numbers.max_depth = state_->settings.max_depth = max_depth;
     state_->config = content_hash(state_->scene_hash + image_settings(state_->settings).dump());
@@ -84,14 +91,18 @@ FilmState RenderSession::film() const {
 void RenderSession::restore(const FilmState &film) {
     const FilmState header = state_->film_header();
     if (film.config != header.config || film.seed != header.seed || film.width != header.width ||
-        film.height != header.height || film.variance != header.variance || film.passes != header.passes ||
+        film.height != header.height || film.variance != header.variance ||
+        film.passes != header.passes ||
         film.convergence.has_value() != (state_->convergence != nullptr)) {
-        throw input_error("the film state belongs to another scene, other settings, another seed or size");
+        throw input_error(
+            "the film state belongs to another scene, other settings, another seed or size");
     }
     state_->reset_film();
     for (size_t pass = 0; pass < film.passes.size(); ++pass) {
-        const auto first = film.words.begin() + static_cast<std::ptrdiff_t>(pass * state_->film_words());
-        state_->passes[pass].film.write({first, first + static_cast<std::ptrdiff_t>(state_->film_words())});
+        const auto first =
+            film.words.begin() + static_cast<std::ptrdiff_t>(pass * state_->film_words());
+        state_->passes[pass].film.write(
+            {first, first + static_cast<std::ptrdiff_t>(state_->film_words())});
     }
     if (state_->convergence != nullptr) {
         state_->convergence->restore(*film.convergence);
@@ -108,7 +119,8 @@ Image RenderSession::develop() const {
     Image image = develop_film(state);
     describe_image(image, state);
     image.attributes()["rtrays:device"] = state_->device.info().name;
-    image.attributes()["rtrays:driver"] = state_->device.info().platform_name + " " + state_->device.info().driver;
+    image.attributes()["rtrays:driver"] =
+        state_->device.info().platform_name + " " + state_->device.info().driver;
     image.attributes()["rtrays:buildOptions"] = program_options(state_->device.info());
     image.attributes()["rtrays:sceneHash"] = state_->scene_hash;
     image.attributes()["rtrays:settings"] = image_settings(state_->settings).dump();

@@ -4,14 +4,18 @@
 namespace rtrays {
 
 // The tables name features as the kernels do: FEATURE_x. Here they are variables.
-#define FEATURE_VARIABLE(name, text) [[maybe_unused]] const bool FEATURE_##name = features.has(Feature::name);
+#define FEATURE_VARIABLE(name, text) \
+    [[maybe_unused]] const bool FEATURE_##name = features.has(Feature::name);
 
-SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features)
-    : features_(features), lighting_(compiled.lighting), shape_count_(static_cast<uint32_t>(compiled.shapes.size())) {
+SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled,
+                           FeatureMask features)
+    : features_(features),
+      lighting_(compiled.lighting),
+      shape_count_(static_cast<uint32_t>(compiled.shapes.size())) {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
-#define ROW(feature, type, name)                               \
-    if (feature) {                                             \
-        name##_ = Buffer<type>(device, #name, compiled.name);  \
+#define ROW(feature, type, name)                              \
+    if (feature) {                                            \
+        name##_ = Buffer<type>(device, #name, compiled.name); \
     }
     BOUNDS_BUFFERS(ROW)
     SURFACE_BUFFERS(ROW)
@@ -24,9 +28,9 @@ StageArguments SceneBuffers::arguments(const Bvh &bvh) const {
     const FeatureMask features = features_;
     RTRAYS_FEATURES(FEATURE_VARIABLE)
     StageArguments arguments;
-#define ROW(feature, type, name)        \
-    if (feature) {                      \
-        list->emplace_back(name##_);    \
+#define ROW(feature, type, name)     \
+    if (feature) {                   \
+        list->emplace_back(name##_); \
     }
     std::vector<KernelArgument> *list = &arguments[StageInput::geometry];
     bvh.visit([&](const auto &bvh_nodes_, const auto &bvh_triangles_) { GEOMETRY_BUFFERS(ROW) });

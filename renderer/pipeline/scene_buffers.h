@@ -9,14 +9,15 @@
 
 namespace rtrays {
 
-/// A compiled scene in the device's memory: one buffer per row of shared/scene_buffers.h whose feature is on.
+/// A compiled scene in the device's memory: one buffer per row of shared/scene_buffers.h whose
+/// feature is on.
 class SceneBuffers {
   public:
     SceneBuffers() = default;
     SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
 
-    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry and traversal, given the hierarchy (which is
-    /// read where there are triangles).
+    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry and traversal,
+    /// given the hierarchy (which is read where there are triangles).
     StageArguments arguments(const Bvh &bvh) const;
 
     /// Calls visit(buffer) for every buffer.

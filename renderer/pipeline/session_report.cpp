@@ -15,7 +15,10 @@ nlohmann::json RenderSession::report() const {
         {"schema_version", 1},
         {"commit", commit()},
         {"dirty", built_from_changed_sources()},
-        {"device", {{"name", s.device.info().name}, {"driver", s.device.info().driver}, {"platform", s.device.info().platform_name}}},
+        {"device",
+         {{"name", s.device.info().name},
+          {"driver", s.device.info().driver},
+          {"platform", s.device.info().platform_name}}},
         {"settings", image_settings(s.settings)},
         {"features", s.features.names()},
         {"pipeline", s.settings.pipeline},
@@ -24,7 +27,10 @@ nlohmann::json RenderSession::report() const {
           {"capacity", s.layout.capacity},
           {"chunk", s.layout.chunk},
           {"interleaved", s.layout.interleaved}}},
-        {"scene", {{"hash", s.scene_hash}, {"triangles", s.compiled.surface_triangles.size()}, {"lights", s.compiled.lights.size()}}},
+        {"scene",
+         {{"hash", s.scene_hash},
+          {"triangles", s.compiled.surface_triangles.size()},
+          {"lights", s.compiled.lights.size()}}},
         {"seconds",
          {{"compile", numbers.compile_seconds},
           {"bvh_device", numbers.bvh_seconds},
@@ -36,11 +42,13 @@ nlohmann::json RenderSession::report() const {
         {"rounds", counters.iterations},
     };
     for (const PilotTrial &trial : s.pilot.trials) {
-        report["pilot"]["trials"].push_back(
-            {{"light_paths_per_pixel", trial.per_pixel}, {"variance", trial.variance}, {"rays_per_pixel", trial.rays}});
+        report["pilot"]["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
+                                             {"variance", trial.variance},
+                                             {"rays_per_pixel", trial.rays}});
     }
     if (!s.pilot.trials.empty()) {
-        report["pilot"].update({{"light_paths", s.pilot.light_paths}, {"seconds", s.pilot.seconds}});
+        report["pilot"].update(
+            {{"light_paths", s.pilot.light_paths}, {"seconds", s.pilot.seconds}});
     }
     uint32_t largest_path = 0;
     for (const CompiledPass &pass : s.passes) {
@@ -60,8 +68,10 @@ nlohmann::json RenderSession::report() const {
             add_programs(s.convergence->programs());
         }
         for (const auto &[name, stage] : pass.profile) {
-            report["stages"].push_back(
-                {{"pass", pass.name}, {"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
+            report["stages"].push_back({{"pass", pass.name},
+                                        {"name", name},
+                                        {"seconds", stage.seconds},
+                                        {"launches", stage.launches}});
         }
         uint32_t path_bytes = pass.streams ? STREAM_QUEUES * sizeof(uint32_t) : 0;
         nlohmann::json fields;
@@ -75,23 +85,37 @@ nlohmann::json RenderSession::report() const {
                                     {"path_state", fields},
                                     {"bytes_per_path", path_bytes}});
         if (pass.ray_counts.size() > 0) {
-            report["passes"].back()["rays_by_depth"] = {{"nearest", pass.rays_by_depth(RAY_NEAREST)},
-                                                        {"shadow", pass.rays_by_depth(RAY_SHADOW)}};
+            report["passes"].back()["rays_by_depth"] = {
+                {"nearest", pass.rays_by_depth(RAY_NEAREST)},
+                {"shadow", pass.rays_by_depth(RAY_SHADOW)}};
         }
         largest_path = std::max(largest_path, path_bytes);
     }
     // In memory: the passes take turns, but for the light vertices that one keeps for the other.
-    const uint32_t vertex_bytes = s.vertex_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
-    const uint32_t branch_bytes = s.branch_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
+    const uint32_t vertex_bytes =
+        s.vertex_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
+    const uint32_t branch_bytes =
+        s.branch_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
     report["light_vertex_bytes_per_path"] = vertex_bytes;
     report["branch_bytes_per_path"] = branch_bytes;
     report["bytes_per_path"] = largest_path + vertex_bytes + branch_bytes;
     for (const auto &[name, stage] : s.bvh_stages) {
-        report["bvh"]["stages"].push_back({{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
+        report["bvh"]["stages"].push_back(
+            {{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
     const BvhReport &bvh = s.bvh.report();
-    report["bvh"].update({{"layout", to_string(s.layout.bvh)}, {"builder", to_string(bvh.method)}, {"refitted", s.bvh_refitter != nullptr}, {"nodes", bvh.nodes}, {"leaves", bvh.leaves}, {"depth", bvh.depth}, {"sah_cost", bvh.sah_cost},
-                          {"wide_nodes", bvh.wide_nodes}, {"wide_leaves", bvh.wide_leaves}, {"rejected", bvh.rejected()}, {"bytes", bvh.bytes}, {"bytes_peak", bvh.bytes_peak}});
+    report["bvh"].update({{"layout", to_string(s.layout.bvh)},
+                          {"builder", to_string(bvh.method)},
+                          {"refitted", s.bvh_refitter != nullptr},
+                          {"nodes", bvh.nodes},
+                          {"leaves", bvh.leaves},
+                          {"depth", bvh.depth},
+                          {"sah_cost", bvh.sah_cost},
+                          {"wide_nodes", bvh.wide_nodes},
+                          {"wide_leaves", bvh.wide_leaves},
+                          {"rejected", bvh.rejected()},
+                          {"bytes", bvh.bytes},
+                          {"bytes_peak", bvh.bytes_peak}});
     const auto add_buffer = [&](const auto &buffer) {
         if (buffer.size() > 0) {
             report["buffers"].push_back({{"name", buffer.name()}, {"bytes", buffer.bytes()}});

@@ -13,23 +13,29 @@ namespace rtrays {
 
 namespace {
 
-/// Paths of one batch: few enough that progress shows and an interrupt is heeded within seconds, and many times as many as
-/// are in flight, for the last paths of a batch leave a device nearly idle. The work counter has 32 bits.
-uint64_t batch_paths(const DeviceInfo &device) { return device.is_cpu ? 1u << 21 : 1u << 26; }
+/// Paths of one batch: few enough that progress shows and an interrupt is heeded within seconds,
+/// and many times as many as are in flight, for the last paths of a batch leave a device nearly
+/// idle. The work counter has 32 bits.
+uint64_t batch_paths(const DeviceInfo &device) {
+    return device.is_cpu ? 1u << 21 : 1u << 26;
+}
 
 /// Rounds enqueued between two looks at the counters.
 constexpr int rounds_per_check = 8;
 
-/// Such looks between two collections of the profile, which keeps an event of every launch until then.
+/// Such looks between two collections of the profile, which keeps an event of every launch until
+/// then.
 constexpr int checks_per_profile = 64;
 
-/// Rounds of the last few paths of a batch after which a kernel that takes them far in one launch is worth compiling.
+/// Rounds of the last few paths of a batch after which a kernel that takes them far in one launch
+/// is worth compiling.
 constexpr int many_rounds = 512;
 
 /// Stages share what is chosen: it is bound where the next to take it asks for another.
 void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
     const auto &inputs = stage_description(stage.name).inputs;
-    if (stage.chosen != pass.chosen && std::find(inputs.begin(), inputs.end(), StageInput::chosen) != inputs.end()) {
+    if (stage.chosen != pass.chosen &&
+        std::find(inputs.begin(), inputs.end(), StageInput::chosen) != inputs.end()) {
         pass.stages.bind({{StageInput::chosen, {stage.chosen}}});
         pass.chosen = stage.chosen;
     }
@@ -38,8 +44,10 @@ void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
 }  // namespace
 
 uint64_t RenderSession::State::batch_size(uint64_t begin, uint64_t end) const {
-    const uint64_t batch = batch_paths(device.info()) / std::max<uint64_t>(1, live_paths_per_sample());
-    uint64_t count = std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_BETWEEN_CARRIES), end - begin);
+    const uint64_t batch =
+        batch_paths(device.info()) / std::max<uint64_t>(1, live_paths_per_sample());
+    uint64_t count =
+        std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_BETWEEN_CARRIES), end - begin);
     if (convergence != nullptr && convergence->live_count() > 0) {
         count = std::min(count, convergence->rule().next_check(begin) - begin);
     }
@@ -49,26 +57,28 @@ uint64_t RenderSession::State::batch_size(uint64_t begin, uint64_t end) const {
 void RenderSession::State::require_next(uint64_t begin, uint64_t end) const {
     const uint64_t done = ranges.samples();
     if (convergence != nullptr && begin < end && begin != done) {
-        throw input_error(fmt::format("convergence control decides by all samples from 0 on, of which there are {}: the next is {}, not {}",
-                                      done, done, begin));
+        throw input_error(
+            fmt::format("convergence control decides by all samples from 0 on, of which there are "
+                        "{}: the next is {}, not {}",
+                        done, done, begin));
     }
 }
 
 void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, uint64_t paths) {
     using Items = StageDescription::Items;
     switch (stage_description(name).items) {
-    case Items::entries:
-        return pass.stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
-    case Items::paths:
-        return pass.stages.enqueue(name, (paths + layout.chunk - 1) / layout.chunk);
-    case Items::slots:
-        return pass.stages.enqueue(name, layout.capacity);
-    case Items::few_paths:
-        return pass.stages.enqueue(name, FEW_PATHS(layout.capacity));
-    case Items::film_sums:
-        return pass.stages.enqueue(name, film_sums());
-    case Items::one:
-        return pass.stages.enqueue(name, 1);
+        case Items::entries:
+            return pass.stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
+        case Items::paths:
+            return pass.stages.enqueue(name, (paths + layout.chunk - 1) / layout.chunk);
+        case Items::slots:
+            return pass.stages.enqueue(name, layout.capacity);
+        case Items::few_paths:
+            return pass.stages.enqueue(name, FEW_PATHS(layout.capacity));
+        case Items::film_sums:
+            return pass.stages.enqueue(name, film_sums());
+        case Items::one:
+            return pass.stages.enqueue(name, 1);
     }
 }
 
@@ -80,7 +90,8 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
         make_room(pass, count);
     }
     if (features.has(Feature::vertex_joins)) {
-        // One path of each pass for every pixel: chunk by chunk, so that both find the same light vertices.
+        // One path of each pass for every pixel: chunk by chunk, so that both find the same light
+        // vertices.
         const auto work = static_cast<uint32_t>(count * pixels());
         for (uint32_t begin = 0; begin == 0 || begin < work; begin += layout.capacity) {
             for (CompiledPass &pass : passes) {
@@ -96,7 +107,8 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
         }
     }
     for (CompiledPass &pass : passes) {
-        if (pass.features.has(Feature::convergence) && (count == 0 || convergence->rule().is_check(first + count))) {
+        if (pass.features.has(Feature::convergence) &&
+            (count == 0 || convergence->rule().is_check(first + count))) {
             carry_film(pass);
             convergence->check(pass.film, first + count);
             pass.stages.bind(convergence->arguments());
@@ -147,17 +159,21 @@ void RenderSession::State::add_last_stages(CompiledPass &pass, uint64_t in_fligh
     compile_seconds += seconds_since(start);
 }
 
-void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end) {
-    pass.stages.bind(
-        {{StageInput::first_sample, {first}}, {StageInput::first_work, {begin}}, {StageInput::work, {end}}});
+void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t begin,
+                                    uint32_t end) {
+    pass.stages.bind({{StageInput::first_sample, {first}},
+                      {StageInput::first_work, {begin}},
+                      {StageInput::work, {end}}});
     if (!pass.streams) {
-        enqueue(pass, pass.round.front().name, std::max<uint64_t>(end - begin, 1));  // 1: the first enqueue compiles
+        enqueue(pass, pass.round.front().name,
+                std::max<uint64_t>(end - begin, 1));  // 1: the first enqueue compiles
         return collect_profile(pass);
     }
     enqueue(pass, "reset_streams");
     uint64_t in_flight = layout.capacity;
     int rounds_of_few = 0;
-    // The counters are read one check behind, so that the device is never idle while the host looks.
+    // The counters are read one check behind, so that the device is never idle while the host
+    // looks.
     std::array<StreamCounters, 2> seen{};
     std::array<ClEvent, 2> read;
     for (int check = 0;; ++check) {
@@ -168,11 +184,12 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
         }
         const bool takes_far = few && pass.has_last_stages();
         for (int i = 0; i < rounds_per_check; ++i) {
-            // A camera path ends with one addition to its pixel, which run_batch counts; splats of all light paths may go
-            // to one.
+            // A camera path ends with one addition to its pixel, which run_batch counts; splats of
+            // all light paths may go to one.
             make_room(pass, pass.splats * in_flight * (takes_far ? FINISH_EVENTS : 1));
             for (const RoundStage &stage : takes_far ? pass.last_paths : pass.round) {
-                if (stage.rounds > 0 && static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
+                if (stage.rounds > 0 &&
+                    static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
                     continue;
                 }
                 bind_chosen(pass, stage);
@@ -184,8 +201,8 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
         }
         const int now = check % 2;
         cl_event event = nullptr;
-        check_cl(clEnqueueReadBuffer(device.queue(), counters.get(), CL_FALSE, 0, sizeof(StreamCounters), &seen[now], 0,
-                                     nullptr, &event),
+        check_cl(clEnqueueReadBuffer(device.queue(), counters.get(), CL_FALSE, 0,
+                                     sizeof(StreamCounters), &seen[now], 0, nullptr, &event),
                  "reading the stream counters");
         read[now] = ClEvent(event);
         check_cl(clFlush(device.queue()), "submitting work to the device");

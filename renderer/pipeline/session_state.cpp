@@ -18,12 +18,13 @@ namespace rtrays {
 
 namespace {
 
-/// On a CPU the path states should stay in cache and a work-item should do enough to be worth its call; a GPU needs
-/// enough paths to hide latency, though no more than its second cache holds, and neighbouring work-items that read
-/// neighbouring words.
+/// On a CPU the path states should stay in cache and a work-item should do enough to be worth its
+/// call; a GPU needs enough paths to hide latency, though no more than its second cache holds, and
+/// neighbouring work-items that read neighbouring words.
 StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &info) {
     const BvhLayout bvh = BvhBuildParameters::for_device(info).layout;
-    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh} : StreamLayout{128, 1u << 18, 1, false, bvh};
+    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh}
+                                      : StreamLayout{128, 1u << 18, 1, false, bvh};
     layout.group_size = settings.group_size > 0 ? settings.group_size : layout.group_size;
     layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
     if (has_light_pass(settings)) {
@@ -31,21 +32,25 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
         layout.capacity = std::min(layout.capacity, FILM_ADDITIONS_BETWEEN_CARRIES / 2);
     }
     layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
-    layout.interleaved = settings.path_layout == "auto" ? layout.interleaved : settings.path_layout == "interleaved";
+    layout.interleaved =
+        settings.path_layout == "auto" ? layout.interleaved : settings.path_layout == "interleaved";
     for (const NamedBvhLayout &named : bvh_layouts) {
         layout.bvh = settings.bvh_layout == named.name ? named.layout : layout.bvh;
     }
     if (layout.group_size > info.max_group_size) {
-        throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}", layout.group_size, info.name,
-                                      info.max_group_size));
+        throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}",
+                                      layout.group_size, info.name, info.max_group_size));
     }
     return layout;
 }
 
-FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings, const DeviceInfo &info) {
-    FeatureMask features = FeatureMask::all().with(Feature::variance, settings.variance)
-                               .with(Feature::convergence, has_convergence_control(settings))
-                               .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
+FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings,
+                            const DeviceInfo &info) {
+    FeatureMask features =
+        FeatureMask::all()
+            .with(Feature::variance, settings.variance)
+            .with(Feature::convergence, has_convergence_control(settings))
+            .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
     if (settings.features == "scene") {
         features = settings_features(settings) | compiled.features;
     }
@@ -57,9 +62,11 @@ RenderSettings complete(RenderSettings settings, const Scene &scene) {
     settings = with_fixed_choices(std::move(settings));
     settings.width = settings.width > 0 ? settings.width : scene.film_width();
     settings.height = settings.height > 0 ? settings.height : scene.film_height();
-    const uint64_t pixels = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
+    const uint64_t pixels =
+        static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
     if (pixels > (1u << 30)) {
-        throw input_error(fmt::format("{} x {} pixels are more than 2^30", settings.width, settings.height));
+        throw input_error(
+            fmt::format("{} x {} pixels are more than 2^30", settings.width, settings.height));
     }
     return settings;
 }
@@ -76,16 +83,17 @@ Pilot settle_light_paths(RenderSettings &settings, const Scene &scene, DeviceCon
 
 }  // namespace
 
-RenderSession::State::State(const Scene &scene, const RenderSettings &requested, DeviceContext &device_context)
+RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
+                            DeviceContext &device_context)
     : device(device_context),
       settings(complete(requested, scene)),
       pilot(settle_light_paths(settings, scene, device_context)),
       layout(stream_layout(settings, device_context.info())),
       numbers(integrator_settings(settings)),
       compiled(compile_scene(scene, compile_settings(settings))) {
-    std::vector<Pass> all_passes =
-        algorithm_passes(scheduled_algorithm(settings), select_features(compiled, settings, device.info()),
-                         compiled.lighting.light_count, numbers.light_vertices, settings.strategies_apart);
+    std::vector<Pass> all_passes = algorithm_passes(
+        scheduled_algorithm(settings), select_features(compiled, settings, device.info()),
+        compiled.lighting.light_count, numbers.light_vertices, settings.strategies_apart);
     if (settings.pipeline == "megakernel") {
         all_passes = megakernel_passes(std::move(all_passes));
     }
@@ -102,7 +110,8 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
     if (passes.empty()) {
         throw input_error(settings.passes == "all"
                               ? fmt::format("{}: the scene has no light", settings.algorithm)
-                              : fmt::format("{} has no pass '{}' in this scene", settings.algorithm, settings.passes));
+                              : fmt::format("{} has no pass '{}' in this scene", settings.algorithm,
+                                            settings.passes));
     }
     scene_hash = scene.hash();
     config = content_hash(scene_hash + image_settings(settings).dump());
@@ -116,7 +125,8 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
 
 bool RenderSession::State::update(const Scene &scene) {
     CompiledScene next = compile_scene(scene, compile_settings(settings));
-    if (next.features.bits() != compiled.features.bits() || next.lighting.light_count != compiled.lighting.light_count) {
+    if (next.features.bits() != compiled.features.bits() ||
+        next.lighting.light_count != compiled.lighting.light_count) {
         return false;
     }
     compiled = std::move(next);
@@ -132,7 +142,8 @@ bool RenderSession::State::update(const Scene &scene) {
 }
 
 void RenderSession::State::update_bvh(const MeshArrays &meshes) {
-    if (settings.bvh_update != "refit" || meshes.triangle.size() != bvh.report().triangles + bvh.report().left_out) {
+    if (settings.bvh_update != "refit" ||
+        meshes.triangle.size() != bvh.report().triangles + bvh.report().left_out) {
         return build_bvh(meshes);
     }
     const auto start = Clock::now();
@@ -180,13 +191,16 @@ void RenderSession::State::allocate() {
     for (CompiledPass &pass : passes) {
         pass.film = Buffer<int64_t>(device, "film." + pass.name, film_words());
         if (settings.count_rays == "by_depth") {
-            pass.ray_counts = Buffer<int64_t>(device, "ray_counts." + pass.name, RAY_KINDS * RAY_DEPTHS);
+            pass.ray_counts =
+                Buffer<int64_t>(device, "ray_counts." + pass.name, RAY_KINDS * RAY_DEPTHS);
         }
         pass.clear();
         if (pass.features.has(Feature::convergence)) {
-            const ConvergenceRule rule{settings.convergence_error, settings.convergence_interval, settings.convergence_start};
-            convergence = std::make_unique<ConvergenceControl>(device, rule, static_cast<uint32_t>(pixels()), pass.features,
-                                                               layout.group_size, settings.source_overlays);
+            const ConvergenceRule rule{settings.convergence_error, settings.convergence_interval,
+                                       settings.convergence_start};
+            convergence = std::make_unique<ConvergenceControl>(
+                device, rule, static_cast<uint32_t>(pixels()), pass.features, layout.group_size,
+                settings.source_overlays);
         }
     }
 }

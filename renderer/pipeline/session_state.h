@@ -31,11 +31,14 @@ namespace rtrays {
 
 using Clock = std::chrono::steady_clock;
 
-inline double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+inline double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// A pass of the algorithm, compiled, with the film it adds to.
 struct CompiledPass {
-    CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout, const RenderSettings &settings)
+    CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout,
+                 const RenderSettings &settings)
         : name(pass.name),
           features(pass.features),
           round(pass.round),
@@ -43,7 +46,8 @@ struct CompiledPass {
           streams(pass.streams),
           last_paths(pass.last_paths),
           splats(static_cast<uint64_t>(std::count_if(
-              round.begin(), round.end(), [](const RoundStage &stage) { return stage.name == "splat_unblocked"; }))),
+              round.begin(), round.end(),
+              [](const RoundStage &stage) { return stage.name == "splat_unblocked"; }))),
           stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
 
     static std::vector<std::string> stage_names(const Pass &pass) {
@@ -58,7 +62,9 @@ struct CompiledPass {
     }
 
     /// Whether the stages of the last few paths of a batch are compiled.
-    bool has_last_stages() const { return !last_paths.empty() && stages.has(last_paths.front().name); }
+    bool has_last_stages() const {
+        return !last_paths.empty() && stages.has(last_paths.front().name);
+    }
 
     /// The integrator's numbers for this pass.
     IntegratorSettings numbers(IntegratorSettings of_all) const {
@@ -97,15 +103,17 @@ struct CompiledPass {
     StageSet stages;
     Buffer<int64_t> film;
     Buffer<int64_t> ray_counts;
-    uint32_t chosen = SELECT_LIGHT;  ///< what StageInput::chosen is bound to
-    uint64_t additions = 0;          ///< to one pixel since the last carry, at most
+    uint32_t chosen = SELECT_LIGHT;                  ///< what StageInput::chosen is bound to
+    uint64_t additions = 0;                          ///< to one pixel since the last carry, at most
     std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
 };
 
 struct RenderSession::State {
     State(const Scene &scene, const RenderSettings &requested, DeviceContext &device_context);
 
-    uint64_t pixels() const { return static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height); }
+    uint64_t pixels() const {
+        return static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
+    }
 
     // session_state.cpp
 
@@ -119,7 +127,8 @@ struct RenderSession::State {
     void allocate();
     void bind();
 
-    /// The first enqueue of a kernel compiles it for its group size: a batch without work does that.
+    /// The first enqueue of a kernel compiles it for its group size: a batch without work does
+    /// that.
     void warm_up();
 
     void reset_film();
@@ -130,7 +139,9 @@ struct RenderSession::State {
 
     /// 4-byte words of the light vertices that are kept for every path in flight.
     uint32_t vertex_words_per_path() const {
-        return features.has(Feature::vertex_joins) ? numbers.light_vertices * light_vertex_words(features) : 0;
+        return features.has(Feature::vertex_joins)
+                   ? numbers.light_vertices * light_vertex_words(features)
+                   : 0;
     }
 
     /// Likewise of the vertices to which each path in flight may come back.
@@ -147,7 +158,8 @@ struct RenderSession::State {
     }
     /// Of these, those that are still traced.
     uint64_t live_paths_per_sample(const CompiledPass &pass) const {
-        return pass.features.has(Feature::convergence) ? convergence->live_count() : paths_per_sample(pass);
+        return pass.features.has(Feature::convergence) ? convergence->live_count()
+                                                       : paths_per_sample(pass);
     }
     uint64_t live_paths_per_sample() const {
         uint64_t paths = 0;
@@ -162,7 +174,8 @@ struct RenderSession::State {
     /// How many of the samples from `begin` on are rendered next: a batch, up to the next check.
     uint64_t batch_size(uint64_t begin, uint64_t end) const;
 
-    /// Where convergence control stops a pixel depends on all samples before. Throws `Error` (bad input).
+    /// Where convergence control stops a pixel depends on all samples before. Throws `Error` (bad
+    /// input).
     void require_next(uint64_t begin, uint64_t end) const;
 
     /// Renders `count` samples of the image from `first` on.
@@ -171,7 +184,8 @@ struct RenderSession::State {
     /// Traces the paths from `begin` to `end` of the batch that starts at sample `first`.
     void run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end);
 
-    /// Compiles the stages of the last few paths of a batch, of which `in_flight` are left, and runs their first round.
+    /// Compiles the stages of the last few paths of a batch, of which `in_flight` are left, and
+    /// runs their first round.
     void add_last_stages(CompiledPass &pass, uint64_t in_flight);
 
     /// `paths`: what a stage that traces whole paths is to trace.
@@ -206,7 +220,8 @@ struct RenderSession::State {
     Buffer<uint32_t> branch_vertices;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
-    std::unique_ptr<ConvergenceControl> convergence;  ///< of the camera pass, where pixels are stopped
+    std::unique_ptr<ConvergenceControl>
+        convergence;  ///< of the camera pass, where pixels are stopped
 
     double compile_seconds = 0;
     double bvh_wall_seconds = 0;

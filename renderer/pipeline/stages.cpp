@@ -5,49 +5,91 @@
 
 #include <algorithm>
 
-
 namespace rtrays {
 
 const std::vector<StageDescription> &stage_table() {
     using In = StageInput;
     using Items = StageDescription::Items;
     static const std::vector<StageDescription> table = {
-        {"reset_streams", "kernels/advance_streams.cl", {In::first_work, In::streams}, Items::slots},
-        {"generate_camera_rays", "kernels/generate_camera_rays.cl",
-         {In::camera, In::settings, In::first_sample, In::work, In::live_pixels, In::streams}, Items::entries},
-        {"generate_light_paths", "kernels/generate_light_paths.cl",
-         {In::surfaces, In::lights, In::settings, In::first_sample, In::work, In::vertices, In::streams}, Items::entries},
+        {"reset_streams",
+         "kernels/advance_streams.cl",
+         {In::first_work, In::streams},
+         Items::slots},
+        {"generate_camera_rays",
+         "kernels/generate_camera_rays.cl",
+         {In::camera, In::settings, In::first_sample, In::work, In::live_pixels, In::streams},
+         Items::entries},
+        {"generate_light_paths",
+         "kernels/generate_light_paths.cl",
+         {In::surfaces, In::lights, In::settings, In::first_sample, In::work, In::vertices,
+          In::streams},
+         Items::entries},
         {"begin_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
-        {"intersect_nearest", "kernels/intersect_nearest.cl", {In::geometry, In::streams}, Items::entries},
-        {"evaluate_emission", "kernels/evaluate_emission.cl", {In::surfaces, In::lights, In::settings, In::streams}, Items::entries},
-        {"sample_light", "kernels/sample_light.cl",
-         {In::surfaces, In::materials, In::lights, In::settings, In::first_sample, In::chosen, In::streams}, Items::entries},
+        {"intersect_nearest",
+         "kernels/intersect_nearest.cl",
+         {In::geometry, In::streams},
+         Items::entries},
+        {"evaluate_emission",
+         "kernels/evaluate_emission.cl",
+         {In::surfaces, In::lights, In::settings, In::streams},
+         Items::entries},
+        {"sample_light",
+         "kernels/sample_light.cl",
+         {In::surfaces, In::materials, In::lights, In::settings, In::first_sample, In::chosen,
+          In::streams},
+         Items::entries},
         {"intersect_any", "kernels/intersect_any.cl", {In::geometry, In::streams}, Items::entries},
-        {"connect_emitter", "kernels/connect_emitter.cl",
-         {In::surfaces, In::lights, In::camera, In::settings, In::first_sample, In::streams}, Items::entries},
-        {"connect_camera", "kernels/connect_camera.cl",
-         {In::surfaces, In::materials, In::lights, In::camera, In::settings, In::first_sample, In::streams}, Items::entries},
-        {"store_vertex", "kernels/store_vertex.cl",
-         {In::surfaces, In::materials, In::settings, In::vertices, In::streams}, Items::entries},
-        {"connect_vertices", "kernels/connect_vertices.cl",
-         {In::surfaces, In::materials, In::settings, In::chosen, In::vertices, In::streams}, Items::entries},
-        {"splat_unblocked", "kernels/splat_unblocked.cl", {In::geometry, In::film, In::streams}, Items::entries},
-        {"extend_path", "kernels/extend_path.cl",
-         {In::surfaces, In::materials, In::film, In::half_film, In::settings, In::first_sample, In::streams}, Items::entries},
-        {"follow_branches", "kernels/follow_branches.cl",
-         {In::surfaces, In::materials, In::film, In::settings, In::branches, In::streams}, Items::entries},
+        {"connect_emitter",
+         "kernels/connect_emitter.cl",
+         {In::surfaces, In::lights, In::camera, In::settings, In::first_sample, In::streams},
+         Items::entries},
+        {"connect_camera",
+         "kernels/connect_camera.cl",
+         {In::surfaces, In::materials, In::lights, In::camera, In::settings, In::first_sample,
+          In::streams},
+         Items::entries},
+        {"store_vertex",
+         "kernels/store_vertex.cl",
+         {In::surfaces, In::materials, In::settings, In::vertices, In::streams},
+         Items::entries},
+        {"connect_vertices",
+         "kernels/connect_vertices.cl",
+         {In::surfaces, In::materials, In::settings, In::chosen, In::vertices, In::streams},
+         Items::entries},
+        {"splat_unblocked",
+         "kernels/splat_unblocked.cl",
+         {In::geometry, In::film, In::streams},
+         Items::entries},
+        {"extend_path",
+         "kernels/extend_path.cl",
+         {In::surfaces, In::materials, In::film, In::half_film, In::settings, In::first_sample,
+          In::streams},
+         Items::entries},
+        {"follow_branches",
+         "kernels/follow_branches.cl",
+         {In::surfaces, In::materials, In::film, In::settings, In::branches, In::streams},
+         Items::entries},
         {"end_paths", "kernels/end_paths.cl", {In::film, In::streams}, Items::entries},
-        {"trace_paths", "kernels/trace_paths.cl",
-         {In::traversal, In::surfaces, In::materials, In::lights, In::camera, In::film, In::half_film, In::settings,
-          In::first_sample, In::first_work, In::work, In::live_pixels, In::counters},
+        {"trace_paths",
+         "kernels/trace_paths.cl",
+         {In::traversal, In::surfaces, In::materials, In::lights, In::camera, In::film,
+          In::half_film, In::settings, In::first_sample, In::first_work, In::work, In::live_pixels,
+          In::counters},
          Items::paths},
-        {"finish_paths", "kernels/finish_paths.cl",
-         {In::traversal, In::surfaces, In::materials, In::lights, In::camera, In::film, In::half_film, In::settings,
-          In::first_sample, In::streams},
+        {"finish_paths",
+         "kernels/finish_paths.cl",
+         {In::traversal, In::surfaces, In::materials, In::lights, In::camera, In::film,
+          In::half_film, In::settings, In::first_sample, In::streams},
          Items::few_paths},
         {"end_shadow_rays", "kernels/advance_streams.cl", {In::counters}, Items::one},
-        {"count_nearest_rays", "kernels/count_rays.cl", {In::ray_counts, In::streams}, Items::entries},
-        {"count_shadow_rays", "kernels/count_rays.cl", {In::ray_counts, In::streams}, Items::entries},
+        {"count_nearest_rays",
+         "kernels/count_rays.cl",
+         {In::ray_counts, In::streams},
+         Items::entries},
+        {"count_shadow_rays",
+         "kernels/count_rays.cl",
+         {In::ray_counts, In::streams},
+         Items::entries},
         {"end_round", "kernels/advance_streams.cl", {In::counters}, Items::one},
         {"carry_film", "kernels/carry_film.cl", {In::film, In::film_sums}, Items::film_sums},
     };
@@ -56,7 +98,8 @@ const std::vector<StageDescription> &stage_table() {
 
 const StageDescription &stage_description(const std::string &name) {
     const auto &table = stage_table();
-    const auto found = std::find_if(table.begin(), table.end(), [&](const StageDescription &s) { return s.name == name; });
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const StageDescription &s) { return s.name == name; });
     if (found == table.end()) {
         throw run_error(fmt::format("the pipeline has no stage '{}'", name));
     }
@@ -71,9 +114,12 @@ Defines stage_defines(FeatureMask features, const StreamLayout &layout) {
     return defines;
 }
 
-StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features,
-                   const StreamLayout &layout, const SourceOverlays &overlays)
-    : device_(&device), defines_(stage_defines(features, layout)), group_size_(layout.group_size), overlays_(overlays) {
+StageSet::StageSet(DeviceContext &device, const std::vector<std::string> &names,
+                   FeatureMask features, const StreamLayout &layout, const SourceOverlays &overlays)
+    : device_(&device),
+      defines_(stage_defines(features, layout)),
+      group_size_(layout.group_size),
+      overlays_(overlays) {
     add(names);
 }
 
@@ -81,9 +127,11 @@ void StageSet::add(const std::vector<std::string> &names) {
     for (const std::string &name : names) {
         const StageDescription &description = stage_description(name);
         const auto program =
-            programs_.try_emplace(description.file, *device_, description.file, defines_, overlays_).first;
+            programs_.try_emplace(description.file, *device_, description.file, defines_, overlays_)
+                .first;
         const uint32_t size = description.items == StageDescription::Items::one ? 1 : group_size_;
-        const auto [stage, is_new] = stages_.try_emplace(name, Stage{&description, Kernel(program->second, name, size)});
+        const auto [stage, is_new] =
+            stages_.try_emplace(name, Stage{&description, Kernel(program->second, name, size)});
         if (is_new && !arguments_.empty()) {
             bind(stage->second, arguments_);
         }
@@ -113,7 +161,9 @@ void StageSet::bind(Stage &stage, const StageArguments &changed) {
     stage.kernel.require_argument_count(index);
 }
 
-void StageSet::enqueue(const std::string &name, uint64_t items) { stages_.at(name).kernel.enqueue(items); }
+void StageSet::enqueue(const std::string &name, uint64_t items) {
+    stages_.at(name).kernel.enqueue(items);
+}
 
 double StageSet::build_seconds() const {
     double seconds = 0;

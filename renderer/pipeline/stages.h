@@ -11,9 +11,29 @@
 
 namespace rtrays {
 
-/// What a stage takes, in the order of its parameters; each stands for one or more kernel parameters.
+/// What a stage takes, in the order of its parameters; each stands for one or more kernel
+/// parameters.
 enum class StageInput {
-    geometry, traversal, surfaces, materials, lights, camera, film, half_film, live_pixels, film_sums, settings, first_sample, chosen, first_work, work, vertices, branches, streams, counters, ray_counts
+    geometry,
+    traversal,
+    surfaces,
+    materials,
+    lights,
+    camera,
+    film,
+    half_film,
+    live_pixels,
+    film_sums,
+    settings,
+    first_sample,
+    chosen,
+    first_work,
+    work,
+    vertices,
+    branches,
+    streams,
+    counters,
+    ray_counts
 };
 
 /// One block of the pipeline: one kernel.
@@ -21,8 +41,8 @@ struct StageDescription {
     std::string name;  ///< of the kernel, in source, profile and results
     std::string file;
     std::vector<StageInput> inputs;
-    /// What its work-items stand for: chunks of a queue's entries, slots, chunks of the work's paths, the last few paths,
-    /// sums of the film, or just one.
+    /// What its work-items stand for: chunks of a queue's entries, slots, chunks of the work's
+    /// paths, the last few paths, sums of the film, or just one.
     enum class Items { entries, slots, paths, few_paths, film_sums, one } items;
 };
 
@@ -35,8 +55,8 @@ const StageDescription &stage_description(const std::string &name);
 /// The kernel arguments that stand for each input.
 using StageArguments = std::map<StageInput, std::vector<KernelArgument>>;
 
-/// How streams and the hierarchy are laid out on a device. None of it changes a bit of the image, but for the layout of the
-/// hierarchy where a ray hits two triangles at the same distance.
+/// How streams and the hierarchy are laid out on a device. None of it changes a bit of the image,
+/// but for the layout of the hierarchy where a ray hits two triangles at the same distance.
 struct StreamLayout {
     uint32_t group_size;  ///< work-items per group
     uint32_t capacity;    ///< paths in flight
@@ -52,10 +72,11 @@ Defines stage_defines(FeatureMask features, const StreamLayout &layout);
 class StageSet {
   public:
     /// Builds one program per file.
-    StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features, const StreamLayout &layout,
-             const SourceOverlays &overlays);
+    StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features,
+             const StreamLayout &layout, const SourceOverlays &overlays);
 
-    /// Compiles more stages, with the arguments that the others have. Their first launch compiles once more.
+    /// Compiles more stages, with the arguments that the others have. Their first launch compiles
+    /// once more.
     void add(const std::vector<std::string> &names);
 
     bool has(const std::string &name) const { return stages_.count(name) > 0; }

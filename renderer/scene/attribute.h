@@ -7,9 +7,9 @@
 
 namespace rtrays {
 
-/// One accumulating quantity ("attribute" in the thesis). The three operations are the thesis'; how two
-/// values combine is up to the type: transforms multiply, visibility is a logical AND, a material replaces
-/// the inherited one.
+/// One accumulating quantity ("attribute" in the thesis). The three operations are the thesis'; how
+/// two values combine is up to the type: transforms multiply, visibility is a logical AND, a
+/// material replaces the inherited one.
 class NodeAttribute {
   public:
     virtual ~NodeAttribute() = default;
@@ -28,7 +28,9 @@ class NodeAttribute {
 template <typename Derived>
 class AttributeOf : public NodeAttribute {
   public:
-    std::unique_ptr<NodeAttribute> default_value() const final { return std::make_unique<Derived>(); }
+    std::unique_ptr<NodeAttribute> default_value() const final {
+        return std::make_unique<Derived>();
+    }
     std::unique_ptr<NodeAttribute> clone() const final { return std::make_unique<Derived>(self()); }
     void merge(const NodeAttribute &own) final {
         static_cast<Derived &>(*this).combine(static_cast<const Derived &>(own));
@@ -38,8 +40,8 @@ class AttributeOf : public NodeAttribute {
     const Derived &self() const { return static_cast<const Derived &>(*this); }
 };
 
-/// The accumulated attributes of one node, at most one of each type. Values that a node does not change are
-/// shared with its parent, so a set costs a pointer per attribute.
+/// The accumulated attributes of one node, at most one of each type. Values that a node does not
+/// change are shared with its parent, so a set costs a pointer per attribute.
 class AttributeSet {
   public:
     /// Accumulates what a node contributes. Never touches values shared with other nodes.

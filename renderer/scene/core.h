@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cores hold what a scene consists of: cameras, lights, geometry, transforms, materials. Nodes only place
-// them (thesis 3.2.2; "kernel" there, renamed because a kernel is an OpenCL function here).
+// Cores hold what a scene consists of: cameras, lights, geometry, transforms, materials. Nodes only
+// place them (thesis 3.2.2; "kernel" there, renamed because a kernel is an OpenCL function here).
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,9 @@ namespace rtrays {
 
 class Node;
 
-/// What a core is to its node, which has at most one core of each role. (The thesis gives a node one core
-/// and several attributes; with roles a lamp is one node with a transform, a mesh, a material and a light.)
+/// What a core is to its node, which has at most one core of each role. (The thesis gives a node
+/// one core and several attributes; with roles a lamp is one node with a transform, a mesh, a
+/// material and a light.)
 enum class CoreRole { transform, visibility, material, geometry, light, camera };
 constexpr size_t core_role_count = 6;
 
@@ -28,7 +29,8 @@ enum class Dirty : uint8_t {
     subtree,  ///< the accumulated attributes and records of the node and everything below it
 };
 
-/// The base of all cores. A core may be shared by any number of nodes; it lives as long as one of them.
+/// The base of all cores. A core may be shared by any number of nodes; it lives as long as one of
+/// them.
 class Core : public PropertyHolder {
   public:
     using PropertyHolder::PropertyHolder;

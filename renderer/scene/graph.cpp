@@ -22,7 +22,8 @@ std::string some(std::vector<std::string> names) {
     std::sort(names.begin(), names.end());
     const size_t more = names.size() > most ? names.size() - most : 0;
     names.resize(names.size() - more);
-    return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+    return fmt::format("{}{}", fmt::join(names, ", "),
+                       more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 std::vector<Property> properties_of(const Node &node) {
@@ -38,8 +39,8 @@ std::vector<Property> properties_of(const Node &node) {
 }
 
 std::string described(const std::string &owner, const Property &property) {
-    return fmt::format("{}.{} = {}  # {}: {}\n", owner, property.name, property.text(), property.type(),
-                       property.help);
+    return fmt::format("{}.{} = {}  # {}: {}\n", owner, property.name, property.text(),
+                       property.type(), property.help);
 }
 
 }  // namespace
@@ -54,7 +55,8 @@ SceneGraph::SceneGraph()
 }
 
 SceneGraph::~SceneGraph() {
-    // Nodes let go of their cores as they are destroyed; none of that needs to be recorded any more.
+    // Nodes let go of their cores as they are destroyed; none of that needs to be recorded any
+    // more.
     visit_subtree(*root_, [](Node &node) { node.graph_ = nullptr; });
 }
 
@@ -72,7 +74,8 @@ void SceneGraph::attach(Node &subtree) {
             for (size_t j = 0; j < i; ++j) {
                 names_.erase(added[j]->name());
             }
-            throw input_error(fmt::format("two nodes are called '{}'; give one another name", name));
+            throw input_error(
+                fmt::format("two nodes are called '{}'; give one another name", name));
         }
     }
     for (Node *node : added) {
@@ -261,7 +264,8 @@ void SceneGraph::share(const std::string &address, std::shared_ptr<PropertyHolde
 void SceneGraph::set_property(const std::string &address, const std::string &text) {
     const size_t dot = address.rfind('.');
     if (dot == std::string::npos) {
-        throw input_error(fmt::format("'{}': expected NODE.PROPERTY or SECTION.NAME.PROPERTY", address));
+        throw input_error(
+            fmt::format("'{}': expected NODE.PROPERTY or SECTION.NAME.PROPERTY", address));
     }
     const std::string owner = address.substr(0, dot);
     const std::string name = address.substr(dot + 1);
@@ -294,8 +298,8 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
         }
         names.push_back(property.name);
     }
-    throw input_error(
-        fmt::format("'{}': '{}' has no property '{}'; it has: {}", address, owner, name, some(names)));
+    throw input_error(fmt::format("'{}': '{}' has no property '{}'; it has: {}", address, owner,
+                                  name, some(names)));
 }
 
 std::string SceneGraph::list_properties() const {

@@ -18,8 +18,9 @@
 
 namespace rtrays {
 
-/// The scene graph and its serialized form (thesis 3.2.2). Users edit nodes and cores; `update` brings the
-/// stores up to date from a list of what was edited, so its cost does not depend on the rest of the graph.
+/// The scene graph and its serialized form (thesis 3.2.2). Users edit nodes and cores; `update`
+/// brings the stores up to date from a list of what was edited, so its cost does not depend on the
+/// rest of the graph.
 class SceneGraph {
   public:
     SceneGraph();
@@ -30,20 +31,20 @@ class SceneGraph {
     /// The node of that name, or nullptr. Names are unique; nameless nodes are not found.
     Node *find(const std::string &name) const;
 
-    /// Registers a core or a texture under an address like "materials.white", for `set_property` and
-    /// listings.
+    /// Registers a core or a texture under an address like "materials.white", for `set_property`
+    /// and listings.
     void share(const std::string &address, std::shared_ptr<PropertyHolder> holder);
 
-    /// Sets "NODE.PROPERTY" or "SECTION.NAME.PROPERTY" from text. A core shared by several nodes changes for
-    /// all of them. Throws `Error` (bad input) naming the address and the alternatives.
+    /// Sets "NODE.PROPERTY" or "SECTION.NAME.PROPERTY" from text. A core shared by several nodes
+    /// changes for all of them. Throws `Error` (bad input) naming the address and the alternatives.
     void set_property(const std::string &address, const std::string &text);
 
     /// One line per property: address, value, type and meaning, nodes in the order of the tree.
     std::string list_properties() const;
 
-    /// Brings animated cores to `time` (seconds) and writes what is dirty. Throws `Error` (bad input) when
-    /// an object cannot be represented; it stays dirty, and the arrays are not to be read until an update
-    /// has succeeded.
+    /// Brings animated cores to `time` (seconds) and writes what is dirty. Throws `Error` (bad
+    /// input) when an object cannot be represented; it stays dirty, and the arrays are not to be
+    /// read until an update has succeeded.
     void update(double time);
 
     /// The scene time of the last update, seconds.
@@ -62,7 +63,8 @@ class SceneGraph {
     /// What the graph serializes into; current after `update`.
     const SceneArrays &arrays() const { return arrays_; }
 
-    /// Box around all bounded geometry in the coordinates of the scene file (walks the whole graph).
+    /// Box around all bounded geometry in the coordinates of the scene file (walks the whole
+    /// graph).
     Eigen::AlignedBox3d bounds() const;
 
     /// Makes this point the origin of the baked world; everything is rewritten by the next update.

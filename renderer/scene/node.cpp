@@ -43,9 +43,9 @@ Node &Node::add_child(std::unique_ptr<Node> child) {
 }
 
 std::unique_ptr<Node> Node::remove_child(Node &child) {
-    const auto found =
-        std::find_if(children_.begin(), children_.end(),
-                     [&](const std::unique_ptr<Node> &candidate) { return candidate.get() == &child; });
+    const auto found = std::find_if(
+        children_.begin(), children_.end(),
+        [&](const std::unique_ptr<Node> &candidate) { return candidate.get() == &child; });
     if (found == children_.end()) {
         throw run_error("'" + child.name() + "' is not a child of '" + name_ + "'");
     }

@@ -13,8 +13,8 @@ namespace rtrays {
 
 class SceneGraph;
 
-/// A node of the scene tree: a name, children and cores, nothing else (thesis 3.2.3). Its owner is its
-/// parent, so it cannot be in the graph twice; what is to appear twice is a shared core.
+/// A node of the scene tree: a name, children and cores, nothing else (thesis 3.2.3). Its owner is
+/// its parent, so it cannot be in the graph twice; what is to appear twice is a shared core.
 class Node {
   public:
     explicit Node(std::string name) : name_(std::move(name)) {}
@@ -26,7 +26,8 @@ class Node {
     Node *parent() const { return parent_; }
     const std::vector<std::unique_ptr<Node>> &children() const { return children_; }
 
-    /// Appends a child (with all below it). Throws `Error` when one of the names is taken in this graph.
+    /// Appends a child (with all below it). Throws `Error` when one of the names is taken in this
+    /// graph.
     Node &add_child(std::unique_ptr<Node> child);
 
     /// Takes a child out of the graph, frees what it had in the stores and hands it to the caller.
@@ -48,7 +49,8 @@ class Node {
     /// What had accumulated from the root to this node (this included) at the last update.
     const AttributeSet &attributes() const { return attributes_; }
 
-    /// Puts the node on its graph's list of what is to be rewritten. Costs the same wherever it stands.
+    /// Puts the node on its graph's list of what is to be rewritten. Costs the same wherever it
+    /// stands.
     void mark(Dirty dirty);
 
   private:
@@ -56,7 +58,8 @@ class Node {
 
     struct HeldCore {
         std::shared_ptr<Core> core;
-        size_t position = 0;  ///< of this node in core->nodes_, so that letting go takes constant time
+        size_t position =
+            0;  ///< of this node in core->nodes_, so that letting go takes constant time
     };
 
     HeldCore &held(CoreRole role) { return cores_[static_cast<size_t>(role)]; }
@@ -72,8 +75,8 @@ class Node {
     Dirty dirty_ = Dirty::nothing;
 };
 
-/// Calls `visit(node)` for `root` and all nodes below it, parents first, children in order. Depth is not
-/// limited by the call stack.
+/// Calls `visit(node)` for `root` and all nodes below it, parents first, children in order. Depth
+/// is not limited by the call stack.
 template <typename Visit>
 void visit_subtree(Node &root, const Visit &visit) {
     std::vector<Node *> pending{&root};

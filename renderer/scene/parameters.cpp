@@ -21,7 +21,8 @@ struct IsWithin {
     bool operator()(double value) const { return range.contains(value); }
     template <typename Derived>
     bool operator()(const Eigen::MatrixBase<Derived> &values) const {
-        return values.unaryExpr([this](double v) { return range.contains(v) ? 1.0 : 0.0; }).minCoeff() > 0;
+        return values.unaryExpr([this](double v) { return range.contains(v) ? 1.0 : 0.0; })
+                   .minCoeff() > 0;
     }
 };
 
@@ -42,12 +43,12 @@ void Parameter::validate(const PropertyValue &value) const {
     }
     if (!choices.empty() &&
         std::find(choices.begin(), choices.end(), std::get<std::string>(value)) == choices.end()) {
-        throw input_error(fmt::format("{}: '{}' is not one of: {}", name, std::get<std::string>(value),
-                                      fmt::join(choices, ", ")));
+        throw input_error(fmt::format("{}: '{}' is not one of: {}", name,
+                                      std::get<std::string>(value), fmt::join(choices, ", ")));
     }
     if (!std::visit(IsWithin{range}, value)) {
-        throw input_error(
-            fmt::format("{}: {} is not within {} ({})", name, property_text(value), range.text(), help));
+        throw input_error(fmt::format("{}: {} is not within {} ({})", name, property_text(value),
+                                      range.text(), help));
     }
 }
 
@@ -76,21 +77,24 @@ ParameterSet::ParameterSet(const std::string &type, const ParameterTable &table,
 }
 
 size_t ParameterSet::index(const std::string &name) const {
-    const auto found = std::find_if(table_->begin(), table_->end(),
-                                    [&](const Parameter &parameter) { return parameter.name == name; });
+    const auto found =
+        std::find_if(table_->begin(), table_->end(),
+                     [&](const Parameter &parameter) { return parameter.name == name; });
     if (found == table_->end()) {
         std::vector<std::string> names;
         for (const Parameter &parameter : *table_) {
             names.push_back(parameter.name);
         }
-        throw input_error(fmt::format("a {} has no '{}'; it has: {}", type_, name, fmt::join(names, ", ")));
+        throw input_error(
+            fmt::format("a {} has no '{}'; it has: {}", type_, name, fmt::join(names, ", ")));
     }
     return static_cast<size_t>(found - table_->begin());
 }
 
 size_t ParameterSet::choice_index(const std::string &name) const {
     const std::vector<std::string> &choices = (*table_)[index(name)].choices;
-    return static_cast<size_t>(std::find(choices.begin(), choices.end(), text(name)) - choices.begin());
+    return static_cast<size_t>(std::find(choices.begin(), choices.end(), text(name)) -
+                               choices.begin());
 }
 
 void ParameterSet::set(const std::string &name, const PropertyValue &value) {
@@ -110,14 +114,17 @@ std::vector<Property> ParameterSet::properties(
     for (size_t i = 0; i < table_->size(); ++i) {
         if (values_[i]) {
             const Parameter &parameter = (*table_)[i];
-            all.push_back(
-                {parameter.name, parameter.help, parameter.choices, [this, i] { return values_[i].value(); },
-                 [setter, &name = parameter.name](const PropertyValue &value) { setter(name, value); }});
+            all.push_back({parameter.name, parameter.help, parameter.choices,
+                           [this, i] { return values_[i].value(); },
+                           [setter, &name = parameter.name](const PropertyValue &value) {
+                               setter(name, value);
+                           }});
         }
     }
     for (const auto &[name, texture] : textures_) {
-        all.push_back(make_property<std::string>(name + "_texture", "texture that scales it",
-                                                 [texture_name = texture->name()] { return texture_name; }));
+        all.push_back(
+            make_property<std::string>(name + "_texture", "texture that scales it",
+                                       [texture_name = texture->name()] { return texture_name; }));
     }
     return all;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parameters that a table declares: one row serves construction, validation, properties, scene files and
-// messages.
+// Parameters that a table declares: one row serves construction, validation, properties, scene
+// files and messages.
 #pragma once
 
 #include <functional>
@@ -58,15 +58,16 @@ struct Parameter {
 
 using ParameterTable = std::vector<Parameter>;
 using ParameterValues = std::map<std::string, PropertyValue>;
-using ParameterTextures = std::map<std::string, std::shared_ptr<Texture>>;  ///< by name of the parameter
+using ParameterTextures =
+    std::map<std::string, std::shared_ptr<Texture>>;  ///< by name of the parameter
 
 /// The values of a table's parameters, each within its range.
 class ParameterSet {
   public:
-    /// `type` stands in messages. Throws `Error` (bad input) for an unknown name, a value out of range or
-    /// a missing one. `table` must outlive the set.
-    ParameterSet(const std::string &type, const ParameterTable &table, const ParameterValues &values,
-                 const ParameterTextures &textures = {});
+    /// `type` stands in messages. Throws `Error` (bad input) for an unknown name, a value out of
+    /// range or a missing one. `table` must outlive the set.
+    ParameterSet(const std::string &type, const ParameterTable &table,
+                 const ParameterValues &values, const ParameterTextures &textures = {});
 
     /// Throws `Error` (bad input) as above.
     void set(const std::string &name, const PropertyValue &value);
@@ -79,7 +80,9 @@ class ParameterSet {
         return std::get<T>(at(name).value());
     }
     double number(const std::string &name) const { return get<double>(name); }
-    const Eigen::Vector3d &vector3(const std::string &name) const { return get<Eigen::Vector3d>(name); }
+    const Eigen::Vector3d &vector3(const std::string &name) const {
+        return get<Eigen::Vector3d>(name);
+    }
     const std::string &text(const std::string &name) const { return get<std::string>(name); }
 
     /// The value of a choice as its place in the list, which is that of the enumerator.
@@ -92,15 +95,17 @@ class ParameterSet {
     std::shared_ptr<Texture> texture(const std::string &name) const;
     const ParameterTextures &textures() const { return textures_; }
 
-    /// The parameters that have a value as properties that end in `setter(name, value)`. They refer to this
-    /// set.
+    /// The parameters that have a value as properties that end in `setter(name, value)`. They refer
+    /// to this set.
     std::vector<Property> properties(
         const std::function<void(const std::string &, const PropertyValue &)> &setter) const;
 
   private:
     size_t index(const std::string &name) const;
     size_t choice_index(const std::string &name) const;
-    const std::optional<PropertyValue> &at(const std::string &name) const { return values_[index(name)]; }
+    const std::optional<PropertyValue> &at(const std::string &name) const {
+        return values_[index(name)];
+    }
 
     std::string type_;
     const ParameterTable *table_;

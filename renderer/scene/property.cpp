@@ -55,7 +55,8 @@ struct ToText {
     std::string operator()(const std::string &value) const { return value; }
 };
 
-/// Replaces the alternative it visits by what the text says; false when the text is of another type.
+/// Replaces the alternative it visits by what the text says; false when the text is of another
+/// type.
 struct FromText {
     const std::string &text;
 
@@ -125,8 +126,8 @@ void Property::set_text(const std::string &text) const {
     const bool is_choice =
         choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end();
     if (!is_choice || !std::visit(FromText{text}, value)) {
-        throw input_error(
-            fmt::format("'{}' is not {}{}", text, choices.empty() ? "a value of type " : "", type()));
+        throw input_error(fmt::format("'{}' is not {}{}", text,
+                                      choices.empty() ? "a value of type " : "", type()));
     }
     set(value);
 }

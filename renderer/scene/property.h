@@ -21,8 +21,8 @@ std::string property_text(const PropertyValue &value);
 /// "boolean", "number", "two numbers", ..., "4x4 matrix" or "text".
 const char *property_type(const PropertyValue &value);
 
-/// One parameter of one core. Values go through the core's own setter, which validates them and marks the
-/// nodes concerned as dirty.
+/// One parameter of one core. Values go through the core's own setter, which validates them and
+/// marks the nodes concerned as dirty.
 struct Property {
     std::string name;
     std::string help;                  ///< meaning and unit
@@ -36,13 +36,14 @@ struct Property {
     /// The value as `set_text` reads it.
     std::string text() const;
 
-    /// Parses and sets: `true`; `1.5`; `1,2,3` or `[1, 2, 3]`; 16 numbers, row by row; plain text; one number
-    /// where two are equal. Throws `Error` (bad input) when the text is of another type, the value is illegal
-    /// or the property read-only.
+    /// Parses and sets: `true`; `1.5`; `1,2,3` or `[1, 2, 3]`; 16 numbers, row by row; plain text;
+    /// one number where two are equal. Throws `Error` (bad input) when the text is of another type,
+    /// the value is illegal or the property read-only.
     void set_text(const std::string &text) const;
 };
 
-/// A property by getter and setter of the value's own type `T`, one of the alternatives of `PropertyValue`.
+/// A property by getter and setter of the value's own type `T`, one of the alternatives of
+/// `PropertyValue`.
 template <typename T, typename Get, typename Set>
 Property make_property(std::string name, std::string help, Get get, Set set) {
     return {std::move(name),

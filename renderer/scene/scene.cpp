@@ -103,7 +103,8 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
         collector.add(shapes.julia_iterations);
     }
     const LightArrays &lights = arrays.lights;
-    if (std::any_of(lights.mesh.begin(), lights.mesh.end(), [](uint32_t mesh) { return mesh == no_index; })) {
+    if (std::any_of(lights.mesh.begin(), lights.mesh.end(),
+                    [](uint32_t mesh) { return mesh == no_index; })) {
         collector.begin("lights");
         collector.add(lights.shape);
         collector.add(lights.world_from_light);
@@ -128,8 +129,8 @@ Scene &Scene::operator=(Scene &&) noexcept = default;
 void Scene::set_film_size(int width, int height) {
     constexpr int largest = 1 << 16;
     if (width < 1 || height < 1 || width > largest || height > largest) {
-        throw input_error(
-            fmt::format("film: {} x {} pixels is not within 1 to {} a side", width, height, largest));
+        throw input_error(fmt::format("film: {} x {} pixels is not within 1 to {} a side", width,
+                                      height, largest));
     }
     film_width_ = width;
     film_height_ = height;
@@ -141,12 +142,13 @@ void Scene::set_property(const std::string &address, const std::string &text) {
 
 std::string Scene::describe() const {
     return fmt::format(
-        "scene '{}': {} triangles in {} meshes, {} shapes, {} materials, {} textures, {} lights, {} cameras, "
+        "scene '{}': {} triangles in {} meshes, {} shapes, {} materials, {} textures, {} lights, "
+        "{} cameras, "
         "film {} x "
         "{}\n{}",
         name_, meshes().triangle.size(), meshes().name.size(), arrays().shapes.name.size(),
-        materials().name.size(), arrays().textures.name.size(), lights().name.size(), cameras().name.size(),
-        film_width_, film_height_, graph_->list_properties());
+        materials().name.size(), arrays().textures.name.size(), lights().name.size(),
+        cameras().name.size(), film_width_, film_height_, graph_->list_properties());
 }
 
 void Scene::update(double time) {
@@ -165,8 +167,8 @@ int Scene::active_camera() const {
     const auto found =
         camera_node_.empty() ? names.begin() : std::find(names.begin(), names.end(), camera_node_);
     if (found == names.end()) {
-        throw input_error(fmt::format("scene '{}' has no camera '{}'; it has: {}", name_, camera_node_,
-                                      fmt::join(names, ", ")));
+        throw input_error(fmt::format("scene '{}' has no camera '{}'; it has: {}", name_,
+                                      camera_node_, fmt::join(names, ", ")));
     }
     return static_cast<int>(found - names.begin());
 }
@@ -182,7 +184,8 @@ void Scene::set_active_camera(const std::string &node_name) {
 }
 
 void Scene::recentre() {
-    // A centre that many times the scene's size away: by then four bits of every coordinate are lost to the distance.
+    // A centre that many times the scene's size away: by then four bits of every coordinate are
+    // lost to the distance.
     constexpr double far_away = 16;
     const Eigen::AlignedBox3d bounds = graph_->bounds();
     if (!bounds.isEmpty() && bounds.center().norm() > far_away * 0.5 * bounds.diagonal().norm()) {

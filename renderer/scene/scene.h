@@ -37,8 +37,8 @@ class Scene {
     /// The text of `--print-scene`: what the scene consists of and every property with its value.
     std::string describe() const;
 
-    /// Brings the arrays to scene time `time` (seconds), rewriting only what is dirty. Throws `Error` (bad
-    /// input) naming what is wrong with the scene.
+    /// Brings the arrays to scene time `time` (seconds), rewriting only what is dirty. Throws
+    /// `Error` (bad input) naming what is wrong with the scene.
     void update(double time);
 
     const SceneArrays &arrays() const;
@@ -50,19 +50,20 @@ class Scene {
     /// Index of the camera to render from, into `cameras()`.
     int active_camera() const;
 
-    /// Chooses it by node name; throws `Error` (bad input) listing the cameras when there is none such.
+    /// Chooses it by node name; throws `Error` (bad input) listing the cameras when there is none
+    /// such.
     void set_active_camera(const std::string &node_name);
 
-    /// Makes the middle of all geometry the origin of the baked world, where it is so far from the origin of the
-    /// scene file that rounding to float would cost anything that matters, and updates. To be called once, after
-    /// the first update.
+    /// Makes the middle of all geometry the origin of the baked world, where it is so far from the
+    /// origin of the scene file that rounding to float would cost anything that matters, and
+    /// updates. To be called once, after the first update.
     void recentre();
 
     /// Where the origin of the baked world is in the coordinates of the scene file (see stores.h).
     Eigen::Vector3d origin() const;
 
-    /// `content_hash` of everything that decides the image: arrays and camera. Names and the film size are
-    /// left out.
+    /// `content_hash` of everything that decides the image: arrays and camera. Names and the film
+    /// size are left out.
     std::string hash() const;
 
   private:
@@ -73,8 +74,8 @@ class Scene {
     int film_height_ = 256;
 };
 
-/// Loads a scene (our JSON, or a model file: see model_file.h) and updates it to time 0, with progress on stderr
-/// unless `quiet`. Throws `Error` (bad input) naming file, line and remedy.
+/// Loads a scene (our JSON, or a model file: see model_file.h) and updates it to time 0, with
+/// progress on stderr unless `quiet`. Throws `Error` (bad input) naming file, line and remedy.
 Scene load_scene(const std::string &path, bool quiet = true);
 
 }  // namespace rtrays

@@ -20,11 +20,13 @@ struct StoreCounts {
     size_t moved = 0;  ///< records that changed their index because others were freed
 };
 
-/// The part common to all stores: which objects there are and at which index ("slot") each has its record.
+/// The part common to all stores: which objects there are and at which index ("slot") each has its
+/// record.
 ///
-/// An object is a node's core that the store holds. It is added when the core joins the graph, gets a record
-/// when it is allocated, and loses it again when it is freed (hidden) or removed. Freed records leave holes;
-/// `compact` closes them, so that readers of the arrays after an update never meet one.
+/// An object is a node's core that the store holds. It is added when the core joins the graph, gets
+/// a record when it is allocated, and loses it again when it is freed (hidden) or removed. Freed
+/// records leave holes; `compact` closes them, so that readers of the arrays after an update never
+/// meet one.
 class Store {
   public:
     Store() = default;
@@ -43,8 +45,8 @@ class Store {
     /// Whether the object of a node that the store concerns is to have a record.
     virtual bool wants_record(const Node &node, const AttributeSet &attributes) const = 0;
 
-    /// Registers the object of `node`, once for each of its cores that the store holds; no record is
-    /// allocated.
+    /// Registers the object of `node`, once for each of its cores that the store holds; no record
+    /// is allocated.
     void add_object(const Node &node);
 
     /// Takes back one `add_object`; the last one frees the record if there is one.
@@ -53,8 +55,8 @@ class Store {
     /// Appends a record for the object, unless it has one of the right size.
     void allocate_object(const Node &node);
 
-    /// Writes the object's record, `attributes` applied. Throws `Error` (bad input) naming the node when it
-    /// cannot be represented.
+    /// Writes the object's record, `attributes` applied. Throws `Error` (bad input) naming the node
+    /// when it cannot be represented.
     void write_object(const Node &node, const AttributeSet &attributes);
 
     /// Gives up the object's record; the object stays registered.
@@ -63,8 +65,9 @@ class Store {
     /// Index of the object's record, `no_index` when it has none.
     uint32_t slot(const Node &node) const;
 
-    /// Moves the records behind freed ones down, in order. Returns the new index of every old one, empty
-    /// when nothing moved. Costs as much as the store is large, but only after something was freed.
+    /// Moves the records behind freed ones down, in order. Returns the new index of every old one,
+    /// empty when nothing moved. Costs as much as the store is large, but only after something was
+    /// freed.
     std::vector<uint32_t> compact();
 
     /// What was done between the last two calls of `finish_update`.
@@ -104,7 +107,8 @@ class Store {
     StoreCounts finished_counts_;
 };
 
-/// Keeps the elements at these ascending indices: `Store::keep` for one array with an element per record.
+/// Keeps the elements at these ascending indices: `Store::keep` for one array with an element per
+/// record.
 template <typename T>
 void keep_elements(std::vector<T> &elements, const std::vector<uint32_t> &indices) {
     for (size_t i = 0; i < indices.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Vertices to which a camera path comes back to follow components that are left, declared once as in light_vertex.h.
-// Each path has a stack of them, at most one for every scattering event that a path may have.
+// Vertices to which a camera path comes back to follow components that are left, declared once as
+// in light_vertex.h. Each path has a stack of them, at most one for every scattering event that a
+// path may have.
 #pragma once
 
 #include "compat.h"
@@ -22,7 +23,8 @@
 #ifdef __OPENCL_VERSION__
 
 enum BranchLayout {
-#define FIELD_WORDS(type, name) BRANCH_##name, BRANCH_LAST_##name = BRANCH_##name + WORDS_##type - 1,
+#define FIELD_WORDS(type, name) \
+    BRANCH_##name, BRANCH_LAST_##name = BRANCH_##name + WORDS_##type - 1,
 #define X(feature, type, name) WHEN(feature)(FIELD_WORDS(type, name))
     BRANCH_FIELDS(X)
 #undef X

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The common subset of OpenCL C 1.2 and C++17 in which all device functions are written: the tests compile
-// the shipped code for the host.
+// The common subset of OpenCL C 1.2 and C++17 in which all device functions are written: the tests
+// compile the shipped code for the host.
 //
 // Rules of the subset (scripts/lint holds them): vectors are made by make_float2/3/4, never by
-// literals (in C++ `(float4)(1, 2, 3, 4)` silently yields 4, 4, 4, 4); components are .x .y .z .w, no
-// swizzles; no double literals; no implicit conversion between address spaces.
+// literals (in C++ `(float4)(1, 2, 3, 4)` silently yields 4, 4, 4, 4); components are .x .y .z .w,
+// no swizzles; no double literals; no implicit conversion between address spaces.
 //
-// Floating-point contraction is off everywhere, so that both compilers give the same bits and the edge
-// functions of the triangle test keep their exact antisymmetry. Where a fused operation is wanted, it is
-// written as fma().
+// Floating-point contraction is off everywhere, so that both compilers give the same bits and the
+// edge functions of the triangle test keep their exact antisymmetry. Where a fused operation is
+// wanted, it is written as fma().
 #pragma once
 
-// Asks a CPU for the cache line of what will be read soon. A GPU has other work to do while it waits.
+// Asks a CPU for the cache line of what will be read soon. A GPU has other work to do while it
+// waits.
 #define CACHE_LINE 64u
 #if defined(__x86_64__) || defined(__aarch64__)
 #define HAS_PREFETCH 1
@@ -41,10 +42,14 @@
 #define INV_PI M_1_PI_F
 
 /// Index of the lowest bit that is set; x must not be 0.
-DEVICE uint lowest_bit(uint x) { return popcount(~x & (x - 1u)); }
+DEVICE uint lowest_bit(uint x) {
+    return popcount(~x & (x - 1u));
+}
 
 /// The upper four lanes before the lower four.
-DEVICE float8 swap_halves(float8 v) { return (float8)(v.hi, v.lo); }
+DEVICE float8 swap_halves(float8 v) {
+    return (float8)(v.hi, v.lo);
+}
 
 /// One bit per lane of a comparison's result, lane 0 the lowest.
 DEVICE uint lane_bits(int8 mask) {
@@ -90,49 +95,108 @@ struct uint4 {
     uint x, y, z, w;
 };
 
-// Eight lanes with the operators of OpenCL C: arithmetic, comparisons to 0 or -1 by lane, and selection by ?:.
+// Eight lanes with the operators of OpenCL C: arithmetic, comparisons to 0 or -1 by lane, and
+// selection by ?:.
 using float8 = float __attribute__((vector_size(32)));
 using int8 = int __attribute__((vector_size(32)));
 
 constexpr float PI = 3.14159274101257f;
 constexpr float INV_PI = 0.31830988618379f;
 
-DEVICE float2 make_float2(float x, float y) { return {x, y}; }
-DEVICE float3 make_float3(float x, float y, float z) { return {x, y, z}; }
-DEVICE float4 make_float4(float x, float y, float z, float w) { return {x, y, z, w}; }
-DEVICE uint4 make_uint4(uint x, uint y, uint z, uint w) { return {x, y, z, w}; }
+DEVICE float2 make_float2(float x, float y) {
+    return {x, y};
+}
+DEVICE float3 make_float3(float x, float y, float z) {
+    return {x, y, z};
+}
+DEVICE float4 make_float4(float x, float y, float z, float w) {
+    return {x, y, z, w};
+}
+DEVICE uint4 make_uint4(uint x, uint y, uint z, uint w) {
+    return {x, y, z, w};
+}
 
-DEVICE float3 operator+(float3 a, float3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-DEVICE float3 operator-(float3 a, float3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-DEVICE float3 operator*(float3 a, float3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-DEVICE float3 operator/(float3 a, float3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
-DEVICE float3 operator*(float3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
-DEVICE float3 operator*(float s, float3 a) { return a * s; }
-DEVICE float3 operator/(float3 a, float s) { return {a.x / s, a.y / s, a.z / s}; }
-DEVICE float3 operator-(float3 a) { return {-a.x, -a.y, -a.z}; }
-DEVICE float3 &operator+=(float3 &a, float3 b) { return a = a + b; }
-DEVICE float3 &operator-=(float3 &a, float3 b) { return a = a - b; }
-DEVICE float3 &operator*=(float3 &a, float3 b) { return a = a * b; }
-DEVICE float3 &operator*=(float3 &a, float s) { return a = a * s; }
+DEVICE float3 operator+(float3 a, float3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+DEVICE float3 operator-(float3 a, float3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+DEVICE float3 operator*(float3 a, float3 b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+DEVICE float3 operator/(float3 a, float3 b) {
+    return {a.x / b.x, a.y / b.y, a.z / b.z};
+}
+DEVICE float3 operator*(float3 a, float s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+DEVICE float3 operator*(float s, float3 a) {
+    return a * s;
+}
+DEVICE float3 operator/(float3 a, float s) {
+    return {a.x / s, a.y / s, a.z / s};
+}
+DEVICE float3 operator-(float3 a) {
+    return {-a.x, -a.y, -a.z};
+}
+DEVICE float3 &operator+=(float3 &a, float3 b) {
+    return a = a + b;
+}
+DEVICE float3 &operator-=(float3 &a, float3 b) {
+    return a = a - b;
+}
+DEVICE float3 &operator*=(float3 &a, float3 b) {
+    return a = a * b;
+}
+DEVICE float3 &operator*=(float3 &a, float s) {
+    return a = a * s;
+}
 
-DEVICE float dot(float3 a, float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+DEVICE float dot(float3 a, float3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 DEVICE float3 cross(float3 a, float3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-DEVICE float length(float3 a) { return sqrtf(dot(a, a)); }
-DEVICE float3 normalize(float3 a) { return a / length(a); }
-DEVICE float3 fabs(float3 a) { return {fabsf(a.x), fabsf(a.y), fabsf(a.z)}; }
+DEVICE float length(float3 a) {
+    return sqrtf(dot(a, a));
+}
+DEVICE float3 normalize(float3 a) {
+    return a / length(a);
+}
+DEVICE float3 fabs(float3 a) {
+    return {fabsf(a.x), fabsf(a.y), fabsf(a.z)};
+}
 
-DEVICE float min(float a, float b) { return b < a ? b : a; }
-DEVICE float max(float a, float b) { return a < b ? b : a; }
-DEVICE uint min(uint a, uint b) { return b < a ? b : a; }
-DEVICE uint max(uint a, uint b) { return a < b ? b : a; }
-DEVICE int min(int a, int b) { return b < a ? b : a; }
-DEVICE int max(int a, int b) { return a < b ? b : a; }
-DEVICE float3 min(float3 a, float3 b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)}; }
-DEVICE float3 max(float3 a, float3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
+DEVICE float min(float a, float b) {
+    return b < a ? b : a;
+}
+DEVICE float max(float a, float b) {
+    return a < b ? b : a;
+}
+DEVICE uint min(uint a, uint b) {
+    return b < a ? b : a;
+}
+DEVICE uint max(uint a, uint b) {
+    return a < b ? b : a;
+}
+DEVICE int min(int a, int b) {
+    return b < a ? b : a;
+}
+DEVICE int max(int a, int b) {
+    return a < b ? b : a;
+}
+DEVICE float3 min(float3 a, float3 b) {
+    return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+DEVICE float3 max(float3 a, float3 b) {
+    return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
 
-DEVICE float sinpi(float x) { return static_cast<float>(sin(3.14159265358979323846 * static_cast<double>(x))); }
+DEVICE float sinpi(float x) {
+    return static_cast<float>(sin(3.14159265358979323846 * static_cast<double>(x)));
+}
 
 DEVICE uint as_uint(float x) {
     uint bits;
@@ -145,22 +209,32 @@ DEVICE float as_float(uint bits) {
     return x;
 }
 
-DEVICE float8 splat_float8(float x) { return float8{x, x, x, x, x, x, x, x}; }
-DEVICE float3 vload3(size_t, const float *p) { return {p[0], p[1], p[2]}; }
+DEVICE float8 splat_float8(float x) {
+    return float8{x, x, x, x, x, x, x, x};
+}
+DEVICE float3 vload3(size_t, const float *p) {
+    return {p[0], p[1], p[2]};
+}
 DEVICE float8 vload8(size_t, const float *p) {
     float8 v;
     memcpy(&v, p, sizeof v);
     return v;
 }
-DEVICE void vstore8(float8 v, size_t, float *p) { memcpy(p, &v, sizeof v); }
+DEVICE void vstore8(float8 v, size_t, float *p) {
+    memcpy(p, &v, sizeof v);
+}
 DEVICE float8 fma(float8 a, float8 b, float8 c) {
     for (int lane = 0; lane < 8; ++lane) {
         c[lane] = fmaf(a[lane], b[lane], c[lane]);
     }
     return c;
 }
-DEVICE float8 swap_halves(float8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3); }
-DEVICE uint lowest_bit(uint x) { return static_cast<uint>(__builtin_ctz(x)); }
+DEVICE float8 swap_halves(float8 v) {
+    return __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
+}
+DEVICE uint lowest_bit(uint x) {
+    return static_cast<uint>(__builtin_ctz(x));
+}
 DEVICE uint lane_bits(int8 mask) {
     uint bits = 0;
     for (uint lane = 0; lane < 8; ++lane) {
@@ -170,7 +244,11 @@ DEVICE uint lane_bits(int8 mask) {
 }
 
 // Atomics as the tests need them; orders as in OpenCL 1.2 (relaxed).
-DEVICE uint atomic_add(volatile uint *p, uint v) { return __atomic_fetch_add(p, v, __ATOMIC_RELAXED); }
-DEVICE long atom_add(volatile long *p, long v) { return __atomic_fetch_add(p, v, __ATOMIC_RELAXED); }
+DEVICE uint atomic_add(volatile uint *p, uint v) {
+    return __atomic_fetch_add(p, v, __ATOMIC_RELAXED);
+}
+DEVICE long atom_add(volatile long *p, long v) {
+    return __atomic_fetch_add(p, v, __ATOMIC_RELAXED);
+}
 
 #endif

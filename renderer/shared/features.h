@@ -1,79 +1,80 @@
 // SPDX-License-Identifier: MIT
-// Structural facts of a scene and its settings. They decide which code is compiled, which fields of the path
-// state exist, which buffers are allocated and which stages are launched; numbers are arguments, never baked in.
+// Structural facts of a scene and its settings. They decide which code is compiled, which fields of
+// the path state exist, which buffers are allocated and which stages are launched; numbers are
+// arguments, never baked in.
 //
-// Declared once: the host derives the mask, the names and the generated defines FEATURE_<name> (0 or 1) from
-// this table.
+// Declared once: the host derives the mask, the names and the generated defines FEATURE_<name> (0
+// or 1) from this table.
 #pragma once
 
 // X(name, what it says)
-#define RTRAYS_FEATURES(X)                                                                          \
-    /* strategies and termination */                                                                \
-    X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")                 \
-    X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")               \
-    X(light_strategy, "light paths that are joined to the camera share the weights")                \
-    X(vertex_joins, "light vertices are kept and joined to those of camera paths")                  \
-    X(light_emitters, "they show emitters that the camera sees directly, too")                      \
-    X(from_camera, "this pass traces paths from the camera")                                        \
-    X(from_light, "this pass traces paths from the lights")                                         \
-    X(shadow_rays, "vertices are joined to light samples or to the camera")                         \
-    X(branches, "paths come back to vertices of which several components are followed")             \
-    X(roulette, "Russian roulette ends paths")                                                      \
-    X(roulette_scale, "roulette measures the throughput by something of the path's own")            \
-    X(adaptive, "paths end below a throughput threshold (biased)")                                  \
-    X(depth_limit, "max_depth is finite")                                                           \
-    X(sobol, "samples are stratified, or regular")                                                  \
-    /* geometry */                                                                                  \
-    X(triangles, "the scene has triangles: a hierarchy is built and traversed")                     \
-    X(shapes, "the scene has surfaces that are not made of triangles")                              \
-    X(quadrics, "some of them are quadrics, discs or planes")                                       \
-    X(julia, "some of them are quaternion Julia sets")                                              \
-    X(smooth_normals, "vertices have shading normals")                                              \
-    X(texture_coordinates, "a texture or a tangent is looked up on a mesh with (u, v)")             \
-    X(tangents, "a BxDF is anisotropic")                                                            \
-    /* materials */                                                                                 \
-    X(scattering, "a material reflects or refracts: paths go beyond the first hit")                 \
-    X(composite, "a material has more than one component")                                          \
-    X(one_sided, "a material is black from behind")                                                 \
-    X(delta, "a BxDF is a delta distribution")                                                      \
-    X(refraction, "a BxDF refracts")                                                                \
-    X(lambert, "diffuse reflection")                                                                \
-    X(oren_nayar, "rough diffuse reflection")                                                       \
-    X(ideal_reflection, "mirrors")                                                                  \
-    X(ideal_refraction, "smooth dielectrics")                                                       \
-    X(blinn, "Torrance-Sparrow with Blinn's distribution")                                          \
-    X(ward, "Ward's anisotropic reflection, bounded")                                               \
-    X(ward_original, "Ward's anisotropic reflection as published")                                  \
-    X(microfacet_reflection, "GGX or Beckmann, reflection")                                         \
-    X(microfacet_refraction, "GGX or Beckmann, refraction")                                         \
-    X(ggx, "a microfacet distribution is GGX")                                                      \
-    X(beckmann, "a microfacet distribution is Beckmann's")                                          \
-    X(fresnel, "a weight has a Fresnel term")                                                       \
-    X(fresnel_dielectric, "exact dielectric")                                                       \
-    X(fresnel_conductor, "exact conductor")                                                         \
-    X(fresnel_conductor_approximate, "the thesis' conductor")                                       \
-    X(fresnel_schlick, "Schlick's")                                                                 \
-    X(textures, "a weight has a texture")                                                           \
-    /* lights */                                                                                    \
-    X(lights, "the scene has emitters")                                                             \
-    X(direction_density, "paths carry the density of their direction")                              \
-    X(emission_density, "light paths carry the density of their start")                             \
-    X(arrival_density, "paths carry the density of their arrival at a vertex")                      \
-    X(many_lights, "more than one light: a selection table is searched")                            \
-    X(independent_lights, "every vertex is joined to every light, one after the other")             \
-    X(area_lights, "emitting triangles")                                                            \
-    X(light_triangles, "a mesh light has more than one triangle: its area table is searched")       \
-    X(shape_lights, "emitting discs and spheres")                                                   \
-    X(point_lights, "point lights")                                                                 \
-    X(spot_lights, "spot lights")                                                                   \
-    X(directional_lights, "directional lights")                                                     \
-    X(infinite_lights, "radiance from infinity (dome, environment): misses are lit")                \
-    X(dome, "uniform radiance from infinity")                                                       \
-    X(environment, "radiance from infinity by an image")                                            \
-    /* camera and film */                                                                           \
-    X(lens, "the camera has an aperture")                                                           \
-    X(convergence, "camera paths are left out of pixels that have converged (biased)")              \
-    X(variance, "the film holds second moments")                                                    \
+#define RTRAYS_FEATURES(X)                                                                    \
+    /* strategies and termination */                                                          \
+    X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")           \
+    X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")         \
+    X(light_strategy, "light paths that are joined to the camera share the weights")          \
+    X(vertex_joins, "light vertices are kept and joined to those of camera paths")            \
+    X(light_emitters, "they show emitters that the camera sees directly, too")                \
+    X(from_camera, "this pass traces paths from the camera")                                  \
+    X(from_light, "this pass traces paths from the lights")                                   \
+    X(shadow_rays, "vertices are joined to light samples or to the camera")                   \
+    X(branches, "paths come back to vertices of which several components are followed")       \
+    X(roulette, "Russian roulette ends paths")                                                \
+    X(roulette_scale, "roulette measures the throughput by something of the path's own")      \
+    X(adaptive, "paths end below a throughput threshold (biased)")                            \
+    X(depth_limit, "max_depth is finite")                                                     \
+    X(sobol, "samples are stratified, or regular")                                            \
+    /* geometry */                                                                            \
+    X(triangles, "the scene has triangles: a hierarchy is built and traversed")               \
+    X(shapes, "the scene has surfaces that are not made of triangles")                        \
+    X(quadrics, "some of them are quadrics, discs or planes")                                 \
+    X(julia, "some of them are quaternion Julia sets")                                        \
+    X(smooth_normals, "vertices have shading normals")                                        \
+    X(texture_coordinates, "a texture or a tangent is looked up on a mesh with (u, v)")       \
+    X(tangents, "a BxDF is anisotropic")                                                      \
+    /* materials */                                                                           \
+    X(scattering, "a material reflects or refracts: paths go beyond the first hit")           \
+    X(composite, "a material has more than one component")                                    \
+    X(one_sided, "a material is black from behind")                                           \
+    X(delta, "a BxDF is a delta distribution")                                                \
+    X(refraction, "a BxDF refracts")                                                          \
+    X(lambert, "diffuse reflection")                                                          \
+    X(oren_nayar, "rough diffuse reflection")                                                 \
+    X(ideal_reflection, "mirrors")                                                            \
+    X(ideal_refraction, "smooth dielectrics")                                                 \
+    X(blinn, "Torrance-Sparrow with Blinn's distribution")                                    \
+    X(ward, "Ward's anisotropic reflection, bounded")                                         \
+    X(ward_original, "Ward's anisotropic reflection as published")                            \
+    X(microfacet_reflection, "GGX or Beckmann, reflection")                                   \
+    X(microfacet_refraction, "GGX or Beckmann, refraction")                                   \
+    X(ggx, "a microfacet distribution is GGX")                                                \
+    X(beckmann, "a microfacet distribution is Beckmann's")                                    \
+    X(fresnel, "a weight has a Fresnel term")                                                 \
+    X(fresnel_dielectric, "exact dielectric")                                                 \
+    X(fresnel_conductor, "exact conductor")                                                   \
+    X(fresnel_conductor_approximate, "the thesis' conductor")                                 \
+    X(fresnel_schlick, "Schlick's")                                                           \
+    X(textures, "a weight has a texture")                                                     \
+    /* lights */                                                                              \
+    X(lights, "the scene has emitters")                                                       \
+    X(direction_density, "paths carry the density of their direction")                        \
+    X(emission_density, "light paths carry the density of their start")                       \
+    X(arrival_density, "paths carry the density of their arrival at a vertex")                \
+    X(many_lights, "more than one light: a selection table is searched")                      \
+    X(independent_lights, "every vertex is joined to every light, one after the other")       \
+    X(area_lights, "emitting triangles")                                                      \
+    X(light_triangles, "a mesh light has more than one triangle: its area table is searched") \
+    X(shape_lights, "emitting discs and spheres")                                             \
+    X(point_lights, "point lights")                                                           \
+    X(spot_lights, "spot lights")                                                             \
+    X(directional_lights, "directional lights")                                               \
+    X(infinite_lights, "radiance from infinity (dome, environment): misses are lit")          \
+    X(dome, "uniform radiance from infinity")                                                 \
+    X(environment, "radiance from infinity by an image")                                      \
+    /* camera and film */                                                                     \
+    X(lens, "the camera has an aperture")                                                     \
+    X(convergence, "camera paths are left out of pixels that have converged (biased)")        \
+    X(variance, "the film holds second moments")                                              \
     X(int64_atomics, "the device adds 64-bit integers atomically")
 
 #ifndef __OPENCL_VERSION__
@@ -98,17 +99,24 @@ class FeatureMask {
   public:
     constexpr FeatureMask() = default;
 
-    static constexpr FeatureMask all() { return FeatureMask((uint64_t{1} << static_cast<uint32_t>(Feature::count)) - 1u); }
+    static constexpr FeatureMask all() {
+        return FeatureMask((uint64_t{1} << static_cast<uint32_t>(Feature::count)) - 1u);
+    }
 
-    constexpr bool has(Feature feature) const { return (bits_ >> static_cast<uint32_t>(feature) & 1u) != 0; }
+    constexpr bool has(Feature feature) const {
+        return (bits_ >> static_cast<uint32_t>(feature) & 1u) != 0;
+    }
     constexpr FeatureMask with(Feature feature, bool on = true) const {
         const uint64_t bit = uint64_t{1} << static_cast<uint32_t>(feature);
         return FeatureMask(on ? bits_ | bit : bits_ & ~bit);
     }
-    constexpr FeatureMask operator|(FeatureMask other) const { return FeatureMask(bits_ | other.bits_); }
+    constexpr FeatureMask operator|(FeatureMask other) const {
+        return FeatureMask(bits_ | other.bits_);
+    }
     constexpr uint64_t bits() const { return bits_; }
 
-    /// Without the features whose requirement is missing (explicit_light needs lights and scattering, ...).
+    /// Without the features whose requirement is missing (explicit_light needs lights and
+    /// scattering, ...).
     FeatureMask closed() const;
 
     /// Names of the features in the set, in table order.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The vertices of light paths that full bidirectional path tracing keeps, declared once: layout, access and
-// byte count derive from this table. The paths of the chunk of work under way have a row each, of
-// `light_vertices` (IntegratorSettings); vertex i of it is the hit after i scattering events.
+// The vertices of light paths that full bidirectional path tracing keeps, declared once: layout,
+// access and byte count derive from this table. The paths of the chunk of work under way have a row
+// each, of `light_vertices` (IntegratorSettings); vertex i of it is the hit after i scattering
+// events.
 #pragma once
 
 #include "compat.h"
@@ -25,7 +26,8 @@
 #ifdef __OPENCL_VERSION__
 
 enum LightVertexLayout {
-#define FIELD_WORDS(type, name) VERTEX_##name, VERTEX_LAST_##name = VERTEX_##name + WORDS_##type - 1,
+#define FIELD_WORDS(type, name) \
+    VERTEX_##name, VERTEX_LAST_##name = VERTEX_##name + WORDS_##type - 1,
 #define X(feature, type, name) WHEN(feature)(FIELD_WORDS(type, name))
     LIGHT_VERTEX_FIELDS(X)
 #undef X
@@ -41,19 +43,24 @@ typedef struct LightVertex {
 #undef FIELD_MEMBER
 } LightVertex;
 
-/// The row of a path of the batch: its number among all of them, `paths` in every sample, within the chunk.
-/// Camera paths and light paths of the same number share it.
+/// The row of a path of the batch: its number among all of them, `paths` in every sample, within
+/// the chunk. Camera paths and light paths of the same number share it.
 DEVICE uint light_vertex_row(uint path, uint sample, uint paths, uint rows) {
     return (sample * paths + path) % rows;
 }
 
 /// Vertex `i` of the `per_path` in a row.
-DEVICE WordPlace light_vertex_place(GLOBAL uint *vertex_words, uint rows, uint per_path, uint row, uint i) {
+DEVICE WordPlace light_vertex_place(GLOBAL uint *vertex_words, uint rows, uint per_path, uint row,
+                                    uint i) {
     return record_place(vertex_words, LIGHT_VERTEX_WORDS, rows, per_path, row, i);
 }
 
-DEVICE void clear_light_vertex(WordPlace place) { store_uint(place, VERTEX_hit_primitive, NO_VERTEX); }
-DEVICE bool has_light_vertex(WordPlace place) { return load_uint(place, VERTEX_hit_primitive) != NO_VERTEX; }
+DEVICE void clear_light_vertex(WordPlace place) {
+    store_uint(place, VERTEX_hit_primitive, NO_VERTEX);
+}
+DEVICE bool has_light_vertex(WordPlace place) {
+    return load_uint(place, VERTEX_hit_primitive) != NO_VERTEX;
+}
 
 DEVICE LightVertex load_light_vertex(WordPlace place) {
     LightVertex vertex;

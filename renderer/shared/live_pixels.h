@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pixels that convergence control has not stopped, as the stages of camera paths take them: where it is off there is no
-// list, and all pixels are live.
+// The pixels that convergence control has not stopped, as the stages of camera paths take them:
+// where it is off there is no list, and all pixels are live.
 #pragma once
 
 #include "compat.h"

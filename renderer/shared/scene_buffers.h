@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene's buffers, declared once: the kernels' parameter lists, the host's buffers and their bindings all come
-// from these tables.
+// The scene's buffers, declared once: the kernels' parameter lists, the host's buffers and their
+// bindings all come from these tables.
 #pragma once
 
 #include "bvh_layout.h"
@@ -8,22 +8,22 @@
 #include "declare.h"
 
 // X(feature, type, name)
-#define GEOMETRY_BUFFERS(X)                      \
-    X(FEATURE_triangles, BVH_NODE, bvh_nodes)    \
+#define GEOMETRY_BUFFERS(X)                   \
+    X(FEATURE_triangles, BVH_NODE, bvh_nodes) \
     X(FEATURE_triangles, BVH_TRIANGLES, bvh_triangles)
 
 #define BOUNDS_BUFFERS(X) X(FEATURE_shapes, ShapeBounds, shape_bounds)
 
-#define SURFACE_BUFFERS(X)                                    \
-    X(FEATURE_triangles, SurfaceTriangle, surface_triangles)  \
+#define SURFACE_BUFFERS(X)                                       \
+    X(FEATURE_triangles, SurfaceTriangle, surface_triangles)     \
     X(FEATURE_smooth_normals, TriangleNormals, triangle_normals) \
-    X(FEATURE_texture_coordinates, TriangleUv, triangle_uvs)  \
+    X(FEATURE_texture_coordinates, TriangleUv, triangle_uvs)     \
     X(FEATURE_shapes, ShapeRecord, shapes)
 
-#define MATERIAL_BUFFERS(X)                           \
-    X(FEATURE_scattering, MaterialRecord, materials)  \
-    X(FEATURE_scattering, BxdfRecord, components)     \
-    X(FEATURE_textures, TextureRecord, textures)      \
+#define MATERIAL_BUFFERS(X)                          \
+    X(FEATURE_scattering, MaterialRecord, materials) \
+    X(FEATURE_scattering, BxdfRecord, components)    \
+    X(FEATURE_textures, TextureRecord, textures)     \
     X(FEATURE_textures, uint, texels)
 
 #define LIGHT_BUFFERS(X)                                       \
@@ -32,15 +32,19 @@
     X(FEATURE_environment, float, environment_texels)          \
     X(FEATURE_environment, uint, environment_ends)
 
-// A stage's parameters: buffers of the scene (these lists end in a comma), its own, and the stream (stream_counters.h) last.
+// A stage's parameters: buffers of the scene (these lists end in a comma), its own, and the stream
+// (stream_counters.h) last.
 #define BUFFER_PARAMETER(type, name) MAYBE_UNUSED GLOBAL const type *name,
 #define X_PARAMETER(feature, type, name) WHEN(feature)(BUFFER_PARAMETER(type, name))
 #define SHAPE_COUNT_PARAMETER uint shape_count,
-#define GEOMETRY_PARAMETERS \
-    GEOMETRY_BUFFERS(X_PARAMETER) X_PARAMETER(FEATURE_shapes, ShapeRecord, shapes) \
+#define GEOMETRY_PARAMETERS                          \
+    GEOMETRY_BUFFERS(X_PARAMETER)                    \
+    X_PARAMETER(FEATURE_shapes, ShapeRecord, shapes) \
     BOUNDS_BUFFERS(X_PARAMETER) WHEN(FEATURE_shapes)(SHAPE_COUNT_PARAMETER)
 // Of a stage that has the shapes among its surfaces.
-#define TRAVERSAL_PARAMETERS GEOMETRY_BUFFERS(X_PARAMETER) BOUNDS_BUFFERS(X_PARAMETER) WHEN(FEATURE_shapes)(SHAPE_COUNT_PARAMETER)
+#define TRAVERSAL_PARAMETERS      \
+    GEOMETRY_BUFFERS(X_PARAMETER) \
+    BOUNDS_BUFFERS(X_PARAMETER) WHEN(FEATURE_shapes)(SHAPE_COUNT_PARAMETER)
 #define SURFACE_PARAMETERS SURFACE_BUFFERS(X_PARAMETER)
 #define MATERIAL_PARAMETERS MATERIAL_BUFFERS(X_PARAMETER)
 #define LIGHT_PARAMETERS LIGHT_BUFFERS(X_PARAMETER) MAYBE_UNUSED LightingRecord lighting,
@@ -48,10 +52,13 @@
 #define BUFFER_ARGUMENT(type, name) name,
 #define X_ARGUMENT(feature, type, name) WHEN(feature)(BUFFER_ARGUMENT(type, name))
 #define SHAPE_COUNT_ARGUMENT shape_count,
-#define GEOMETRY_ARGUMENTS \
-    GEOMETRY_BUFFERS(X_ARGUMENT) X_ARGUMENT(FEATURE_shapes, ShapeRecord, shapes) \
+#define GEOMETRY_ARGUMENTS                          \
+    GEOMETRY_BUFFERS(X_ARGUMENT)                    \
+    X_ARGUMENT(FEATURE_shapes, ShapeRecord, shapes) \
     BOUNDS_BUFFERS(X_ARGUMENT) WHEN(FEATURE_shapes)(SHAPE_COUNT_ARGUMENT)
-#define TRAVERSAL_ARGUMENTS GEOMETRY_BUFFERS(X_ARGUMENT) BOUNDS_BUFFERS(X_ARGUMENT) WHEN(FEATURE_shapes)(SHAPE_COUNT_ARGUMENT)
+#define TRAVERSAL_ARGUMENTS      \
+    GEOMETRY_BUFFERS(X_ARGUMENT) \
+    BOUNDS_BUFFERS(X_ARGUMENT) WHEN(FEATURE_shapes)(SHAPE_COUNT_ARGUMENT)
 #define SURFACE_ARGUMENTS SURFACE_BUFFERS(X_ARGUMENT)
 #define MATERIAL_ARGUMENTS MATERIAL_BUFFERS(X_ARGUMENT)
 #define LIGHT_ARGUMENTS LIGHT_BUFFERS(X_ARGUMENT) lighting,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counters of the streams between the stages. They live on the device; the host reads them only to learn
-// that all work is done.
+// Counters of the streams between the stages. They live on the device; the host reads them only to
+// learn that all work is done.
 #pragma once
 
 #include "compat.h"
@@ -9,7 +9,7 @@
 #define STREAM_QUEUES 3u
 
 typedef struct StreamCounters {
-    uint active[2];      ///< paths in the two active queues; queue `parity` is being worked on
+    uint active[2];  ///< paths in the two active queues; queue `parity` is being worked on
     uint parity;
     uint shadow;         ///< shadow rays queued
     uint free_slots;     ///< slots whose path has ended
@@ -26,5 +26,7 @@ typedef struct StreamCounters {
 static_assert(sizeof(StreamCounters) == 56, "layout shared with the device");
 #endif
 
-/// What a stage is given of a stream: the words of its paths (path_state.h), its queues (kernels/stream.h), its counters.
-#define STREAM_PARAMETERS GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity
+/// What a stage is given of a stream: the words of its paths (path_state.h), its queues
+/// (kernels/stream.h), its counters.
+#define STREAM_PARAMETERS \
+    GLOBAL uint *path_words, GLOBAL uint *queues, GLOBAL StreamCounters *counters, uint capacity

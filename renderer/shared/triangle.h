@@ -3,8 +3,8 @@
 
 #include "renderer/shared/compat.h"
 
-/// A triangle in leaf order, with its vertices in place: traversal follows no index. Coordinates stand axis
-/// by axis because the triangle test picks its axes by the ray's direction.
+/// A triangle in leaf order, with its vertices in place: traversal follows no index. Coordinates
+/// stand axis by axis because the triangle test picks its axes by the ray's direction.
 typedef struct LeafTriangle {
     float coordinate[3][3];  ///< [x, y, z][vertex 0, 1, 2], scene units
     uint id;                 ///< its index in the scene's list of triangles

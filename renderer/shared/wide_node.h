@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The eight-wide hierarchy as traversal reads it: boxes and triangles in eights, lane by lane, for devices
-// whose work-items compute on vectors (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", RT 2008).
+// The eight-wide hierarchy as traversal reads it: boxes and triangles in eights, lane by lane, for
+// devices whose work-items compute on vectors (I. Wald, C. Benthin, S. Boulos, "Getting Rid of
+// Packets", RT 2008).
 //
 // Node 0 is not part of the tree: its lane 0 holds the scene's box and the link to the root.
 #pragma once
@@ -9,10 +10,11 @@
 
 #define WIDE_LANES 8u
 
-/// A link is the index of a node or, with BVH_LEAF_BIT, a block of triangles: bits 28 to 30 hold its number
-/// of triangles less one, bits 0 to 27 its index.
+/// A link is the index of a node or, with BVH_LEAF_BIT, a block of triangles: bits 28 to 30 hold
+/// its number of triangles less one, bits 0 to 27 its index.
 typedef struct WideNode {
-    float bounds[2][3][WIDE_LANES];  ///< [lower, upper][x, y, z][child], scene units; lower > upper: no child
+    float bounds[2][3][WIDE_LANES];  ///< [lower, upper][x, y, z][child], scene units; lower >
+                                     ///< upper: no child
     uint child[WIDE_LANES];
 } WideNode;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Records kept beside the path states, a row of them for each path: where one lies, and its words. The words of a
-// record lie together where those of a path do (path_state.h).
+// Records kept beside the path states, a row of them for each path: where one lies, and its words.
+// The words of a record lie together where those of a path do (path_state.h).
 #pragma once
 
 #include "compat.h"
@@ -14,7 +14,8 @@ typedef struct WordPlace {
 } WordPlace;
 
 /// Record `i` of the `per_row` in row `row` of `rows`. More words than 2^32 are possible.
-DEVICE WordPlace record_place(GLOBAL uint *words, uint record_words, uint rows, uint per_row, uint row, uint i) {
+DEVICE WordPlace record_place(GLOBAL uint *words, uint record_words, uint rows, uint per_row,
+                              uint row, uint i) {
     WordPlace place;
 #if PATH_STATE_INTERLEAVED
     place.first = words + ((ulong)row * per_row + i) * record_words;
@@ -28,14 +29,23 @@ DEVICE WordPlace record_place(GLOBAL uint *words, uint record_words, uint rows, 
     return place;
 }
 
-DEVICE uint load_uint(WordPlace place, uint word) { return place.first[word * place.stride]; }
-DEVICE float load_float(WordPlace place, uint word) { return as_float(load_uint(place, word)); }
+DEVICE uint load_uint(WordPlace place, uint word) {
+    return place.first[word * place.stride];
+}
+DEVICE float load_float(WordPlace place, uint word) {
+    return as_float(load_uint(place, word));
+}
 DEVICE float3 load_float3(WordPlace place, uint word) {
-    return make_float3(load_float(place, word), load_float(place, word + 1), load_float(place, word + 2));
+    return make_float3(load_float(place, word), load_float(place, word + 1),
+                       load_float(place, word + 2));
 }
 
-DEVICE void store_uint(WordPlace place, uint word, uint value) { place.first[word * place.stride] = value; }
-DEVICE void store_float(WordPlace place, uint word, float value) { store_uint(place, word, as_uint(value)); }
+DEVICE void store_uint(WordPlace place, uint word, uint value) {
+    place.first[word * place.stride] = value;
+}
+DEVICE void store_float(WordPlace place, uint word, float value) {
+    store_uint(place, word, as_uint(value));
+}
 DEVICE void store_float3(WordPlace place, uint word, float3 value) {
     store_float(place, word, value.x);
     store_float(place, word + 1, value.y);

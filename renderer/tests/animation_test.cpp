@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes that move under a session: the film of every time, whether the hierarchy is built anew or refitted.
+// Scenes that move under a session: the film of every time, whether the hierarchy is built anew or
+// refitted.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -57,14 +58,18 @@ TEST(Animation, EveryTimeHasItsOwnFilm) {
             RenderSession session(cloth(time), small({of_layout}), device());
             fresh.push_back(render(session));
         }
-        EXPECT_GT(count_different(fresh[0], fresh[1]), fresh[0].size() / 10) << "the cloth has moved";
+        EXPECT_GT(count_different(fresh[0], fresh[1]), fresh[0].size() / 10)
+            << "the cloth has moved";
         for (const bool refits : {false, true}) {
-            RenderSession session(cloth(0), small({of_layout, refits ? "device.bvh_update=refit" : "device.bvh_update=rebuild"}),
+            RenderSession session(cloth(0),
+                                  small({of_layout, refits ? "device.bvh_update=refit"
+                                                           : "device.bvh_update=rebuild"}),
                                   device());
             for (size_t i = 0; i < fresh.size(); ++i) {
                 session.update(cloth(times[i]));
                 EXPECT_EQ(session.report().at("bvh").at("refitted"), refits);
-                EXPECT_LE(count_different(render(session), fresh[i]), fresh[i].size() / 100) << layout << ' ' << times[i];
+                EXPECT_LE(count_different(render(session), fresh[i]), fresh[i].size() / 100)
+                    << layout << ' ' << times[i];
             }
         }
     }

@@ -28,7 +28,8 @@ class Files : public testing::Test {
 
     fs::path path(const std::string &name) const { return folder_ / name; }
     size_t file_count() const {
-        return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+        return static_cast<size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
     }
 
   private:
@@ -90,7 +91,8 @@ TEST_F(Images, ExrKeepsEveryBitOfChannelsAndAttributes) {
     EXPECT_EQ(read.channels()[2].name, "B");
     for (const Image::Channel &channel : image.channels()) {
         const std::vector<float> &values = read.channel(channel.name);
-        EXPECT_EQ(std::memcmp(values.data(), channel.values.data(), values.size() * sizeof(float)), 0)
+        EXPECT_EQ(std::memcmp(values.data(), channel.values.data(), values.size() * sizeof(float)),
+                  0)
             << channel.name;
     }
     for (const auto &[name, value] : image.attributes()) {
@@ -104,7 +106,8 @@ TEST_F(Images, ChannelsAreFoundByNameOnly) {
     Image image = Image::rgb(2, 2);
     expect_input_error("no channel 'A'; it has: R, G, B", [&] { image.channel("A"); });
     expect_run_error("already has a channel 'R'", [&] { image.add_channel("R"); });
-    EXPECT_EQ(rgb_names("variance"), (std::vector<std::string>{"variance.R", "variance.G", "variance.B"}));
+    EXPECT_EQ(rgb_names("variance"),
+              (std::vector<std::string>{"variance.R", "variance.G", "variance.B"}));
 }
 
 TEST_F(Images, DamagedExrIsAnErrorThatNamesIt) {
@@ -129,9 +132,11 @@ TEST_F(Files, ReadAndWriteBytes) {
     EXPECT_EQ(file_count(), 1u);
     expect_input_error("none: cannot be read: No such file", [&] { read_file(path("none")); });
     expect_input_error("is a directory", [&] { read_file(path(".")); });
-    const fs::path unthinkable = path(std::string(5000, 'x'));  // no name may be that long: it cannot even be looked for
+    const fs::path unthinkable =
+        path(std::string(5000, 'x'));  // no name may be that long: it cannot even be looked for
     expect_input_error("cannot be read: File name too long", [&] { read_file(unthinkable); });
-    expect_input_error("cannot be written: File name too long", [&] { require_writable(unthinkable); });
+    expect_input_error("cannot be written: File name too long",
+                       [&] { require_writable(unthinkable); });
     expect_input_error("not a readable EXR", [&] { read_exr(unthinkable); });
 }
 
@@ -154,9 +159,9 @@ TEST_F(Files, FullDiskIsAnErrorAndLeavesTheOldFile) {
     {
         const FullDisk disk(4096);
         expect_run_error("f: cannot be written: File too large",
-                     [&] { write_file(path("f"), std::string(100000, 'x')); });
+                         [&] { write_file(path("f"), std::string(100000, 'x')); });
         expect_run_error("f.exr: cannot be written",
-                     [&] { write_exr(test_image(64, 64), path("f.exr")); });
+                         [&] { write_exr(test_image(64, 64), path("f.exr")); });
     }
     EXPECT_EQ(read_file(path("f")), "old");
     EXPECT_EQ(read_file(path("f.exr")), old_exr);
@@ -167,7 +172,7 @@ TEST_F(Files, UnwritablePlacesAreFoundBeforeARun) {
     // Not by permissions: tests may run as root.
     for (const fs::path &place : {path("no/such/folder/out.exr"), fs::path("/proc/out.exr")}) {
         expect_input_error(place.string() + ": cannot be written",
-                     [&] { require_writable(place); });
+                           [&] { require_writable(place); });
         expect_run_error(place.string(), [&] { write_file(place, "x"); });
         expect_run_error(place.string(), [&] { write_exr(test_image(2, 2), place); });
     }

@@ -37,12 +37,15 @@ class BlenderExport : public WithImages {
 const std::map<std::string, const char *> &beyond_cycles() {
     static const std::map<std::string, const char *> reasons = {
         {"beckmann",
-         "(microfacet_reflection with Fresnel term conductor): Cycles cannot do that: its Glossy BSDF has"},
+         "(microfacet_reflection with Fresnel term conductor): Cycles cannot do that: its Glossy "
+         "BSDF has"},
         {"blinn_64",
-         "'object': material 'object', component 0 (blinn with Fresnel term conductor): Cycles cannot do "
+         "'object': material 'object', component 0 (blinn with Fresnel term conductor): Cycles "
+         "cannot do "
          "that: it has no such model"},
         {"car_paint",
-         "component 1 (lambert with Fresnel term dielectric): Cycles cannot do that: a Fresnel term of a"},
+         "component 1 (lambert with Fresnel term dielectric): Cycles cannot do that: a Fresnel "
+         "term of a"},
         {"ggx", "no Fresnel term"},
         {"julia", "'object': Cycles has triangles, and they make no Julia set"},
         {"oren_nayar_079", "its Oren-Nayar is another one"},
@@ -72,7 +75,8 @@ TEST_F(BlenderExport, ScenesOfSingleFeaturesAreWrittenOrAreErrors) {
         }
         try {
             const Json description = exported(scene);
-            EXPECT_EQ(description.at("meshes").size(), scene.meshes().name.size() + scene.arrays().shapes.name.size());
+            EXPECT_EQ(description.at("meshes").size(),
+                      scene.meshes().name.size() + scene.arrays().shapes.name.size());
             EXPECT_EQ(description.at("materials").size(), scene.materials().name.size());
             ++written;
         } catch (const Error &error) {  // of further scenes of the kinds above
@@ -109,7 +113,8 @@ TEST_F(BlenderExport, SaysWhatTheArraysSay) {
         EXPECT_EQ(material.at("components")[0].at("weight")[1].get<float>(), part.weight[1]);
         ASSERT_EQ(mesh.contains("radiance"), meshes.light[i] != no_index);
         if (mesh.contains("radiance")) {
-            EXPECT_EQ(mesh.at("radiance")[0].get<float>(), box.lights().radiance[meshes.light[i]][0]);
+            EXPECT_EQ(mesh.at("radiance")[0].get<float>(),
+                      box.lights().radiance[meshes.light[i]][0]);
             ++bright;
         }
     }
@@ -121,8 +126,9 @@ TEST_F(BlenderExport, DecodesTexels) {
     const Scene scene = load_scene(scenes + "/features/texture_bilinear.json");
     const Json description = exported(scene);
     ASSERT_EQ(description.at("textures").size(), 1u);
-    const auto written = load_texture_file(
-        folder_ / description.at("textures")[0].at("file").get<std::string>(), TextureEncoding::linear);
+    const auto written =
+        load_texture_file(folder_ / description.at("textures")[0].at("file").get<std::string>(),
+                          TextureEncoding::linear);
     const TextureImage &image = *scene.arrays().textures.image[0];
     ASSERT_TRUE(image.srgb);
     ASSERT_EQ(written->floats.size(), image.bytes.size());
@@ -133,11 +139,11 @@ TEST_F(BlenderExport, DecodesTexels) {
 
 TEST_F(BlenderExport, ResolvesTheAxisOfTheField) {
     const auto axis = [&](const char *name, int width, int height) {
-        Scene scene =
-            parse_scene_json(std::string(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        Scene scene = parse_scene_json(
+            std::string(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
             {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": ")") +
-                                 name + R"("}}]})",
-                             "in.json", "in");
+                name + R"("}}]})",
+            "in.json", "in");
         scene.set_film_size(width, height);
         return exported(scene).at("camera").at("fov_axis").get<std::string>();
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials and directions on which the BSDFs are tested, with every kind compiled in for the host, and their
-// chi-square test.
+// Materials and directions on which the BSDFs are tested, with every kind compiled in for the host,
+// and their chi-square test.
 #pragma once
 
 #define FEATURE_scattering 1
@@ -102,7 +102,8 @@ inline BxdfRecord weighted(BxdfRecord record, float weight) {
     return record;
 }
 
-inline TestMaterial rough_glass(const std::string &name, float alpha_x, float alpha_y, uint distribution) {
+inline TestMaterial rough_glass(const std::string &name, float alpha_x, float alpha_y,
+                                uint distribution) {
     return {name,
             {with_eta(rough(BXDF_MICROFACET_REFLECTION, alpha_x, alpha_y, distribution), 1.5f,
                       FRESNEL_DIELECTRIC),
@@ -114,10 +115,10 @@ inline TestMaterial rough_glass(const std::string &name, float alpha_x, float al
 /// Car paint (thesis 3.55): a coat over a Lambert reflector. `printed`: not symmetric.
 inline TestMaterial car_paint(bool printed) {
     const uint printed_flag = printed ? BXDF_FLAG_FRESNEL_OF_WO : 0;
-    return {
-        printed ? "car paint as printed" : "car paint",
-        {with_eta(component(BXDF_IDEAL_REFLECTION), 1.5f, FRESNEL_DIELECTRIC),
-         with_eta(component(BXDF_LAMBERT), 1.5f, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | printed_flag)}};
+    return {printed ? "car paint as printed" : "car paint",
+            {with_eta(component(BXDF_IDEAL_REFLECTION), 1.5f, FRESNEL_DIELECTRIC),
+             with_eta(component(BXDF_LAMBERT), 1.5f,
+                      FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | printed_flag)}};
 }
 
 /// A tilted surface seen at `theta` degrees from its normal, on its front or its back.
@@ -126,8 +127,9 @@ inline SurfaceFrame tilted_frame(double theta, double phi = 0.6, bool front = tr
     const Frame axes = frame_from_tangent(n, make_float3(0.2f, 0.1f, 0.9f));
     const double t = theta * pi / 180;
     const double z = front ? std::cos(t) : -std::cos(t);
-    const float3 local = make_float3(static_cast<float>(std::sin(t) * std::cos(phi)),
-                                     static_cast<float>(std::sin(t) * std::sin(phi)), static_cast<float>(z));
+    const float3 local =
+        make_float3(static_cast<float>(std::sin(t) * std::cos(phi)),
+                    static_cast<float>(std::sin(t) * std::sin(phi)), static_cast<float>(z));
     return make_surface_frame(n, n, axes.x, make_float2(0, 0), normalize(to_world(axes, local)));
 }
 
@@ -135,8 +137,8 @@ inline uint4 bsdf_words(uint32_t sample, uint32_t block) {
     return random_words(17, 0, 5, sample, block);
 }
 
-/// What a sampler gave, by cell of a grid; the last entry counts samples without a direction (lost below the
-/// horizon) and deltas.
+/// What a sampler gave, by cell of a grid; the last entry counts samples without a direction (lost
+/// below the horizon) and deltas.
 struct SampledDirections {
     std::vector<uint64_t> observed = std::vector<uint64_t>(DirectionGrid::cells + 1);
 
@@ -146,8 +148,9 @@ struct SampledDirections {
     }
 };
 
-/// p-value of sampled directions against the material's density, and that against a density with a planted
-/// error of 2 %: 1.02 on one side of the plane of incidence, 0.98 on the other, which keeps the total.
+/// p-value of sampled directions against the material's density, and that against a density with a
+/// planted error of 2 %: 1.02 on one side of the plane of incidence, 0.98 on the other, which keeps
+/// the total.
 struct ChiSquare {
     double p, planted;
     double scattered;  ///< share of the samples with a direction and a finite density
@@ -160,23 +163,25 @@ inline ChiSquare test_directions(const TestMaterial &material, const SurfaceFram
     std::vector<double> expected(directions.observed.size()), wrong(directions.observed.size());
     double rest = count;
     for (int cell = 0; cell < DirectionGrid::cells; ++cell) {
-        // A sliver above the horizon that the quadrature does not see is pooled with other rare cells, not
-        // impossible.
+        // A sliver above the horizon that the quadrature does not see is pooled with other rare
+        // cells, not impossible.
         const double e = 1e-3 + count * grid.integral(cell, [&](float3 wi) {
             return static_cast<double>(material.evaluate(frame, wi).pdf_w);
         });
         const auto k = static_cast<size_t>(cell);
         expected[k] = e;
-        wrong[k] = e * (cell % DirectionGrid::azimuth_cells < DirectionGrid::azimuth_cells / 2 ? 1.02 : 0.98);
+        wrong[k] =
+            e *
+            (cell % DirectionGrid::azimuth_cells < DirectionGrid::azimuth_cells / 2 ? 1.02 : 0.98);
         rest -= e;
     }
     std::vector<uint64_t> observed = directions.observed;
     if (count - rest < 50) {  // all is lost
         return {observed.back() + 100 > static_cast<uint64_t>(count) ? 1.0 : 0.0, 0, 0};
     }
-    // Below 0.1 % the rest is of the size of rounding: next to the horizon a density cannot be evaluated more
-    // exactly in float, with alpha = 0.01 and 0.001 degrees it integrates to 1 - 2e-4. It is no cell of its
-    // own then.
+    // Below 0.1 % the rest is of the size of rounding: next to the horizon a density cannot be
+    // evaluated more exactly in float, with alpha = 0.01 and 0.001 degrees it integrates to 1 -
+    // 2e-4. It is no cell of its own then.
     if (rest < 1e-3 * count) {
         if (static_cast<double>(observed.back()) > 2e-3 * count) {
             return {0, 1, 1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// BSDFs and textures on the device: every kind compiles alone, and what the device samples follows the
-// densities that the host computes from the same source.
+// BSDFs and textures on the device: every kind compiles alone, and what the device samples follows
+// the densities that the host computes from the same source.
 #include <gtest/gtest.h>
 
 #include "renderer/device/buffer.h"
@@ -48,8 +48,8 @@ TEST(BsdfDevice, EveryKindCompilesAlone) {
         EXPECT_NO_THROW(build(device, mask)) << ::testing::PrintToString(mask.names());
     };
     expect_build(base);
-    for (const Feature kind :
-         {Feature::lambert, Feature::oren_nayar, Feature::blinn, Feature::ward, Feature::ward_original}) {
+    for (const Feature kind : {Feature::lambert, Feature::oren_nayar, Feature::blinn, Feature::ward,
+                               Feature::ward_original}) {
         expect_build(base.with(kind));
     }
     for (const Feature kind : {Feature::ideal_reflection, Feature::ideal_refraction}) {
@@ -60,12 +60,13 @@ TEST(BsdfDevice, EveryKindCompilesAlone) {
             expect_build(base.with(kind).with(distribution));
         }
     }
-    for (const Feature fresnel : {Feature::fresnel_dielectric, Feature::fresnel_conductor,
-                                  Feature::fresnel_conductor_approximate, Feature::fresnel_schlick}) {
+    for (const Feature fresnel :
+         {Feature::fresnel_dielectric, Feature::fresnel_conductor,
+          Feature::fresnel_conductor_approximate, Feature::fresnel_schlick}) {
         expect_build(base.with(Feature::lambert).with(Feature::fresnel).with(fresnel));
     }
-    for (const Feature other : {Feature::textures, Feature::composite, Feature::one_sided, Feature::tangents,
-                                Feature::smooth_normals}) {
+    for (const Feature other : {Feature::textures, Feature::composite, Feature::one_sided,
+                                Feature::tangents, Feature::smooth_normals}) {
         expect_build(base.with(Feature::lambert).with(other));
     }
 }
@@ -81,8 +82,8 @@ std::vector<float> run_samples(DeviceContext &device, Kernel &kernel, const Test
     const Buffer<uint> texels(device, "texels", 1);
     const float3 front = frame.front != 0u ? frame.ng : -frame.ng;
     const Buffer<float> view(device, "view",
-                             std::vector<float>{front.x, front.y, front.z, tangent.x, tangent.y, tangent.z,
-                                                frame.wo.x, frame.wo.y, frame.wo.z});
+                             std::vector<float>{front.x, front.y, front.z, tangent.x, tangent.y,
+                                                tangent.z, frame.wo.x, frame.wo.y, frame.wo.z});
     const Buffer<float> samples(device, "samples", 5 * count);
     if (textured) {
         kernel.bind({materials, components, textures, texels, view, samples, count, block});
@@ -118,7 +119,8 @@ TEST(BsdfDevice, EverythingCompiledInChangesNoBit) {
             const float3 none = make_float3(0, 0, 0);
             const std::vector<float> a =
                 run_samples(device, alone, material, frame, none, 10'000, 2999, false);
-            const std::vector<float> b = run_samples(device, all, material, frame, none, 10'000, 2999, true);
+            const std::vector<float> b =
+                run_samples(device, all, material, frame, none, 10'000, 2999, true);
             EXPECT_TRUE(a == b) << material.name;
         }
     }
@@ -152,7 +154,8 @@ TEST(BsdfDevice, SamplesFollowTheHostsDensity) {
             const float3 wi = make_float3(found[i], found[i + 1], found[i + 2]);
             directions.add(grid, wi, found[i + 3]);
             if (i < 5000 && found[i + 3] > 0.0f && std::abs(dot(wi, frame.ns)) > 1e-3f) {
-                ASSERT_NEAR(found[i + 4] / material.evaluate(frame, wi).pdf_w, 1.0f, 1e-3f) << material.name;
+                ASSERT_NEAR(found[i + 4] / material.evaluate(frame, wi).pdf_w, 1.0f, 1e-3f)
+                    << material.name;
             }
         }
         const ChiSquare result = test_directions(material, frame, grid, directions);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What holds for every BSDF: no more light than arrives, reciprocity, agreement of sample and evaluation,
-// finite values, smooth limits.
+// What holds for every BSDF: no more light than arrives, reciprocity, agreement of sample and
+// evaluation, finite values, smooth limits.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/bsdf_cases.h"
@@ -31,12 +31,14 @@ std::vector<TestMaterial> materials() {
     };
     for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
         const std::string name = distribution != 0 ? "beckmann " : "ggx ";
-        all.push_back({name + "reflection 1", {rough(BXDF_MICROFACET_REFLECTION, 1, 1, distribution)}});
         all.push_back(
-            {name + "reflection 0.1, 0.5", {rough(BXDF_MICROFACET_REFLECTION, 0.1f, 0.5f, distribution)}});
-        all.push_back({name + "refraction 0.4",
-                       {with_eta(rough(BXDF_MICROFACET_REFRACTION, 0.4f, 0.4f, distribution), 1.5f)},
-                       MATERIAL_BOUNDARY});
+            {name + "reflection 1", {rough(BXDF_MICROFACET_REFLECTION, 1, 1, distribution)}});
+        all.push_back({name + "reflection 0.1, 0.5",
+                       {rough(BXDF_MICROFACET_REFLECTION, 0.1f, 0.5f, distribution)}});
+        all.push_back(
+            {name + "refraction 0.4",
+             {with_eta(rough(BXDF_MICROFACET_REFRACTION, 0.4f, 0.4f, distribution), 1.5f)},
+             MATERIAL_BOUNDARY});
         all.push_back(rough_glass(name + "glass 0.3", 0.3f, 0.3f, distribution));
         all.push_back(rough_glass(name + "glass 0.02, 0.1", 0.02f, 0.1f, distribution));
     }
@@ -44,11 +46,13 @@ std::vector<TestMaterial> materials() {
 }
 
 float eta_of(const TestMaterial &material, const SurfaceFrame &frame) {
-    return (material.flags & MATERIAL_BOUNDARY) == 0 ? 1.0f : frame.front != 0u ? 1.5f : 1.0f / 1.5f;
+    return (material.flags & MATERIAL_BOUNDARY) == 0 ? 1.0f
+           : frame.front != 0u                       ? 1.5f
+                                                     : 1.0f / 1.5f;
 }
 
-/// Share of the power arriving along wo that the material scatters, and its standard error. Radiance that
-/// passes the boundary is taken without its factor 1 / eta^2, which is not power.
+/// Share of the power arriving along wo that the material scatters, and its standard error.
+/// Radiance that passes the boundary is taken without its factor 1 / eta^2, which is not power.
 struct Albedo {
     double mean = 0, error = 0;
 };
@@ -100,12 +104,15 @@ TEST(Energy, WhiteLambertScattersAll) {
     EXPECT_NEAR(albedo({"lambert", {component(BXDF_LAMBERT)}}, tilted_frame(60)).mean, 1.0, 1e-6);
 }
 
-/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta: cos(phi) where positive
-/// integrates to 2, and over theta_i there is one integral below theta and one above.
+/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta: cos(phi)
+/// where positive integrates to 2, and over theta_i there is one integral below theta and one
+/// above.
 double oren_nayar_albedo(double sigma, double theta) {
     const double variance = sigma * sigma, s = std::sin(theta);
-    const double a = 1 - 0.5 * variance / (variance + 0.33), b = 0.45 * variance / (variance + 0.09);
-    return a + b * 2 / pi * (s * (theta - s * std::cos(theta)) / 2 + std::tan(theta) * (1 - s * s * s) / 3);
+    const double a = 1 - 0.5 * variance / (variance + 0.33),
+                 b = 0.45 * variance / (variance + 0.09);
+    return a + b * 2 / pi *
+                   (s * (theta - s * std::cos(theta)) / 2 + std::tan(theta) * (1 - s * s * s) / 3);
 }
 
 // The mean weight over a grid of numbers: a quadrature, so that 2 % in either coefficient are seen.
@@ -126,7 +133,8 @@ TEST(Energy, OrenNayarHasTheAlbedoOfItsClosedForm) {
     };
     for (const float sigma : {0.0f, 0.1f, 0.5f, 0.7853982f, 1.5707963f}) {
         for (const double degrees : {0.0, 25.0, 60.0, 80.0}) {
-            EXPECT_NEAR(found(sigma, degrees), oren_nayar_albedo(static_cast<double>(sigma), degrees * pi / 180),
+            EXPECT_NEAR(found(sigma, degrees),
+                        oren_nayar_albedo(static_cast<double>(sigma), degrees * pi / 180),
                         tolerance)
                 << sigma << ' ' << degrees;
         }
@@ -136,8 +144,8 @@ TEST(Energy, OrenNayarHasTheAlbedoOfItsClosedForm) {
     EXPECT_GT(0.02 * std::min(a, oren_nayar_albedo(0.5, pi / 3) - a), 5 * tolerance);
 }
 
-// At normal incidence wo.m is positive for all normals: a distribution whose area projects to 1 and which
-// loses no light but by shadowing keeps nearly all of it.
+// At normal incidence wo.m is positive for all normals: a distribution whose area projects to 1 and
+// which loses no light but by shadowing keeps nearly all of it.
 TEST(Energy, NarrowLobesScatterNearlyAll) {
     for (const uint kind : {BXDF_WARD, BXDF_MICROFACET_REFLECTION}) {
         const TestMaterial material = {"narrow", {rough(kind, 0.02f, 0.02f)}};
@@ -149,8 +157,8 @@ TEST(Energy, NarrowLobesScatterNearlyAll) {
     EXPECT_NEAR(albedo(glass, tilted_frame(30, 0.6, false)).mean, 1.0, 2e-3);
 }
 
-// The printed car paint: Lambert times 1 - F(wo) alone; its albedo exceeds 1 on the other side of the
-// exchange, seen by light from a grazing angle. The symmetric one stays below.
+// The printed car paint: Lambert times 1 - F(wo) alone; its albedo exceeds 1 on the other side of
+// the exchange, seen by light from a grazing angle. The symmetric one stays below.
 TEST(Energy, PrintedCarPaintIsNotReciprocal) {
     const auto adjoint = [](const TestMaterial &material) {  // light along wi, gathered over all wo
         const SurfaceFrame grazing = tilted_frame(85);
@@ -162,8 +170,8 @@ TEST(Energy, PrintedCarPaintIsNotReciprocal) {
             const float3 local = sample_cosine_hemisphere(uniform_float(w.x), uniform_float(w.y));
             SurfaceFrame frame = grazing;
             frame.wo = normalize(frame.x * local.x + frame.y * local.y + frame.ns * local.z);
-            const double f =
-                static_cast<double>(material.evaluate(frame, grazing.wo).f_cos.x / dot(grazing.wo, frame.ns));
+            const double f = static_cast<double>(material.evaluate(frame, grazing.wo).f_cos.x /
+                                                 dot(grazing.wo, frame.ns));
             sum += f * pi / count;
         }
         return sum;
@@ -182,23 +190,27 @@ TEST(Energy, AllButThePrintedCarPaintAreReciprocal) {
             int compared = 0;
             for (uint32_t i = 0; i < 2000; ++i) {
                 const uint4 w = bsdf_words(i, 1002);
-                const BsdfSample s =
-                    material.sample(frame, uniform_float(w.x), uniform_float(w.y), uniform_float(w.z));
-                if (!(s.pdf_w > 0.0f && s.pdf_w < infinity) || std::abs(dot(s.wi, frame.ns)) < 1e-3f) {
+                const BsdfSample s = material.sample(frame, uniform_float(w.x), uniform_float(w.y),
+                                                     uniform_float(w.z));
+                if (!(s.pdf_w > 0.0f && s.pdf_w < infinity) ||
+                    std::abs(dot(s.wi, frame.ns)) < 1e-3f) {
                     continue;
                 }
                 // Radiance over the squared index of its medium is exchanged (Veach 1997, 5.2).
                 const float eta = dot(s.wi, frame.ns) < 0.0f ? eta_of(material, frame) : 1.0f;
-                const SurfaceFrame back = make_surface_frame(frame.ng, frame.ns, frame.x, frame.uv, s.wi);
+                const SurfaceFrame back =
+                    make_surface_frame(frame.ng, frame.ns, frame.x, frame.uv, s.wi);
                 const double forth = static_cast<double>(material.evaluate(frame, s.wi).f_cos.x /
                                                          std::abs(dot(s.wi, frame.ns)));
                 const double other = static_cast<double>(material.evaluate(back, frame.wo).f_cos.x /
                                                          std::abs(dot(frame.wo, frame.ns)));
                 const double scale = static_cast<double>(eta * eta);
-                ASSERT_NEAR(forth * scale, other, 2e-3 * other + 1e-6) << material.name << " at " << theta;
+                ASSERT_NEAR(forth * scale, other, 2e-3 * other + 1e-6)
+                    << material.name << " at " << theta;
                 ++compared;
             }
-            EXPECT_TRUE(compared > 500 || material.name.rfind("car paint", 0) == 0) << material.name;
+            EXPECT_TRUE(compared > 500 || material.name.rfind("car paint", 0) == 0)
+                << material.name;
         }
     }
 }
@@ -210,16 +222,18 @@ TEST(Sample, AgreesWithEvaluation) {
                 const SurfaceFrame frame = tilted_frame(theta, 2.1, front);
                 for (uint32_t i = 0; i < 1000; ++i) {
                     const uint4 w = bsdf_words(i, 1003);
-                    const BsdfSample s =
-                        material.sample(frame, uniform_float(w.x), uniform_float(w.y), uniform_float(w.z));
+                    const BsdfSample s = material.sample(frame, uniform_float(w.x),
+                                                         uniform_float(w.y), uniform_float(w.z));
                     if (!(s.pdf_w > 0.0f && s.pdf_w < infinity)) {
                         continue;
                     }
                     ASSERT_NEAR(length(s.wi), 1.0f, 1e-6f);
-                    // The world direction is rounded: next to the horizon and in narrow lobes that is felt.
+                    // The world direction is rounded: next to the horizon and in narrow lobes that
+                    // is felt.
                     if (std::abs(dot(s.wi, frame.ns)) > 1e-3f) {
                         const BsdfValue value = material.evaluate(frame, s.wi);
-                        ASSERT_NEAR(value.pdf_w / s.pdf_w, 1.0f, 5e-3f) << material.name << " at " << theta;
+                        ASSERT_NEAR(value.pdf_w / s.pdf_w, 1.0f, 5e-3f)
+                            << material.name << " at " << theta;
                         ASSERT_NEAR(value.f_cos.x / value.pdf_w / s.weight.x, 1.0f, 1e-3f)
                             << material.name << " at " << theta;
                     }
@@ -233,8 +247,9 @@ TEST(Sample, AgreesWithEvaluation) {
 TEST(Limits, NarrowLobesBecomeDeltas) {
     for (const bool front : {true, false}) {
         const SurfaceFrame frame = tilted_frame(front ? 50 : 30, 0.6, front);
-        const TestMaterial smooth = {
-            "glass", {with_eta(component(BXDF_IDEAL_REFRACTION), 1.5f)}, MATERIAL_BOUNDARY | MATERIAL_DELTA};
+        const TestMaterial smooth = {"glass",
+                                     {with_eta(component(BXDF_IDEAL_REFRACTION), 1.5f)},
+                                     MATERIAL_BOUNDARY | MATERIAL_DELTA};
         const float3 refracted = smooth.sample(frame, 0, 0, 0).wi;
         const float3 mirrored = 2.0f * dot(frame.ns, frame.wo) * frame.ns - frame.wo;
         const auto expect_close = [&](const TestMaterial &material, float3 direction) {
@@ -243,8 +258,8 @@ TEST(Limits, NarrowLobesBecomeDeltas) {
             constexpr int count = 10'000;
             for (uint32_t i = 0; i < count; ++i) {
                 const uint4 w = bsdf_words(i, 1004);
-                const BsdfSample s =
-                    material.sample(frame, uniform_float(w.x), uniform_float(w.y), uniform_float(w.z));
+                const BsdfSample s = material.sample(frame, uniform_float(w.x), uniform_float(w.y),
+                                                     uniform_float(w.z));
                 mean += s.wi / count;
                 weight += static_cast<double>(s.weight.x) / count;
             }
@@ -253,7 +268,8 @@ TEST(Limits, NarrowLobesBecomeDeltas) {
         };
         for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
             const double reflected = expect_close(
-                {"reflection", {rough(BXDF_MICROFACET_REFLECTION, 1e-4f, 1e-4f, distribution)}}, mirrored);
+                {"reflection", {rough(BXDF_MICROFACET_REFLECTION, 1e-4f, 1e-4f, distribution)}},
+                mirrored);
             EXPECT_NEAR(reflected, 1.0, 1e-4);
             const TestMaterial rough_refraction = {
                 "refraction",
@@ -267,7 +283,8 @@ TEST(Limits, NarrowLobesBecomeDeltas) {
     }
 }
 
-// The largest exponent, the smallest roughness, grazing directions and the ends of the random numbers' range.
+// The largest exponent, the smallest roughness, grazing directions and the ends of the random
+// numbers' range.
 TEST(Limits, NothingIsEverInfiniteOrNegative) {
     const auto finite = [](float3 v) {
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -279,8 +296,9 @@ TEST(Limits, NothingIsEverInfiniteOrNegative) {
          {BXDF_WARD, BXDF_WARD_ORIGINAL, BXDF_MICROFACET_REFLECTION, BXDF_MICROFACET_REFRACTION}) {
         for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
             for (const float eta : {1.5f, 1.0f, 1.00001f, 0.3f}) {
-                all.push_back(
-                    {"narrow", {with_eta(rough(kind, 1e-4f, 1.0f, distribution), eta)}, MATERIAL_BOUNDARY});
+                all.push_back({"narrow",
+                               {with_eta(rough(kind, 1e-4f, 1.0f, distribution), eta)},
+                               MATERIAL_BOUNDARY});
                 all.push_back({"narrowest",
                                {with_eta(rough(kind, 1e-4f, 1e-4f, distribution), eta)},
                                MATERIAL_BOUNDARY});
@@ -300,8 +318,8 @@ TEST(Limits, NothingIsEverInfiniteOrNegative) {
                         ASSERT_NEAR(length(s.wi), 1.0f, 1e-6f);
                         ASSERT_GE(s.weight.x, 0.0f);
                         // From the sampled direction, from opposite to wo, and from the horizon.
-                        for (const float3 wi :
-                             {s.wi, -frame.wo, frame.wo, normalize(frame.x + 1e-7f * frame.ns), -frame.x}) {
+                        for (const float3 wi : {s.wi, -frame.wo, frame.wo,
+                                                normalize(frame.x + 1e-7f * frame.ns), -frame.x}) {
                             const BsdfValue value = material.evaluate(frame, wi);
                             ASSERT_TRUE(finite(value.f_cos) && std::isfinite(value.pdf_w))
                                 << material.name << ' ' << theta;
@@ -347,7 +365,8 @@ TEST(SurfaceFrame, PutsBothNormalsOnTheViewersSide) {
 TEST(SurfaceFrame, DropsDirectionsBetweenTheTwoHorizons) {
     const float3 ng = make_float3(0, 0, 1), ns = normalize(make_float3(0.6f, 0, 0.8f)),
                  wo = normalize(make_float3(0.3f, 0.1f, 1));
-    const SurfaceFrame frame = make_surface_frame(ng, ns, make_float3(0, 0, 0), make_float2(0, 0), wo);
+    const SurfaceFrame frame =
+        make_surface_frame(ng, ns, make_float3(0, 0, 0), make_float2(0, 0), wo);
     for (const TestMaterial &material : materials()) {
         uint32_t lost = 0;
         for (uint32_t i = 0; i < 20'000; ++i) {
@@ -362,7 +381,8 @@ TEST(SurfaceFrame, DropsDirectionsBetweenTheTwoHorizons) {
         }
         EXPECT_EQ(material.evaluate(frame, normalize(make_float3(1, 0, -0.1f))).f_cos.x, 0.0f)
             << material.name;
-        EXPECT_EQ(material.evaluate(frame, normalize(make_float3(1, 0, -0.1f))).pdf_w, 0.0f) << material.name;
+        EXPECT_EQ(material.evaluate(frame, normalize(make_float3(1, 0, -0.1f))).pdf_w, 0.0f)
+            << material.name;
         if (material.name == "lambert") {
             EXPECT_GT(lost, 0u);
         }

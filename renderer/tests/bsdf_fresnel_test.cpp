@@ -36,8 +36,10 @@ TEST(Fresnel, DielectricHasItsClosedValues) {
     EXPECT_NEAR(dielectric(1.0f, 1.5f), 0.04f, 1e-7f);
     EXPECT_NEAR(dielectric(1.0f, 1.0f / 1.5f), 0.04f, 1e-7f);
     EXPECT_EQ(dielectric(0.0f, 1.5f), 1.0f);
-    // Brewster's angle, tan = eta: nothing of the parallel part, ((1 - eta^2) / (1 + eta^2))^2 of the other.
-    const double eta = 1.5, brewster = 1 / std::sqrt(1 + eta * eta), r = (1 - eta * eta) / (1 + eta * eta);
+    // Brewster's angle, tan = eta: nothing of the parallel part, ((1 - eta^2) / (1 + eta^2))^2 of
+    // the other.
+    const double eta = 1.5, brewster = 1 / std::sqrt(1 + eta * eta),
+                 r = (1 - eta * eta) / (1 + eta * eta);
     EXPECT_NEAR(dielectric(static_cast<float>(brewster), 1.5f), 0.5 * r * r, 1e-7);
     // No boundary reflects nothing, at whatever angle.
     for (const float c : cosines()) {
@@ -54,8 +56,8 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
         }
         for (const float eta : {0.05f, 0.2f, 1.0f, 1.5f, 3.0f, 1e4f}) {
             for (const float k : {0.0f, 1e-3f, 0.6f, 3.9f, 7.0f, 1e4f}) {
-                // Next to a critical angle, which an index below 1 has, an ulp of the cosine is felt by its
-                // root.
+                // Next to a critical angle, which an index below 1 has, an ulp of the cosine is
+                // felt by its root.
                 if (!(k == 0.0f && (eta < 1.0f || c == 0.0f))) {
                     EXPECT_NEAR(fresnel_conductor(c, eta, k),
                                 fresnel_double(static_cast<double>(c), static_cast<double>(eta),
@@ -72,8 +74,7 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
 TEST(Fresnel, DielectricIsReciprocal) {
     for (const float c : cosines()) {
         const float cos_t = refracted_cosine(c, squared_sine_of(c), 1.5f);
-        EXPECT_NEAR(dielectric(c, 1.5f), dielectric(cos_t, 1.0f / 1.5f),
-                    c < 1e-3f ? 5e-3f : 2e-4f)
+        EXPECT_NEAR(dielectric(c, 1.5f), dielectric(cos_t, 1.0f / 1.5f), c < 1e-3f ? 5e-3f : 2e-4f)
             << c;
     }
 }
@@ -102,12 +103,14 @@ TEST(Fresnel, KeepsTheDigitsOfADirectionWithinAHighIndex) {
     for (const double eta : {1.5, 3.0, 100.0}) {
         for (const double degrees : {0.0, 60.0, 85.0, 89.0, 89.9}) {
             const double sine = std::sin(degrees * pi / 180) / eta;
-            const float3 wo = make_float3(static_cast<float>(0.6 * sine), static_cast<float>(0.8 * sine),
-                                          static_cast<float>(std::sqrt((1 - sine) * (1 + sine))));
+            const float3 wo =
+                make_float3(static_cast<float>(0.6 * sine), static_cast<float>(0.8 * sine),
+                            static_cast<float>(std::sqrt((1 - sine) * (1 + sine))));
             const double x = static_cast<double>(wo.x), y = static_cast<double>(wo.y);
             const double index = static_cast<double>(static_cast<float>(1 / eta));
             const double s2 = x * x + y * y, outside = std::sqrt(1 - s2 / (index * index));
-            EXPECT_NEAR(refracted_cosine(wo.z, squared_sine(wo), static_cast<float>(index)), outside, 4e-7 / outside)
+            EXPECT_NEAR(refracted_cosine(wo.z, squared_sine(wo), static_cast<float>(index)),
+                        outside, 4e-7 / outside)
                 << eta << ' ' << degrees;
             EXPECT_NEAR(fresnel_dielectric(wo.z, squared_sine(wo), static_cast<float>(index)),
                         fresnel_double(outside, 1 / index, 0), 4e-6 / outside)
@@ -116,7 +119,8 @@ TEST(Fresnel, KeepsTheDigitsOfADirectionWithinAHighIndex) {
     }
 }
 
-// Gold at 550 nm (P. Johnson, R. Christy 1972): thesis (3.28) is an approximation, the digest says how good.
+// Gold at 550 nm (P. Johnson, R. Christy 1972): thesis (3.28) is an approximation, the digest says
+// how good.
 TEST(Fresnel, ApproximateConductorIsCloseToTheExactOne) {
     double largest = 0;
     for (const float c : cosines()) {
@@ -126,7 +130,8 @@ TEST(Fresnel, ApproximateConductorIsCloseToTheExactOne) {
     }
     EXPECT_GT(largest, 0.005);
     EXPECT_LT(largest, 0.006);
-    EXPECT_NEAR(fresnel_conductor_approximate(1.0f, 0.42f, 2.35f), fresnel_double(1.0, 0.42f, 2.35f), 1e-6);
+    EXPECT_NEAR(fresnel_conductor_approximate(1.0f, 0.42f, 2.35f),
+                fresnel_double(1.0, 0.42f, 2.35f), 1e-6);
 }
 
 TEST(Fresnel, SchlickHasItsClosedValues) {
@@ -135,14 +140,15 @@ TEST(Fresnel, SchlickHasItsClosedValues) {
     EXPECT_NEAR(fresnel_schlick(0.5f, 0.04f), 0.04f + 0.96f / 32.0f, 1e-7f);
 }
 
-// Thesis (3.52): F of the weight is met at the half vector by microfacet kinds, by diffuse ones at the
-// normal, from both directions.
+// Thesis (3.52): F of the weight is met at the half vector by microfacet kinds, by diffuse ones at
+// the normal, from both directions.
 TEST(Fresnel, IsMetAtTheHalfVectorOrTheNormal) {
     const SurfaceFrame frame = tilted_frame(50);
     const float3 wi = normalize(0.9f * frame.ns - 0.3f * frame.x + 0.6f * frame.y);
     const float half_cosine = dot(normalize(wi + frame.wo), frame.wo);
     const auto ratio = [&](BxdfRecord record, uint flags) {
-        const TestMaterial without = {"ideal", {record}}, with = {"fresnel", {with_eta(record, 1.5f, flags)}};
+        const TestMaterial without = {"ideal", {record}},
+                           with = {"fresnel", {with_eta(record, 1.5f, flags)}};
         return with.evaluate(frame, wi).f_cos.x / without.evaluate(frame, wi).f_cos.x;
     };
     for (const BxdfRecord &record :
@@ -157,9 +163,11 @@ TEST(Fresnel, IsMetAtTheHalfVectorOrTheNormal) {
     const float f_i = dielectric(dot(wi, frame.ns), 1.5f),
                 f_o = dielectric(dot(frame.wo, frame.ns), 1.5f);
     for (const BxdfRecord &record : {component(BXDF_LAMBERT), oren_nayar(0.7f)}) {
-        EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT), (1 - f_i) * (1 - f_o), 1e-6f);
-        EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | BXDF_FLAG_FRESNEL_OF_WO),
-                    1 - f_o, 1e-6f);
+        EXPECT_NEAR(ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT), (1 - f_i) * (1 - f_o),
+                    1e-6f);
+        EXPECT_NEAR(
+            ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | BXDF_FLAG_FRESNEL_OF_WO),
+            1 - f_o, 1e-6f);
     }
     // Channels of a metal are apart.
     BxdfRecord metal = rough(BXDF_MICROFACET_REFLECTION, 0.3f, 0.3f, FRESNEL_CONDUCTOR);
@@ -167,9 +175,10 @@ TEST(Fresnel, IsMetAtTheHalfVectorOrTheNormal) {
     std::copy_n(eta.data(), 3, metal.eta);
     std::copy_n(k.data(), 3, metal.k);
     const float3 gold = TestMaterial{"gold", {metal}}.evaluate(frame, wi).f_cos;
-    EXPECT_NEAR(gold.x / gold.z,
-                fresnel_conductor(half_cosine, eta[0], k[0]) / fresnel_conductor(half_cosine, eta[2], k[2]),
-                1e-5f);
+    EXPECT_NEAR(
+        gold.x / gold.z,
+        fresnel_conductor(half_cosine, eta[0], k[0]) / fresnel_conductor(half_cosine, eta[2], k[2]),
+        1e-5f);
 }
 
 TEST(IdealReflection, MirrorsAboutTheNormal) {
@@ -204,8 +213,8 @@ TEST(IdealRefraction, BendsBySnell) {
             EXPECT_NEAR(dot(s.wi, frame.ns), -std::sqrt(1 - sine * sine), 2e-6);
             EXPECT_NEAR(length(cross(s.wi, frame.ns)), sine, 1e-6);
             EXPECT_NEAR(dot(cross(s.wi, frame.wo), frame.ns), 0.0f, 1e-6f);
-            // The Fresnel term is the probability of its choice; what is left is the scale of radiance, 1 /
-            // eta^2.
+            // The Fresnel term is the probability of its choice; what is left is the scale of
+            // radiance, 1 / eta^2.
             EXPECT_NEAR(s.weight.x, 1 / (eta * eta), 1e-6);
         }
     }
@@ -217,7 +226,8 @@ TEST(IdealRefraction, IsChosenByItsFresnelTerm) {
     constexpr int count = 1 << 20;
     int reflected = 0;
     for (int i = 0; i < count; ++i) {
-        const BsdfSample s = glass.sample(frame, (static_cast<float>(i) + 0.5f) / count, 0.5f, 0.5f);
+        const BsdfSample s =
+            glass.sample(frame, (static_cast<float>(i) + 0.5f) / count, 0.5f, 0.5f);
         reflected += dot(s.wi, frame.ns) > 0.0f ? 1 : 0;
         ASSERT_EQ(s.pdf_w, std::numeric_limits<float>::infinity());
     }
@@ -234,8 +244,9 @@ TEST(IdealRefraction, LosesNothingAtTotalReflection) {
         }
     }
     // The bare refraction is black there (thesis 3.41).
-    const TestMaterial bare = {
-        "bare", {with_eta(component(BXDF_IDEAL_REFRACTION), 1.5f)}, MATERIAL_BOUNDARY | MATERIAL_DELTA};
+    const TestMaterial bare = {"bare",
+                               {with_eta(component(BXDF_IDEAL_REFRACTION), 1.5f)},
+                               MATERIAL_BOUNDARY | MATERIAL_DELTA};
     EXPECT_EQ(bare.sample(tilted_frame(60, 0.6, false), 0.5f, 0.5f, 0.5f).pdf_w, 0.0f);
     EXPECT_GT(bare.sample(tilted_frame(60, 0.6, true), 0.5f, 0.5f, 0.5f).pdf_w, 0.0f);
 }

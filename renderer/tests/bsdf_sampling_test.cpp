@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Every BSDF's sampler against its density by chi-square: the shipped device code compiled for the host. Mass
-// lost below the horizon is a cell of its own.
+// Every BSDF's sampler against its density by chi-square: the shipped device code compiled for the
+// host. Mass lost below the horizon is a cell of its own.
 //
-// Each case decides at 0.01 over the number of cases (Bonferroni). Every case that scatters 60 % of its
-// samples must also reject a density that is 2 % off; the others have too few for that.
+// Each case decides at 0.01 over the number of cases (Bonferroni). Every case that scatters 60 % of
+// its samples must also reject a density that is 2 % off; the others have too few for that.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/bsdf_cases.h"
@@ -47,7 +47,8 @@ std::vector<SamplingCase> sampling_cases() {
     };
     for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
         const std::string name = distribution != 0 ? "beckmann " : "ggx ";
-        const auto add = [&](uint kind, float x, float y, std::vector<double> angles, bool front = true) {
+        const auto add = [&](uint kind, float x, float y, std::vector<double> angles,
+                             bool front = true) {
             TestMaterial material = {name +
                                          (kind == reflection ? "reflection "
                                           : front            ? "refraction "
@@ -55,8 +56,8 @@ std::vector<SamplingCase> sampling_cases() {
                                          std::to_string(x) + ", " + std::to_string(y),
                                      {with_eta(rough(kind, x, y, distribution), 1.5f)},
                                      kind == refraction ? MATERIAL_BOUNDARY : 0u};
-            cases.push_back({material, 2.0 * static_cast<double>(std::max(x, y)), std::move(angles), front,
-                             kind == refraction});
+            cases.push_back({material, 2.0 * static_cast<double>(std::max(x, y)), std::move(angles),
+                             front, kind == refraction});
         };
         add(reflection, 1.0f, 1.0f, all);
         add(reflection, 0.5f, 0.1f, all);
@@ -68,8 +69,10 @@ std::vector<SamplingCase> sampling_cases() {
         add(refraction, 0.7f, 0.7f, {0.0, 30.0, 60.0, 89.999}, false);
         add(refraction, 0.1f, 0.3f, {0.0, 30.0, 41.81, 60.0}, false);  // 41.81: the critical angle
         cases.push_back({rough_glass(name + "glass", 0.3f, 0.3f, distribution), 0.6, {50.0}});
-        cases.push_back(
-            {rough_glass(name + "glass from behind", 0.2f, 0.2f, distribution), 0.4, {41.0}, false});
+        cases.push_back({rough_glass(name + "glass from behind", 0.2f, 0.2f, distribution),
+                         0.4,
+                         {41.0},
+                         false});
     }
     return cases;
 }
@@ -87,8 +90,8 @@ TEST(BsdfSampling, FollowsItsDensity) {
         for (const double angle : c.angles) {
             ++block;
             const SurfaceFrame frame = tilted_frame(angle, 0.6, c.front);
-            // The lobe's centre: the mirror direction, or the refracted one (the horizon's where there is
-            // none).
+            // The lobe's centre: the mirror direction, or the refracted one (the horizon's where
+            // there is none).
             const float3 wo = to_local(frame, frame.wo);
             float3 local = reflect_about(wo, make_float3(0, 0, 1));
             if (c.refracting) {
@@ -101,15 +104,16 @@ TEST(BsdfSampling, FollowsItsDensity) {
             SampledDirections directions;
             for (uint32_t i = 0; i < sample_count; ++i) {
                 const uint4 w = bsdf_words(i, block);
-                const BsdfSample s =
-                    c.material.sample(frame, uniform_float(w.x), uniform_float(w.y), uniform_float(w.z));
+                const BsdfSample s = c.material.sample(frame, uniform_float(w.x),
+                                                       uniform_float(w.y), uniform_float(w.z));
                 directions.add(grid, s.wi, s.pdf_w);
             }
             const ChiSquare result = test_directions(c.material, frame, grid, directions);
-            EXPECT_GT(result.p, level)
-                << c.material.name << " at " << angle << " degrees, lost " << directions.observed.back();
+            EXPECT_GT(result.p, level) << c.material.name << " at " << angle << " degrees, lost "
+                                       << directions.observed.back();
             if (result.scattered > 0.6) {
-                EXPECT_LT(result.planted, level) << c.material.name << " at " << angle << " degrees";
+                EXPECT_LT(result.planted, level)
+                    << c.material.name << " at " << angle << " degrees";
                 ++planted;
             }
         }

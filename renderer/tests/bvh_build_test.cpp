@@ -16,7 +16,9 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Each way to build.
 class BvhBuild : public testing::TestWithParam<NamedBvhMethod> {
   protected:
-    static HostBvh build(const Mesh &mesh) { return build_bvh(mesh, {BvhLayout::bvh2, GetParam().method}); }
+    static HostBvh build(const Mesh &mesh) {
+        return build_bvh(mesh, {BvhLayout::bvh2, GetParam().method});
+    }
 
     /// With stated group, chunk and subtree sizes.
     static HostBvh build(const Mesh &mesh, BvhBuildParameters parameters) {
@@ -53,8 +55,8 @@ TEST_P(BvhBuild, TreeIsValidOfEverySize) {
 }
 
 TEST_P(BvhBuild, CostIsNearFullSweep) {
-    const std::vector<Mesh> meshes = {soup(20000, 1), terrain(100, 2), sphere(80, 160, 1.0f, 0.05f, {0, 0, 0}),
-                                      room()};
+    const std::vector<Mesh> meshes = {soup(20000, 1), terrain(100, 2),
+                                      sphere(80, 160, 1.0f, 0.05f, {0, 0, 0}), room()};
     double mean = 0;
     for (const Mesh &mesh : meshes) {
         const TreeFacts facts = expect_valid(build(mesh), mesh);
@@ -70,10 +72,14 @@ TEST_P(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
     const Mesh mesh = terrain(80, 5);
     const HostBvh expected = build(mesh, {1, 1024, 256});
     const auto same_bytes = [](const auto &a, const auto &b) {
-        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+        return a.size() == b.size() &&
+               std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
     };
-    for (const BvhBuildParameters &parameters :
-         {BvhBuildParameters{8, 1024, 256}, {64, 1024, 256}, {1, 100, 256}, {7, 333, 256}, {4, 1, 256}}) {
+    for (const BvhBuildParameters &parameters : {BvhBuildParameters{8, 1024, 256},
+                                                 {64, 1024, 256},
+                                                 {1, 100, 256},
+                                                 {7, 333, 256},
+                                                 {4, 1, 256}}) {
         const HostBvh bvh = build(mesh, parameters);
         EXPECT_TRUE(same_bytes(bvh.nodes, expected.nodes))
             << parameters.group_size << ' ' << parameters.chunk_size;
@@ -88,7 +94,8 @@ TEST_P(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
     const HostBvh by_groups = build(mesh, of_groups);
     EXPECT_TRUE(same_bytes(by_groups.nodes, expected.nodes));
     EXPECT_TRUE(same_bytes(by_groups.triangles, expected.triangles));
-    EXPECT_NEAR(by_groups.report.sah_cost, expected.report.sah_cost, 1e-5 * expected.report.sah_cost);
+    EXPECT_NEAR(by_groups.report.sah_cost, expected.report.sah_cost,
+                1e-5 * expected.report.sah_cost);
     // The subtree size moves the nodes of binned_sah in memory, but the tree is the same.
     const TreeFacts tree = inspect_tree(expected, mesh);
     for (const uint32_t subtree_size : {4u, 50u, 5000u, 100000u}) {
@@ -170,15 +177,16 @@ TEST_P(BvhBuild, EqualCentroidsEnd) {
 }
 
 TEST_P(BvhBuild, DepthIsBoundedWhereSahPeelsOffOneByOne) {
-    // Along each axis, distances from the corner shrink by 20 from one triangle to the next: 16 bins see one
-    // triangle far out and all others in the first bin.
+    // Along each axis, distances from the corner shrink by 20 from one triangle to the next: 16
+    // bins see one triangle far out and all others in the first bin.
     Mesh mesh{"exponential", {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
         float distance = 1e11f;
         for (int i = 0; i < 31; ++i, distance /= 20) {
             const Eigen::Vector3f p = distance * Eigen::Vector3f::Unit(axis);
             const float size = 1e-3f * distance;
-            mesh.add_triangle(p, p + size * Eigen::Vector3f(1, 2, 3), p + size * Eigen::Vector3f(3, 1, 2));
+            mesh.add_triangle(p, p + size * Eigen::Vector3f(1, 2, 3),
+                              p + size * Eigen::Vector3f(3, 1, 2));
         }
     }
     const HostBvh bvh = build(mesh);
@@ -213,17 +221,21 @@ TEST(BvhBinning, OtherBinsAndAxesGiveOtherTrees) {
     };
     for (const Mesh &mesh : {soup(20000, 1), terrain(100, 2)}) {
         const double usual = build(mesh, 16, 3).report.sah_cost;
-        EXPECT_NEAR(usual, build_bvh(mesh).report.sah_cost, 1e-5 * usual);  // summed by other subtrees
-        for (const auto &[bins, axes] : {std::pair(2u, 3u), std::pair(4u, 3u), std::pair(64u, 3u), std::pair(16u, 1u)}) {
+        EXPECT_NEAR(usual, build_bvh(mesh).report.sah_cost,
+                    1e-5 * usual);  // summed by other subtrees
+        for (const auto &[bins, axes] :
+             {std::pair(2u, 3u), std::pair(4u, 3u), std::pair(64u, 3u), std::pair(16u, 1u)}) {
             const double ratio = expect_valid(build(mesh, bins, axes), mesh).sah_cost / usual;
             EXPECT_NE(ratio, 1) << mesh.name << ' ' << bins << ' ' << axes;
             EXPECT_NEAR(ratio, 1, 0.15) << mesh.name << ' ' << bins << ' ' << axes;
         }
     }
-    // Two rows along x, wide apart along y but not as far as they are long: three axes find the gap at once.
+    // Two rows along x, wide apart along y but not as far as they are long: three axes find the gap
+    // at once.
     Mesh rows{"two rows", {}, {}};
     for (uint32_t i = 0; i < 2000; ++i) {
-        const Eigen::Vector3f at(1.1f * static_cast<float>(i / 2) / 1000, static_cast<float>(i % 2), 0);
+        const Eigen::Vector3f at(1.1f * static_cast<float>(i / 2) / 1000, static_cast<float>(i % 2),
+                                 0);
         rows.add_triangle(at, at + Eigen::Vector3f(1e-4f, 0, 0), at + Eigen::Vector3f(0, 0, 1e-4f));
     }
     EXPECT_GT(build(rows, 16, 1).report.sah_cost, 1.01 * build(rows, 16, 3).report.sah_cost);
@@ -232,13 +244,17 @@ TEST(BvhBinning, OtherBinsAndAxesGiveOtherTrees) {
 TEST(BvhBuildInput, WrongInputIsAnError) {
     BvhBuilder &builder = builder_of(BvhLayout::bvh2);
     const std::vector<Eigen::Vector3f> three(3, Eigen::Vector3f::Zero());
-    expect_input_error("1 triangles name a vertex that does not exist (there are 3)",
-                       [&] { builder.build(three, {{0, 1, 3}}); });
-    expect_input_error("(there are 0)", [&] { builder.build(std::vector<Eigen::Vector3f>(), {{0, 0, 0}}); });
+    expect_input_error("1 triangles name a vertex that does not exist (there are 3)", [&] {
+        builder.build(three, {{0, 1, 3}});
+    });
+    expect_input_error("(there are 0)", [&] {
+        builder.build(std::vector<Eigen::Vector3f>(), {{0, 0, 0}});
+    });
     const Buffer<float> positions(test_device(), "positions", std::vector<float>(9));
     const Buffer<uint32_t> indices(test_device(), "indices", std::vector<uint32_t>(4));
     expect_input_error("do not come in threes", [&] { builder.build(positions, indices); });
-    for (const BvhBuildParameters &bad : {BvhBuildParameters{0, 1024, 1024}, {1, 0, 1024}, {1, 1024, 3}}) {
+    for (const BvhBuildParameters &bad :
+         {BvhBuildParameters{0, 1024, 1024}, {1, 0, 1024}, {1, 1024, 3}}) {
         expect_input_error("BVH build parameters", [&] { BvhBuilder(test_device(), bad); });
     }
     BvhBuildParameters bad{1, 1024, 1024};
@@ -249,7 +265,8 @@ TEST(BvhBuildInput, WrongInputIsAnError) {
     expect_input_error("2 axes", [&] { BvhBuilder(test_device(), bad); });
     bad = {1, 1024, 1024};
     bad.one_group = 3;
-    expect_input_error("one group of 3 is no power of two", [&] { BvhBuilder(test_device(), bad); });
+    expect_input_error("one group of 3 is no power of two",
+                       [&] { BvhBuilder(test_device(), bad); });
 }
 
 TEST(BvhBuildInput, TooManyTrianglesAreRefusedBeforeAllocation) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The eight-wide layout: a valid tree over the same triangles as the two-wide tree that it is made of.
+// The eight-wide layout: a valid tree over the same triangles as the two-wide tree that it is made
+// of.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -25,9 +26,10 @@ WideFacts inspect_wide(const HostBvh &bvh, const Mesh &mesh) {
         facts.fault = facts.fault.empty() ? what : facts.fault;
     };
     const auto box_of = [](const WideNode &node, uint32_t lane) {
-        return Eigen::AlignedBox3f(
-            Eigen::Vector3f(node.bounds[0][0][lane], node.bounds[0][1][lane], node.bounds[0][2][lane]),
-            Eigen::Vector3f(node.bounds[1][0][lane], node.bounds[1][1][lane], node.bounds[1][2][lane]));
+        return Eigen::AlignedBox3f(Eigen::Vector3f(node.bounds[0][0][lane], node.bounds[0][1][lane],
+                                                   node.bounds[0][2][lane]),
+                                   Eigen::Vector3f(node.bounds[1][0][lane], node.bounds[1][1][lane],
+                                                   node.bounds[1][2][lane]));
     };
     const auto visit_leaf = [&](uint32_t link) {
         Eigen::AlignedBox3f content;
@@ -42,7 +44,8 @@ WideFacts inspect_wide(const HostBvh &bvh, const Mesh &mesh) {
             const uint32_t source = lane < count ? lane : 0;
             seen[block.id[lane]] += lane < count ? 1 : 0;
             for (uint32_t corner = 0; corner < 3; ++corner) {
-                const Eigen::Vector3f p(block.coordinate[0][corner][lane], block.coordinate[1][corner][lane],
+                const Eigen::Vector3f p(block.coordinate[0][corner][lane],
+                                        block.coordinate[1][corner][lane],
                                         block.coordinate[2][corner][lane]);
                 if (p != mesh.vertex(block.id[source], corner)) {
                     fail("vertex differs from the mesh's");
@@ -70,7 +73,8 @@ WideFacts inspect_wide(const HostBvh &bvh, const Mesh &mesh) {
             const bool is_leaf = (link & BVH_LEAF_BIT) != 0;
             children += 1;
             inner += is_leaf ? 0 : 1;
-            const Eigen::AlignedBox3f content = is_leaf ? visit_leaf(link) : self(self, link, depth + 1);
+            const Eigen::AlignedBox3f content =
+                is_leaf ? visit_leaf(link) : self(self, link, depth + 1);
             if (!box.contains(content) || !content.contains(box)) {
                 fail("box is not the bound of its content");
             }
@@ -91,7 +95,8 @@ WideFacts inspect_wide(const HostBvh &bvh, const Mesh &mesh) {
         }
     }
     const auto all_seen = static_cast<uint32_t>(std::count(seen.begin(), seen.end(), 1u));
-    if (all_seen != bvh.report.triangles || all_seen + bvh.report.rejected() != mesh.triangles.size()) {
+    if (all_seen != bvh.report.triangles ||
+        all_seen + bvh.report.rejected() != mesh.triangles.size()) {
         fail("a triangle is not in exactly one leaf");
     }
     if (facts.nodes != bvh.wide_nodes.size() || facts.leaves != bvh.blocks.size()) {
@@ -104,7 +109,8 @@ WideFacts inspect_wide(const HostBvh &bvh, const Mesh &mesh) {
 bool is_numbered_by_level(const HostBvh &bvh) {
     uint32_t node = 1, leaf = 0;
     for (const WideNode &wide : bvh.wide_nodes) {
-        for (uint32_t lane = 0; lane < WIDE_LANES && wide.bounds[0][0][lane] <= wide.bounds[1][0][lane]; ++lane) {
+        for (uint32_t lane = 0;
+             lane < WIDE_LANES && wide.bounds[0][0][lane] <= wide.bounds[1][0][lane]; ++lane) {
             const uint32_t link = wide.child[lane];
             const bool is_leaf = (link & BVH_LEAF_BIT) != 0;
             if (is_leaf ? wide_leaf_block(link) != leaf++ : link != node++) {
@@ -121,7 +127,8 @@ WideFacts expect_valid(const HostBvh &bvh, const Mesh &mesh) {
     EXPECT_TRUE(is_numbered_by_level(bvh)) << mesh.name << ' ' << mesh.triangles.size();
     EXPECT_EQ(facts.nodes, bvh.report.wide_nodes);
     EXPECT_EQ(facts.leaves, bvh.report.wide_leaves);
-    EXPECT_EQ(bvh.report.bytes, facts.nodes * sizeof(WideNode) + facts.leaves * sizeof(TriangleBlock));
+    EXPECT_EQ(bvh.report.bytes,
+              facts.nodes * sizeof(WideNode) + facts.leaves * sizeof(TriangleBlock));
     return facts;
 }
 
@@ -142,7 +149,8 @@ TEST_P(BvhCollapse, TreeIsValidOfEverySize) {
          {room(), soup(30000, 1), terrain(100, 2), sphere(80, 160, 1.0f, 0.05f, {0, 0, 0})}) {
         const HostBvh bvh = build_bvh(mesh, kind());
         const WideFacts facts = expect_valid(bvh, mesh);
-        const double fill = static_cast<double>(bvh.report.triangles) / static_cast<double>(facts.leaves);
+        const double fill =
+            static_cast<double>(bvh.report.triangles) / static_cast<double>(facts.leaves);
         RecordProperty("triangles_per_leaf_" + mesh.name, std::to_string(fill));
         if (mesh.triangles.size() > 1000) {  // fewer say nothing
             EXPECT_GT(fill, 4) << mesh.name << ": more than half of the lanes";
@@ -162,27 +170,31 @@ TEST_P(BvhCollapse, DegenerateInputEnds) {
     EXPECT_EQ(bvh.report.rejected(), 2u);
     expect_valid(bvh, faulty);
 
-    // Each split takes one triangle off the rest: the deepest tree there is, with leaves of single triangles.
+    // Each split takes one triangle off the rest: the deepest tree there is, with leaves of single
+    // triangles.
     Mesh peeled{"peeled", {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
         float distance = 1e11f;
         for (int i = 0; i < 31; ++i, distance /= 20) {
             const Eigen::Vector3f p = distance * Eigen::Vector3f::Unit(axis);
             const float size = 1e-3f * distance;
-            peeled.add_triangle(p, p + size * Eigen::Vector3f(1, 2, 3), p + size * Eigen::Vector3f(3, 1, 2));
+            peeled.add_triangle(p, p + size * Eigen::Vector3f(1, 2, 3),
+                                p + size * Eigen::Vector3f(3, 1, 2));
         }
     }
     const HostBvh deep = build_bvh(peeled, kind());
     const WideFacts facts = expect_valid(deep, peeled);
     EXPECT_LT(facts.depth * (WIDE_LANES - 1), WIDE_STACK_SIZE);
-    EXPECT_NE(deep.nearest(peeled.vertex(40, 0) - Eigen::Vector3f(0, 0, 1), {0, 0, 1}).triangle, NO_HIT);
+    EXPECT_NE(deep.nearest(peeled.vertex(40, 0) - Eigen::Vector3f(0, 0, 1), {0, 0, 1}).triangle,
+              NO_HIT);
 }
 
 TEST_P(BvhCollapse, BitsDoNotDependOnTheDistributionOfWork) {
     const Mesh mesh = terrain(80, 5);
     const auto build = [&](uint32_t group_size) {
-        return HostBvh(BvhBuilder(test_device(), {group_size, 1024, 256, BvhLayout::wide8, GetParam().method})
-                           .build(mesh.positions, mesh.triangles));
+        return HostBvh(
+            BvhBuilder(test_device(), {group_size, 1024, 256, BvhLayout::wide8, GetParam().method})
+                .build(mesh.positions, mesh.triangles));
     };
     const HostBvh expected = build(1), other = build(64);
     ASSERT_EQ(other.wide_nodes.size(), expected.wide_nodes.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stackless layout: the two-wide tree, its pairs of children in depth-first order, and a way through it for
-// every octant.
+// The stackless layout: the two-wide tree, its pairs of children in depth-first order, and a way
+// through it for every octant.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -12,12 +12,13 @@ namespace {
 
 using namespace test;
 
-/// Walks both trees together from node `index` of `tree` and node `number` of `stackless`; returns the pair after
-/// the subtree, of which `pair` is the first, and says where they differ.
-uint32_t compare_subtree(const HostBvh &tree, uint32_t index, const HostBvh &stackless, uint32_t number,
-                         uint32_t pair, std::string *fault) {
+/// Walks both trees together from node `index` of `tree` and node `number` of `stackless`; returns
+/// the pair after the subtree, of which `pair` is the first, and says where they differ.
+uint32_t compare_subtree(const HostBvh &tree, uint32_t index, const HostBvh &stackless,
+                         uint32_t number, uint32_t pair, std::string *fault) {
     const BvhNode &node = tree.nodes[index];
-    if (pair + 2 > stackless.stackless_nodes.size() || stackless.stackless_nodes[number].link != pair) {
+    if (pair + 2 > stackless.stackless_nodes.size() ||
+        stackless.stackless_nodes[number].link != pair) {
         *fault = "the children of node " + std::to_string(number) + " are missing";
         return pair;
     }
@@ -36,9 +37,10 @@ uint32_t compare_subtree(const HostBvh &tree, uint32_t index, const HostBvh &sta
     return next;
 }
 
-/// Checks the ways of an octant below a node, after which it goes on at `after`; counts the nodes seen.
-void follow(const std::vector<StacklessNode> &nodes, uint32_t number, uint32_t octant, uint32_t after,
-            size_t *seen, std::string *fault) {
+/// Checks the ways of an octant below a node, after which it goes on at `after`; counts the nodes
+/// seen.
+void follow(const std::vector<StacklessNode> &nodes, uint32_t number, uint32_t octant,
+            uint32_t after, size_t *seen, std::string *fault) {
     const StacklessNode &node = nodes[number];
     *seen += 1;
     if (node.escape[octant] != after) {

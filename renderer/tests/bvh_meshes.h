@@ -41,7 +41,8 @@ struct Mesh {
         return bounds;
     }
 
-    void add_triangle(const Eigen::Vector3f &a, const Eigen::Vector3f &b, const Eigen::Vector3f &c) {
+    void add_triangle(const Eigen::Vector3f &a, const Eigen::Vector3f &b,
+                      const Eigen::Vector3f &c) {
         const auto first = static_cast<uint32_t>(positions.size());
         positions.insert(positions.end(), {a, b, c});
         triangles.push_back({first, first + 1, first + 2});
@@ -62,8 +63,8 @@ struct Mesh {
     }
 };
 
-/// A closed sphere of 2 * segments * (rings - 1) triangles whose vertices are moved along their radius by up
-/// to `jitter` of it; neighbours share vertices, so it stays closed.
+/// A closed sphere of 2 * segments * (rings - 1) triangles whose vertices are moved along their
+/// radius by up to `jitter` of it; neighbours share vertices, so it stays closed.
 inline Mesh sphere(uint32_t rings, uint32_t segments, float radius, float jitter,
                    const Eigen::Vector3f &centre, uint64_t seed = 1) {
     Random random(seed);
@@ -83,7 +84,9 @@ inline Mesh sphere(uint32_t rings, uint32_t segments, float radius, float jitter
     point(M_PI, 0);
     const auto last = static_cast<uint32_t>(mesh.positions.size() - 1);
     const auto index = [&](uint32_t ring, uint32_t segment) {
-        return ring == 0 ? 0 : ring == rings ? last : 1 + (ring - 1) * segments + segment % segments;
+        return ring == 0       ? 0
+               : ring == rings ? last
+                               : 1 + (ring - 1) * segments + segment % segments;
     };
     for (uint32_t ring = 0; ring < rings; ++ring) {
         for (uint32_t segment = 0; segment < segments; ++segment) {

@@ -38,17 +38,20 @@ bool refit(Bvh &bvh, const Mesh &mesh) {
 
 template <typename Record>
 bool same_bytes(const std::vector<Record> &a, const std::vector<Record> &b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0);
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0);
 }
 
 bool same_tree(const HostBvh &a, const HostBvh &b) {
     return same_bytes(a.nodes, b.nodes) && same_bytes(a.triangles, b.triangles) &&
-           same_bytes(a.stackless_nodes, b.stackless_nodes) && same_bytes(a.wide_nodes, b.wide_nodes) &&
-           same_bytes(a.blocks, b.blocks);
+           same_bytes(a.stackless_nodes, b.stackless_nodes) &&
+           same_bytes(a.wide_nodes, b.wide_nodes) && same_bytes(a.blocks, b.blocks);
 }
 
 std::vector<Mesh> meshes() {
-    return {soup(3000, 1), sphere(60, 120, 1.0f, 0.01f, {0, 0, 0}), terrain(70, 2), room(), soup(1, 1), soup(6, 1)};
+    return {soup(3000, 1),  sphere(60, 120, 1.0f, 0.01f, {0, 0, 0}),
+            terrain(70, 2), room(),
+            soup(1, 1),     soup(6, 1)};
 }
 
 TEST_P(BvhRefit, ThereAndBackIsTheSameTree) {
@@ -77,17 +80,19 @@ TEST_P(BvhRefit, BoundsAreExact) {
         // Of the others the scene's box; their inner ones follow from the hits.
         const Eigen::AlignedBox3f box = moved.box();
         for (int axis = 0; axis < 3; ++axis) {
-            const float lower = tree.layout == BvhLayout::wide8 ? tree.wide_nodes[0].bounds[0][axis][0]
-                                : tree.layout == BvhLayout::bvh2_stackless
-                                    ? tree.stackless_nodes[0].bounds[0][axis]
-                                    : std::min(tree.nodes[0].bounds[0][0][axis], tree.nodes[0].bounds[1][0][axis]);
+            const float lower =
+                tree.layout == BvhLayout::wide8 ? tree.wide_nodes[0].bounds[0][axis][0]
+                : tree.layout == BvhLayout::bvh2_stackless
+                    ? tree.stackless_nodes[0].bounds[0][axis]
+                    : std::min(tree.nodes[0].bounds[0][0][axis], tree.nodes[0].bounds[1][0][axis]);
             EXPECT_EQ(lower, box.min()[axis]) << mesh.name;
         }
     }
 }
 
 TEST_P(BvhRefit, HitsEqualThoseOfEmbree) {
-    for (const Mesh &mesh : {soup(3000, 1), sphere(60, 120, 1.0f, 0.01f, {0, 0, 0}), terrain(70, 2)}) {
+    for (const Mesh &mesh :
+         {soup(3000, 1), sphere(60, 120, 1.0f, 0.01f, {0, 0, 0}), terrain(70, 2)}) {
         Bvh bvh = build_on_device(mesh, GetParam());
         const Mesh moved = twisted(mesh, 2);
         ASSERT_TRUE(refit(bvh, moved));
@@ -101,21 +106,25 @@ TEST_P(BvhRefit, HitsEqualThoseOfEmbree) {
             const Hit ours = tree.nearest(ray_origin(ray), ray_direction(ray));
             const float theirs = embree.nearest(ray);
             hits += ours.triangle != NO_HIT ? 1 : 0;
-            const bool same = (ours.t == INFINITY && theirs == INFINITY) || std::abs(ours.t - theirs) <= tolerance;
-            wrong += same || judge.is_right(ray_origin(ray), ray_direction(ray), ours.t, ours.triangle, static_cast<double>(tolerance))
+            const bool same = (ours.t == INFINITY && theirs == INFINITY) ||
+                              std::abs(ours.t - theirs) <= tolerance;
+            wrong += same || judge.is_right(ray_origin(ray), ray_direction(ray), ours.t,
+                                            ours.triangle, static_cast<double>(tolerance))
                          ? 0
                          : 1;
         }
         EXPECT_EQ(wrong, 0u) << mesh.name;
-        EXPECT_GT(hits, rays.size() / 10) << mesh.name << ": rays must hit something to mean anything";
+        EXPECT_GT(hits, rays.size() / 10)
+            << mesh.name << ": rays must hit something to mean anything";
     }
 }
 
 TEST_P(BvhRefit, BitsDoNotDependOnTheDistributionOfWork) {
     const Mesh mesh = terrain(60, 5), moved = twisted(mesh, 1);
     const auto refitted = [&](uint32_t group_size) {
-        Bvh bvh = BvhBuilder(test_device(), {group_size, 1024, 256, GetParam().layout, GetParam().method})
-                      .build(mesh.positions, mesh.triangles);
+        Bvh bvh =
+            BvhBuilder(test_device(), {group_size, 1024, 256, GetParam().layout, GetParam().method})
+                .build(mesh.positions, mesh.triangles);
         const BvhInput input(test_device(), moved.positions, moved.triangles);
         BvhRefitter(test_device(), bvh, group_size).refit(bvh, input.positions, input.indices);
         return HostBvh(bvh);
@@ -154,10 +163,12 @@ TEST_P(BvhRefit, TrianglesThatCannotBeHitGoAndComeBack) {
 TEST_P(BvhRefit, OtherInputIsAnError) {
     const Mesh mesh = soup(100, 1), larger = soup(101, 1);
     Bvh bvh = build_on_device(mesh, GetParam());
-    expect_input_error("refitting a BVH over 100 triangles to 303 vertex indices", [&] { refit(bvh, larger); });
+    expect_input_error("refitting a BVH over 100 triangles to 303 vertex indices",
+                       [&] { refit(bvh, larger); });
     Mesh cut = mesh;
     cut.positions.pop_back();
-    expect_input_error("1 triangles name a vertex that does not exist (there are 299)", [&] { refit(bvh, cut); });
+    expect_input_error("1 triangles name a vertex that does not exist (there are 299)",
+                       [&] { refit(bvh, cut); });
     Bvh nothing = build_on_device({"empty", {}, {}}, GetParam());
     EXPECT_TRUE(refit(nothing, {"empty", {}, {}}));
     EXPECT_EQ(HostBvh(nothing).nearest({0, 0, 0}, {0, 0, 1}).triangle, NO_HIT);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input that is hard on builders, for each of them and each layout: builds end in bounded time and memory, count what they leave
-// out, and rays find what is right in double.
+// Input that is hard on builders, for each of them and each layout: builds end in bounded time and
+// memory, count what they leave out, and rays find what is right in double.
 #include <chrono>
 #include <limits>
 
@@ -19,14 +19,18 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 class BvhRobustness : public TreeTest {};
 EACH_TREE(BvhRobustness);
 
-/// Builds over the mesh, of which so many triangles cannot be hit, and holds time and memory to their bounds.
+/// Builds over the mesh, of which so many triangles cannot be hit, and holds time and memory to
+/// their bounds.
 HostBvh expect_built(const Mesh &mesh, TreeKind kind, uint32_t not_finite, uint32_t degenerate) {
     const auto start = std::chrono::steady_clock::now();
     const HostBvh tree(build_on_device(mesh, kind));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const uint64_t count = mesh.triangles.size(), input = 12 * (mesh.positions.size() + count);
-    EXPECT_LT(seconds, 20 + 2e-5 * static_cast<double>(count)) << mesh.name << ": compilation and foreign load apart, milliseconds";
-    EXPECT_LE(tree.report.bytes_peak, input + bvh_peak_bytes + bvh_peak_bytes_per_triangle * count) << mesh.name;
+    EXPECT_LT(seconds, 20 + 2e-5 * static_cast<double>(count))
+        << mesh.name << ": compilation and foreign load apart, milliseconds";
+    EXPECT_LE(tree.report.bytes_peak, input + bvh_peak_bytes + bvh_peak_bytes_per_triangle * count)
+        << mesh.name;
     EXPECT_EQ(tree.report.not_finite, not_finite) << mesh.name;
     EXPECT_EQ(tree.report.degenerate, degenerate) << mesh.name;
     EXPECT_EQ(tree.report.triangles + not_finite + degenerate, count) << mesh.name;
@@ -40,7 +44,10 @@ void expect_right_hits(const HostBvh &tree, const Mesh &mesh, size_t count) {
     size_t wrong = 0, hits = 0;
     for (const RayRecord &ray : fuzzed_rays(mesh, count, 5)) {
         const Hit hit = tree.nearest(ray_origin(ray), ray_direction(ray));
-        wrong += hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance) ? 0 : 1;
+        wrong +=
+            hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance)
+                ? 0
+                : 1;
         hits += hit.triangle != NO_HIT ? 1 : 0;
     }
     EXPECT_EQ(wrong, 0u) << mesh.name;
@@ -89,7 +96,8 @@ TEST_P(BvhRobustness, EqualCodes) {
     size_t hits = 0;
     for (const RayRecord &ray : fuzzed_rays(dense, 300, 5)) {
         const Hit hit = tree.nearest(ray_origin(ray), ray_direction(ray));
-        EXPECT_TRUE(hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, 1e-9));
+        EXPECT_TRUE(
+            hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, 1e-9));
         hits += hit.triangle != NO_HIT ? 1 : 0;
     }
     EXPECT_GT(hits, 30u);
@@ -107,10 +115,12 @@ TEST_P(BvhRobustness, Slivers) {
     const double tolerance = 1e-5 * static_cast<double>(mesh.box().diagonal().norm());
     size_t hits = 0;
     for (uint32_t i = 0; i < 300; ++i) {  // at their middles: anything else misses
-        const Eigen::Vector3f middle = (mesh.vertex(i, 0) + mesh.vertex(i, 1) + mesh.vertex(i, 2)) / 3;
+        const Eigen::Vector3f middle =
+            (mesh.vertex(i, 0) + mesh.vertex(i, 1) + mesh.vertex(i, 2)) / 3;
         const Eigen::Vector3f origin = middle + uniform_direction(random);
         const Hit hit = tree.nearest(origin, middle - origin);
-        EXPECT_TRUE(hit_is_right(mesh, origin, middle - origin, hit.t, hit.triangle, tolerance)) << i;
+        EXPECT_TRUE(hit_is_right(mesh, origin, middle - origin, hit.t, hit.triangle, tolerance))
+            << i;
         hits += hit.triangle != NO_HIT ? 1 : 0;
     }
     EXPECT_GT(hits, 150u);
@@ -119,20 +129,24 @@ TEST_P(BvhRobustness, Slivers) {
 TEST_P(BvhRobustness, ZeroAreas) {
     Mesh mesh{"zero areas", {}, {}};
     for (int i = 0; i < 5000; ++i) {
-        const Eigen::Vector3f p(static_cast<float>(i % 17), static_cast<float>(i % 5), static_cast<float>(i % 3));
+        const Eigen::Vector3f p(static_cast<float>(i % 17), static_cast<float>(i % 5),
+                                static_cast<float>(i % 3));
         mesh.add_triangle(p, p, p + Eigen::Vector3f(static_cast<float>(i % 2), 0, 0));
     }
     const HostBvh none = expect_built(mesh, GetParam(), 0, 5000);
     EXPECT_EQ(none.nearest({0, 0, 9}, {0, 0, -1}).triangle, NO_HIT);
     mesh.add_triangle({0, 0, 0}, {16, 0, 0}, {0, 4, 0});
-    EXPECT_EQ(expect_built(mesh, GetParam(), 0, 5000).nearest({1, 1, 9}, {0, 0, -1}).triangle, 5000u);
+    EXPECT_EQ(expect_built(mesh, GetParam(), 0, 5000).nearest({1, 1, 9}, {0, 0, -1}).triangle,
+              5000u);
 }
 
 TEST_P(BvhRobustness, NumbersThatAreNone) {
     Mesh mesh = soup(3000, 3);
     const Mesh whole = mesh;
     for (uint32_t i = 0; i < 3000; i += 10) {
-        mesh.positions[3 * i + i % 3][static_cast<int>(i / 10 % 3)] = i % 20 == 0 ? nan : i % 40 == 10 ? infinity : -1e30f;
+        mesh.positions[3 * i + i % 3][static_cast<int>(i / 10 % 3)] = i % 20 == 0    ? nan
+                                                                      : i % 40 == 10 ? infinity
+                                                                                     : -1e30f;
     }
     const HostBvh tree = expect_built(mesh, GetParam(), 300, 0);
     size_t hits = 0;
@@ -154,9 +168,11 @@ TEST_P(BvhRobustness, FarAway) {
 TEST_P(BvhRobustness, OrdinaryMeshesTakeHalfOfTheMemory) {
     // Subtrees of a GPU are smaller, and there is room for more of them.
     const double share = test_device().info().is_cpu ? 0.5 : 0.75;
-    for (const Mesh &mesh : {soup(50000, 1), sphere(150, 160, 1.0f, 0.01f, {0, 0, 0}), terrain(150, 2)}) {
+    for (const Mesh &mesh :
+         {soup(50000, 1), sphere(150, 160, 1.0f, 0.01f, {0, 0, 0}), terrain(150, 2)}) {
         const HostBvh tree = expect_built(mesh, GetParam(), 0, 0);
-        const double per_triangle = static_cast<double>(tree.report.bytes_peak) / static_cast<double>(tree.report.triangles);
+        const double per_triangle = static_cast<double>(tree.report.bytes_peak) /
+                                    static_cast<double>(tree.report.triangles);
         RecordProperty("bytes_per_triangle_" + mesh.name, std::to_string(per_triangle));
         EXPECT_LT(per_triangle, share * bvh_peak_bytes_per_triangle) << mesh.name;
     }

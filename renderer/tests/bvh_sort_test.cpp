@@ -35,7 +35,8 @@ TEST(PrefixSums, AreThoseOfTheStandardLibrary) {
 TEST(RadixSort, IsStableWhateverTheDistributionOfWork) {
     Random random(2);
     for (const uint32_t count : {1u, 1000u, 70001u}) {
-        for (const uint64_t largest : {uint64_t{3}, uint64_t{1} << 40, ~uint64_t{0}}) {  // few keys, and all of them
+        for (const uint64_t largest :
+             {uint64_t{3}, uint64_t{1} << 40, ~uint64_t{0}}) {  // few keys, and all of them
             std::vector<uint64_t> keys(count);
             std::vector<uint32_t> order(count);
             for (uint64_t &key : keys) {
@@ -43,8 +44,10 @@ TEST(RadixSort, IsStableWhateverTheDistributionOfWork) {
             }
             std::iota(order.begin(), order.end(), 0u);
             std::vector<uint32_t> expected = order;
-            std::stable_sort(expected.begin(), expected.end(), [&](uint32_t a, uint32_t b) { return keys[a] < keys[b]; });
-            for (const RadixSortParameters &parameters : {RadixSortParameters{1, 8, 16384}, {8, 4, 32}, {3, 5, 100}}) {
+            std::stable_sort(expected.begin(), expected.end(),
+                             [&](uint32_t a, uint32_t b) { return keys[a] < keys[b]; });
+            for (const RadixSortParameters &parameters :
+                 {RadixSortParameters{1, 8, 16384}, {8, 4, 32}, {3, 5, 100}}) {
                 Buffer<uint64_t> sorted(test_device(), "keys", keys);
                 Buffer<uint32_t> values(test_device(), "values", order);
                 RadixSort(test_device(), parameters).sort(sorted, values, 64);

@@ -41,12 +41,12 @@ struct HostBvh {
     template <typename Visit>
     auto visit(const Visit &trace) const {
         switch (layout) {
-        case BvhLayout::bvh2_stackless:
-            return trace(stackless_nodes.data(), triangles.data());
-        case BvhLayout::wide8:
-            return trace(wide_nodes.data(), blocks.data());
-        default:
-            return trace(nodes.data(), triangles.data());
+            case BvhLayout::bvh2_stackless:
+                return trace(stackless_nodes.data(), triangles.data());
+            case BvhLayout::wide8:
+                return trace(wide_nodes.data(), blocks.data());
+            default:
+                return trace(nodes.data(), triangles.data());
         }
     }
 
@@ -64,7 +64,8 @@ struct HostBvh {
 
     /// Id of the triangle at a slot of `Hit`.
     uint32_t triangle_at(uint32_t slot) const {
-        return layout == BvhLayout::wide8 ? blocks[slot / WIDE_LANES].id[slot % WIDE_LANES] : triangles[slot].id;
+        return layout == BvhLayout::wide8 ? blocks[slot / WIDE_LANES].id[slot % WIDE_LANES]
+                                          : triangles[slot].id;
     }
 };
 
@@ -79,7 +80,8 @@ struct TreeKind {
     BvhLayout layout;
     BvhMethod method;
 
-    TreeKind(BvhLayout of_layout, BvhMethod by_method = BvhMethod::binned_sah) : layout(of_layout), method(by_method) {}
+    TreeKind(BvhLayout of_layout, BvhMethod by_method = BvhMethod::binned_sah)
+        : layout(of_layout), method(by_method) {}
 
     std::string name() const { return std::string(to_string(method)) + "_" + to_string(layout); }
 };
@@ -114,13 +116,14 @@ inline HostBvh build_bvh(const Mesh &mesh, TreeKind kind = BvhLayout::bvh2) {
 struct TreeFacts {
     std::string fault;
     uint32_t nodes = 0, leaves = 0, depth = 0;
-    double sah_cost = 0;             ///< K_T = K_I = 1
-    std::vector<float> boxes;        ///< every child box in depth-first order
-    std::vector<uint32_t> leaf_ids;  ///< triangle ids in depth-first order, a leaf's ended by its size
+    double sah_cost = 0;       ///< K_T = K_I = 1
+    std::vector<float> boxes;  ///< every child box in depth-first order
+    std::vector<uint32_t>
+        leaf_ids;  ///< triangle ids in depth-first order, a leaf's ended by its size
 };
 
-/// Checks that boxes enclose children and triangles, that leaves hold 1 to 4 triangles, each triangle
-/// exactly once and with the mesh's own vertices, and that every node is reached once.
+/// Checks that boxes enclose children and triangles, that leaves hold 1 to 4 triangles, each
+/// triangle exactly once and with the mesh's own vertices, and that every node is reached once.
 inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
     TreeFacts facts;
     std::vector<uint32_t> seen(bvh.triangles.size(), 0);
@@ -157,7 +160,8 @@ inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
                 facts.leaves += count > 0 ? 1 : 0;
                 facts.depth = std::max(facts.depth, depth + 1);
                 facts.leaf_ids.push_back(~count);
-                for (uint32_t slot = bvh_leaf_first(link); slot < bvh_leaf_first(link) + count; ++slot) {
+                for (uint32_t slot = bvh_leaf_first(link); slot < bvh_leaf_first(link) + count;
+                     ++slot) {
                     if (slot >= bvh.triangles.size()) {
                         fail("leaf out of range");
                         return all;
@@ -166,7 +170,8 @@ inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
                     const LeafTriangle &triangle = bvh.triangles[slot];
                     facts.leaf_ids.push_back(triangle.id);
                     for (uint32_t corner = 0; corner < 3; ++corner) {
-                        const Eigen::Vector3f p(triangle.coordinate[0][corner], triangle.coordinate[1][corner],
+                        const Eigen::Vector3f p(triangle.coordinate[0][corner],
+                                                triangle.coordinate[1][corner],
                                                 triangle.coordinate[2][corner]);
                         if (p != mesh.vertex(triangle.id, corner)) {
                             fail("vertex differs from the mesh's");
@@ -176,7 +181,8 @@ inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
                 }
                 cost += half_area(boxes[side]) * count;
             }
-            if (!content.isEmpty() && (!boxes[side].contains(content) || !content.contains(boxes[side]))) {
+            if (!content.isEmpty() &&
+                (!boxes[side].contains(content) || !content.contains(boxes[side]))) {
                 fail("box is not the bound of its content");
             }
             if (!content.isEmpty()) {

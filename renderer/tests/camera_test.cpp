@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Cameras: rays, their density, and joining points of the scene to the lens; the shipped device code compiled
-// for the host.
+// Cameras: rays, their density, and joining points of the scene to the lens; the shipped device
+// code compiled for the host.
 //
-// Two chi-square decisions at a family-wise level of 0.01, each at 0.01 / 2 (Bonferroni). The planted error
-// shows that the sample count sees 2 %.
+// Two chi-square decisions at a family-wise level of 0.01, each at 0.01 / 2 (Bonferroni). The
+// planted error shows that the sample count sees 2 %.
 #define FEATURE_lens 1
 #include <gtest/gtest.h>
 
@@ -65,7 +65,8 @@ TEST(Camera, RaysHitTheCornersOfTheFieldOfView) {
 }
 
 TEST(Camera, LensRaysOfAFilmPositionMeetInThePlaneOfFocus) {
-    const CameraRecord camera = compile_camera(one_camera(CameraArrays::FovAxis::x, 0.25, 3), 0, 40, 20);
+    const CameraRecord camera =
+        compile_camera(one_camera(CameraArrays::FovAxis::x, 0.25, 3), 0, 40, 20);
     const float x = 31.5f, y = 4.25f;
     const float3 through_centre = make_float3(x / 20 - 1, (10 - y) / 20, -1) * 3.0f;
     for (uint32_t i = 0; i < 1000; ++i) {
@@ -79,14 +80,16 @@ TEST(Camera, LensRaysOfAFilmPositionMeetInThePlaneOfFocus) {
 }
 
 double lens_p(double planted) {
-    const CameraRecord camera = compile_camera(one_camera(CameraArrays::FovAxis::x, 0.25, 3), 0, 40, 20);
+    const CameraRecord camera =
+        compile_camera(one_camera(CameraArrays::FovAxis::x, 0.25, 3), 0, 40, 20);
     constexpr int rings = 10, sectors = 16;
     std::vector<uint64_t> observed(rings * sectors);
     for (uint32_t i = 0; i < sample_count; ++i) {
         const uint4 w = words(i, 9);
         const float3 on = camera_ray(camera, 3, 4, uniform_float(w.x), uniform_float(w.y)).origin;
         const double r2 = static_cast<double>(on.x * on.x + on.y * on.y) / (0.25 * 0.25);
-        const double phi = std::atan2(static_cast<double>(on.y), static_cast<double>(on.x)) / (2 * pi) + 0.5;
+        const double phi =
+            std::atan2(static_cast<double>(on.y), static_cast<double>(on.x)) / (2 * pi) + 0.5;
         const int ring = std::min(static_cast<int>(r2 * rings), rings - 1);
         ++observed[static_cast<size_t>(ring * sectors +
                                        std::min(static_cast<int>(phi * sectors), sectors - 1))];
@@ -118,7 +121,8 @@ struct RandomCamera {
         const double aperture = pinhole ? 0.0 : focus * log_uniform(random, -4, 0.5);
         using Axis = CameraArrays::FovAxis;
         constexpr std::array<Axis, 4> axes = {Axis::x, Axis::y, Axis::smaller, Axis::larger};
-        CameraArrays cameras = one_camera(axes[static_cast<size_t>(uniform(random, 0, 4))], aperture, focus);
+        CameraArrays cameras =
+            one_camera(axes[static_cast<size_t>(uniform(random, 0, 4))], aperture, focus);
         cameras.fov[0] = 2 * std::atan(log_uniform(random, -2, 2));
         cameras.world_from_camera[0].topLeftCorner<3, 3>() = test::uniform_rotation(random);
         cameras.world_from_camera[0].topRightCorner<3, 1>() =
@@ -130,9 +134,9 @@ struct RandomCamera {
     }
 };
 
-// The tolerance is what rounding of float directions and points costs: slopes have errors of some u (slope +
-// 1), and near the edge of a wide field, where the forward part of the ray is what is left over of large
-// numbers, u slope^2.
+// The tolerance is what rounding of float directions and points costs: slopes have errors of some u
+// (slope + 1), and near the edge of a wide field, where the forward part of the ray is what is left
+// over of large numbers, u slope^2.
 TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
     Random random(31);
     double worst = 0;
@@ -144,21 +148,25 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
         const double x = uniform(random, 0, record.width), y = uniform(random, 0, record.height);
         const float u = static_cast<float>(uniform(random, 0, 0.999)),
                     v = static_cast<float>(uniform(random, 0, 0.999));
-        const CameraRay ray = camera_ray(record, static_cast<float>(x), static_cast<float>(y), u, v);
+        const CameraRay ray =
+            camera_ray(record, static_cast<float>(x), static_cast<float>(y), u, v);
         const double distance = log_uniform(random, -2, 4);
         const float3 point = to_float3(to_double(ray.origin) + distance * to_double(ray.direction));
         const CameraJoin join = join_camera(record, point, u, v);
         const Eigen::Vector3d forward = to_double(camera_forward(record));
         const double cosine = to_double(ray.direction).normalized().dot(forward);
-        const double rounding = 2 * half_ulp * to_double(point).cwiseAbs().maxCoeff() / (distance * cosine);
+        const double rounding =
+            2 * half_ulp * to_double(point).cwiseAbs().maxCoeff() / (distance * cosine);
         if (!(rounding < 1e-3)) {
             ++left_out;  // nothing is left of where the point was
             continue;
         }
         ASSERT_EQ(length(join.lens_point - ray.origin), 0.0f);
         const double slope = camera.largest_slope + camera.lens_slope;
-        const double error = 8 * half_ulp * (1 + slope) * (1 + camera.largest_slope) + rounding * (1 + slope);
-        const double pixels = error / camera.pixel + 2 * half_ulp * std::max(record.width, record.height);
+        const double error =
+            8 * half_ulp * (1 + slope) * (1 + camera.largest_slope) + rounding * (1 + slope);
+        const double pixels =
+            error / camera.pixel + 2 * half_ulp * std::max(record.width, record.height);
         if (join.pdf_w == 0.0f) {
             // Rounding may take the edge of the film for its outside.
             const double edge = std::min({x, y, record.width - x, record.height - y});
@@ -172,8 +180,10 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
         worst = std::max(worst, pixels < 0.01 ? off : 0.0);
         // dw = cos^3 dA: relative errors of the cosine count three times.
         const auto pdf_w = static_cast<double>(join.pdf_w);
-        ASSERT_NEAR(static_cast<double>(camera_pdf_w(record, ray.direction)) / pdf_w, 1.0, 6 * error + 1e-6);
-        ASSERT_NEAR(pdf_w * camera.pixel * camera.pixel * cosine * cosine * cosine, 1.0, 6 * error + 1e-6);
+        ASSERT_NEAR(static_cast<double>(camera_pdf_w(record, ray.direction)) / pdf_w, 1.0,
+                    6 * error + 1e-6);
+        ASSERT_NEAR(pdf_w * camera.pixel * camera.pixel * cosine * cosine * cosine, 1.0,
+                    6 * error + 1e-6);
     }
     EXPECT_LT(worst, 5e-3);  // where rounding leaves that much
     EXPECT_LT(lost, count / 100);
@@ -213,8 +223,8 @@ TEST(Camera, DensityIsThatOfTheRaysItMakes) {
     }
 }
 
-/// Integral of the density over all directions from a point of the lens, by midpoints of cosine and azimuth
-/// about the axis; of the directions that `join_camera` finds on the film.
+/// Integral of the density over all directions from a point of the lens, by midpoints of cosine and
+/// azimuth about the axis; of the directions that `join_camera` finds on the film.
 double total_density(const CameraRecord &camera, float u, float v, double largest_slope) {
     constexpr int rings = 1500, sectors = 1500;
     const double least_cosine = 1 / std::sqrt(1 + largest_slope * largest_slope);
@@ -229,7 +239,8 @@ double total_density(const CameraRecord &camera, float u, float v, double larges
             const double phi = 2 * pi * (j + 0.5) / sectors;
             const Eigen::Vector3d d = sine * std::cos(phi) * to_double(frame.x) +
                                       sine * std::sin(phi) * to_double(frame.y) + cosine * z;
-            sum += static_cast<double>(join_camera(camera, to_float3(lens_point + 7 * d), u, v).pdf_w);
+            sum +=
+                static_cast<double>(join_camera(camera, to_float3(lens_point + 7 * d), u, v).pdf_w);
         }
     }
     return sum * 2 * pi * (1 - least_cosine) / (double(rings) * sectors);
@@ -253,8 +264,8 @@ TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
     const double pixel = 2.0 / 40;
     for (const double depth : {3.0, 1.5, 12.0}) {
         const Eigen::Vector3d point(0.2 * depth, -0.1 * depth, -depth);
-        // A point out of focus is seen in a disc: its radius is that of the lens as the plane in focus shows
-        // it.
+        // A point out of focus is seen in a disc: its radius is that of the lens as the plane in
+        // focus shows it.
         const double blur = aperture * std::abs(1 / focus - 1 / depth) / pixel;
         double largest = 0;
         for (uint32_t i = 0; i < 1000; ++i) {
@@ -272,38 +283,43 @@ TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
 }
 
 TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
-    const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const float inf = std::numeric_limits<float>::infinity(),
+                nan = std::numeric_limits<float>::quiet_NaN();
     const test::InvalidAllowed points_that_are_none;
     for (const double aperture : {0.0, 0.25}) {
         const CameraRecord camera =
             compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, 3), 0, 40, 20);
         for (const float3 point :
-             {make_float3(0, 0, 1), make_float3(0, 0, 0), make_float3(1, 0, 0), make_float3(5, 0, -1),
-              make_float3(0, 5, -1), make_float3(1, 1, -1e-42f), make_float3(1e30f, 0, -1e-30f),
-              make_float3(inf, 0, -1), make_float3(inf, 0, -inf), make_float3(nan, 0, -1),
-              make_float3(0, 0, nan), make_float3(0, 0, inf), make_float3(0, 0, -inf)}) {
+             {make_float3(0, 0, 1), make_float3(0, 0, 0), make_float3(1, 0, 0),
+              make_float3(5, 0, -1), make_float3(0, 5, -1), make_float3(1, 1, -1e-42f),
+              make_float3(1e30f, 0, -1e-30f), make_float3(inf, 0, -1), make_float3(inf, 0, -inf),
+              make_float3(nan, 0, -1), make_float3(0, 0, nan), make_float3(0, 0, inf),
+              make_float3(0, 0, -inf)}) {
             EXPECT_EQ(join_camera(camera, point, 0.5f, 0.25f).pdf_w, 0.0f)
                 << point.x << ' ' << point.y << ' ' << point.z;
         }
         const CameraJoin far = join_camera(camera, make_float3(0, 0, -1e37f), 0.5f, 0.25f);
-        EXPECT_NEAR(far.pdf_w, 1 / camera.pixel_area, 0.02 / static_cast<double>(camera.pixel_area));
+        EXPECT_NEAR(far.pdf_w, 1 / camera.pixel_area,
+                    0.02 / static_cast<double>(camera.pixel_area));
         EXPECT_TRUE(std::isfinite(far.raster.x) && std::isfinite(far.raster.y));
     }
     // The left and upper edges belong to the film, the others do not.
-    const CameraRecord camera = compile_camera(one_camera(CameraArrays::FovAxis::x, 0, 1), 0, 40, 20);
+    const CameraRecord camera =
+        compile_camera(one_camera(CameraArrays::FovAxis::x, 0, 1), 0, 40, 20);
     EXPECT_GT(join_camera(camera, make_float3(-1, 0, -1), 0, 0).pdf_w, 0.0f);
     EXPECT_GT(join_camera(camera, make_float3(0, 0.5f, -1), 0, 0).pdf_w, 0.0f);
     EXPECT_EQ(join_camera(camera, make_float3(1, 0, -1), 0, 0).pdf_w, 0.0f);
     EXPECT_EQ(join_camera(camera, make_float3(0, -0.5f, -1), 0, 0).pdf_w, 0.0f);
 }
 
-/// Points of a tilted plane of radiance 1 that fills the view, joined to the camera: the sums of a film of 8
-/// x 6 pixels over their expectation, 1, and the largest deviation in standard errors.
+/// Points of a tilted plane of radiance 1 that fills the view, joined to the camera: the sums of a
+/// film of 8 x 6 pixels over their expectation, 1, and the largest deviation in standard errors.
 struct Film {
     double mean, worst;
 };
 Film splat_plane(double aperture, double planted) {
-    const CameraRecord camera = compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, 2), 0, 8, 6);
+    const CameraRecord camera =
+        compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, 2), 0, 8, 6);
     constexpr size_t pixels = 48;
     constexpr uint32_t count = 8'000'000;
     const double side = 26;  // holds all that the film sees
@@ -312,15 +328,17 @@ Film splat_plane(double aperture, double planted) {
     std::array<double, pixels> sum{}, squares{};
     for (uint32_t i = 0; i < count; ++i) {
         const uint4 w = words(i, 10);
-        const Eigen::Vector3d p =
-            Eigen::Vector3d(0, 0, -5) + side * ((static_cast<double>(uniform_float(w.x)) - 0.5) * x +
-                                                (static_cast<double>(uniform_float(w.y)) - 0.5) * y);
-        const CameraJoin join = join_camera(camera, to_float3(p), uniform_float(w.z), uniform_float(w.w));
+        const Eigen::Vector3d p = Eigen::Vector3d(0, 0, -5) +
+                                  side * ((static_cast<double>(uniform_float(w.x)) - 0.5) * x +
+                                          (static_cast<double>(uniform_float(w.y)) - 0.5) * y);
+        const CameraJoin join =
+            join_camera(camera, to_float3(p), uniform_float(w.z), uniform_float(w.w));
         if (join.pdf_w > 0.0f) {
             const Eigen::Vector3d way = to_double(join.lens_point) - p;
-            const double value =
-                side * side * static_cast<double>(join.pdf_w) * normal.dot(way) / std::pow(way.norm(), 3);
-            const auto pixel = static_cast<size_t>(join.raster.y) * 8 + static_cast<size_t>(join.raster.x);
+            const double value = side * side * static_cast<double>(join.pdf_w) * normal.dot(way) /
+                                 std::pow(way.norm(), 3);
+            const auto pixel =
+                static_cast<size_t>(join.raster.y) * 8 + static_cast<size_t>(join.raster.x);
             sum.at(pixel) += value * (pixel % 8 < 4 ? 1.0 : 1.0 + planted);
             squares.at(pixel) += value * value;
         }
@@ -335,8 +353,8 @@ Film splat_plane(double aperture, double planted) {
     return film;
 }
 
-// Importance, not only geometry: what light paths leave on the film is the mean radiance of each pixel. 96
-// decisions at a family-wise level of 0.01: 3.9 standard errors.
+// Importance, not only geometry: what light paths leave on the film is the mean radiance of each
+// pixel. 96 decisions at a family-wise level of 0.01: 3.9 standard errors.
 TEST(Camera, JoinedPointsAddUpToTheRadianceOfEachPixel) {
     for (const double aperture : {0.0, 0.3}) {
         const Film film = splat_plane(aperture, 0);

@@ -12,10 +12,11 @@
 
 namespace rtrays {
 
-/// p-value of Pearson's test of counts against expected counts. Cells expecting fewer than five are pooled, with the
-/// smallest of the others where the pool itself expects fewer than five: no sample is left out. A sample in a cell
-/// that expects none rejects outright (p = 0).
-inline double chi_square_p(const std::vector<uint64_t> &observed, const std::vector<double> &expected) {
+/// p-value of Pearson's test of counts against expected counts. Cells expecting fewer than five are
+/// pooled, with the smallest of the others where the pool itself expects fewer than five: no sample
+/// is left out. A sample in a cell that expects none rejects outright (p = 0).
+inline double chi_square_p(const std::vector<uint64_t> &observed,
+                           const std::vector<double> &expected) {
     struct Cell {
         double observed = 0, expected = 0;
     };
@@ -37,8 +38,9 @@ inline double chi_square_p(const std::vector<uint64_t> &observed, const std::vec
     if (pool.expected >= 5) {
         cells.push_back(pool);
     } else if (!cells.empty()) {
-        const auto smallest = std::min_element(
-            cells.begin(), cells.end(), [](const Cell &a, const Cell &b) { return a.expected < b.expected; });
+        const auto smallest =
+            std::min_element(cells.begin(), cells.end(),
+                             [](const Cell &a, const Cell &b) { return a.expected < b.expected; });
         smallest->observed += pool.observed;
         smallest->expected += pool.expected;
     }
@@ -47,14 +49,16 @@ inline double chi_square_p(const std::vector<uint64_t> &observed, const std::vec
     }
     double statistic = 0;
     for (const Cell &cell : cells) {
-        statistic += (cell.observed - cell.expected) * (cell.observed - cell.expected) / cell.expected;
+        statistic +=
+            (cell.observed - cell.expected) * (cell.observed - cell.expected) / cell.expected;
     }
     const boost::math::chi_squared distribution(static_cast<double>(cells.size()) - 1);
     return boost::math::cdf(boost::math::complement(distribution, statistic));
 }
 
 /// Integral over the rectangle [x0, x1] x [y0, y1] by the midpoint rule on a fine grid.
-inline double integrate(const std::function<double(double, double)> &f, double x0, double x1, double y0, double y1) {
+inline double integrate(const std::function<double(double, double)> &f, double x0, double x1,
+                        double y0, double y1) {
     constexpr int steps = 32;
     double sum = 0;
     for (int i = 0; i < steps; ++i) {

@@ -16,7 +16,8 @@
 namespace rtrays {
 namespace {
 
-Image render(const std::string &scene, const std::string &algorithm, bool apart, const std::string &assignment) {
+Image render(const std::string &scene, const std::string &algorithm, bool apart,
+             const std::string &assignment) {
     static DeviceContext device;
     RenderSettings settings;
     settings.width = settings.height = 32;
@@ -48,14 +49,34 @@ struct Case {
 // The same paths with the same weights, added apart or together: equal but for rounding.
 TEST(Contributions, AddUpToTheImage) {
     const Case cases[] = {
-        {"/cornell_box/scene.json", "path_tracing", "integrator.strategies=mis", {"implicit", "explicit"}},
-        {"/cornell_box/scene.json", "path_tracing", "device.features=all", {"implicit", "explicit"}},
-        {"/cornell_box/scene.json", "truncated_bdpt", "device.features=scene", {"implicit", "explicit", "light"}},
-        {"/cornell_box/scene.json", "truncated_bdpt", "integrator.seen_emitters=camera", {"implicit", "explicit", "light"}},
-        {"/cornell_box/scene.json", "bdpt", "integrator.bdpt_vertices=3", {"implicit", "explicit", "joins", "light"}},
-        {"/features/combined_lights.json", "truncated_bdpt", "integrator.light_selection=independent",
+        {"/cornell_box/scene.json",
+         "path_tracing",
+         "integrator.strategies=mis",
+         {"implicit", "explicit"}},
+        {"/cornell_box/scene.json",
+         "path_tracing",
+         "device.features=all",
+         {"implicit", "explicit"}},
+        {"/cornell_box/scene.json",
+         "truncated_bdpt",
+         "device.features=scene",
          {"implicit", "explicit", "light"}},
-        {"/features/area_light.json", "bdpt", "device.features=scene", {"implicit", "explicit", "joins", "light"}},
+        {"/cornell_box/scene.json",
+         "truncated_bdpt",
+         "integrator.seen_emitters=camera",
+         {"implicit", "explicit", "light"}},
+        {"/cornell_box/scene.json",
+         "bdpt",
+         "integrator.bdpt_vertices=3",
+         {"implicit", "explicit", "joins", "light"}},
+        {"/features/combined_lights.json",
+         "truncated_bdpt",
+         "integrator.light_selection=independent",
+         {"implicit", "explicit", "light"}},
+        {"/features/area_light.json",
+         "bdpt",
+         "device.features=scene",
+         {"implicit", "explicit", "joins", "light"}},
     };
     for (const auto &[scene, algorithm, assignment, layers] : cases) {
         const std::string what = scene + " " + algorithm + " " + assignment;
@@ -67,13 +88,16 @@ TEST(Contributions, AddUpToTheImage) {
             for (const std::string &layer : layers) {
                 ASSERT_GT(mean_of(apart, layer + "." + name), 0) << what << " " << layer;
                 const std::vector<float> &values = apart.channel(layer + "." + name);
-                std::transform(sum.begin(), sum.end(), values.begin(), sum.begin(),
-                               [](double total, float value) { return total + static_cast<double>(value); });
+                std::transform(
+                    sum.begin(), sum.end(), values.begin(), sum.begin(),
+                    [](double total, float value) { return total + static_cast<double>(value); });
             }
             for (size_t i = 0; i < sum.size(); ++i) {
                 const double expected = static_cast<double>(whole.channel(name)[i]);
                 ASSERT_NEAR(sum[i], expected, 2e-6 * (1 + expected)) << what;
-                ASSERT_NEAR(static_cast<double>(apart.channel(name)[i]), expected, 2e-6 * (1 + expected)) << what;
+                ASSERT_NEAR(static_cast<double>(apart.channel(name)[i]), expected,
+                            2e-6 * (1 + expected))
+                    << what;
             }
         }
     }
@@ -81,7 +105,8 @@ TEST(Contributions, AddUpToTheImage) {
 
 // What nothing can hit is all explicit.
 TEST(Contributions, AreThoseOfTheirStrategy) {
-    const Image point = render("/features/point_light.json", "path_tracing", true, "integrator.strategies=mis");
+    const Image point =
+        render("/features/point_light.json", "path_tracing", true, "integrator.strategies=mis");
     EXPECT_EQ(mean_of(point, "implicit.G"), 0);
     EXPECT_GT(mean_of(point, "explicit.G"), 0);
 }
@@ -90,8 +115,9 @@ TEST(Contributions, GoWithoutVariance) {
     static DeviceContext device;
     RenderSettings settings;
     settings.strategies_apart = true;
-    expect_input_error("without variance",
-                       [&] { RenderSession(load_scene(RTRAYS_SCENES "/cornell_box/scene.json"), settings, device); });
+    expect_input_error("without variance", [&] {
+        RenderSession(load_scene(RTRAYS_SCENES "/cornell_box/scene.json"), settings, device);
+    });
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When a pixel has converged: closed forms on hand-made films, by the shipped device code compiled for the host and on the
-// device, and the list of the pixels that are left.
+// When a pixel has converged: closed forms on hand-made films, by the shipped device code compiled
+// for the host and on the device, and the list of the pixels that are left.
 #define FEATURE_variance 1
 #define FEATURE_int64_atomics 1
 #include "renderer/kernels/film/convergence.h"
@@ -22,7 +22,10 @@ namespace {
 
 /// Films of some pixels and of the samples of even number.
 struct Films {
-    explicit Films(size_t pixels) : film(pixels * FILM_PIXEL_WORDS(1)), half(pixels * HALF_FILM_PIXEL_WORDS), counts(pixels) {}
+    explicit Films(size_t pixels)
+        : film(pixels * FILM_PIXEL_WORDS(1)),
+          half(pixels * HALF_FILM_PIXEL_WORDS),
+          counts(pixels) {}
 
     void add(size_t pixel, float3 sample) {
         EXPECT_EQ(film_add_sample(film.data() + pixel * FILM_PIXEL_WORDS(1), sample), 0u);
@@ -41,15 +44,18 @@ struct Films {
     bool converged(size_t pixel, float error) {
         carry(film, PIXEL_SUMS);
         carry(half, HALF_FILM_SUMS);
-        return has_converged(film_colour_sum(film.data() + pixel * FILM_PIXEL_WORDS(1), PIXEL_SUMS),
-                             film_colour_sum(half.data() + pixel * HALF_FILM_PIXEL_WORDS, HALF_FILM_SUMS), error);
+        return has_converged(
+            film_colour_sum(film.data() + pixel * FILM_PIXEL_WORDS(1), PIXEL_SUMS),
+            film_colour_sum(half.data() + pixel * HALF_FILM_PIXEL_WORDS, HALF_FILM_SUMS), error);
     }
 
     std::vector<int64_t> film, half;
     std::vector<uint64_t> counts;
 };
 
-float3 grey(float value) { return make_float3(value, value, value); }
+float3 grey(float value) {
+    return make_float3(value, value, value);
+}
 
 /// Whether a pixel of 2N samples has converged; `even` and `odd` tell sample i of each kind.
 template <class Even, class Odd>
@@ -94,8 +100,8 @@ TEST(ConvergenceRule, StopsWhatDoesNotChangeAndNeverWhatIsBlack) {
 }
 
 TEST(ConvergenceRule, GoesOnAfterAFirefly) {
-    // N = 100 each, all 1 but for one F: among the half |I_2N - I_N| / |I_N| = (F - 1) / (2 (N - 1 + F)), outside
-    // (F - 1) / (2 N).
+    // N = 100 each, all 1 but for one F: among the half |I_2N - I_N| / |I_N| = (F - 1) / (2 (N - 1
+    // + F)), outside (F - 1) / (2 N).
     const float f = 1e6f;
     const auto ones = [](int) { return grey(1.0f); };
     const auto firefly = [&](int i) { return grey(i == 57 ? f : 1.0f); };
@@ -119,7 +125,9 @@ TEST(ConvergenceRule, DoesNotDependOnTheScale) {
     const auto change = static_cast<float>(std::abs(all - half) / half);
     for (const float scale : {0x1p-40f, 1.0f, 0x1p20f}) {
         const auto even = [&](int i) { return grey(scale * samples[static_cast<size_t>(2 * i)]); };
-        const auto odd = [&](int i) { return grey(scale * samples[static_cast<size_t>(2 * i + 1)]); };
+        const auto odd = [&](int i) {
+            return grey(scale * samples[static_cast<size_t>(2 * i + 1)]);
+        };
         EXPECT_TRUE(stops(1.001f * change, 200, even, odd)) << scale;
         EXPECT_FALSE(stops(0.999f * change, 200, even, odd)) << scale;
     }
@@ -142,7 +150,8 @@ TEST(ConvergenceReport, CountsLivePixelsAndPaths) {
     const ConvergenceState state{{0.02f, 50, 200}, {200, 0, 300, 200, 0}, {}};
     EXPECT_TRUE(state.is_consistent(320));
     EXPECT_FALSE(state.is_consistent(250)) << "a pixel stopped later";
-    EXPECT_FALSE((ConvergenceState{{0.02f, 50, 200}, {210}, {}}.is_consistent(320))) << "a pixel stopped between checks";
+    EXPECT_FALSE((ConvergenceState{{0.02f, 50, 200}, {210}, {}}.is_consistent(320)))
+        << "a pixel stopped between checks";
     const nlohmann::json report = convergence_report(state, 320);
     EXPECT_EQ(report["camera_paths"], 200 + 320 + 300 + 200 + 320);
     ASSERT_EQ(report["checks"].size(), 3u);
@@ -167,8 +176,8 @@ std::vector<uint32_t> live_list(const ConvergenceControl &control) {
     return list;
 }
 
-// Pixels of all kinds, those of pixel i stopped or not as the host says, and listed in ascending order, whatever the size of
-// the groups.
+// Pixels of all kinds, those of pixel i stopped or not as the host says, and listed in ascending
+// order, whatever the size of the groups.
 TEST(ConvergenceControl, DecidesAndListsOnTheDeviceAsOnTheHost) {
     constexpr uint32_t pixels = 1000;
     std::mt19937 generator(2);
@@ -176,7 +185,9 @@ TEST(ConvergenceControl, DecidesAndListsOnTheDeviceAsOnTheHost) {
     Films films(pixels);
     for (size_t pixel = 0; pixel < pixels; ++pixel) {
         for (int i = 0; i < 64; ++i) {
-            films.add(pixel, pixel % 7 == 0 ? grey(0.0f) : make_float3(distribution(generator), distribution(generator), 1.0f));
+            films.add(pixel, pixel % 7 == 0 ? grey(0.0f)
+                                            : make_float3(distribution(generator),
+                                                          distribution(generator), 1.0f));
         }
     }
     std::vector<uint32_t> expected;
@@ -210,9 +221,12 @@ TEST(ConvergenceControl, DecidesAndListsOnTheDeviceAsOnTheHost) {
 
 TEST(ConvergenceControl, ListsAnyNumberOfPixels) {
     std::mt19937 generator(3);
-    for (const uint32_t pixels : {1u, LIVE_BLOCK - 1, LIVE_BLOCK, LIVE_BLOCK + 1, 40 * LIVE_BLOCK + 3}) {
+    for (const uint32_t pixels :
+         {1u, LIVE_BLOCK - 1, LIVE_BLOCK, LIVE_BLOCK + 1, 40 * LIVE_BLOCK + 3}) {
         for (const uint32_t of_eight : {0u, 1u, 8u}) {  // how many are live
-            ConvergenceState state{{0.05f, 2, 2}, std::vector<uint64_t>(pixels), std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
+            ConvergenceState state{{0.05f, 2, 2},
+                                   std::vector<uint64_t>(pixels),
+                                   std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
             std::vector<uint32_t> expected;
             for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
                 state.stopped_at[pixel] = generator() % 8 < of_eight ? 0 : 2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Convergence control in the pipeline: which pixels stop when, that nothing else changes, and that no bit depends on how the
-// work is cut.
+// Convergence control in the pipeline: which pixels stop when, that nothing else changes, and that
+// no bit depends on how the work is cut.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,9 +26,12 @@ DeviceContext &device() {
     return context;
 }
 
-Scene cornell_box() { return load_scene(RTRAYS_SCENES "/cornell_box/scene.json"); }
+Scene cornell_box() {
+    return load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+}
 
-RenderSettings small(const std::vector<std::string> &assignments = {}, const std::string &algorithm = "path_tracing") {
+RenderSettings small(const std::vector<std::string> &assignments = {},
+                     const std::string &algorithm = "path_tracing") {
     RenderSettings settings;
     settings.algorithm = algorithm;
     settings.width = settings.height = 32;
@@ -41,7 +44,8 @@ RenderSettings small(const std::vector<std::string> &assignments = {}, const std
     return settings;
 }
 
-RenderSettings controlled(std::vector<std::string> assignments = {}, const std::string &algorithm = "path_tracing") {
+RenderSettings controlled(std::vector<std::string> assignments = {},
+                          const std::string &algorithm = "path_tracing") {
     assignments.emplace_back("integrator.convergence.error=0.1");
     return small(assignments, algorithm);
 }
@@ -71,25 +75,33 @@ void expect_same(const FilmState &a, const FilmState &b, const std::string &what
 TEST(Convergence, GivesTheSameBitsHoweverTheWorkIsCut) {
     for (const char *algorithm : {"path_tracing", "truncated_bdpt"}) {
         const FilmState whole = render(controlled({}, algorithm), {{0, end}});
-        const std::set<uint64_t> stops(whole.convergence->stopped_at.begin(), whole.convergence->stopped_at.end());
-        ASSERT_EQ(stops.size(), (end - start) / interval + 2) << "pixels stop at every check, and some not at all";
-        // All at once, for most make other programs of every stage; what any of them changed would show.
+        const std::set<uint64_t> stops(whole.convergence->stopped_at.begin(),
+                                       whole.convergence->stopped_at.end());
+        ASSERT_EQ(stops.size(), (end - start) / interval + 2)
+            << "pixels stop at every check, and some not at all";
+        // All at once, for most make other programs of every stage; what any of them changed would
+        // show.
         std::vector<std::string> cut = {"device.group_size=16", "device.stream_capacity=3000"};
         if (algorithm == std::string("path_tracing")) {  // the camera pass of both
             cut.insert(cut.end(), {"device.stream_chunk=7", "device.path_layout=arrays"});
             for (const char *assignment : {"device.features=all", "device.pipeline=megakernel"}) {
-                expect_same(render(controlled({assignment}, algorithm), {{0, end}}), whole, assignment);
+                expect_same(render(controlled({assignment}, algorithm), {{0, end}}), whole,
+                            assignment);
             }
         }
-        expect_same(render(controlled(cut, algorithm), {{0, end}}), whole, algorithm + std::string(" cut otherwise"));
+        expect_same(render(controlled(cut, algorithm), {{0, end}}), whole,
+                    algorithm + std::string(" cut otherwise"));
         // Cut before, at and after checks.
-        const std::vector<SampleRange> cuts = {{0, start - 1}, {start - 1, start}, {start, start + 5}, {start + 5, end}};
-        expect_same(render(controlled({}, algorithm), cuts), whole, std::string(algorithm) + " in parts");
+        const std::vector<SampleRange> cuts = {
+            {0, start - 1}, {start - 1, start}, {start, start + 5}, {start + 5, end}};
+        expect_same(render(controlled({}, algorithm), cuts), whole,
+                    std::string(algorithm) + " in parts");
     }
 }
 
-// What a pixel holds is what it holds without control at the number of samples where it stopped, and it stopped there because
-// the mean of all samples and that of every other one, here from renders of their own and in double, differ by less.
+// What a pixel holds is what it holds without control at the number of samples where it stopped,
+// and it stopped there because the mean of all samples and that of every other one, here from
+// renders of their own and in double, differ by less.
 TEST(Convergence, StopsEachPixelWhereItsMeansSay) {
     const FilmState film = render(controlled(), {{0, end}});
     const std::vector<uint64_t> &stopped_at = film.convergence->stopped_at;
@@ -118,14 +130,16 @@ TEST(Convergence, StopsEachPixelWhereItsMeansSay) {
                 change += std::pow(static_cast<double>(all.channel(channel)[pixel]) - mean, 2);
                 norm += mean * mean;
             }
-            const double relative = std::sqrt(change / norm);  // NaN where black: not below anything
+            const double relative =
+                std::sqrt(change / norm);  // NaN where black: not below anything
             stopped[pixel] = stopped_at[pixel] == samples + 1;
             if (std::abs(relative - 0.1) > 1e-5) {  // neither side of it by rounding
                 ASSERT_EQ(stopped[pixel], relative < 0.1) << pixel << " at " << samples + 1;
                 ++decisions;
             }
             if (stopped[pixel]) {
-                ASSERT_EQ(pixel_words(film, pixel), pixel_words(so_far, pixel)) << pixel << " at " << samples + 1;
+                ASSERT_EQ(pixel_words(film, pixel), pixel_words(so_far, pixel))
+                    << pixel << " at " << samples + 1;
                 paths += samples + 1;
             }
         }
@@ -157,15 +171,17 @@ TEST(Convergence, StopsAllThatIsNotBlackAtTheFirstCheckOfAHugeError) {
     uint64_t paths = 0;
     for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
         const uint64_t stopped_at = film.convergence->stopped_at[pixel];
-        const bool black = std::all_of(channels.begin(), channels.end(),
-                                       [&](const std::string &channel) { return every_other.channel(channel)[pixel] == 0; });
+        const bool black = std::all_of(
+            channels.begin(), channels.end(),
+            [&](const std::string &channel) { return every_other.channel(channel)[pixel] == 0; });
         ASSERT_EQ(stopped_at == start, !black) << pixel;
         live += stopped_at == 0;
         late += black;
         if (!black) {
             ASSERT_EQ(pixel_words(film, pixel), pixel_words(at_start, pixel)) << pixel;
         }
-        ASSERT_EQ(image.channel("samples")[pixel], static_cast<float>(stopped_at == 0 ? end : stopped_at));
+        ASSERT_EQ(image.channel("samples")[pixel],
+                  static_cast<float>(stopped_at == 0 ? end : stopped_at));
         paths += stopped_at == 0 ? end : stopped_at;
     }
     EXPECT_GT(late, 0u) << "some pixels are black at first";
@@ -175,14 +191,16 @@ TEST(Convergence, StopsAllThatIsNotBlackAtTheFirstCheckOfAHugeError) {
     EXPECT_EQ(report["samples"], paths);
     EXPECT_EQ(report["convergence"]["camera_paths"], paths);
     EXPECT_EQ(report["convergence"]["checks"].size(), (end - start) / interval + 1);
-    EXPECT_EQ(report["convergence"]["checks"].back()["live"], static_cast<double>(live) / static_cast<double>(image.pixel_count()));
+    EXPECT_EQ(report["convergence"]["checks"].back()["live"],
+              static_cast<double>(live) / static_cast<double>(image.pixel_count()));
     EXPECT_EQ(std::get<std::string>(image.attributes().at("rtrays:convergence")),
               "biased by convergence control: error 1e+30, interval 8, start 24");
     EXPECT_EQ(session.is_complete(), live == 0);
 }
 
 TEST(Convergence, ATinyErrorStopsNothing) {
-    const FilmState film = render(small({"integrator.convergence.error=1e-30"}, "truncated_bdpt"), {{0, end}});
+    const FilmState film =
+        render(small({"integrator.convergence.error=1e-30"}, "truncated_bdpt"), {{0, end}});
     const FilmState free = render(small({}, "truncated_bdpt"), {{0, end}});
     EXPECT_EQ(film.words, free.words);
     EXPECT_EQ(film.convergence->camera_paths(end), end * 32 * 32);
@@ -199,7 +217,9 @@ TEST(Convergence, StopsTheSamePixelsWithoutSecondMoments) {
 
 TEST(Convergence, WorksOnSobolSamples) {
     const FilmState film = render(controlled({"integrator.sampler=sobol"}), {{0, end}});
-    expect_same(render(controlled({"integrator.sampler=sobol", "device.group_size=16"}), {{0, 50}, {50, end}}), film, "sobol");
+    expect_same(render(controlled({"integrator.sampler=sobol", "device.group_size=16"}),
+                       {{0, 50}, {50, end}}),
+                film, "sobol");
     EXPECT_LT(film.convergence->camera_paths(end), end * 32 * 32);
     EXPECT_NE(film.words, render(controlled(), {{0, end}}).words);
 }
@@ -250,38 +270,48 @@ TEST(Convergence, LeavesNothingBehindWhereItIsOff) {
     const auto mentions = [](const nlohmann::json &report, const std::string &what) {
         return report.dump().find(what) != std::string::npos;
     };
-    const nlohmann::json off = RenderSession(cornell_box(), small({"device.features=all"}), device()).report();
+    const nlohmann::json off =
+        RenderSession(cornell_box(), small({"device.features=all"}), device()).report();
     RenderSession session(cornell_box(), controlled(), device());
     session.render(0, start);
     const nlohmann::json on = session.report();
-    for (const char *what : {"half_film", "stopped_at", "live_pixels", "stop_converged", "list_live_pixels"}) {
+    for (const char *what :
+         {"half_film", "stopped_at", "live_pixels", "stop_converged", "list_live_pixels"}) {
         EXPECT_TRUE(mentions(on, what)) << what;
         EXPECT_FALSE(mentions(off, what)) << what;
     }
-    EXPECT_EQ(off["bytes_per_path"], RenderSession(cornell_box(), controlled({"device.features=all"}), device()).report()["bytes_per_path"]);
+    EXPECT_EQ(off["bytes_per_path"],
+              RenderSession(cornell_box(), controlled({"device.features=all"}), device())
+                  .report()["bytes_per_path"]);
     EXPECT_FALSE(off.contains("convergence"));
 }
 
 TEST(Convergence, RefusesWhatItCannotDo) {
     for (const char *algorithm : {"ray_casting", "whitted", "light_tracing", "bdpt"}) {
-        expect_input_error(algorithm + std::string(" does not stop pixels; path_tracing and truncated_bdpt do"),
-                           [&] { require_consistent(controlled({}, algorithm)); });
+        expect_input_error(
+            algorithm + std::string(" does not stop pixels; path_tracing and truncated_bdpt do"),
+            [&] { require_consistent(controlled({}, algorithm)); });
         EXPECT_NO_THROW(require_consistent(small({}, algorithm)));
     }
     RenderSettings apart = controlled();
     apart.strategies_apart = true;
     apart.variance = false;
-    expect_input_error("which layers of strategies do not hold whole", [&] { require_consistent(apart); });
-    for (const char *assignment : {"integrator.convergence.start=25", "integrator.convergence.interval=0"}) {
-        expect_input_error("must be even and not 0", [&] { require_consistent(controlled({assignment})); });
+    expect_input_error("which layers of strategies do not hold whole",
+                       [&] { require_consistent(apart); });
+    for (const char *assignment :
+         {"integrator.convergence.start=25", "integrator.convergence.interval=0"}) {
+        expect_input_error("must be even and not 0",
+                           [&] { require_consistent(controlled({assignment})); });
     }
-    for (const char *assignment : {"integrator.convergence.error=-1", "integrator.convergence.error=nan"}) {
+    for (const char *assignment :
+         {"integrator.convergence.error=-1", "integrator.convergence.error=nan"}) {
         expect_input_error("0 or a number above 0", [&] { small({assignment}); });
     }
     EXPECT_TRUE(has_convergence_control(controlled()));
     EXPECT_FALSE(has_convergence_control(small({"integrator.convergence.error=0"})));
     RenderSession session(cornell_box(), controlled(), device());
-    expect_input_error("from 0 on, of which there are 0: the next is 0, not 4", [&] { session.render(4, 8); });
+    expect_input_error("from 0 on, of which there are 0: the next is 0, not 4",
+                       [&] { session.render(4, 8); });
     session.render(0, 8);
     expect_input_error("the next is 8, not 16", [&] { session.render(16, 24); });
     EXPECT_EQ(session.render(4, 4), 4u) << "nothing is asked for";

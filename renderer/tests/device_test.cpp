@@ -15,20 +15,23 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Source, ExpandsIncludesOnceWithLineDirectives) {
-    const SourceOverlays files = {{"kernels/a.cl", "#include \"b.h\"\n#include \"kernels/b.h\"\nint a;\n"},
-                                  {"kernels/b.h", "#pragma once\nint b;\n"}};
-    EXPECT_EQ(expand_source("kernels/a.cl", files),
-              "#line 1 \"kernels/a.cl\"\n#line 1 \"kernels/b.h\"\n\nint b;\n#line 2 \"kernels/a.cl\"\n"
-              "#line 3 \"kernels/a.cl\"\nint a;\n");
-    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 5), "kernels/b.h:2");
-    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 8), "kernels/a.cl:3");
+    const SourceOverlays files = {
+        {"kernels/a.cl", "#include \"b.h\"\n#include \"kernels/b.h\"\nint a;\n"},
+        {"kernels/b.h", "#pragma once\nint b;\n"}};
+    EXPECT_EQ(
+        expand_source("kernels/a.cl", files),
+        "#line 1 \"kernels/a.cl\"\n#line 1 \"kernels/b.h\"\n\nint b;\n#line 2 \"kernels/a.cl\"\n"
+        "#line 3 \"kernels/a.cl\"\nint a;\n");
+    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 5),
+              "kernels/b.h:2");
+    EXPECT_EQ(source_place("#define X 1\n" + expand_source("kernels/a.cl", files), 8),
+              "kernels/a.cl:3");
     EXPECT_EQ(source_place("#define X 1\n", 1), "defines:1");
 }
 
 TEST(Source, ResolvesRelativeToTheIncludingFileFirst) {
-    const SourceOverlays files = {{"kernels/x/a.cl", "#include \"b.h\"\n"},
-                                  {"kernels/x/b.h", "near\n"},
-                                  {"b.h", "far\n"}};
+    const SourceOverlays files = {
+        {"kernels/x/a.cl", "#include \"b.h\"\n"}, {"kernels/x/b.h", "near\n"}, {"b.h", "far\n"}};
     const std::string text = expand_source("kernels/x/a.cl", files);
     EXPECT_NE(text.find("near"), std::string::npos);
     EXPECT_EQ(text.find("far"), std::string::npos);
@@ -36,13 +39,16 @@ TEST(Source, ResolvesRelativeToTheIncludingFileFirst) {
 
 TEST(Source, NamesFileAndLineOfAMissingInclude) {
     const SourceOverlays files = {{"kernels/a.cl", "\n#include \"nowhere.h\"\n"}};
-    EXPECT_NE(expand_source("kernels/a.cl", files).find("#error kernels/a.cl:2: include \"nowhere.h\""), std::string::npos);
+    EXPECT_NE(
+        expand_source("kernels/a.cl", files).find("#error kernels/a.cl:2: include \"nowhere.h\""),
+        std::string::npos);
     expect_run_error("'kernels/none.cl' does not exist", [] { expand_source("kernels/none.cl"); });
     expect_run_error("'kernels/none.cl' does not exist", [] { device_source("kernels/none.cl"); });
 }
 
 TEST(Source, CutsCycles) {
-    const SourceOverlays files = {{"a.h", "#include \"b.h\"\nx\n"}, {"b.h", "#include \"a.h\"\ny\n"}};
+    const SourceOverlays files = {{"a.h", "#include \"b.h\"\nx\n"},
+                                  {"b.h", "#include \"a.h\"\ny\n"}};
     EXPECT_EQ(expand_source("a.h", files),
               "#line 1 \"a.h\"\n#line 1 \"b.h\"\n#line 2 \"b.h\"\ny\n#line 2 \"a.h\"\nx\n");
 }
@@ -50,14 +56,18 @@ TEST(Source, CutsCycles) {
 /// A device and a cache directory of its own for every test.
 class Device : public testing::Test {
   protected:
-    Device() : directory_(fs::temp_directory_path() / fs::path("rtrays_cache_" + std::to_string(getpid()))) {
+    Device()
+        : directory_(fs::temp_directory_path() /
+                     fs::path("rtrays_cache_" + std::to_string(getpid()))) {
         fs::create_directories(directory_);
         setenv("RTRAYS_CACHE_DIR", directory_.c_str(), 1);
     }
     ~Device() override { fs::remove_all(directory_); }
 
     static SourceOverlays kernel_source(const std::string &body) {
-        return {{"kernels/test.cl", "__kernel void test(__global uint *values, uint count, float factor) {\n" + body + "\n}\n"}};
+        return {{"kernels/test.cl",
+                 "__kernel void test(__global uint *values, uint count, float factor) {\n" + body +
+                     "\n}\n"}};
     }
 
     fs::path binary() const {
@@ -71,7 +81,8 @@ class Device : public testing::Test {
 
     DeviceContext device_{"", Binaries::keep};
     fs::path directory_;
-    const std::string body_ = "if (get_global_id(0) < count) values[get_global_id(0)] += (uint)(factor * FACTOR);";
+    const std::string body_ =
+        "if (get_global_id(0) < count) values[get_global_id(0)] += (uint)(factor * FACTOR);";
 };
 
 TEST_F(Device, RunsAKernelWithCheckedArguments) {
@@ -85,7 +96,9 @@ TEST_F(Device, RunsAKernelWithCheckedArguments) {
     EXPECT_EQ(device_.profiler().stages().at("test").launches, 1u);
 
     expect_run_error("takes 3 arguments, not 2", [&] { kernel.bind({values, 5u}); });
-    expect_run_error("argument 1 of kernel 'test' is 'uint', not 'float'", [&] { kernel.bind({values, 5.0f, 3.0f}); });
+    expect_run_error("argument 1 of kernel 'test' is 'uint', not 'float'", [&] {
+        kernel.bind({values, 5.0f, 3.0f});
+    });
     expect_run_error("there is no number 3", [&] { kernel.bind(3, 1.0f); });
     const Buffer<float> wrong(device_, "wrong", 5);
     expect_run_error("'uint*', not 'float*'", [&] { kernel.bind({wrong, 5u, 3.0f}); });
@@ -95,7 +108,8 @@ TEST_F(Device, RunsAKernelWithCheckedArguments) {
 
 TEST_F(Device, CachesProgramsByContent) {
     const auto build = [&](const std::string &factor, const std::string &body) {
-        return Program(device_, "kernels/test.cl", {{"FACTOR", factor}}, kernel_source(body)).from_cache();
+        return Program(device_, "kernels/test.cl", {{"FACTOR", factor}}, kernel_source(body))
+            .from_cache();
     };
     EXPECT_FALSE(build("2", body_));
     EXPECT_TRUE(build("2", body_));
@@ -105,7 +119,8 @@ TEST_F(Device, CachesProgramsByContent) {
 
 TEST_F(Device, RebuildsADamagedCacheFile) {
     const auto from_cache = [&] {
-        return Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_)).from_cache();
+        return Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_))
+            .from_cache();
     };
     EXPECT_FALSE(from_cache());
     std::string content = read_file(binary());
@@ -121,7 +136,8 @@ TEST_F(Device, RebuildsADamagedCacheFile) {
 
 TEST_F(Device, WorksWithoutAWritableCache) {
     setenv("RTRAYS_CACHE_DIR", "/proc/nowhere", 1);
-    EXPECT_FALSE(Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_)).from_cache());
+    EXPECT_FALSE(
+        Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source(body_)).from_cache());
 }
 
 TEST_F(Device, KeepsNoBinaryWhereNoneIsWanted) {
@@ -137,20 +153,23 @@ TEST_F(Device, KeepsNoBinaryWhereNoneIsWanted) {
 
 TEST_F(Device, ShowsTheBuildLogWithTheRealFileName) {
     const std::string message = error_of(ExitCode::run_failed, [&] {
-        Program(device_, "kernels/test.cl", {{"FACTOR", "2"}}, kernel_source("\n  undeclared = 1;"));
+        Program(device_, "kernels/test.cl", {{"FACTOR", "2"}},
+                kernel_source("\n  undeclared = 1;"));
     });
     EXPECT_NE(message.find("kernels/test.cl:3"), std::string::npos) << message;
     EXPECT_NE(message.find("undeclared"), std::string::npos) << message;
 }
 
 TEST_F(Device, NamesTheDevicesWhenNoneMatches) {
-    const std::string message = error_of(ExitCode::bad_input, [] { DeviceContext("no such device"); });
+    const std::string message =
+        error_of(ExitCode::bad_input, [] { DeviceContext("no such device"); });
     EXPECT_NE(message.find("'no such device'"), std::string::npos);
     EXPECT_NE(message.find(device_.info().name), std::string::npos);
 }
 
 TEST_F(Device, RefusesABufferBeyondTheDevice) {
-    expect_run_error("buffer 'huge' needs", [&] { Buffer<uint64_t>(device_, "huge", size_t{1} << 50); });
+    expect_run_error("buffer 'huge' needs",
+                     [&] { Buffer<uint64_t>(device_, "huge", size_t{1} << 50); });
 }
 
 }  // namespace

@@ -13,14 +13,14 @@ namespace rtrays {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The directions of the sphere in cells about a centre, narrow near it: rings of the polar angle scale *
-/// tan(t), and azimuths.
+/// The directions of the sphere in cells about a centre, narrow near it: rings of the polar angle
+/// scale * tan(t), and azimuths.
 class DirectionGrid {
   public:
     static constexpr int polar_cells = 16, azimuth_cells = 12, cells = polar_cells * azimuth_cells;
 
-    /// `scale`: about half the rings lie within this polar angle, radians. Azimuths count from a direction
-    /// off the plane through centre and normal, along which the horizon may run.
+    /// `scale`: about half the rings lie within this polar angle, radians. Azimuths count from a
+    /// direction off the plane through centre and normal, along which the horizon may run.
     DirectionGrid(float3 centre, float3 normal, double scale)
         : normal_(normal), scale_(scale), t_end_(std::atan(pi / scale)) {
         const Frame upright = frame_from_tangent(centre, normal);
@@ -28,23 +28,25 @@ class DirectionGrid {
     }
 
     int cell(float3 w) const {
-        const double x = static_cast<double>(dot(w, frame_.x)), y = static_cast<double>(dot(w, frame_.y));
+        const double x = static_cast<double>(dot(w, frame_.x)),
+                     y = static_cast<double>(dot(w, frame_.y));
         const double polar = std::atan2(std::hypot(x, y), static_cast<double>(dot(w, frame_.z)));
         const int i = static_cast<int>(std::atan(polar / scale_) / t_end_ * polar_cells);
         const int j = static_cast<int>((std::atan2(y, x) + pi) / (2 * pi) * azimuth_cells);
         return std::min(i, polar_cells - 1) * azimuth_cells + std::min(j, azimuth_cells - 1);
     }
 
-    /// Integral of a density per solid angle over a cell. The density may end at the horizon of the normal:
-    /// the parts of the cell on its two sides are integrated apart.
+    /// Integral of a density per solid angle over a cell. The density may end at the horizon of the
+    /// normal: the parts of the cell on its two sides are integrated apart.
     double integral(int cell, const std::function<double(float3)> &density) const {
         const int i = cell / azimuth_cells, j = cell % azimuth_cells;
         const Range t = {t_end_ * i / polar_cells, t_end_ * (i + 1) / polar_cells};
-        const Range azimuth = {2 * pi * j / azimuth_cells - pi, 2 * pi * (j + 1) / azimuth_cells - pi};
+        const Range azimuth = {2 * pi * j / azimuth_cells - pi,
+                               2 * pi * (j + 1) / azimuth_cells - pi};
         double sum = 0;
         for (const bool near : {true, false}) {
-            // s in [0, 1] runs over the part of the ring on the centre's side of the horizon, or over the
-            // rest of it.
+            // s in [0, 1] runs over the part of the ring on the centre's side of the horizon, or
+            // over the rest of it.
             const auto f = [&](double s, double a) {
                 const double horizon = horizon_t(a);
                 const double begin = near ? t.begin : std::max(t.begin, horizon),
@@ -54,8 +56,8 @@ class DirectionGrid {
                 }
                 const double tangent = std::tan(begin + s * (end - begin));
                 const double polar = scale_ * tangent;
-                return density(direction(polar, a)) * scale_ * (1 + tangent * tangent) * std::sin(polar) *
-                       (end - begin);
+                return density(direction(polar, a)) * scale_ * (1 + tangent * tangent) *
+                       std::sin(polar) * (end - begin);
             };
             const Range unit = {0, 1};
             sum += refine(f, unit, azimuth, gauss(f, unit, azimuth), 0);
@@ -82,8 +84,9 @@ class DirectionGrid {
         const double along = static_cast<double>(dot(normal_, frame_.x)) * std::cos(azimuth) +
                              static_cast<double>(dot(normal_, frame_.y)) * std::sin(azimuth);
         const double at_centre = static_cast<double>(dot(normal_, frame_.z));
-        return std::atan((at_centre >= 0 ? std::atan2(at_centre, -along) : std::atan2(-at_centre, along)) /
-                         scale_);
+        return std::atan(
+            (at_centre >= 0 ? std::atan2(at_centre, -along) : std::atan2(-at_centre, along)) /
+            scale_);
     }
 
     static double gauss(const Function &f, Range s, Range a) {

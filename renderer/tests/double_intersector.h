@@ -14,14 +14,15 @@ namespace rtrays::test {
 /// How a ray passes one triangle, in double precision.
 struct DoubleHit {
     bool crosses = false;  ///< the line meets the triangle
-    double t = 0;          ///< where, in lengths of the direction; not finite for a parallel triangle
+    double t = 0;  ///< where, in lengths of the direction; not finite for a parallel triangle
     double clearance = 0;  ///< least distance between the line and the lines of the three edges
     double cosine = 0;     ///< between the line and the normal, not negative
-    double shift = 0;      ///< length by which rounding may move a vertex across the ray in the float test
+    double shift =
+        0;  ///< length by which rounding may move a vertex across the ray in the float test
 };
 
-inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle, const Eigen::Vector3d &origin,
-                                  const Eigen::Vector3d &direction) {
+inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle,
+                                  const Eigen::Vector3d &origin, const Eigen::Vector3d &direction) {
     const Eigen::Vector3d v[3] = {mesh.vertex(triangle, 0).cast<double>() - origin,
                                   mesh.vertex(triangle, 1).cast<double>() - origin,
                                   mesh.vertex(triangle, 2).cast<double>() - origin};
@@ -34,14 +35,15 @@ inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle, const Eig
         const double sine = direction.cross(b - a).norm();
         hit.clearance = std::min(hit.clearance, sine > 0 ? std::abs(edge[i]) / sine : 0.0);
     }
-    hit.crosses =
-        (edge[0] >= 0 && edge[1] >= 0 && edge[2] >= 0) || (edge[0] <= 0 && edge[1] <= 0 && edge[2] <= 0);
+    hit.crosses = (edge[0] >= 0 && edge[1] >= 0 && edge[2] >= 0) ||
+                  (edge[0] <= 0 && edge[1] <= 0 && edge[2] <= 0);
     const Eigen::Vector3d normal = (v[1] - v[0]).cross(v[2] - v[0]);
     hit.t = normal.dot(v[0]) / normal.dot(direction);
     hit.cosine = std::abs(normal.dot(direction)) / (normal.norm() * direction.norm());
     // 6 u E along each of the two axes (kernels/traversal/traversal_ray.h), u = 2^-24.
     for (const Eigen::Vector3d &vertex : v) {
-        hit.shift = std::max(hit.shift, std::sqrt(2.0) * 6 * 0x1p-24 * vertex.cwiseAbs().maxCoeff());
+        hit.shift =
+            std::max(hit.shift, std::sqrt(2.0) * 6 * 0x1p-24 * vertex.cwiseAbs().maxCoeff());
     }
     return hit;
 }
@@ -63,19 +65,20 @@ inline double distance_to_triangle(const Mesh &mesh, uint32_t triangle, const Ei
     return inside ? std::abs(normal.dot(p - v[0])) / normal.norm() : nearest;
 }
 
-/// Whether a float hit (t, triangle; NO_HIT for none) is right within the tolerance, a length: its point lies
-/// on its triangle, and no triangle is crossed clearly and clearly nearer.
+/// Whether a float hit (t, triangle; NO_HIT for none) is right within the tolerance, a length: its
+/// point lies on its triangle, and no triangle is crossed clearly and clearly nearer.
 ///
-/// The float test is exact but for the rounding of the vertices in the ray's frame and, relative to the distance,
-/// of t: what it decides is right for a triangle whose vertices are moved across the ray by at most `shift`. That
-/// triangle is crossed for certain where the ray keeps farther than `shift` from the edges, and its plane is met up to
-/// shift / cosine from where the given one is. No bound without the cosine can hold for a test in floats: at 1e-5 from
-/// the plane (ray_sets.h) a change of one ulp of a vertex moves the crossing by 1e5 ulps.
+/// The float test is exact but for the rounding of the vertices in the ray's frame and, relative to
+/// the distance, of t: what it decides is right for a triangle whose vertices are moved across the
+/// ray by at most `shift`. That triangle is crossed for certain where the ray keeps farther than
+/// `shift` from the edges, and its plane is met up to shift / cosine from where the given one is.
+/// No bound without the cosine can hold for a test in floats: at 1e-5 from the plane (ray_sets.h) a
+/// change of one ulp of a vertex moves the crossing by 1e5 ulps.
 ///
 /// `for_each(visit)` calls visit(i) for all triangles that the ray's line may cross.
 template <typename ForEach>
-bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t,
-                  uint32_t triangle, double tolerance, const ForEach &for_each) {
+bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
+                  float t, uint32_t triangle, double tolerance, const ForEach &for_each) {
     const Eigen::Vector3d o = origin.cast<double>(), d = direction.cast<double>();
     const auto slack = [&](const DoubleHit &hit) {
         return (tolerance + hit.shift / hit.cosine) / d.norm();
@@ -96,8 +99,9 @@ bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::
     return nearest;
 }
 
-inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
-                         float t, uint32_t triangle, double tolerance) {
+inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin,
+                         const Eigen::Vector3f &direction, float t, uint32_t triangle,
+                         double tolerance) {
     return hit_is_right(mesh, origin, direction, t, triangle, tolerance, [&](const auto &visit) {
         for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
             visit(i);
@@ -105,8 +109,8 @@ inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin, const 
     });
 }
 
-/// The same for many rays through a large mesh. What a line misses is told by a tree of boxes in double precision, halves
-/// by count, each box and its line held apart by more than rounding.
+/// The same for many rays through a large mesh. What a line misses is told by a tree of boxes in
+/// double precision, halves by count, each box and its line held apart by more than rounding.
 class DoubleJudge {
   public:
     explicit DoubleJudge(const Mesh &mesh) : mesh_(&mesh), order_(mesh.triangles.size()) {
@@ -114,26 +118,27 @@ class DoubleJudge {
         add_node(0, order_.size());
     }
 
-    bool is_right(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t, uint32_t triangle,
-                  double tolerance) const {
+    bool is_right(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t,
+                  uint32_t triangle, double tolerance) const {
         const Eigen::Vector3d o = origin.cast<double>(), d = direction.cast<double>();
-        return hit_is_right(*mesh_, origin, direction, t, triangle, tolerance, [&](const auto &visit) {
-            std::vector<size_t> pending = {0};
-            while (!pending.empty()) {
-                const Node &node = nodes_[pending.back()];
-                pending.pop_back();
-                if (!may_cross(node.box, o, d)) {
-                    continue;
+        return hit_is_right(
+            *mesh_, origin, direction, t, triangle, tolerance, [&](const auto &visit) {
+                std::vector<size_t> pending = {0};
+                while (!pending.empty()) {
+                    const Node &node = nodes_[pending.back()];
+                    pending.pop_back();
+                    if (!may_cross(node.box, o, d)) {
+                        continue;
+                    }
+                    if (node.second != 0) {
+                        pending.push_back(node.first);
+                        pending.push_back(node.second);
+                    }
+                    for (size_t i = node.begin; node.second == 0 && i < node.end; ++i) {
+                        visit(order_[i]);
+                    }
                 }
-                if (node.second != 0) {
-                    pending.push_back(node.first);
-                    pending.push_back(node.second);
-                }
-                for (size_t i = node.begin; node.second == 0 && i < node.end; ++i) {
-                    visit(order_[i]);
-                }
-            }
-        });
+            });
     }
 
   private:
@@ -144,12 +149,16 @@ class DoubleJudge {
     };
     static constexpr size_t leaf_size = 8;
 
-    /// Separating axes of a line and a box: the products of the line's direction and the box's axes.
-    static bool may_cross(const Eigen::AlignedBox3d &box, const Eigen::Vector3d &o, const Eigen::Vector3d &d) {
+    /// Separating axes of a line and a box: the products of the line's direction and the box's
+    /// axes.
+    static bool may_cross(const Eigen::AlignedBox3d &box, const Eigen::Vector3d &o,
+                          const Eigen::Vector3d &d) {
         const Eigen::Vector3d to_centre = box.center() - o;
-        const Eigen::Vector3d half = (0.5 * box.sizes()).array() + 1e-9 * (box.sizes().norm() + to_centre.norm());
+        const Eigen::Vector3d half =
+            (0.5 * box.sizes()).array() + 1e-9 * (box.sizes().norm() + to_centre.norm());
         const Eigen::Vector3d apart = d.cross(to_centre).cwiseAbs(), a = d.cwiseAbs();
-        return apart.x() <= half.y() * a.z() + half.z() * a.y() && apart.y() <= half.x() * a.z() + half.z() * a.x() &&
+        return apart.x() <= half.y() * a.z() + half.z() * a.y() &&
+               apart.y() <= half.x() * a.z() + half.z() * a.x() &&
                apart.z() <= half.x() * a.y() + half.y() * a.x();
     }
 
@@ -171,7 +180,9 @@ class DoubleJudge {
             int axis = 0;
             box.sizes().maxCoeff(&axis);
             const size_t middle = (begin + end) / 2;
-            const auto at = [&](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+            const auto at = [&](size_t i) {
+                return order_.begin() + static_cast<std::ptrdiff_t>(i);
+            };
             std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
                 return mesh_->vertex(a, 0)[axis] < mesh_->vertex(b, 0)[axis];
             });

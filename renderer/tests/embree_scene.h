@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh in Embree 3, with its ROBUST flag unless told otherwise: what our traversal is compared with.
+// A mesh in Embree 3, with its ROBUST flag unless told otherwise: what our traversal is compared
+// with.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -35,9 +36,9 @@ class EmbreeScene {
         rtcSetSceneFlags(scene_, flags);
         rtcSetSceneBuildQuality(scene_, quality);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto *positions = static_cast<float *>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                       RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                                       mesh.positions.size()));
+        auto *positions = static_cast<float *>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    3 * sizeof(float), mesh.positions.size()));
         for (size_t i = 0; i < mesh.positions.size(); ++i) {
             std::copy_n(mesh.positions[i].data(), 3, positions + 3 * i);
         }
@@ -65,7 +66,8 @@ class EmbreeScene {
     RTCDevice device() const { return device_; }
     RTCScene scene() const { return scene_; }
 
-    /// Bytes that Embree holds for this scene, vertices and indices included: now, and at most so far.
+    /// Bytes that Embree holds for this scene, vertices and indices included: now, and at most so
+    /// far.
     int64_t bytes() const { return bytes_; }
     int64_t bytes_peak() const { return bytes_peak_; }
 
@@ -111,7 +113,8 @@ class EmbreeScene {
     static bool account(void *self, ssize_t bytes, bool) {
         auto *scene = static_cast<EmbreeScene *>(self);
         const int64_t now = scene->bytes_ += bytes;
-        for (int64_t peak = scene->bytes_peak_; peak < now && !scene->bytes_peak_.compare_exchange_weak(peak, now);) {
+        for (int64_t peak = scene->bytes_peak_;
+             peak < now && !scene->bytes_peak_.compare_exchange_weak(peak, now);) {
         }
         return true;
     }

@@ -10,7 +10,8 @@
 
 namespace rtrays {
 
-/// The message of the `Error` that `body` throws; fails the test when it throws none, or one of another exit code.
+/// The message of the `Error` that `body` throws; fails the test when it throws none, or one of
+/// another exit code.
 template <typename Body>
 std::string error_of(ExitCode code, const Body &body) {
     try {
@@ -27,7 +28,8 @@ std::string error_of(ExitCode code, const Body &body) {
 template <typename Body>
 void expect_error(ExitCode code, const std::string &fragment, const Body &body) {
     const std::string message = error_of(code, body);
-    EXPECT_NE(message.find(fragment), std::string::npos) << "message:  " << message << "\nexpected: " << fragment;
+    EXPECT_NE(message.find(fragment), std::string::npos)
+        << "message:  " << message << "\nexpected: " << fragment;
 }
 
 template <typename Body>

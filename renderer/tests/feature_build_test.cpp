@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every feature can be left out: all stages compile under masks with every feature, with none, and with each one off.
+// Every feature can be left out: all stages compile under masks with every feature, with none, and
+// with each one off.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -14,8 +15,8 @@
 namespace rtrays {
 namespace {
 
-/// Code that is never run need not be good: without optimizing, PoCL takes less than two thirds of the time. What it keeps of it is
-/// kept apart.
+/// Code that is never run need not be good: without optimizing, PoCL takes less than two thirds of
+/// the time. What it keeps of it is kept apart.
 DeviceContext &device() {
     static const bool in_haste = setenv("POCL_EXTRA_BUILD_FLAGS", "-cl-opt-disable", 1) == 0 &&
                                  setenv("POCL_CACHE_DIR", RTRAYS_FEATURE_BUILD_CACHE, 1) == 0;
@@ -27,14 +28,18 @@ DeviceContext &device() {
 class FeatureBuild : public testing::TestWithParam<int> {};
 
 std::string name_of_build(int index) {
-    return index == -2 ? "all" : index == -1 ? "none" : "without_" + FeatureMask().with(static_cast<Feature>(index)).names().front();
+    return index == -2 ? "all"
+           : index == -1
+               ? "none"
+               : "without_" + FeatureMask().with(static_cast<Feature>(index)).names().front();
 }
 
 TEST_P(FeatureBuild, Succeeds) {
     const int index = GetParam();
-    const FeatureMask mask = index == -2   ? FeatureMask::all()
-                             : index == -1 ? FeatureMask()
-                                           : FeatureMask::all().with(static_cast<Feature>(index), false);
+    const FeatureMask mask = index == -2 ? FeatureMask::all()
+                             : index == -1
+                                 ? FeatureMask()
+                                 : FeatureMask::all().with(static_cast<Feature>(index), false);
     // One program of all stages of a pass: what they share is read once.
     const auto build = [](const Pass &pass, std::vector<std::string> stages) {
         for (const RoundStage &stage : pass.round) {
@@ -46,7 +51,9 @@ TEST_P(FeatureBuild, Succeeds) {
         }
         const std::string text = std::accumulate(includes.begin(), includes.end(), std::string());
         EXPECT_NO_THROW({
-            const Program program(device(), "pass.cl", stage_defines(pass.features, {64, 512, 4, true}), {{"pass.cl", text}});
+            const Program program(device(), "pass.cl",
+                                  stage_defines(pass.features, {64, 512, 4, true}),
+                                  {{"pass.cl", text}});
             for (const std::string &stage : stages) {
                 Kernel(program, stage, 64);
             }

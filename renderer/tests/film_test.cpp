@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The exact sums of the film: the shipped device code compiled for the host, the same on the device, and the state
-// that is saved, resumed and merged.
+// The exact sums of the film: the shipped device code compiled for the host, the same on the
+// device, and the state that is saved, resumed and merged.
 #define FEATURE_variance 1
 #define FEATURE_int64_atomics 1
 #include "renderer/kernels/film/film.h"
@@ -65,7 +65,9 @@ std::vector<float> heavy_tailed(size_t count, uint32_t seed) {
     return samples;
 }
 
-float mean_of(const std::vector<float> &samples) { return develop_film(film_of(samples)).channel("R")[0]; }
+float mean_of(const std::vector<float> &samples) {
+    return develop_film(film_of(samples)).channel("R")[0];
+}
 
 TEST(Film, TwoHundredThousandEqualSamplesAverageToTheSample) {
     // A plain float sum is off by 0.2 % here.
@@ -113,7 +115,8 @@ TEST(Film, DoesNotDependOnTheOrderOfAdditions) {
 }
 
 TEST(Film, HoldsEveryFiniteMagnitudeBelowItsLimit) {
-    for (const float x : {0.0f, -0.0f, 1.4e-45f, 1e-38f, 0x1p-60f, 0x1.fffffep-41f, 0x1p-40f, 1.0f, 0x1.fffffep-1f, 0x1p19f, 0x1.fffffep39f}) {
+    for (const float x : {0.0f, -0.0f, 1.4e-45f, 1e-38f, 0x1p-60f, 0x1.fffffep-41f, 0x1p-40f, 1.0f,
+                          0x1.fffffep-1f, 0x1p19f, 0x1.fffffep39f}) {
         const double mean = static_cast<double>(mean_of({x}));
         EXPECT_NEAR(mean, static_cast<double>(x), 0x1p-105) << x;
         EXPECT_EQ(mean_of({x, -x}), 0.0f);
@@ -162,7 +165,8 @@ TEST(Film, MergesExactlyInAnyOrder) {
     std::vector<float> samples(300);
     std::generate(samples.begin(), samples.end(), [&] { return uniform(generator); });
     const auto part = [&](size_t begin, size_t end) {
-        FilmState film = film_of({samples.begin() + static_cast<long>(begin), samples.begin() + static_cast<long>(end)});
+        FilmState film = film_of(
+            {samples.begin() + static_cast<long>(begin), samples.begin() + static_cast<long>(end)});
         film.ranges = {{begin, end}};
         return film;
     };
@@ -185,7 +189,8 @@ TEST(Film, RefusesWhatDoesNotBelongTogether) {
         FilmState other = empty_film();
         EXPECT_NO_THROW(merge_film(film, other));
         change(other);
-        expect_input_error(std::string("films differ in ") + what, [&] { merge_film(film, other); });
+        expect_input_error(std::string("films differ in ") + what,
+                           [&] { merge_film(film, other); });
     };
     refuse("size", [](FilmState &other) { other.width = 2; });
     refuse("their layers", [](FilmState &other) { other.variance = false; });
@@ -196,7 +201,8 @@ TEST(Film, RefusesWhatDoesNotBelongTogether) {
 }
 
 TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
-    const auto path = std::filesystem::temp_directory_path() / ("rtrays_film_" + std::to_string(getpid()));
+    const auto path =
+        std::filesystem::temp_directory_path() / ("rtrays_film_" + std::to_string(getpid()));
     FilmState film = film_of({0.5f, 1e-30f, 1e10f});
     film.ranges = {{0, 1}, {7, 9}};
     film.device_seconds = 1.5;
@@ -208,7 +214,8 @@ TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
     EXPECT_EQ(loaded.words, film.words);
     EXPECT_EQ(std::tie(loaded.width, loaded.height, loaded.variance, loaded.seed, loaded.config),
               std::tie(film.width, film.height, film.variance, film.seed, film.config));
-    EXPECT_EQ(std::tie(loaded.device_seconds, loaded.wall_seconds, loaded.non_finite, loaded.out_of_range),
+    EXPECT_EQ(std::tie(loaded.device_seconds, loaded.wall_seconds, loaded.non_finite,
+                       loaded.out_of_range),
               std::tie(film.device_seconds, film.wall_seconds, film.non_finite, film.out_of_range));
     ASSERT_EQ(loaded.ranges.size(), 2u);
     EXPECT_EQ(loaded.ranges[1].begin, 7u);
@@ -217,7 +224,8 @@ TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
     const std::string content = read_file(path);
     for (const size_t length : {size_t{0}, size_t{10}, size_t{40}, content.size() - 1}) {
         write_file(path, content.substr(0, length));
-        expect_input_error(length < 42 ? "not a film state" : "truncated or damaged", [&] { load_film(path); });
+        expect_input_error(length < 42 ? "not a film state" : "truncated or damaged",
+                           [&] { load_film(path); });
     }
     std::string damaged = content;
     damaged.back() = static_cast<char>(damaged.back() ^ 1);
@@ -226,7 +234,8 @@ TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
     std::filesystem::remove(path);
 }
 
-// The device adds the same bits, with 64-bit atomics and with the 32-bit fallback, from many work-items at once.
+// The device adds the same bits, with 64-bit atomics and with the 32-bit fallback, from many
+// work-items at once.
 TEST(Film, DeviceAddsTheSameBitsWithAndWithout64BitAtomics) {
     const std::vector<float> samples = heavy_tailed(20000, 5);
     const std::vector<int64_t> expected = film_of(samples).words;
@@ -241,7 +250,9 @@ __kernel void test(__global const float *samples, __global long *film, uint coun
         if (std::string(atomics) == "1" && !device.info().has_int64_atomics) {
             continue;
         }
-        const Program program(device, "kernels/test.cl", {{"FEATURE_variance", "1"}, {"FEATURE_int64_atomics", atomics}}, source);
+        const Program program(device, "kernels/test.cl",
+                              {{"FEATURE_variance", "1"}, {"FEATURE_int64_atomics", atomics}},
+                              source);
         Kernel kernel(program, "test", 64);
         const Buffer<float> input(device, "samples", samples);
         Buffer<int64_t> film(device, "film", std::vector<int64_t>(pixel_words, 0));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Programs built with TRAPS (CMakeLists.txt) stop at a floating-point operation that has no result: inf - inf, 0 x inf, 0 / 0,
-// the root of a negative number, an order asked of a NaN. What is meant to be without is done while an InvalidAllowed lives.
+// Programs built with TRAPS (CMakeLists.txt) stop at a floating-point operation that has no result:
+// inf - inf, 0 x inf, 0 / 0, the root of a negative number, an order asked of a NaN. What is meant
+// to be without is done while an InvalidAllowed lives.
 #pragma once
 
 #include <cfenv>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The full-sweep SAH build on the host, what hierarchies are compared with: every split of the sorted
-// centroids on each axis (I. Wald, V. Havran, "On building fast kd-trees for ray tracing, and on doing that
-// in O(N log N)", 2006: sorted once, the order is kept through partitions).
+// The full-sweep SAH build on the host, what hierarchies are compared with: every split of the
+// sorted centroids on each axis (I. Wald, V. Havran, "On building fast kd-trees for ray tracing,
+// and on doing that in O(N log N)", 2006: sorted once, the order is kept through partitions).
 #pragma once
 
 #include <algorithm>
@@ -38,15 +38,17 @@ class FullSweep {
             std::vector<uint32_t> &order = orders_[axis];
             order.resize(boxes_.size());
             std::iota(order.begin(), order.end(), 0u);
-            const auto centre = [&](uint32_t i) { return boxes_[i].min()[axis] + boxes_[i].max()[axis]; };
+            const auto centre = [&](uint32_t i) {
+                return boxes_[i].min()[axis] + boxes_[i].max()[axis];
+            };
             std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
                 return std::make_pair(centre(a), a) < std::make_pair(centre(b), b);
             });
         }
     }
 
-    /// SAH cost with K_T = K_I = 1, relative to the root's area; leaves hold up to BVH_LEAF_SIZE triangles,
-    /// as the device builder's do.
+    /// SAH cost with K_T = K_I = 1, relative to the root's area; leaves hold up to BVH_LEAF_SIZE
+    /// triangles, as the device builder's do.
     double cost() { return cost_of(0, boxes_.size()) / half_area(bounds_of(0, boxes_.size())); }
 
   private:
@@ -102,7 +104,8 @@ class FullSweep {
                     waiting_.push_back(order[i]);
                 }
             }
-            std::copy(waiting_.begin(), waiting_.end(), order.begin() + static_cast<std::ptrdiff_t>(left));
+            std::copy(waiting_.begin(), waiting_.end(),
+                      order.begin() + static_cast<std::ptrdiff_t>(left));
         }
     }
 

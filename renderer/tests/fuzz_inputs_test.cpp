@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Damaged inputs of every format, by the programs' own loaders: each loads, to a scene that holds together,
-// or is an error of bad input. Under the sanitizers that also means: no access out of bounds, no undefined
-// behaviour. The files are those of the corpus, changed at random from a fixed seed.
+// Damaged inputs of every format, by the programs' own loaders: each loads, to a scene that holds
+// together, or is an error of bad input. Under the sanitizers that also means: no access out of
+// bounds, no undefined behaviour. The files are those of the corpus, changed at random from a fixed
+// seed.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -27,8 +28,8 @@ using Random = std::mt19937_64;
 
 const std::filesystem::path corpus = RTRAYS_CORPUS;
 
-/// One to four changes of the kinds that break parsers: bits, bytes, cuts, repetitions, and numbers too
-/// large, negative or none.
+/// One to four changes of the kinds that break parsers: bits, bytes, cuts, repetitions, and numbers
+/// too large, negative or none.
 std::string damaged(std::string bytes, Random &random) {
     const auto below = [&](size_t n) { return n == 0 ? 0 : static_cast<size_t>(random() % n); };
     static const std::string words[] = {"999999999",
@@ -72,7 +73,8 @@ std::string damaged(std::string bytes, Random &random) {
             case 6: {
                 const size_t first = bytes.find_first_of("0123456789", at);
                 if (first != std::string::npos) {
-                    const size_t last = std::min(bytes.find_first_not_of("0123456789", first), bytes.size());
+                    const size_t last =
+                        std::min(bytes.find_first_not_of("0123456789", first), bytes.size());
                     bytes.replace(first, last - first,
                                   std::to_string(static_cast<int64_t>(random()) >> below(64)));
                 }
@@ -106,7 +108,8 @@ Outcome fuzz(const TemporaryFolder &folder, const std::string &name, int count, 
             ++outcome.read;
         } catch (const Error &error) {
             ++outcome.refused;
-            EXPECT_EQ(error.exit_code(), ExitCode::bad_input) << name << " " << i << ": " << error.what();
+            EXPECT_EQ(error.exit_code(), ExitCode::bad_input)
+                << name << " " << i << ": " << error.what();
             EXPECT_STRNE(error.what(), "");
         } catch (const std::exception &error) {
             ADD_FAILURE() << name << " " << i << ": not an error of ours: " << error.what();

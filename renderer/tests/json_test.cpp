@@ -16,34 +16,42 @@ struct BadText {
 class StrictSyntax : public testing::TestWithParam<BadText> {};
 
 TEST_P(StrictSyntax, NamesSourceLineAndPath) {
-    const std::string message = error_of(ExitCode::bad_input, [] { parse_json(GetParam().text, "in.json"); });
+    const std::string message =
+        error_of(ExitCode::bad_input, [] { parse_json(GetParam().text, "in.json"); });
     EXPECT_EQ(message.rfind(GetParam().message, 0), 0u) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Json, StrictSyntax,
-    testing::Values(
-        BadText{"", "in.json:1: syntax error"},
-        BadText{"{\n\"a\": 1,\n\"a\": 2}", "in.json:3: /a: duplicate key 'a'"},
-        BadText{"{\"x\": [{\"b\": 1, \"c\": 2,\n\n\"b\": 3}]}", "in.json:3: /x/0/b: duplicate key 'b'"},
-        BadText{"{\"v\": [1,\n1e999]}", "in.json:2: /v/1: number overflow"},
-        BadText{"{\"name\": \"tile\", \"v\": [-1e999]}", "in.json:1: /v/0 (in 'tile'): number overflow"},
-        BadText{"[1,\n2,\n]", "in.json:3: /2: syntax error"},
-        BadText{"{\"a\": NaN}", "in.json:1: /a: syntax error"}, BadText{"[1] 2", "in.json:1: syntax error"},
-        BadText{"{\"a\": // no\n1}", "in.json:1: /a: syntax error"},
-        BadText{"{\"a/b~\": nul}", "in.json:1: /a~1b~0: syntax error"},
-        BadText{"\"\xff\"", "in.json:1: syntax error"}, BadText{"{\"a\"", "in.json:1: /a: syntax error"}));
+    testing::Values(BadText{"", "in.json:1: syntax error"},
+                    BadText{"{\n\"a\": 1,\n\"a\": 2}", "in.json:3: /a: duplicate key 'a'"},
+                    BadText{"{\"x\": [{\"b\": 1, \"c\": 2,\n\n\"b\": 3}]}",
+                            "in.json:3: /x/0/b: duplicate key 'b'"},
+                    BadText{"{\"v\": [1,\n1e999]}", "in.json:2: /v/1: number overflow"},
+                    BadText{"{\"name\": \"tile\", \"v\": [-1e999]}",
+                            "in.json:1: /v/0 (in 'tile'): number overflow"},
+                    BadText{"[1,\n2,\n]", "in.json:3: /2: syntax error"},
+                    BadText{"{\"a\": NaN}", "in.json:1: /a: syntax error"},
+                    BadText{"[1] 2", "in.json:1: syntax error"},
+                    BadText{"{\"a\": // no\n1}", "in.json:1: /a: syntax error"},
+                    BadText{"{\"a/b~\": nul}", "in.json:1: /a~1b~0: syntax error"},
+                    BadText{"\"\xff\"", "in.json:1: syntax error"},
+                    BadText{"{\"a\"", "in.json:1: /a: syntax error"}));
 
 TEST(Json, ReadsWhatIsValid) {
-    const Json value = parse_json(R"({"a": [1, -2, 0.5, true, null, "x\u00e9"], "b": {"a": {}}})", "in.json");
+    const Json value =
+        parse_json(R"({"a": [1, -2, 0.5, true, null, "x\u00e9"], "b": {"a": {}}})", "in.json");
     EXPECT_EQ(value, Json::parse(R"({"a": [1, -2, 0.5, true, null, "xé"], "b": {"a": {}}})"));
 }
 
 TEST(Json, RefusesNestingThatCouldExhaustTheStack) {
-    const auto nested = [](size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+    const auto nested = [](size_t depth) {
+        return std::string(depth, '[') + std::string(depth, ']');
+    };
     EXPECT_NO_THROW(parse_json(nested(max_json_depth), "in.json"));
     for (const size_t depth : {max_json_depth + 1, size_t{1000000}}) {
-        expect_input_error("nested deeper than 256 levels", [&] { parse_json(nested(depth), "in.json"); });
+        expect_input_error("nested deeper than 256 levels",
+                           [&] { parse_json(nested(depth), "in.json"); });
     }
 }
 
@@ -75,7 +83,8 @@ class Schema : public testing::TestWithParam<BadText> {};
 TEST_P(Schema, NamesPathFaultAndAlternatives) {
     const std::string text = GetParam().text;
     const Json document = parse_json(text, "in.json");
-    const std::string message = error_of(ExitCode::bad_input, [&] { validate_json(document, schema, "in.json", text); });
+    const std::string message =
+        error_of(ExitCode::bad_input, [&] { validate_json(document, schema, "in.json", text); });
     EXPECT_EQ(message.rfind(GetParam().message, 0), 0u) << message;
 }
 
@@ -85,18 +94,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"{\n\"kind\": \"disk\"}", "in.json:2: /kind: \"disk\" is not one of: disc, sphere"},
         BadText{R"({"kind": "disc", "radios": 1})",
                 "in.json:1: unknown key 'radios'; allowed: count, kind, paint, parts, radius"},
-        BadText{"{}", "in.json:1: missing key 'kind'"}, BadText{"[]", "in.json:1: [] is not of type object"},
-        BadText{R"({"kind": "disc", "radius": 0})", "in.json:1: /radius: 0: Expected number greater than 0"},
-        BadText{R"({"kind": "disc", "radius": "1"})", "in.json:1: /radius: \"1\" is not of type number"},
-        BadText{R"({"kind": "disc", "count": 1.5})", "in.json:1: /count: 1.5 is not of type integer"},
+        BadText{"{}", "in.json:1: missing key 'kind'"},
+        BadText{"[]", "in.json:1: [] is not of type object"},
+        BadText{R"({"kind": "disc", "radius": 0})",
+                "in.json:1: /radius: 0: Expected number greater than 0"},
+        BadText{R"({"kind": "disc", "radius": "1"})",
+                "in.json:1: /radius: \"1\" is not of type number"},
+        BadText{R"({"kind": "disc", "count": 1.5})",
+                "in.json:1: /count: 1.5 is not of type integer"},
         BadText{R"({"kind": "disc", "count": 9})",
                 "in.json:1: /count: 9: Expected number less than or equal to 8"},
-        BadText{R"({"kind": "disc", "count": null})", "in.json:1: /count: null is not of type integer"},
-        BadText{"{\"kind\": \"disc\", \"parts\": [{\"kind\": \"disc\"},\n{\"kind\": \"disc\", \"x\": 1}]}",
+        BadText{R"({"kind": "disc", "count": null})",
+                "in.json:1: /count: null is not of type integer"},
+        BadText{"{\"kind\": \"disc\", \"parts\": [{\"kind\": \"disc\"},\n{\"kind\": \"disc\", "
+                "\"x\": 1}]}",
                 "in.json:2: /parts/1: unknown key 'x'; allowed: "},
         BadText{R"({"kind": "disc", "paint": {"hew": 1}})",
                 "in.json:1: /paint: unknown key 'hew'; allowed: hue"},
-        BadText{R"({"kind": "disc", "paint": 7})", "in.json:1: /paint: 7 is not of type string or object"}));
+        BadText{R"({"kind": "disc", "paint": 7})",
+                "in.json:1: /paint: 7 is not of type string or object"}));
 
 TEST(Json, AcceptsWhatTheSchemaAllows) {
     for (const char *text :

@@ -13,7 +13,8 @@
 namespace rtrays {
 namespace {
 
-/// A bright room with a glass ball in it. Where that swallows little, paths go on for thousands of events.
+/// A bright room with a glass ball in it. Where that swallows little, paths go on for thousands of
+/// events.
 Scene bright_room(double albedo) {
     std::ifstream file(RTRAYS_SCENES "/analytic/furnace_090.json");
     nlohmann::json room = nlohmann::json::parse(file);
@@ -32,7 +33,8 @@ struct Rendered {
 };
 
 /// Two batches: the first compiles finish_paths on its way where its last paths are long.
-Rendered render(const Scene &scene, const std::string &algorithm, const std::vector<std::string> &assignments) {
+Rendered render(const Scene &scene, const std::string &algorithm,
+                const std::vector<std::string> &assignments) {
     static DeviceContext device;
     RenderSettings settings;
     settings.algorithm = algorithm;
@@ -56,7 +58,8 @@ Rendered render(const Scene &scene, const std::string &algorithm, const std::vec
 }
 
 /// Where rays are counted by depth, paths go on round by round.
-void expect_bits_of_rounds(const Scene &scene, const std::string &algorithm, const std::vector<std::string> &passes,
+void expect_bits_of_rounds(const Scene &scene, const std::string &algorithm,
+                           const std::vector<std::string> &passes,
                            std::vector<std::string> assignments = {}) {
     const Rendered far = render(scene, algorithm, assignments);
     assignments.emplace_back("device.count_rays=by_depth");
@@ -79,8 +82,9 @@ TEST(LastPaths, HaveTheBitsOfRounds) {
 
 TEST(LastPaths, HaveTheBitsOfRoundsInAnotherLayoutAndUnderControl) {
     const Scene room = bright_room(0.998);
-    expect_bits_of_rounds(room, "path_tracing", {"camera"},
-                          {"device.path_layout=arrays", "device.group_size=8", "device.stream_chunk=7"});
+    expect_bits_of_rounds(
+        room, "path_tracing", {"camera"},
+        {"device.path_layout=arrays", "device.group_size=8", "device.stream_chunk=7"});
     expect_bits_of_rounds(room, "path_tracing", {"camera"},
                           {"integrator.convergence.error=0.02", "integrator.convergence.start=4",
                            "integrator.convergence.interval=4"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights and cameras on the device: every kind compiles alone, and what the device samples is what the host
-// does from the same source, whose distributions the host's tests judge.
+// Lights and cameras on the device: every kind compiles alone, and what the device samples is what
+// the host does from the same source, whose distributions the host's tests judge.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/light_paths.h"
@@ -68,7 +68,8 @@ TEST(LightDevice, EveryKindCompilesAlone) {
           (both | planes).with(Feature::shape_lights), both.with(Feature::point_lights),
           both.with(Feature::spot_lights), both.with(Feature::directional_lights),
           infinite.with(Feature::dome), infinite.with(Feature::environment),
-          infinite.with(Feature::dome) | planes, both.with(Feature::point_lights).with(Feature::lens)}) {
+          infinite.with(Feature::dome) | planes,
+          both.with(Feature::point_lights).with(Feature::lens)}) {
         // A light of that kind alone, then among others.
         EXPECT_NO_THROW(build(device, mask)) << ::testing::PrintToString(mask.names());
         EXPECT_NO_THROW(build(device, mask.with(Feature::many_lights)))
@@ -80,20 +81,22 @@ void append(std::vector<float> &list, float3 v) {
     list.insert(list.end(), {v.x, v.y, v.z});
 }
 
-std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &camera, uint count) {
+std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &camera,
+                                uint count) {
     std::vector<float> list;
     for (uint i = 0; i < count; ++i) {
         const uint4 a = random_words(5, 0, 1, i, 0), b = random_words(5, 0, 1, i, 1),
                     c = random_words(5, 0, 1, i, 2);
-        const EmissionSample e =
-            sample_emission(scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(),
-                            scene.emitter_triangles.data(), scene.environment_texels.data(),
-                            scene.environment_ends.data(), scene.lighting, a, b);
+        const EmissionSample e = sample_emission(
+            scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(),
+            scene.emitter_triangles.data(), scene.environment_texels.data(),
+            scene.environment_ends.data(), scene.lighting, a, b);
         append(list, e.origin);
         append(list, e.direction);
         append(list, e.weight);
-        list.insert(list.end(), {e.pdf_origin, e.pdf_direction,
-                                 static_cast<float>(4u * e.light + 2u * e.is_delta + e.at_infinity)});
+        list.insert(list.end(),
+                    {e.pdf_origin, e.pdf_direction,
+                     static_cast<float>(4u * e.light + 2u * e.is_delta + e.at_infinity)});
         const float3 from = make_float3(uniform_float(c.x) - 0.5f, 0.25f, uniform_float(c.y));
         const LightSample s =
             sample_lights(scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(),
@@ -103,12 +106,15 @@ std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &
         list.push_back(s.pdf_w);
         append(list, any ? s.wi : from);
         append(list, any ? s.radiance : from);
-        list.insert(list.end(), {any ? s.sampling_over_emission : 0.0f, any ? s.arrival_pdf_a : 0.0f});
-        const CameraJoin join = join_camera(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
+        list.insert(list.end(),
+                    {any ? s.sampling_over_emission : 0.0f, any ? s.arrival_pdf_a : 0.0f});
+        const CameraJoin join =
+            join_camera(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
         append(list, join.lens_point);
         list.push_back(join.pdf_w);
-        list.push_back(join.pdf_w > 0.0f ? camera_pdf_w(camera, normalize(e.point.position - join.lens_point))
-                                         : 0.0f);
+        list.push_back(join.pdf_w > 0.0f
+                           ? camera_pdf_w(camera, normalize(e.point.position - join.lens_point))
+                           : 0.0f);
     }
     return list;
 }
@@ -123,23 +129,26 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
         CameraRecord camera = scene.camera;
         camera.aperture_radius = 0.1f;
         camera.focus_distance = 5.0f;
-        const Buffer<SurfaceTriangle> surface_triangles(device, "surface_triangles", scene.surface_triangles);
+        const Buffer<SurfaceTriangle> surface_triangles(device, "surface_triangles",
+                                                        scene.surface_triangles);
         const Buffer<TriangleNormals> normals(device, "triangle_normals", 1);
         const Buffer<TriangleUv> uvs(device, "triangle_uvs", 1);
         const Buffer<ShapeRecord> shapes(device, "shapes", scene.shapes);
         const Buffer<LightRecord> lights(device, "lights", scene.lights);
-        const Buffer<EmitterTriangle> emitters(device, "emitter_triangles", scene.emitter_triangles);
+        const Buffer<EmitterTriangle> emitters(device, "emitter_triangles",
+                                               scene.emitter_triangles);
         const bool image = infinite == LightArrays::Kind::environment;
         const Buffer<float> texels(device, "environment_texels",
                                    image ? scene.environment_texels : std::vector<float>(1));
         const Buffer<uint> ends(device, "environment_ends",
                                 image ? scene.environment_ends : std::vector<uint>(1));
         const Buffer<float> samples(device, "samples", count * word_count);
-        kernel.bind({surface_triangles, normals, uvs, shapes, lights, emitters, texels, ends, scene.lighting,
-                     camera, samples, count});
+        kernel.bind({surface_triangles, normals, uvs, shapes, lights, emitters, texels, ends,
+                     scene.lighting, camera, samples, count});
         kernel.enqueue(count);
         device.finish();
-        const std::vector<float> found = samples.read(), expected = host_samples(scene, camera, count);
+        const std::vector<float> found = samples.read(),
+                                 expected = host_samples(scene, camera, count);
         ASSERT_EQ(found.size(), expected.size());
         size_t off = 0;
         for (size_t i = 0; i < found.size(); ++i) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start: origins and directions against their densities by chi-square, power in closed
-// form, and agreement with the lights as camera paths meet them; the shipped device code compiled for the
-// host.
+// Where light paths start: origins and directions against their densities by chi-square, power in
+// closed form, and agreement with the lights as camera paths meet them; the shipped device code
+// compiled for the host.
 //
-// Eleven chi-square decisions at a family-wise level of 0.01: each at 0.01 / 11 (Bonferroni). Each has a
-// planted error of 2 % beside it that must be seen.
+// Eleven chi-square decisions at a family-wise level of 0.01: each at 0.01 / 11 (Bonferroni). Each
+// has a planted error of 2 % beside it that must be seen.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/chi_square.h"
@@ -27,8 +27,8 @@ double turn(const Eigen::Vector3d &axis, const Eigen::Vector3d &v) {
     return std::atan2(v.dot(y), v.dot(x)) / (2 * pi) + 0.5;
 }
 
-/// Cells of samples, each with its probability in closed form: p-values without and with 2 % added to the
-/// half of them whose numbers are even.
+/// Cells of samples, each with its probability in closed form: p-values without and with 2 % added
+/// to the half of them whose numbers are even.
 struct Cells {
     std::vector<uint64_t> observed;
     std::vector<double> probability;
@@ -36,7 +36,8 @@ struct Cells {
 
     explicit Cells(std::vector<double> expected)
         : observed(expected.size()), probability(std::move(expected)) {}
-    explicit Cells(size_t equal) : Cells(std::vector<double>(equal, 1.0 / static_cast<double>(equal))) {}
+    explicit Cells(size_t equal)
+        : Cells(std::vector<double>(equal, 1.0 / static_cast<double>(equal))) {}
 
     void add(size_t cell) {
         ++observed.at(cell);
@@ -45,7 +46,8 @@ struct Cells {
     void expect_fit(const std::string &what) const {
         EXPECT_GT(p(0.0), level) << what;
         EXPECT_LT(p(0.02), level) << what;
-        EXPECT_NEAR(std::accumulate(probability.begin(), probability.end(), 0.0), 1.0, 1e-6) << what;
+        EXPECT_NEAR(std::accumulate(probability.begin(), probability.end(), 0.0), 1.0, 1e-6)
+            << what;
     }
     double p(double planted) const {
         std::vector<double> expected;
@@ -56,8 +58,8 @@ struct Cells {
     }
 };
 
-/// Eight cells of equal probability for a direction of density cos / pi about a normal: cos^2 and azimuth are
-/// uniform.
+/// Eight cells of equal probability for a direction of density cos / pi about a normal: cos^2 and
+/// azimuth are uniform.
 size_t cosine_cell(const EmissionSample &sample) {
     const Eigen::Vector3d n = to_double(sample.point.normal), d = to_double(sample.direction);
     return part(n.dot(d) * n.dot(d), 4) * 2 + part(turn(n, d), 2);
@@ -81,7 +83,8 @@ TEST(Emission, StartsAtLightsByTheirSelection) {
         std::vector<double> expected;
         for (const LightRecord &light : scene.lights) {
             expected.push_back(static_cast<double>(light.emission_selection));
-            EXPECT_EQ(light.selection, selection == LightSelection::mixed ? light.emission_selection : 1.0f);
+            EXPECT_EQ(light.selection,
+                      selection == LightSelection::mixed ? light.emission_selection : 1.0f);
         }
         Cells cells(expected);
         for (uint32_t i = 0; i < sample_count; ++i) {
@@ -91,7 +94,8 @@ TEST(Emission, StartsAtLightsByTheirSelection) {
     }
 }
 
-// Twelve places of the two triangles, in proportion to their areas, and eight directions, all independent.
+// Twelve places of the two triangles, in proportion to their areas, and eight directions, all
+// independent.
 TEST(Emission, LeavesMeshesUniformlyByAreaAndByTheCosine) {
     const CompiledScene scene = compile_light_scene();
     const uint32_t light = light_of(scene, LIGHT_MESH);
@@ -106,7 +110,9 @@ TEST(Emission, LeavesMeshesUniformlyByAreaAndByTheCosine) {
         const EmitterTriangle &first = scene.emitter_triangles[scene.lights[light].first_triangle];
         const SurfaceTriangle &t0 = scene.surface_triangles[first.triangle];
         const size_t triangle =
-            dot(sample.point.normal, make_float3(t0.normal[0], t0.normal[1], t0.normal[2])) > 0.99f ? 0 : 1;
+            dot(sample.point.normal, make_float3(t0.normal[0], t0.normal[1], t0.normal[2])) > 0.99f
+                ? 0
+                : 1;
         const SurfaceTriangle &t = scene.surface_triangles[first.triangle + triangle];
         // Barycentrics, and the part of the medial subdivision.
         Eigen::Matrix3d corners;
@@ -131,8 +137,10 @@ TEST(Emission, LeavesDiscsUniformlyByAreaAndByTheCosine) {
         const Eigen::Vector3d p =
             to_double(vector_to_object(&shape, sample.point.position - shape_centre(&shape)));
         ASSERT_NEAR(p.z(), 0, 1e-5);
-        cells.add((part(p.head<2>().squaredNorm(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) * 8 +
-                  cosine_cell(sample));
+        cells.add(
+            (part(p.head<2>().squaredNorm(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) *
+                8 +
+            cosine_cell(sample));
     }
     cells.expect_fit("disc");
 }
@@ -146,13 +154,15 @@ TEST(Emission, LeavesSpheresUniformlyByAreaAndByTheCosine) {
         Cells cells(8 * 8);
         for (uint32_t i = 0; i < sample_count; ++i) {
             const EmissionSample sample = emit_from(scene, light, i);
-            const Eigen::Vector3d p = to_double(sample.point.position - shape_centre(&shape)).normalized();
+            const Eigen::Vector3d p =
+                to_double(sample.point.position - shape_centre(&shape)).normalized();
             ASSERT_GT(p.dot(to_double(sample.point.normal)), 1 - 1e-5);
-            cells.add((part(0.5 + 0.5 * p.z(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) * 8 +
-                      cosine_cell(sample));
+            cells.add(
+                (part(0.5 + 0.5 * p.z(), 4) * 2 + part(turn(Eigen::Vector3d::UnitZ(), p), 2)) * 8 +
+                cosine_cell(sample));
             if (by_area) {
-                ASSERT_EQ(sample.pdf_origin,
-                          scene.lights[light].emission_selection * (1.0f / scene.lights[light].area));
+                ASSERT_EQ(sample.pdf_origin, scene.lights[light].emission_selection *
+                                                 (1.0f / scene.lights[light].area));
             }
         }
         cells.expect_fit("sphere");
@@ -173,7 +183,8 @@ TEST(Emission, LeavesPointsUniformly) {
     cells.expect_fit("point");
 }
 
-// Rings of equal width in the versine; the density is integrated over each by many midpoints of `spot_pdf_w`.
+// Rings of equal width in the versine; the density is integrated over each by many midpoints of
+// `spot_pdf_w`.
 TEST(Emission, LeavesSpotsByTheirDensity) {
     const CompiledScene scene = compile_light_scene();
     const uint32_t light = light_of(scene, LIGHT_SPOT);
@@ -188,8 +199,8 @@ TEST(Emission, LeavesSpotsByTheirDensity) {
             const double versine = outer * (ring + (i + 0.5) / steps) / rings;
             const Eigen::Vector3d d =
                 (1 - versine) * axis + std::sqrt(versine * (2 - versine)) * axis.unitOrthogonal();
-            mass += static_cast<double>(spot_pdf_w(record, spot_direction(record, to_float3(d)))) * 2 * pi *
-                    outer / rings / steps;
+            mass += static_cast<double>(spot_pdf_w(record, spot_direction(record, to_float3(d)))) *
+                    2 * pi * outer / rings / steps;
         }
         expected.insert(expected.end(), sectors, mass / sectors);
     }
@@ -202,7 +213,8 @@ TEST(Emission, LeavesSpotsByTheirDensity) {
         const Eigen::Vector3d d = to_double(sample.direction);
         const double versine = 1 - d.dot(axis);
         ASSERT_LT(versine, outer * (1 + 1e-5));
-        const auto found = static_cast<double>(spot_pdf_w(record, spot_direction(record, sample.direction)));
+        const auto found =
+            static_cast<double>(spot_pdf_w(record, spot_direction(record, sample.direction)));
         ASSERT_NEAR(static_cast<double>(sample.pdf_direction), found, 1e-5 * found + 2e-6);
         cells.add(part(versine / outer, rings) * sectors + part(turn(axis, d), sectors));
         least = std::min(least, green(sample.weight));
@@ -231,23 +243,26 @@ TEST(Emission, OfDomesIsUniformInDirectionAndOverTheDisc) {
     for (uint32_t i = 0; i < sample_count; ++i) {
         const EmissionSample sample = emit_from(scene, light, i);
         const Eigen::Vector3d d = to_double(sample.direction);
-        cells.add((part(0.5 + 0.5 * d.y(), 8) * 8 + part(turn(Eigen::Vector3d::UnitY(), d), 8)) * 8 +
+        cells.add((part(0.5 + 0.5 * d.y(), 8) * 8 + part(turn(Eigen::Vector3d::UnitY(), d), 8)) *
+                      8 +
                   disc_cell(scene, sample));
     }
     cells.expect_fit("dome");
 }
 
-// Over the cells of the image, whose probabilities are those that camera paths are told; environment_pdf_w
-// itself is tested against the sampler's directions in light_sampling_test.cpp.
+// Over the cells of the image, whose probabilities are those that camera paths are told;
+// environment_pdf_w itself is tested against the sampler's directions in light_sampling_test.cpp.
 TEST(Emission, OfEnvironmentsFollowsTheImageAndIsUniformOverTheDisc) {
     const CompiledScene scene = compile_light_scene(LightArrays::Kind::environment);
     const uint32_t light = light_of(scene, LIGHT_ENVIRONMENT);
-    const uint32_t width = scene.lighting.environment_width, rows = scene.lighting.environment_height + 1;
+    const uint32_t width = scene.lighting.environment_width,
+                   rows = scene.lighting.environment_height + 1;
     std::vector<double> expected;
     for (uint32_t row = 0; row < rows; ++row) {
         for (uint32_t column = 0; column < width; ++column) {
             const double probability =
-                static_cast<double>(cell_pdf_w(scene.environment_ends.data(), scene.lighting, column, row)) *
+                static_cast<double>(
+                    cell_pdf_w(scene.environment_ends.data(), scene.lighting, column, row)) *
                 static_cast<double>(cell_solid_angle(scene.lighting, row));
             expected.insert(expected.end(), 8, probability / 8);
         }
@@ -255,15 +270,15 @@ TEST(Emission, OfEnvironmentsFollowsTheImageAndIsUniformOverTheDisc) {
     Cells cells(expected);
     for (uint32_t i = 0; i < sample_count; ++i) {
         const EmissionSample sample = emit_from(scene, light, i);
-        const EnvironmentPosition at =
-            environment_position(scene.lighting, to_light_space(scene.lights[light], -sample.direction));
+        const EnvironmentPosition at = environment_position(
+            scene.lighting, to_light_space(scene.lights[light], -sample.direction));
         cells.add((at.row * width + at.column) * 8 + disc_cell(scene, sample));
     }
     cells.expect_fit("environment");
 }
 
-/// Power of every light in W, green, in closed form; of the environment by uniform directions, to within the
-/// standard error.
+/// Power of every light in W, green, in closed form; of the environment by uniform directions, to
+/// within the standard error.
 struct Power {
     double watts;
     double standard_error = 0;
@@ -298,16 +313,17 @@ Power power_of(const CompiledScene &scene, uint32_t index) {
     for (uint32_t i = 0; i < n; ++i) {
         const uint4 w = words(i, 3);
         const float3 d = sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y));
-        const double value = 4 * pi * disc * radiance *
-                             green(environment_radiance(scene.environment_texels.data(), scene.lighting, d));
+        const double value =
+            4 * pi * disc * radiance *
+            green(environment_radiance(scene.environment_texels.data(), scene.lighting, d));
         sum += value;
         squares += value * value;
     }
     return {sum / n, std::sqrt((squares / n - sum / n * sum / n) / n)};
 }
 
-// The mean weight is the power of all lights: 3.5 standard errors at a family-wise level of 0.01 over sixteen
-// decisions.
+// The mean weight is the power of all lights: 3.5 standard errors at a family-wise level of 0.01
+// over sixteen decisions.
 TEST(Emission, CarriesThePowerOfTheLights) {
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
         const CompiledScene scene = compile_light_scene(infinite);
@@ -319,13 +335,15 @@ TEST(Emission, CarriesThePowerOfTheLights) {
             double sum = 0, squares = 0;
             for (uint32_t i = 0; i < sample_count; ++i) {
                 const EmissionSample sample = emit_from(scene, light, i);
-                const double value =
-                    green(sample.weight) * static_cast<double>(scene.lights[light].emission_selection);
+                const double value = green(sample.weight) *
+                                     static_cast<double>(scene.lights[light].emission_selection);
                 sum += value;
                 squares += value * value;
                 const uint kind = scene.lights[light].kind;
                 ASSERT_EQ(sample.is_delta,
-                          kind == LIGHT_POINT || kind == LIGHT_SPOT || kind == LIGHT_DIRECTIONAL ? 1u : 0u);
+                          kind == LIGHT_POINT || kind == LIGHT_SPOT || kind == LIGHT_DIRECTIONAL
+                              ? 1u
+                              : 0u);
                 ASSERT_EQ(sample.at_infinity, kind >= LIGHT_DIRECTIONAL ? 1u : 0u);
                 ASSERT_NEAR(length(sample.direction), 1.0f, 2e-6f);
                 if (kind != LIGHT_SPOT && kind != LIGHT_ENVIRONMENT) {
@@ -337,7 +355,8 @@ TEST(Emission, CarriesThePowerOfTheLights) {
                 std::sqrt(std::max(squares / sample_count - mean * mean, 0.0) / sample_count);
             EXPECT_NEAR(mean, power.watts,
                         3.5 * std::hypot(error, power.standard_error) + 1e-5 * power.watts);
-            EXPECT_LT(std::hypot(error, power.standard_error), 0.02 / 8 * power.watts) << "power of the test";
+            EXPECT_LT(std::hypot(error, power.standard_error), 0.02 / 8 * power.watts)
+                << "power of the test";
         }
         double sum = 0, squares = 0;
         for (uint32_t i = 0; i < sample_count; ++i) {
@@ -359,25 +378,27 @@ struct Patch {
     double area = x.cross(y).norm();
 
     bool hit_by(const EmissionSample &sample) const {
-        const Eigen::Vector3d d = to_double(sample.direction), from = to_double(sample.origin) - corner;
+        const Eigen::Vector3d d = to_double(sample.direction),
+                              from = to_double(sample.origin) - corner;
         const double t = -from.dot(normal) / d.dot(normal);
         if (!(t > 0 && d.dot(normal) < 0)) {
             return false;
         }
         Eigen::Matrix<double, 3, 2> axes;
         axes << x, y;
-        const Eigen::Vector2d at = (axes.transpose() * axes).inverse() * (axes.transpose() * (from + t * d));
+        const Eigen::Vector2d at =
+            (axes.transpose() * axes).inverse() * (axes.transpose() * (from + t * d));
         return at.minCoeff() >= 0 && at.maxCoeff() < 1;
     }
 };
 
-// What arrives on a patch: by light samples from its points, and by the light paths that hit it. Fourteen
-// decisions at a family-wise level of 0.01: 3.5 standard errors.
+// What arrives on a patch: by light samples from its points, and by the light paths that hit it.
+// Fourteen decisions at a family-wise level of 0.01: 3.5 standard errors.
 TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
     const Patch patch;
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
-        const auto selection =
-            infinite == LightArrays::Kind::dome ? LightSelection::mixed : LightSelection::independent;
+        const auto selection = infinite == LightArrays::Kind::dome ? LightSelection::mixed
+                                                                   : LightSelection::independent;
         const CompiledScene scene = compile_light_scene(infinite, selection);
         for (uint32_t light = 0; light < scene.lights.size(); ++light) {
             const LightRecord &record = scene.lights[light];
@@ -398,23 +419,26 @@ TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
             for (uint32_t i = 0; i < 3'000'000; ++i) {
                 const EmissionSample sample = emit_from(scene, light, i);
                 emitted.add(patch.hit_by(sample)
-                                ? green(sample.weight) * static_cast<double>(record.emission_selection)
+                                ? green(sample.weight) *
+                                      static_cast<double>(record.emission_selection)
                                 : 0.0);
             }
             const double error = std::hypot(sampled.error(), emitted.error());
-            EXPECT_NEAR(sampled.mean(), emitted.mean(), 3.5 * error) << "light of kind " << record.kind;
+            EXPECT_NEAR(sampled.mean(), emitted.mean(), 3.5 * error)
+                << "light of kind " << record.kind;
             EXPECT_LT(error, 0.02 / 5 * sampled.mean())
                 << "power of the test for a light of kind " << record.kind;
         }
     }
 }
 
-// (a) What a camera path is told where it hits a light is what the light path along the same line had.
+// (a) What a camera path is told where it hits a light is what the light path along the same line
+// had.
 TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
-        const CompiledScene scene =
-            compile_light_scene(infinite, infinite == LightArrays::Kind::dome ? LightSelection::independent
-                                                                              : LightSelection::mixed);
+        const CompiledScene scene = compile_light_scene(
+            infinite, infinite == LightArrays::Kind::dome ? LightSelection::independent
+                                                          : LightSelection::mixed);
         int other_cell = 0;
         for (uint32_t i = 0; i < 200'000; ++i) {
             const EmissionSample sample = emit(scene, i);
@@ -435,20 +459,22 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
                     emitter = light.first_triangle;
                     const SurfaceTriangle &t =
                         scene.surface_triangles[scene.emitter_triangles[emitter].triangle];
-                    emitter +=
-                        dot(sample.point.normal, make_float3(t.normal[0], t.normal[1], t.normal[2])) > 0.99f
-                            ? 0u
-                            : 1u;
+                    emitter += dot(sample.point.normal,
+                                   make_float3(t.normal[0], t.normal[1], t.normal[2])) > 0.99f
+                                   ? 0u
+                                   : 1u;
                     primitive = scene.emitter_triangles[emitter].triangle;
                 }
                 told = static_cast<double>(emission_line_pdf(LIGHTS, light, primitive, emitter));
-                expected = emitted / static_cast<double>(dot(sample.point.normal, sample.direction));
+                expected =
+                    emitted / static_cast<double>(dot(sample.point.normal, sample.direction));
                 ASSERT_NEAR(static_cast<double>(emission_pdf_a(LIGHTS, light, primitive, emitter)),
                             static_cast<double>(sample.pdf_origin),
                             1e-6 * static_cast<double>(sample.pdf_origin));
                 // At grazing angles the cosine is what rounding of the direction leaves of it.
                 ASSERT_NEAR(told, expected,
-                            (1e-5 + 1e-6 / static_cast<double>(dot(sample.point.normal, sample.direction))) *
+                            (1e-5 + 1e-6 / static_cast<double>(
+                                               dot(sample.point.normal, sample.direction))) *
                                 expected);
                 continue;
             } else {
@@ -460,8 +486,8 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
     }
 }
 
-// (b) What a light sample is told of light paths: with the density of the sample itself and the geometry
-// between, it makes their density.
+// (b) What a light sample is told of light paths: with the density of the sample itself and the
+// geometry between, it makes their density.
 TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
     test::Random random(5);
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
@@ -472,9 +498,11 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
             for (uint32_t i = 0; i < 100'000; ++i) {
                 const uint32_t index = i % static_cast<uint32_t>(scene.lights.size());
                 const LightRecord &light = scene.lights[index];
-                const float3 from = to_float3(Eigen::Vector3f(scene.lighting.scene_centre).cast<double>() +
-                                              1.5 * test::uniform(random) * test::uniform_direction(random));
-                const LightSample sample = sample_lights(SURFACES, LIGHTS, index, from, words(i, 6));
+                const float3 from =
+                    to_float3(Eigen::Vector3f(scene.lighting.scene_centre).cast<double>() +
+                              1.5 * test::uniform(random) * test::uniform_direction(random));
+                const LightSample sample =
+                    sample_lights(SURFACES, LIGHTS, index, from, words(i, 6));
                 if (!(sample.pdf_w > 0.0f)) {
                     continue;
                 }
@@ -490,7 +518,8 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                     on.normal = normal_at(scene, light, sample.target);
                     const double cosine = -to_double(on.normal).dot(way.normalized());
                     if (cosine < 0.05 || way.norm() < 0.1) {
-                        continue;  // the target lies a little off the surface: too coarse to judge by
+                        continue;  // the target lies a little off the surface: too coarse to judge
+                                   // by
                     }
                     const double area = light.kind == LIGHT_MESH ? mesh_areas()[0] + mesh_areas()[1]
                                                                  : static_cast<double>(light.area);
@@ -500,17 +529,19 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                 } else if (light.kind == LIGHT_POINT) {
                     ASSERT_NEAR(direction_pdf * 4 * pi, 1, 1e-6);
                 } else if (light.kind == LIGHT_SPOT) {
-                    ASSERT_NEAR(direction_pdf,
-                                static_cast<double>(spot_pdf_w(light, spot_direction(light, -sample.wi))),
-                                1e-6);
+                    ASSERT_NEAR(
+                        direction_pdf,
+                        static_cast<double>(spot_pdf_w(light, spot_direction(light, -sample.wi))),
+                        1e-6);
                 } else {
                     ASSERT_NEAR(direction_pdf * disc, 1, 1e-5);
                 }
                 if (light.kind > LIGHT_SPHERE) {
                     ASSERT_NEAR(ratio * static_cast<double>(light.selection) / emission, 1, 1e-6);
                 }
-                ASSERT_NEAR(ratio * static_cast<double>(sampling_over_emission(SURFACES, light, from, on)), 1,
-                            1e-3)
+                ASSERT_NEAR(
+                    ratio * static_cast<double>(sampling_over_emission(SURFACES, light, from, on)),
+                    1, 1e-3)
                     << light.kind;
             }
         }

@@ -85,7 +85,9 @@ struct Estimate {
         ++count;
     }
     double mean() const { return sum / count; }
-    double error() const { return std::sqrt(std::max(squares / count - mean() * mean(), 0.0) / count); }
+    double error() const {
+        return std::sqrt(std::max(squares / count - mean() * mean(), 0.0) / count);
+    }
 };
 
 }  // namespace rtrays

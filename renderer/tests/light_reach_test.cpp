@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start, at the edges: on curved surfaces, in narrow cones, and around a scene lit from
-// infinity that has planes.
+// Where light paths start, at the edges: on curved surfaces, in narrow cones, and around a scene
+// lit from infinity that has planes.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/light_paths.h"
@@ -9,7 +9,8 @@
 namespace rtrays {
 namespace {
 
-// Triangle, disc and sphere are convex: what a ray hit of its own surface it would hit where it starts.
+// Triangle, disc and sphere are convex: what a ray hit of its own surface it would hit where it
+// starts.
 TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
     const CompiledScene scene = compile_light_scene();
     for (const uint32_t kind : {LIGHT_MESH, LIGHT_DISC, LIGHT_SPHERE}) {
@@ -20,7 +21,7 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
             ASSERT_GT(dot(sample.direction, sample.point.normal), 0.0f);
             if (kind != LIGHT_MESH) {
                 ASSERT_FALSE(test::any_shape(&scene.shapes[record.first_triangle], 1, sample.origin,
-                                       sample.direction, INFINITY))
+                                             sample.direction, INFINITY))
                     << i;
                 continue;
             }
@@ -29,8 +30,10 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
             ASSERT_TRUE(make_traversal_ray(sample.origin, sample.direction, -corner, corner, &ray));
             for (uint32_t k = 0; k < record.triangle_count; ++k) {
                 const SurfaceTriangle &t =
-                    scene.surface_triangles[scene.emitter_triangles[record.first_triangle + k].triangle];
-                if (dot(sample.point.normal, make_float3(t.normal[0], t.normal[1], t.normal[2])) < 0.99f) {
+                    scene.surface_triangles[scene.emitter_triangles[record.first_triangle + k]
+                                                .triangle];
+                if (dot(sample.point.normal, make_float3(t.normal[0], t.normal[1], t.normal[2])) <
+                    0.99f) {
                     continue;  // the other one
                 }
                 LeafTriangle leaf{};
@@ -46,11 +49,13 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
     }
 }
 
-// Between narrow cones, too, the share of the intensity is the linear fall with the angle, and the weights of
-// light paths stay within a factor of 2; versines keep the angle's digits where cosines are 1.
+// Between narrow cones, too, the share of the intensity is the linear fall with the angle, and the
+// weights of light paths stay within a factor of 2; versines keep the angle's digits where cosines
+// are 1.
 TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
-    for (const auto &[inner, outer] : {std::pair(0.0, 1e-4), std::pair(1e-3, 1.01e-3), std::pair(0.0, pi / 2),
-                                       std::pair(1.5, pi / 2), std::pair(0.3, 0.3001)}) {
+    for (const auto &[inner, outer] :
+         {std::pair(0.0, 1e-4), std::pair(1e-3, 1.01e-3), std::pair(0.0, pi / 2),
+          std::pair(1.5, pi / 2), std::pair(0.3, 0.3001)}) {
         LightRecord light{};
         light.kind = LIGHT_SPOT;
         light.radiance[1] = 1;
@@ -67,34 +72,39 @@ TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
         Estimate power;
         double least = 1e30, largest = 0;
         for (uint32_t i = 0; i < 100'000; ++i) {
-            const EmissionSample sample = sample_emission(nullptr, nullptr, &light, nullptr, nullptr, nullptr,
-                                                          lighting, words(i, 7), words(i, 8));
-            const double angle = std::atan2(
-                std::hypot(static_cast<double>(sample.direction.x), static_cast<double>(sample.direction.y)),
-                -static_cast<double>(sample.direction.z));
+            const EmissionSample sample =
+                sample_emission(nullptr, nullptr, &light, nullptr, nullptr, nullptr, lighting,
+                                words(i, 7), words(i, 8));
+            const double angle = std::atan2(std::hypot(static_cast<double>(sample.direction.x),
+                                                       static_cast<double>(sample.direction.y)),
+                                            -static_cast<double>(sample.direction.z));
             const double share = std::clamp((outer - angle) / (outer - inner), 0.0, 1.0);
             const double weight = green(sample.weight);
-            // Float directions hold the angle to within some u of 1 rad, or of itself where it is small.
+            // Float directions hold the angle to within some u of 1 rad, or of itself where it is
+            // small.
             ASSERT_NEAR(weight * static_cast<double>(sample.pdf_direction), share,
                         1e-6 * outer / (outer - inner) + 1e-5);
             power.add(weight);
             least = std::min(least, weight);
             largest = std::max(largest, weight);
         }
-        const double expected = 2 * pi * (1 - (std::sin(outer) - std::sin(inner)) / (outer - inner));
+        const double expected =
+            2 * pi * (1 - (std::sin(outer) - std::sin(inner)) / (outer - inner));
         // The closed form cancels in narrow cones.
-        EXPECT_NEAR(power.mean() / expected, 1,
-                    3.3 * power.error() / expected + 1e-5 + 1e-15 / (outer * outer) / (outer - inner));
+        EXPECT_NEAR(
+            power.mean() / expected, 1,
+            3.3 * power.error() / expected + 1e-5 + 1e-15 / (outer * outer) / (outer - inner));
         EXPECT_LT(largest / least, 2.01);
     }
 }
 
 CompiledScene compile_text(const std::string &nodes) {
-    const Scene scene = parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 8}, "nodes": [
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 8}, "nodes": [
         {"name": "camera", "transform": [{"look_at": {"origin": [0, 40, 90], "target": [0, 1, 0], "up": [0, 1, 0]}}],
          "camera": {"type": "pinhole", "fov": 45, "fov_axis": "smaller"}},)" +
-                                             nodes + "]}",
-                                         "test", "test");
+                             nodes + "]}",
+                         "test", "test");
     CompileSettings settings;
     settings.width = settings.height = 8;
     return compile_scene(scene, settings);
@@ -108,7 +118,8 @@ const std::string ball =
     "material": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}},)";
 const std::string dome = R"({"name": "sky", "light": {"type": "dome", "radiance": [1, 1, 1]}})";
 
-// The sphere of light from infinity holds the bounded surfaces, and little else: neither camera nor planes.
+// The sphere of light from infinity holds the bounded surfaces, and little else: neither camera nor
+// planes.
 TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     EXPECT_NEAR(scene.lighting.scene_centre[1], 1, 1e-6);
@@ -154,8 +165,8 @@ TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
     EXPECT_LT(radius, 1.5 * largest);
 }
 
-// Light from below a plane never starts above it, and what is above gets all its light: the start lies on the
-// same side as infinity does, and the ray still goes through the disc.
+// Light from below a plane never starts above it, and what is above gets all its light: the start
+// lies on the same side as infinity does, and the ray still goes through the disc.
 TEST(Emission, FromInfinityStartsBeforePlanes) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     ASSERT_EQ(scene.lighting.plane_end, 1u);
@@ -182,7 +193,8 @@ TEST(Emission, FromInfinityHasNoDensityBeyondItsDisc) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     const float3 down = make_float3(0, 1, 0);
     const float inside = infinite_line_pdf(LIGHTS, make_float3(0.9f, -0.3f, 0), down);
-    EXPECT_NEAR(inside, 0.25 / pi / (pi * std::pow(static_cast<double>(scene.lighting.scene_radius), 2)),
+    EXPECT_NEAR(inside,
+                0.25 / pi / (pi * std::pow(static_cast<double>(scene.lighting.scene_radius), 2)),
                 1e-6);
     EXPECT_EQ(infinite_line_pdf(LIGHTS, make_float3(1.1f, -0.3f, 0), down), 0.0f);
     EXPECT_GT(infinite_line_pdf(LIGHTS, make_float3(0, 1e3f, 0), down), 0.0f);

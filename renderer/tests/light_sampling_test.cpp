@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Lights: every sampler against its density by chi-square, and closed forms; the shipped device code compiled for the
-// host. Sphere and disc lights: shapes_light_test.cpp.
+// Lights: every sampler against its density by chi-square, and closed forms; the shipped device
+// code compiled for the host. Sphere and disc lights: shapes_light_test.cpp.
 //
-// Six chi-square decisions at a family-wise level of 0.01: each at 0.01 / 6 (Bonferroni). The planted errors show that
-// the sample counts see 2 %.
+// Six chi-square decisions at a family-wise level of 0.01: each at 0.01 / 6 (Bonferroni). The
+// planted errors show that the sample counts see 2 %.
 #define FEATURE_triangles 1
 #define FEATURE_lights 1
 #define FEATURE_many_lights 1
@@ -35,7 +35,9 @@ constexpr double pi = 3.14159265358979323846;
 constexpr uint32_t sample_count = 400000;
 constexpr double level = 0.01 / 6;
 
-uint4 words(uint32_t i, uint32_t block) { return random_words(7, STREAM_CAMERA, i, 0, block); }
+uint4 words(uint32_t i, uint32_t block) {
+    return random_words(7, STREAM_CAMERA, i, 0, block);
+}
 
 /// p-value of directions against a density per solid angle on a grid of y and azimuth.
 template <typename Sample, typename Density>
@@ -45,23 +47,26 @@ double direction_p(const Sample &sample, const Density &pdf_w) {
     std::vector<double> expected(y_bins * phi_bins);
     for (uint32_t i = 0; i < sample_count; ++i) {
         const float3 w = sample(i);
-        const int y = std::clamp(static_cast<int>((static_cast<double>(w.y) + 1.0) / 2.0 * y_bins), 0, y_bins - 1);
-        const double phi = std::atan2(static_cast<double>(w.x), static_cast<double>(-w.z)) / (2.0 * pi);
-        const int column = std::clamp(static_cast<int>((phi < 0 ? phi + 1 : phi) * phi_bins), 0, phi_bins - 1);
+        const int y = std::clamp(static_cast<int>((static_cast<double>(w.y) + 1.0) / 2.0 * y_bins),
+                                 0, y_bins - 1);
+        const double phi =
+            std::atan2(static_cast<double>(w.x), static_cast<double>(-w.z)) / (2.0 * pi);
+        const int column =
+            std::clamp(static_cast<int>((phi < 0 ? phi + 1 : phi) * phi_bins), 0, phi_bins - 1);
         ++observed[static_cast<size_t>(y * phi_bins + column)];
     }
     for (int y = 0; y < y_bins; ++y) {
         for (int column = 0; column < phi_bins; ++column) {
             const auto density = [&](double height, double turn) {
                 const double r = std::sqrt(1.0 - height * height);
-                return static_cast<double>(pdf_w(make_float3(static_cast<float>(r * std::sin(2.0 * pi * turn)),
-                                                             static_cast<float>(height),
-                                                             static_cast<float>(-r * std::cos(2.0 * pi * turn)))));
+                return static_cast<double>(pdf_w(make_float3(
+                    static_cast<float>(r * std::sin(2.0 * pi * turn)), static_cast<float>(height),
+                    static_cast<float>(-r * std::cos(2.0 * pi * turn)))));
             };
             expected[static_cast<size_t>(y * phi_bins + column)] =
                 sample_count * 2.0 * pi *
-                integrate(density, 2.0 * y / y_bins - 1.0, 2.0 * (y + 1) / y_bins - 1.0, double(column) / phi_bins,
-                          double(column + 1) / phi_bins);
+                integrate(density, 2.0 * y / y_bins - 1.0, 2.0 * (y + 1) / y_bins - 1.0,
+                          double(column) / phi_bins, double(column + 1) / phi_bins);
         }
     }
     return chi_square_p(observed, expected);
@@ -80,7 +85,10 @@ struct Environment {
         for (int i = 0; i < image.width * image.height * 3; ++i) {
             const int texel = i / 3, row = texel / image.width;
             const float value = static_cast<float>(random() % 1000 + 1) * 1e-3f;
-            image.floats.push_back(row == 6 || row == 7 ? 0.0f : texel == 35 ? 50.0f : row > 4 ? 0.05f * value : value);
+            image.floats.push_back(row == 6 || row == 7 ? 0.0f
+                                   : texel == 35        ? 50.0f
+                                   : row > 4            ? 0.05f * value
+                                                        : value);
         }
         integral = compile_environment(image, compiled);
     }
@@ -88,7 +96,9 @@ struct Environment {
     EnvironmentSample sample(uint32_t i) const {
         return sample_environment(compiled.environment_ends.data(), compiled.lighting, words(i, 1));
     }
-    float pdf_w(float3 d) const { return environment_pdf_w(compiled.environment_ends.data(), compiled.lighting, d); }
+    float pdf_w(float3 d) const {
+        return environment_pdf_w(compiled.environment_ends.data(), compiled.lighting, d);
+    }
     float3 radiance(float3 d) const {
         return environment_radiance(compiled.environment_texels.data(), compiled.lighting, d);
     }
@@ -104,7 +114,8 @@ TEST(EnvironmentLight, SamplesItsDensity) {
 TEST(EnvironmentLight, PlantedErrorOfTwoPercentIsRejected) {
     const Environment environment;
     const auto wrong = [&](float3 d) { return environment.pdf_w(d) * (d.y > 0.0f ? 1.02f : 1.0f); };
-    EXPECT_LT(direction_p([&](uint32_t i) { return environment.sample(i).direction; }, wrong), level);
+    EXPECT_LT(direction_p([&](uint32_t i) { return environment.sample(i).direction; }, wrong),
+              level);
 }
 
 TEST(EnvironmentLight, SampleCarriesTheDensityOfItsDirectionAndNoLightIsMissed) {
@@ -115,7 +126,8 @@ TEST(EnvironmentLight, SampleCarriesTheDensityOfItsDirectionAndNoLightIsMissed) 
         ASSERT_NEAR(length(sample.direction), 1.0f, 1e-6f);
         ASSERT_GT(sample.pdf_w, 0.0f);
         // On the edge of a cell rounding may put the direction into the next.
-        other_cell += std::abs(environment.pdf_w(sample.direction) / sample.pdf_w - 1.0f) > 1e-5f ? 1 : 0;
+        other_cell +=
+            std::abs(environment.pdf_w(sample.direction) / sample.pdf_w - 1.0f) > 1e-5f ? 1 : 0;
         const uint4 w = words(i, 2);
         const float3 anywhere = sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y));
         ASSERT_TRUE(environment.pdf_w(anywhere) > 0.0f || environment.radiance(anywhere).x < 1e-6f);
@@ -128,9 +140,10 @@ TEST(EnvironmentLight, RadianceIsBilinearBetweenTexelCentres) {
     const Environment environment;
     const auto texel = [&](int x, int y, int channel) {
         const int row = std::clamp(y, 0, environment.image.height - 1);
-        const int column = (x % environment.image.width + environment.image.width) % environment.image.width;
-        return static_cast<double>(
-            environment.image.floats[static_cast<size_t>(3 * (row * environment.image.width + column) + channel)]);
+        const int column =
+            (x % environment.image.width + environment.image.width) % environment.image.width;
+        return static_cast<double>(environment.image.floats[static_cast<size_t>(
+            3 * (row * environment.image.width + column) + channel)]);
     };
     const auto bilinear = [&](double x, double y, int channel) {
         const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
@@ -145,8 +158,10 @@ TEST(EnvironmentLight, RadianceIsBilinearBetweenTexelCentres) {
         for (int j = 0; j < height * steps; ++j) {
             const double x = (i + 0.5) / steps - 0.5, y = (j + 0.5) / steps - 0.5;
             const double solid_angle =
-                2 * pi / (width * steps) * (std::cos(pi * j / (height * steps)) - std::cos(pi * (j + 1) / (height * steps)));
-            integral += solid_angle * (bilinear(x, y, 0) + bilinear(x, y, 1) + bilinear(x, y, 2)) / 3;
+                2 * pi / (width * steps) *
+                (std::cos(pi * j / (height * steps)) - std::cos(pi * (j + 1) / (height * steps)));
+            integral +=
+                solid_angle * (bilinear(x, y, 0) + bilinear(x, y, 1) + bilinear(x, y, 2)) / 3;
         }
     }
     double sum = 0, squares = 0;
@@ -154,13 +169,15 @@ TEST(EnvironmentLight, RadianceIsBilinearBetweenTexelCentres) {
     for (uint32_t i = 0; i < n; ++i) {
         const EnvironmentSample sample = environment.sample(i);
         const float3 d = sample.direction;
-        const double phi = std::atan2(static_cast<double>(d.x), static_cast<double>(-d.z)) / (2 * pi);
+        const double phi =
+            std::atan2(static_cast<double>(d.x), static_cast<double>(-d.z)) / (2 * pi);
         const double x = (phi < 0 ? phi + 1 : phi) * environment.image.width - 0.5;
         const double y = std::acos(static_cast<double>(d.y)) / pi * environment.image.height - 0.5;
         const double green = bilinear(x, y, 1);
         const float3 radiance = environment.radiance(d);
         ASSERT_NEAR(static_cast<double>(radiance.y), green, 2e-4 * (1 + green));
-        const double value = static_cast<double>(radiance.x + radiance.y + radiance.z) / (3.0 * static_cast<double>(sample.pdf_w));
+        const double value = static_cast<double>(radiance.x + radiance.y + radiance.z) /
+                             (3.0 * static_cast<double>(sample.pdf_w));
         sum += value;
         squares += value * value;
     }
@@ -177,10 +194,12 @@ TEST(EnvironmentLight, PolesAndOneTexelAreSafe) {
     image.floats = {1, 2, 3};
     CompiledScene compiled;
     EXPECT_NEAR(compile_environment(image, compiled), 4 * pi * 2, 1e-12);
-    for (const float3 d : {make_float3(0, 1, 0), make_float3(0, -1, 0), make_float3(0, 0, 1), make_float3(-1e-30f, 0, 1),
-                           make_float3(1e-20f, 1, 0)}) {
-        EXPECT_EQ(environment_radiance(compiled.environment_texels.data(), compiled.lighting, d).z, 3.0f);
-        EXPECT_NEAR(environment_pdf_w(compiled.environment_ends.data(), compiled.lighting, d), 1 / (4 * pi), 1e-6);
+    for (const float3 d : {make_float3(0, 1, 0), make_float3(0, -1, 0), make_float3(0, 0, 1),
+                           make_float3(-1e-30f, 0, 1), make_float3(1e-20f, 1, 0)}) {
+        EXPECT_EQ(environment_radiance(compiled.environment_texels.data(), compiled.lighting, d).z,
+                  3.0f);
+        EXPECT_NEAR(environment_pdf_w(compiled.environment_ends.data(), compiled.lighting, d),
+                    1 / (4 * pi), 1e-6);
     }
 }
 
@@ -190,7 +209,9 @@ TEST(DomeLight, DirectionsAreUniform) {
         return sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y));
     };
     EXPECT_GT(direction_p(sample, [](float3) { return 1.0 / (4 * pi); }), level);
-    EXPECT_LT(direction_p(sample, [](float3 d) { return (1.0 + (d.y > 0.0f ? 0.02 : -0.02)) / (4 * pi); }), level);
+    EXPECT_LT(direction_p(sample,
+                          [](float3 d) { return (1.0 + (d.y > 0.0f ? 0.02 : -0.02)) / (4 * pi); }),
+              level);
 }
 
 /// Two mesh lights of two and three triangles with unequal areas.
@@ -217,10 +238,17 @@ struct MeshLights {
             for (size_t i = 0; i < areas.size(); ++i) {
                 const auto triangle = static_cast<uint32_t>(compiled.surface_triangles.size());
                 const auto x = static_cast<float>(triangle * 10);
-                compiled.surface_triangles.push_back(
-                    {{x, 0, 0}, 0, {x + static_cast<float>(i + 1), 0, 0}, triangle, {x, 2, 0}, 3, {0, 0, 1}, 0});
+                compiled.surface_triangles.push_back({{x, 0, 0},
+                                                      0,
+                                                      {x + static_cast<float>(i + 1), 0, 0},
+                                                      triangle,
+                                                      {x, 2, 0},
+                                                      3,
+                                                      {0, 0, 1},
+                                                      0});
                 compiled.emitter_triangles.push_back(
-                    {triangle, k, table.end[i], static_cast<float>(table.probability[i] / areas[i])});
+                    {triangle, k, table.end[i],
+                     static_cast<float>(table.probability[i] / areas[i])});
                 area.push_back(areas[i]);
             }
         }
@@ -229,15 +257,17 @@ struct MeshLights {
     }
 
     LightSample sample(float3 from, uint32_t i) const {
-        return sample_lights(compiled.surface_triangles.data(), compiled.lights.data(), compiled.emitter_triangles.data(),
-                             compiled.environment_texels.data(), compiled.environment_ends.data(), compiled.lighting,
-                             SELECT_LIGHT, from, words(i, 5));
+        return sample_lights(compiled.surface_triangles.data(), compiled.lights.data(),
+                             compiled.emitter_triangles.data(), compiled.environment_texels.data(),
+                             compiled.environment_ends.data(), compiled.lighting, SELECT_LIGHT,
+                             from, words(i, 5));
     }
     float pdf_a(uint32_t triangle) const {
-        return light_pdf_a(compiled.surface_triangles.data(), compiled.lights.data(), compiled.emitter_triangles.data(),
-                           compiled.environment_texels.data(), compiled.environment_ends.data(), compiled.lighting,
-                           compiled.lights[compiled.emitter_triangles[triangle].light], triangle, triangle, make_float3(0, 0, 0),
-                           SurfacePoint{});
+        return light_pdf_a(compiled.surface_triangles.data(), compiled.lights.data(),
+                           compiled.emitter_triangles.data(), compiled.environment_texels.data(),
+                           compiled.environment_ends.data(), compiled.lighting,
+                           compiled.lights[compiled.emitter_triangles[triangle].light], triangle,
+                           triangle, make_float3(0, 0, 0), SurfacePoint{});
     }
 
     /// p-value over triangles and, within each, four parts of equal area.
@@ -249,21 +279,29 @@ struct MeshLights {
             const SurfaceTriangle &t = compiled.surface_triangles[triangle];
             const float u = (at.x - t.p0[0]) / (t.p1[0] - t.p0[0]);
             const float v = at.y / 2.0f;
-            const size_t part = u > 0.5f ? 1 : v > 0.5f ? 2 : u + v < 0.5f ? 0 : 3;  // of the medial subdivision
+            const size_t part = u > 0.5f       ? 1
+                                : v > 0.5f     ? 2
+                                : u + v < 0.5f ? 0
+                                               : 3;  // of the medial subdivision
             ++observed[triangle * 4 + part];
         }
         std::vector<double> expected(observed.size());
         for (size_t i = 0; i < expected.size(); ++i) {
             const double error = i / 4 == 4 ? 1.0 + planted : 1.0;
-            expected[i] = sample_count * static_cast<double>(pdf_a(static_cast<uint32_t>(i / 4))) * area[i / 4] / 4.0 * error;
+            expected[i] = sample_count * static_cast<double>(pdf_a(static_cast<uint32_t>(i / 4))) *
+                          area[i / 4] / 4.0 * error;
         }
         return chi_square_p(observed, expected);
     }
 };
 
-TEST(MeshLight, SamplesItsDensity) { EXPECT_GT(MeshLights().p(0.0), level); }
+TEST(MeshLight, SamplesItsDensity) {
+    EXPECT_GT(MeshLights().p(0.0), level);
+}
 
-TEST(MeshLight, PlantedErrorOfTwoPercentIsRejected) { EXPECT_LT(MeshLights().p(0.02), level); }
+TEST(MeshLight, PlantedErrorOfTwoPercentIsRejected) {
+    EXPECT_LT(MeshLights().p(0.02), level);
+}
 
 // The density per solid angle is that per area times d^2 / cos, and 0 from behind.
 TEST(MeshLight, DensityIsPerSolidAngle) {
@@ -275,7 +313,8 @@ TEST(MeshLight, DensityIsPerSolidAngle) {
         const auto triangle = static_cast<uint32_t>(sample.target.x / 10.0f + 1e-4f);
         const double cosine = 5.0 / static_cast<double>(length(way));
         EXPECT_NEAR(static_cast<double>(sample.pdf_w),
-                    static_cast<double>(lights.pdf_a(triangle)) * static_cast<double>(dot(way, way)) / cosine,
+                    static_cast<double>(lights.pdf_a(triangle)) *
+                        static_cast<double>(dot(way, way)) / cosine,
                     1e-4 * static_cast<double>(sample.pdf_w));
         EXPECT_EQ(lights.sample(make_float3(3, -2, -5), i).pdf_w, 0.0f);
         EXPECT_EQ(lights.sample(make_float3(3, -2, 0), i).pdf_w, 0.0f);
@@ -286,7 +325,8 @@ LightSample sample_single(const LightRecord &light, float3 from) {
     LightingRecord lighting{};
     lighting.light_count = 1;
     lighting.far_distance = 1e6f;
-    return sample_lights(nullptr, &light, nullptr, nullptr, nullptr, lighting, 0, from, words(1, 6));
+    return sample_lights(nullptr, &light, nullptr, nullptr, nullptr, lighting, 0, from,
+                         words(1, 6));
 }
 
 LightRecord delta_light(uint32_t kind) {
@@ -320,10 +360,12 @@ TEST(SpotLight, FallsLinearlyWithTheAngleBetweenItsCones) {
     light.versine_outer = static_cast<float>(1 - std::cos(outer));
     light.versine_range = static_cast<float>(std::cos(inner) - std::cos(outer));
     light.angle_scale = static_cast<float>(1 / (outer - inner));
-    for (const auto &[angle, share] : {std::pair(0.0, 1.0), std::pair(0.29, 1.0), std::pair(0.35, 0.75), std::pair(0.45, 0.25),
-                                       std::pair(0.4999, 0.0005)}) {
-        const LightSample sample = sample_single(
-            light, make_float3(static_cast<float>(2 * std::sin(angle)), 0, static_cast<float>(-2 * std::cos(angle))));
+    for (const auto &[angle, share] :
+         {std::pair(0.0, 1.0), std::pair(0.29, 1.0), std::pair(0.35, 0.75), std::pair(0.45, 0.25),
+          std::pair(0.4999, 0.0005)}) {
+        const LightSample sample =
+            sample_single(light, make_float3(static_cast<float>(2 * std::sin(angle)), 0,
+                                             static_cast<float>(-2 * std::cos(angle))));
         EXPECT_NEAR(sample.radiance.x, share / 4, 1e-5) << angle;
     }
     EXPECT_EQ(sample_single(light, make_float3(0, 2, -1)).pdf_w, 0.0f);

@@ -87,7 +87,8 @@ inline std::shared_ptr<const TextureImage> small_sky() {
     image->height = 7;
     std::mt19937 random(3);
     for (int i = 0; i < image->width * image->height * 3; ++i) {
-        image->floats.push_back(i / 3 == 29 ? 6.0f : static_cast<float>(random() % 1000 + 100) * 1e-3f);
+        image->floats.push_back(i / 3 == 29 ? 6.0f
+                                            : static_cast<float>(random() % 1000 + 100) * 1e-3f);
     }
     return image;
 }

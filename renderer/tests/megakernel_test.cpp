@@ -24,7 +24,8 @@ struct Rendered {
     nlohmann::json report;
 };
 
-Rendered render(const Scene &scene, const std::string &pipeline, std::vector<std::string> assignments) {
+Rendered render(const Scene &scene, const std::string &pipeline,
+                std::vector<std::string> assignments) {
     RenderSettings settings;
     settings.width = 24;
     settings.height = 18;
@@ -42,23 +43,29 @@ Rendered render(const Scene &scene, const std::string &pipeline, std::vector<std
 }
 
 void expect_same_bits(const Scene &scene, const std::vector<std::string> &assignments) {
-    const Rendered streams = render(scene, "wavefront", assignments), whole = render(scene, "megakernel", assignments);
+    const Rendered streams = render(scene, "wavefront", assignments),
+                   whole = render(scene, "megakernel", assignments);
     const std::string with = testing::PrintToString(assignments);
     EXPECT_EQ(whole.film.words, streams.film.words) << with;
     EXPECT_NE(std::count(whole.film.words.begin(), whole.film.words.end(), 0),
-              static_cast<long>(whole.film.words.size())) << with;
+              static_cast<long>(whole.film.words.size()))
+        << with;
     EXPECT_EQ(whole.report["rays"], streams.report["rays"]) << with;
     EXPECT_EQ(whole.film.config, streams.film.config) << "films of both may be merged";
 }
 
-Scene scene_file(const std::string &path) { return load_scene(RTRAYS_SCENES "/" + path); }
+Scene scene_file(const std::string &path) {
+    return load_scene(RTRAYS_SCENES "/" + path);
+}
 
 TEST(Megakernel, GivesTheBitsOfTheWavefront) {
     const Scene box = scene_file("cornell_box/scene.json");
     expect_same_bits(box, {});
     expect_same_bits(box, {"integrator.strategies=implicit"});
-    expect_same_bits(box, {"integrator.strategies=explicit", "integrator.max_depth=3", "integrator.sampler=sobol"});
-    expect_same_bits(box, {"integrator.termination=adaptive", "integrator.max_depth=5", "integrator.beta=1"});
+    expect_same_bits(box, {"integrator.strategies=explicit", "integrator.max_depth=3",
+                           "integrator.sampler=sobol"});
+    expect_same_bits(
+        box, {"integrator.termination=adaptive", "integrator.max_depth=5", "integrator.beta=1"});
     expect_same_bits(box, {"integrator.convergence.error=0.3", "integrator.convergence.start=2",
                            "integrator.convergence.interval=2"});
 }
@@ -67,26 +74,33 @@ TEST(Megakernel, GivesTheBitsOfTheWavefrontUnderEveryLight) {
     const Scene lights = parse_scene_json(light_scene_text(), "light_scene", "light_scene");
     expect_same_bits(lights, {});
     expect_same_bits(scene_file("features/point_light.json"), {});  // none that can be hit
-    expect_same_bits(lights, {"integrator.light_selection=independent", "integrator.sphere_sampling=area"});
+    expect_same_bits(lights,
+                     {"integrator.light_selection=independent", "integrator.sphere_sampling=area"});
 }
 
 TEST(Megakernel, GivesTheBitsOfTheWavefrontForEveryKindOfSurface) {
-    for (const char *name : {"glass", "thin_lens", "smooth_normals", "julia", "rough_glass_ggx", "car_paint"}) {
+    for (const char *name :
+         {"glass", "thin_lens", "smooth_normals", "julia", "rough_glass_ggx", "car_paint"}) {
         expect_same_bits(scene_file(std::string("features/") + name + ".json"), {});
     }
 }
 
 TEST(Megakernel, GivesTheSameBitsWithEverythingCompiledInAndCutOtherwise) {
     const Scene glass = scene_file("features/glass.json");
-    const Rendered streams = render(glass, "wavefront", {}), all = render(glass, "megakernel", {"device.features=all"});
+    const Rendered streams = render(glass, "wavefront", {}),
+                   all = render(glass, "megakernel", {"device.features=all"});
     EXPECT_EQ(all.film.words, streams.film.words);
-    EXPECT_EQ(render(glass, "megakernel", {"device.group_size=8", "device.stream_chunk=7", "device.path_layout=arrays"}).film.words,
-              streams.film.words) << "cut otherwise";
+    EXPECT_EQ(render(glass, "megakernel",
+                     {"device.group_size=8", "device.stream_chunk=7", "device.path_layout=arrays"})
+                  .film.words,
+              streams.film.words)
+        << "cut otherwise";
 }
 
 TEST(Megakernel, HasOneStageAndNoStreams) {
     const Scene box = scene_file("cornell_box/scene.json");
-    const nlohmann::json streams = render(box, "wavefront", {}).report, whole = render(box, "megakernel", {}).report;
+    const nlohmann::json streams = render(box, "wavefront", {}).report,
+                         whole = render(box, "megakernel", {}).report;
     EXPECT_EQ(streams["pipeline"], "wavefront");
     EXPECT_EQ(whole["pipeline"], "megakernel");
     std::map<std::string, int> launches;
@@ -95,7 +109,8 @@ TEST(Megakernel, HasOneStageAndNoStreams) {
     }
     EXPECT_EQ(launches, (std::map<std::string, int>{{"trace_paths", 2}, {"carry_film", 1}}))
         << "one for each batch; the film is carried when it is read";
-    EXPECT_EQ(whole["bytes_per_path"].get<int>(), streams["bytes_per_path"].get<int>() - 12) << "no room in queues";
+    EXPECT_EQ(whole["bytes_per_path"].get<int>(), streams["bytes_per_path"].get<int>() - 12)
+        << "no room in queues";
     for (const auto &buffer : whole["buffers"]) {
         EXPECT_NE(buffer.at("name"), "path_states");
         EXPECT_NE(buffer.at("name"), "queues");
@@ -110,7 +125,8 @@ TEST(Megakernel, RefusesOtherAlgorithms) {
         if (algorithm == "path_tracing") {
             EXPECT_NO_THROW(require_consistent(settings));
         } else {
-            expect_input_error("needs device.pipeline=wavefront", [&] { require_consistent(settings); });
+            expect_input_error("needs device.pipeline=wavefront",
+                               [&] { require_consistent(settings); });
         }
     }
 }

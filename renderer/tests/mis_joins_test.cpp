@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The weights of one path by all strategies of full bidirectional path tracing, as the stages come to them
-// vertex by vertex, against those from the densities of the whole path in double: they agree and sum to 1.
+// The weights of one path by all strategies of full bidirectional path tracing, as the stages come
+// to them vertex by vertex, against those from the densities of the whole path in double: they
+// agree and sum to 1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,9 +17,9 @@ namespace {
 
 using Random = std::mt19937_64;
 
-/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1}, away from
-/// the camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times the factor between
-/// both solid angles.
+/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1},
+/// away from the camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times
+/// the factor between both solid angles.
 struct Path {
     size_t k = 0;
     std::vector<double> forward, back, geometry;  ///< `geometry[i]`: G of x_i and x_{i+1}
@@ -32,7 +33,9 @@ struct Path {
 /// Densities within `decades` of 1 or, one in three, three times as far.
 Path random_path(Random &random, double decades) {
     std::uniform_real_distribution<double> uniform(0, 1);
-    const auto spread = [&](double width) { return std::pow(10.0, width * (2 * uniform(random) - 1)); };
+    const auto spread = [&](double width) {
+        return std::pow(10.0, width * (2 * uniform(random) - 1));
+    };
     const auto density = [&] { return spread(random() % 3 == 0 ? 3 * decades : decades); };
     Path path;
     path.k = 2 + static_cast<size_t>(random() % 9);
@@ -57,9 +60,9 @@ Path random_path(Random &random, double decades) {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Weight m belongs to the strategy whose camera path ends at x_m: 0 light, 1 to k - 2 joins, k - 1 explicit,
-/// k implicit. NaN where it cannot make the path. From the densities of the whole path, in logarithms of
-/// doubles.
+/// Weight m belongs to the strategy whose camera path ends at x_m: 0 light, 1 to k - 2 joins, k - 1
+/// explicit, k implicit. NaN where it cannot make the path. From the densities of the whole path,
+/// in logarithms of doubles.
 std::vector<double> expected(const Path &p, double beta) {
     std::vector<double> logs(p.k + 1, -std::numeric_limits<double>::infinity());
     for (size_t m = 0; m <= p.k; ++m) {
@@ -77,7 +80,8 @@ std::vector<double> expected(const Path &p, double beta) {
         if (m == p.k - 1) {
             log_density += std::log2(p.explicit_origin);
         } else if (m < p.k - 1) {
-            log_density += std::log2(p.origin) + std::log2(p.direction) + std::log2(p.geometry[p.k - 1]);
+            log_density +=
+                std::log2(p.origin) + std::log2(p.direction) + std::log2(p.geometry[p.k - 1]);
             for (size_t i = p.k - 1; i >= m + 2; --i) {
                 log_density += std::log2(p.back[i]) + std::log2(p.geometry[i - 1]);
             }
@@ -105,8 +109,8 @@ struct Arrival {
     float strategies = 0, arrival = 0;
 };
 
-/// log2 of A at the end of a ray that leaves a vertex with this density, G included: distance and cosine
-/// are 1.
+/// log2 of A at the end of a ray that leaves a vertex with this density, G included: distance and
+/// cosine are 1.
 float arrive(bool delta, double density) {
     return log_inverse_pdf_a(delta ? INFINITY : static_cast<float>(density), 1.0f, 1.0f);
 }
@@ -121,8 +125,9 @@ std::vector<double> shipped(const Path &p, float beta) {
                                              log2_of(p.back[i] / p.forward[i]), beta),
                          arrive(p.delta[i], p.forward[i] * p.geometry[i])};
     }
-    light[p.k - 1] = {p.hittable ? -log2_of(p.origin * p.direction) : -INFINITY,
-                      log2_of(p.explicit_origin / p.origin) - log2_of(p.direction * p.geometry[p.k - 1])};
+    light[p.k - 1] = {
+        p.hittable ? -log2_of(p.origin * p.direction) : -INFINITY,
+        log2_of(p.explicit_origin / p.origin) - log2_of(p.direction * p.geometry[p.k - 1])};
     for (size_t i = p.k - 1; i >= 2; --i) {
         light[i - 1] = {continue_strategies(light[i].strategies, light[i].arrival, p.delta[i],
                                             p.delta[i] ? 0.0f : log2_of(p.back[i]),
@@ -134,14 +139,15 @@ std::vector<double> shipped(const Path &p, float beta) {
     };
     std::vector<double> weights(p.k + 1, none);
     if (!p.delta[1]) {
-        weights[0] = static_cast<double>(
-            join_weight(-INFINITY, log2_of(p.first / p.light_paths) + before(light[1], p.forward[1]), beta));
+        weights[0] = static_cast<double>(join_weight(
+            -INFINITY, log2_of(p.first / p.light_paths) + before(light[1], p.forward[1]), beta));
     }
     for (size_t m = 1; m + 2 <= p.k; ++m) {
         if (!p.delta[m] && !p.delta[m + 1]) {
             weights[m] = static_cast<double>(join_weight(
                 log2_of(p.back[m + 1] * p.geometry[m]) + before(camera[m], p.back[m]),
-                log2_of(p.forward[m] * p.geometry[m]) + before(light[m + 1], p.forward[m + 1]), beta));
+                log2_of(p.forward[m] * p.geometry[m]) + before(light[m + 1], p.forward[m + 1]),
+                beta));
         }
     }
     const size_t last = p.k - 1;
@@ -149,9 +155,9 @@ std::vector<double> shipped(const Path &p, float beta) {
     if (!p.delta[last]) {
         const float arriving =
             log2_of(p.direction * p.geometry[last]) + log2_of(p.origin / p.explicit_origin);
-        weights[last] =
-            static_cast<double>(camera_path_weight(p.hittable ? static_cast<float>(by_implicit) : 0.0f,
-                                                   arriving + before(camera[last], p.back[last]), beta));
+        weights[last] = static_cast<double>(
+            camera_path_weight(p.hittable ? static_cast<float>(by_implicit) : 0.0f,
+                               arriving + before(camera[last], p.back[last]), beta));
     }
     if (p.hittable) {
         weights[p.k] = static_cast<double>(
@@ -176,7 +182,8 @@ TEST(JoinWeights, OfAPathAgreeAndSumToOne) {
                     ASSERT_EQ(std::isnan(a[m]), std::isnan(b[m])) << m;
                     if (!std::isnan(a[m])) {
                         // Logarithms of up to 2^8, rounded some dozen times.
-                        ASSERT_NEAR(a[m], b[m], 3e-4) << "k " << path.k << ", m " << m << ", beta " << beta;
+                        ASSERT_NEAR(a[m], b[m], 3e-4)
+                            << "k " << path.k << ", m " << m << ", beta " << beta;
                         sum += a[m];
                         shares += b[m] > 0.02 ? 1 : 0;
                         ++techniques;

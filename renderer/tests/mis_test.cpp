@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The three weights of one path, as the passes of truncated bidirectional path tracing come to them vertex by vertex,
-// against those from the densities of the whole path in double: they agree and sum to 1.
+// The three weights of one path, as the passes of truncated bidirectional path tracing come to them
+// vertex by vertex, against those from the densities of the whole path in double: they agree and
+// sum to 1.
 #include "renderer/kernels/light/mis.h"
 
 #include <gtest/gtest.h>
@@ -18,24 +19,27 @@ namespace {
 
 using Random = std::mt19937_64;
 
-/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1}, away from the
-/// camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times the factor between both solid angles.
+/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1},
+/// away from the camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times
+/// the factor between both solid angles.
 struct Path {
     size_t k = 0;
     std::vector<double> forward, back;
     std::vector<bool> delta;
-    double first = 0;             ///< P_1
-    double light_paths = 0;       ///< n_L
-    double origin = 0;            ///< p_o of emission
-    double explicit_origin = 0;   ///< of light sampling
-    double direction = 0;         ///< p_d
-    double geometry = 0;          ///< G of the last edge
-    bool hittable = true;         ///< the light
+    double first = 0;            ///< P_1
+    double light_paths = 0;      ///< n_L
+    double origin = 0;           ///< p_o of emission
+    double explicit_origin = 0;  ///< of light sampling
+    double direction = 0;        ///< p_d
+    double geometry = 0;         ///< G of the last edge
+    bool hittable = true;        ///< the light
 };
 
 Path random_path(Random &random) {
     std::uniform_real_distribution<double> uniform(0, 1);
-    const auto spread = [&](double decades) { return std::pow(10.0, decades * (2 * uniform(random) - 1)); };
+    const auto spread = [&](double decades) {
+        return std::pow(10.0, decades * (2 * uniform(random) - 1));
+    };
     Path path;
     path.k = 2 + static_cast<size_t>(random() % 12);
     path.forward.resize(path.k);
@@ -44,7 +48,8 @@ Path random_path(Random &random) {
     for (size_t i = 1; i < path.k; ++i) {
         path.delta[i] = random() % 4 == 0;
         path.forward[i] = path.delta[i] ? uniform(random) : spread(random() % 3 == 0 ? 6 : 1);
-        path.back[i] = path.delta[i] ? path.forward[i] * spread(0.4) : spread(random() % 3 == 0 ? 6 : 1);
+        path.back[i] =
+            path.delta[i] ? path.forward[i] * spread(0.4) : spread(random() % 3 == 0 ? 6 : 1);
     }
     path.first = spread(4);
     path.light_paths = std::floor(std::pow(10.0, 9 * uniform(random)));
@@ -57,7 +62,8 @@ Path random_path(Random &random) {
 }
 
 struct Weights {
-    double implicit = 0, explicit_ = 0, light = 0;  ///< NaN where the technique cannot make the path
+    double implicit = 0, explicit_ = 0,
+           light = 0;  ///< NaN where the technique cannot make the path
 };
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -71,24 +77,29 @@ Weights expected(const Path &p, double beta) {
     }
     const double log_implicit = camera + std::log2(p.forward[p.k - 1]) + std::log2(p.geometry);
     const double log_explicit = camera + std::log2(p.explicit_origin);
-    double log_light = std::log2(p.light_paths) + std::log2(p.origin) + std::log2(p.direction) + std::log2(p.geometry);
+    double log_light = std::log2(p.light_paths) + std::log2(p.origin) + std::log2(p.direction) +
+                       std::log2(p.geometry);
     for (size_t i = p.k - 1; i >= 2; --i) {
         log_light += std::log2(p.back[i]);
     }
     const double minus = -std::numeric_limits<double>::infinity();
-    const double i = has_implicit ? beta * log_implicit : minus, e = has_explicit ? beta * log_explicit : minus,
+    const double i = has_implicit ? beta * log_implicit : minus,
+                 e = has_explicit ? beta * log_explicit : minus,
                  l = has_light ? beta * log_light : minus;
     const double largest = std::max({i, e, l});
     const test::InvalidAllowed no_technique_at_all;  // inf - inf
     const double sum = std::exp2(i - largest) + std::exp2(e - largest) + std::exp2(l - largest);
-    return {has_implicit ? std::exp2(i - largest) / sum : none, has_explicit ? std::exp2(e - largest) / sum : none,
+    return {has_implicit ? std::exp2(i - largest) / sum : none,
+            has_explicit ? std::exp2(e - largest) / sum : none,
             has_light ? std::exp2(l - largest) / sum : none};
 }
 
-float log2_of(double x) { return static_cast<float>(std::log2(x)); }
+float log2_of(double x) {
+    return static_cast<float>(std::log2(x));
+}
 
-/// As the stages do it. G is left out where both ends have it; in `arrival` and the density per solid angle it stands for
-/// what distance and cosines make of it.
+/// As the stages do it. G is left out where both ends have it; in `arrival` and the density per
+/// solid angle it stands for what distance and cosines make of it.
 Weights shipped(const Path &p, float beta) {
     Weights weights{none, none, none};
     // Camera path.
@@ -97,33 +108,39 @@ Weights shipped(const Path &p, float beta) {
         const uint depth = static_cast<uint>(i - 1);
         if (i == p.k - 1) {
             if (!p.delta[i]) {
-                const float implicit = p.hittable ? static_cast<float>(p.forward[i] * p.geometry / p.explicit_origin) : 0.0f;
-                float light = ratio + log2_of(p.direction * p.geometry) + log2_of(p.origin / p.explicit_origin);
+                const float implicit =
+                    p.hittable ? static_cast<float>(p.forward[i] * p.geometry / p.explicit_origin)
+                               : 0.0f;
+                float light = ratio + log2_of(p.direction * p.geometry) +
+                              log2_of(p.origin / p.explicit_origin);
                 light += depth > 0 ? log2_of(p.back[i]) : 0.0f;
                 weights.explicit_ = static_cast<double>(camera_path_weight(implicit, light, beta));
             }
         }
         const float log_forward = p.delta[i] ? 0.0f : log2_of(p.forward[i]);
-        ratio = continue_camera_ratio(ratio, depth, p.delta[i], log_forward, log2_of(p.back[i]) - log2_of(p.forward[i]));
+        ratio = continue_camera_ratio(ratio, depth, p.delta[i], log_forward,
+                                      log2_of(p.back[i]) - log2_of(p.forward[i]));
     }
     if (p.hittable) {
         const double by_explicit =
             p.delta[p.k - 1] ? 0.0 : p.explicit_origin / (p.forward[p.k - 1] * p.geometry);
-        weights.implicit = static_cast<double>(
-            camera_path_weight(static_cast<float>(by_explicit), ratio + log2_of(p.origin * p.direction), beta));
+        weights.implicit = static_cast<double>(camera_path_weight(
+            static_cast<float>(by_explicit), ratio + log2_of(p.origin * p.direction), beta));
     }
     // Light path.
     float log_ratio = p.hittable ? -log2_of(p.origin) - log2_of(p.direction) : -INFINITY;
-    const float log_explicit = log2_of(p.explicit_origin / p.origin) - log2_of(p.direction * p.geometry);
+    const float log_explicit =
+        log2_of(p.explicit_origin / p.origin) - log2_of(p.direction * p.geometry);
     for (size_t i = p.k - 1; i >= 2; --i) {
         const float log_forward = p.delta[i] ? 0.0f : log2_of(p.back[i]);
-        log_ratio = continue_light_ratio(log_ratio, log_explicit, static_cast<uint>(p.k - 1 - i), p.delta[i], log_forward,
+        log_ratio = continue_light_ratio(log_ratio, log_explicit, static_cast<uint>(p.k - 1 - i),
+                                         p.delta[i], log_forward,
                                          log2_of(p.forward[i]) - log2_of(p.back[i]), beta);
     }
     if (!p.delta[1] && p.light_paths > 0) {
-        weights.light = static_cast<double>(light_path_weight(log_ratio, log_explicit, static_cast<uint>(p.k - 2),
-                                                              log2_of(p.forward[1]),
-                                                              log2_of(p.first) - log2_of(p.light_paths), beta));
+        weights.light = static_cast<double>(light_path_weight(
+            log_ratio, log_explicit, static_cast<uint>(p.k - 2), log2_of(p.forward[1]),
+            log2_of(p.first) - log2_of(p.light_paths), beta));
     }
     return weights;
 }
@@ -171,14 +188,16 @@ TEST(TruncatedWeights, WithoutLightPathsAreThoseOfPathTracing) {
 }
 
 TEST(TruncatedWeights, NeverOverflow) {
-    // Near-specular all along: the products themselves would leave the range of floats after a dozen vertices.
+    // Near-specular all along: the products themselves would leave the range of floats after a
+    // dozen vertices.
     for (const double sharp : {1e8, 1e-8}) {
         Path path;
         path.k = 1000;
         path.forward.assign(path.k, sharp);
         path.back.assign(path.k, 1 / sharp);
         path.delta.assign(path.k, false);
-        path.first = path.light_paths = path.origin = path.explicit_origin = path.direction = path.geometry = 1;
+        path.first = path.light_paths = path.origin = path.explicit_origin = path.direction =
+            path.geometry = 1;
         const Weights weights = shipped(path, 2.0f);
         const double sum = weights.implicit + weights.explicit_ + weights.light;
         EXPECT_NEAR(sum, 1, 1e-3);
@@ -192,20 +211,25 @@ TEST(Logarithm, OfQuotientsIsThatOfDouble) {
     std::uniform_real_distribution<double> exponent(-120, 120), near(-1e-3, 1e-3);
     double worst = 0, worst_near = 0;
     for (int i = 0; i < 1'000'000; ++i) {
-        const auto a = static_cast<float>(std::exp2(exponent(random))), b = static_cast<float>(std::exp2(exponent(random)));
+        const auto a = static_cast<float>(std::exp2(exponent(random))),
+                   b = static_cast<float>(std::exp2(exponent(random)));
         const double expected = std::log2(static_cast<double>(a) / static_cast<double>(b));
         const double half_ulp = 0x1p-24 * std::abs(expected);
-        worst = std::max(worst, std::abs(static_cast<double>(log2_quotient(a, b)) - expected) - half_ulp);
+        worst = std::max(worst,
+                         std::abs(static_cast<double>(log2_quotient(a, b)) - expected) - half_ulp);
         const auto c = static_cast<float>(static_cast<double>(a) * (1 + near(random)));
         const double small = std::log2(static_cast<double>(c) / static_cast<double>(a));
-        worst_near = std::max(worst_near, std::abs(static_cast<double>(log2_quotient(c, a)) - small) / std::max(std::abs(small), 1e-30));
+        worst_near =
+            std::max(worst_near, std::abs(static_cast<double>(log2_quotient(c, a)) - small) /
+                                     std::max(std::abs(small), 1e-30));
     }
     EXPECT_LT(worst, 1.5e-7);
     EXPECT_LT(worst_near, 4e-7);
 }
 
 TEST(Logarithm, OfNothingIsMinusInfinity) {
-    const float smallest = std::numeric_limits<float>::min(), largest = std::numeric_limits<float>::max();
+    const float smallest = std::numeric_limits<float>::min(),
+                largest = std::numeric_limits<float>::max();
     EXPECT_EQ(log2_quotient(0.0f, 1.0f), -INFINITY);
     EXPECT_EQ(log2_quotient(0.5f * smallest, 3.0f), -INFINITY);
     EXPECT_EQ(log2_of(smallest), -126.0f);
@@ -223,7 +247,9 @@ TEST(PowerOfTwo, IsThatOfDouble) {
     double worst = 0;
     for (int i = 0; i < 1'000'000; ++i) {
         const float x = exponent(random);
-        worst = std::max(worst, std::abs(static_cast<double>(power_of_two(x)) / std::exp2(static_cast<double>(x)) - 1));
+        worst = std::max(
+            worst,
+            std::abs(static_cast<double>(power_of_two(x)) / std::exp2(static_cast<double>(x)) - 1));
     }
     EXPECT_LT(worst, 1e-7);
     EXPECT_EQ(power_of_two(0.0f), 1.0f);

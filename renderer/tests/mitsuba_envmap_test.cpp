@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Environments of Mitsuba have their rows elsewhere than ours; the radiance of a direction must not change.
+// Environments of Mitsuba have their rows elsewhere than ours; the radiance of a direction must not
+// change.
 #include "renderer/import/mitsuba_envmap.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,8 @@ double between_rows(const TextureImage &image, double row, int column) {
     return (1 - t) * at(above) + t * at(above + 1);
 }
 
-/// At v of [0, 1] from the upper pole: as stores.h says, and as envmap.cpp does (uv.y() * (height - 1)).
+/// At v of [0, 1] from the upper pole: as stores.h says, and as envmap.cpp does (uv.y() * (height -
+/// 1)).
 double ours(const TextureImage &image, double v, int column) {
     return between_rows(image, std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0), column);
 }
@@ -62,10 +64,12 @@ TEST(MitsubaEnvmap, ReadsTheRowsOfOthers) {
         const TextureImage read = from_mitsuba_envmap(image);
         double sum = 0, wanted = 0;
         for (int i = 0; i <= 1000; ++i) {
-            const double v = i / 1000.0, row = v * (height - 1), from_row = std::abs(row - std::round(row));
-            // At a row an eighth of a second difference, which is at most 2; a quarter of a row at each pole
-            // is flat.
-            EXPECT_NEAR(ours(read, v, 1), mitsubas(image, v, 1), from_row >= 0.25 ? 1e-6 : 0.25) << v;
+            const double v = i / 1000.0, row = v * (height - 1),
+                         from_row = std::abs(row - std::round(row));
+            // At a row an eighth of a second difference, which is at most 2; a quarter of a row at
+            // each pole is flat.
+            EXPECT_NEAR(ours(read, v, 1), mitsubas(image, v, 1), from_row >= 0.25 ? 1e-6 : 0.25)
+                << v;
             sum += ours(read, v, 1);
             wanted += mitsubas(image, v, 1);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each way to get a Mitsuba scene wrong, or to ask for what we have not, has one clear message with a line;
-// damaged files load or are errors.
+// Each way to get a Mitsuba scene wrong, or to ask for what we have not, has one clear message with
+// a line; damaged files load or are errors.
 #include <fstream>
 #include <random>
 
@@ -50,26 +50,32 @@ INSTANTIATE_TEST_SUITE_P(
                    "in.xml:4: <shape type=\"cube\">: unknown attribute 'colour'; known: type, id"},
         BadElement{"<shape type=\"cube\" type=\"disk\"/>", "duplicate attribute 'type'"},
         BadElement{shape("<float value=\"1\"/>"), "in.xml:4: <float>: needs a name"},
-        BadElement{shape("<boolean name=\"a\" value=\"true\"/><boolean name=\"a\" value=\"true\"/>"),
-                   "'a' is given twice"},
-        BadElement{shape("<group/>"),
-                   "in.xml:4: <group>: has no place in a <shape>; known are the properties float, "},
-        BadElement{shape("<boolean name=\"flip_normal\" value=\"true\"/>"),
-                   "in.xml:4: <boolean name=\"flip_normal\">: a shape of type 'rectangle' has no such "
-                   "property here; it has: flip_normals, to_world"},
-        BadElement{shape("<ref id=\"b\"/>") + "<bsdf type=\"diffuse\" id=\"a\"/>",
-                   "in.xml:4: <ref id=\"b\">: there is no object with the id 'b'; there are: a, eye"},
+        BadElement{
+            shape("<boolean name=\"a\" value=\"true\"/><boolean name=\"a\" value=\"true\"/>"),
+            "'a' is given twice"},
+        BadElement{
+            shape("<group/>"),
+            "in.xml:4: <group>: has no place in a <shape>; known are the properties float, "},
+        BadElement{
+            shape("<boolean name=\"flip_normal\" value=\"true\"/>"),
+            "in.xml:4: <boolean name=\"flip_normal\">: a shape of type 'rectangle' has no such "
+            "property here; it has: flip_normals, to_world"},
+        BadElement{
+            shape("<ref id=\"b\"/>") + "<bsdf type=\"diffuse\" id=\"a\"/>",
+            "in.xml:4: <ref id=\"b\">: there is no object with the id 'b'; there are: a, eye"},
         BadElement{shape("<ref id=\"eye\"/>"),
                    "in.xml:4: <ref id=\"eye\">: a shape of type 'rectangle' takes no sensor here"},
         BadElement{"<shape type=\"cube\" id=\"eye\"/>",
                    "in.xml:3: <shape type=\"cube\" id=\"eye\">: the id 'eye' is taken"},
-        BadElement{
-            "<shape type=\"$kind\"/>",
-            "in.xml:3: <shape type=\"$kind\">: undefined parameter '$kind'; add <default name=\"kind\""},
-        BadElement{"<default name=\"a b\" value=\"1\"/>", "in.xml:3: <default name=\"a b\">: needs a name"},
+        BadElement{"<shape type=\"$kind\"/>",
+                   "in.xml:3: <shape type=\"$kind\">: undefined parameter '$kind'; add <default "
+                   "name=\"kind\""},
+        BadElement{"<default name=\"a b\" value=\"1\"/>",
+                   "in.xml:3: <default name=\"a b\">: needs a name"},
         BadElement{"<default name=\"a\"/>", "and a value"},
         BadElement{"<include filename=\"none.xml\"/>", "in.xml:3: <include>: "},
-        BadElement{shape(shape("")), "in.xml:4: <shape type=\"rectangle\">: has no place in a <shape>"}));
+        BadElement{shape(shape("")),
+                   "in.xml:4: <shape type=\"rectangle\">: has no place in a <shape>"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BadElements,
@@ -91,16 +97,19 @@ INSTANTIATE_TEST_SUITE_P(
                    "in.xml:5: <matrix>: transform: the matrix is not affine"},
         BadElement{placed("<lookat origin=\"0 0 0\" target=\"0 1 0\" up=\"0 1 0\"/>"),
                    "in.xml:5: <lookat>: look_at: up must not be parallel"},
-        BadElement{placed("<turn/>"), "in.xml:5: <turn>: is no transform; there are: translate, rotate,"},
+        BadElement{placed("<turn/>"),
+                   "in.xml:5: <turn>: is no transform; there are: translate, rotate,"},
         BadElement{light("point", "<point name=\"position\" x=\"1\" y=\"2\"/>"),
                    "in.xml:4: <point name=\"position\">: expected one number as z"},
-        BadElement{light("point", "<point name=\"position\" value=\"1 2\"/>"), "expected three numbers"},
+        BadElement{light("point", "<point name=\"position\" value=\"1 2\"/>"),
+                   "expected three numbers"},
         BadElement{light("point", "<rgb name=\"intensity\" value=\"1 2\"/>"),
                    "in.xml:4: <rgb name=\"intensity\">: expected three numbers, or one"},
         BadElement{light("point", "<rgb name=\"intensity\" value=\"1 -2 3\"/>"),
                    "in.xml:3: <emitter type=\"point\">: intensity: [1, -2, 3] is not within"},
         BadElement{light("point", "<string name=\"intensity\" value=\"1\"/>"),
-                   "in.xml:4: <string name=\"intensity\">: must be a colour: <rgb name=\"intensity\" .../>"},
+                   "in.xml:4: <string name=\"intensity\">: must be a colour: <rgb "
+                   "name=\"intensity\" .../>"},
         BadElement{light("point", "<spectrum name=\"intensity\" value=\"400:1 700:2\"/>"),
                    "in.xml:4: <spectrum name=\"intensity\">: a spectrum by wavelengths"},
         BadElement{bsdf("diffuse", "<rgb name=\"reflectance\" value=\"0 0 1.1\"/>"),
@@ -111,7 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "2 is not within [0, 1], where the sRGB curve"},
         BadElement{shape("<boolean name=\"flip_normals\" value=\"yes\"/>"),
                    "in.xml:4: <boolean name=\"flip_normals\">: 'yes' is neither true nor false"},
-        BadElement{shape("<float name=\"flip_normals\" value=\"1\"/>"), "must be true or false: <boolean"},
+        BadElement{shape("<float name=\"flip_normals\" value=\"1\"/>"),
+                   "must be true or false: <boolean"},
         BadElement{shape("<boolean name=\"flip_normals\" value=\"true\"><rgb/></boolean>"),
                    "takes no elements"}));
 
@@ -119,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
     Shapes, BadElements,
     testing::Values(
         BadElement{shape("", "heightfield"),
-                   "in.xml:3: <shape type=\"heightfield\">: this shape has no counterpart here; there are: "
+                   "in.xml:3: <shape type=\"heightfield\">: this shape has no counterpart here; "
+                   "there are: "
                    "obj, ply, rectangle, cube, sphere, disk, cylinder"},
         BadElement{shape("", "ply"), "in.xml:3: <shape type=\"ply\">: needs a filename"},
         BadElement{shape("<string name=\"filename\" value=\"none.ply\"/>", "ply"),
@@ -136,47 +147,56 @@ INSTANTIATE_TEST_SUITE_P(
                    "in.xml:3: <shape type=\"cylinder\">: this shape cannot emit here"},
         BadElement{shape("<emitter type=\"area\"/><emitter type=\"area\"/>"),
                    "a shape has one emitter and one BSDF at most"},
+        BadElement{shape("<emitter type=\"point\"/>"),
+                   "in.xml:4: <emitter type=\"point\">: this emitter has no counterpart at a "
+                   "shape; there is: area"},
         BadElement{
-            shape("<emitter type=\"point\"/>"),
-            "in.xml:4: <emitter type=\"point\">: this emitter has no counterpart at a shape; there is: area"},
-        BadElement{shape("<emitter type=\"area\">\n<texture type=\"bitmap\" name=\"radiance\"/></emitter>"),
-                   "in.xml:4: <emitter type=\"area\">: 'radiance' must be a colour"}));
+            shape(
+                "<emitter type=\"area\">\n<texture type=\"bitmap\" name=\"radiance\"/></emitter>"),
+            "in.xml:4: <emitter type=\"area\">: 'radiance' must be a colour"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Bsdfs, BadElements,
     testing::Values(
-        BadElement{bsdf("principled"),
-                   "in.xml:4: <bsdf type=\"principled\">: this BSDF has no counterpart here; there are: "
-                   "diffuse, dielectric, "},
+        BadElement{
+            bsdf("principled"),
+            "in.xml:4: <bsdf type=\"principled\">: this BSDF has no counterpart here; there are: "
+            "diffuse, dielectric, "},
         BadElement{bsdf("mask"), "this BSDF has no counterpart"},
         BadElement{bsdf("bumpmap"), "this BSDF has no counterpart"},
         BadElement{bsdf("thindielectric"), "this BSDF has no counterpart"},
         BadElement{bsdf("diffuse", "<float name=\"alpha\" value=\"0.1\"/>"),
-                   "in.xml:5: <float name=\"alpha\">: a bsdf of type 'diffuse' has no such property here; it "
+                   "in.xml:5: <float name=\"alpha\">: a bsdf of type 'diffuse' has no such "
+                   "property here; it "
                    "has: reflectance"},
-        BadElement{bsdf("diffuse", "<texture type=\"checkerboard\" name=\"reflectance\"/>"),
-                   "in.xml:5: <texture type=\"checkerboard\" name=\"reflectance\">: this texture has no "
-                   "counterpart here; there is: bitmap"},
-        BadElement{bsdf("diffuse", "<texture type=\"bitmap\" name=\"reflectance\"/>"), "needs a filename"},
+        BadElement{
+            bsdf("diffuse", "<texture type=\"checkerboard\" name=\"reflectance\"/>"),
+            "in.xml:5: <texture type=\"checkerboard\" name=\"reflectance\">: this texture has no "
+            "counterpart here; there is: bitmap"},
+        BadElement{bsdf("diffuse", "<texture type=\"bitmap\" name=\"reflectance\"/>"),
+                   "needs a filename"},
         BadElement{bsdf("diffuse",
                         "<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
                         "value=\"none.png\"/></texture>"),
                    "in.xml:5: <texture type=\"bitmap\" name=\"reflectance\">: "},
-        BadElement{bsdf("diffuse",
-                        "<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
-                        "value=\"a.png\"/>\n<string name=\"wrap_mode\" value=\"mirror\"/></texture>"),
-                   "in.xml:6: <string name=\"wrap_mode\">: 'mirror' is not one of: repeat, clamp"},
+        BadElement{
+            bsdf("diffuse",
+                 "<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
+                 "value=\"a.png\"/>\n<string name=\"wrap_mode\" value=\"mirror\"/></texture>"),
+            "in.xml:6: <string name=\"wrap_mode\">: 'mirror' is not one of: repeat, clamp"},
         BadElement{bsdf("diffuse",
                         "<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
                         "value=\"a.png\"/>\n<transform name=\"to_uv\"><rotate z=\"1\" "
                         "angle=\"30\"/></transform></texture>"),
-                   "in.xml:6: <transform name=\"to_uv\">: textures can be scaled and moved here, not turned"},
-        BadElement{
-            bsdf("diffuse",
-                 "<rgb name=\"reflectance\" value=\"1\"/><texture type=\"bitmap\" name=\"reflectance\"/>"),
-            "'reflectance' is given twice"},
+                   "in.xml:6: <transform name=\"to_uv\">: textures can be scaled and moved here, "
+                   "not turned"},
+        BadElement{bsdf("diffuse",
+                        "<rgb name=\"reflectance\" value=\"1\"/><texture type=\"bitmap\" "
+                        "name=\"reflectance\"/>"),
+                   "'reflectance' is given twice"},
         BadElement{bsdf("diffuse", "<texture type=\"bitmap\" name=\"opacity\"/>"),
-                   "in.xml:5: <texture type=\"bitmap\" name=\"opacity\">: a bsdf of type 'diffuse' takes no "
+                   "in.xml:5: <texture type=\"bitmap\" name=\"opacity\">: a bsdf of type 'diffuse' "
+                   "takes no "
                    "texture as 'opacity' here"},
         BadElement{bsdf("twosided"), "in.xml:4: <bsdf type=\"twosided\">: has 0 BSDFs"},
         BadElement{bsdf("twosided", "<bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/>"),
@@ -184,63 +204,78 @@ INSTANTIATE_TEST_SUITE_P(
         BadElement{bsdf("twosided", "<bsdf type=\"dielectric\"/>"),
                    "in.xml:5: <bsdf type=\"dielectric\">: cannot be made two-sided"},
         BadElement{bsdf("dielectric", "<string name=\"int_ior\" value=\"butter\"/>"),
-                   "in.xml:5: <string name=\"int_ior\">: 'butter' is no index of refraction; give a number "
+                   "in.xml:5: <string name=\"int_ior\">: 'butter' is no index of refraction; give "
+                   "a number "
                    "or one of: vacuum, helium,"},
         BadElement{bsdf("dielectric", "<float name=\"ext_ior\" value=\"-1\"/>"),
                    "int_ior and ext_ior must be positive"},
-        BadElement{bsdf("roughdielectric",
-                        "<float name=\"int_ior\" value=\"1\"/><float name=\"ext_ior\" value=\"1\"/>"),
-                   "in.xml:4: <bsdf type=\"roughdielectric\">: eta: 1 does not refract"},
+        BadElement{
+            bsdf("roughdielectric",
+                 "<float name=\"int_ior\" value=\"1\"/><float name=\"ext_ior\" value=\"1\"/>"),
+            "in.xml:4: <bsdf type=\"roughdielectric\">: eta: 1 does not refract"},
         BadElement{bsdf("roughdielectric", "<texture type=\"bitmap\" name=\"alpha\"/>"),
                    "in.xml:4: <bsdf type=\"roughdielectric\">: 'alpha' must be a number"},
         BadElement{bsdf("roughconductor", "<float name=\"alpha\" value=\"0\"/>"),
                    "alpha: [0, 0] is not within [0.0001, 1]; a smooth surface is a conductor"},
         BadElement{bsdf("roughconductor", "<float name=\"alpha_u\" value=\"0.1\"/>"),
                    "needs both alpha_u and alpha_v"},
-        BadElement{bsdf("roughconductor",
-                        "<float name=\"alpha\" value=\"0.1\"/><float name=\"alpha_u\" value=\"0.1\"/>"),
-                   "has both alpha and alpha_u or alpha_v"},
+        BadElement{
+            bsdf("roughconductor",
+                 "<float name=\"alpha\" value=\"0.1\"/><float name=\"alpha_u\" value=\"0.1\"/>"),
+            "has both alpha and alpha_u or alpha_v"},
         BadElement{bsdf("roughconductor", "<string name=\"distribution\" value=\"phong\"/>"),
                    "'phong' is not one of: beckmann, ggx"},
-        BadElement{bsdf("conductor", "<string name=\"material\" value=\"W\"/>"),
-                   "in.xml:5: <string name=\"material\">: 'W' has no constants here; give eta and k as "
-                   "<rgb>, or one of: Ag, Au, Cu, none"},
-        BadElement{bsdf("conductor", "<rgb name=\"eta\" value=\"1\"/>"), "needs eta and k, or a material"},
-        BadElement{bsdf("conductor", "<rgb name=\"eta\" value=\"0\"/><rgb name=\"k\" value=\"1\"/>"),
-                   "in.xml:4: <bsdf type=\"conductor\">: eta: [0, 0, 0] is not within"},
+        BadElement{
+            bsdf("conductor", "<string name=\"material\" value=\"W\"/>"),
+            "in.xml:5: <string name=\"material\">: 'W' has no constants here; give eta and k as "
+            "<rgb>, or one of: Ag, Au, Cu, none"},
+        BadElement{bsdf("conductor", "<rgb name=\"eta\" value=\"1\"/>"),
+                   "needs eta and k, or a material"},
+        BadElement{
+            bsdf("conductor", "<rgb name=\"eta\" value=\"0\"/><rgb name=\"k\" value=\"1\"/>"),
+            "in.xml:4: <bsdf type=\"conductor\">: eta: [0, 0, 0] is not within"},
         BadElement{bsdf("plastic",
-                        "<boolean name=\"nonlinear\" value=\"true\"/><float name=\"int_ior\" value=\"1\"/>"),
+                        "<boolean name=\"nonlinear\" value=\"true\"/><float name=\"int_ior\" "
+                        "value=\"1\"/>"),
                    "in.xml:4: <bsdf type=\"plastic\">: eta: "},
         BadElement{bsdf("roughplastic", "<float name=\"alpha\" value=\"0.3\"/>"),
                    "alpha 0.3: the diffuse base of so rough a plastic"},
-        BadElement{shape("<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/><float "
-                         "name=\"alpha_v\" value=\"0.2\"/></bsdf>",
-                         "disk"),
-                   "in.xml:4: <bsdf type=\"roughconductor\">: alpha_u and alpha_v differ, but this shape has "
-                   "no tangents"}));
+        BadElement{
+            shape("<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/><float "
+                  "name=\"alpha_v\" value=\"0.2\"/></bsdf>",
+                  "disk"),
+            "in.xml:4: <bsdf type=\"roughconductor\">: alpha_u and alpha_v differ, but this shape "
+            "has "
+            "no tangents"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Lights, BadElements,
     testing::Values(
         BadElement{light("projector"),
-                   "in.xml:3: <emitter type=\"projector\">: this emitter has no counterpart here; there are: "
+                   "in.xml:3: <emitter type=\"projector\">: this emitter has no counterpart here; "
+                   "there are: "
                    "point, spot, directional, constant, envmap, and area at a shape"},
         BadElement{light("area"), "this emitter has no counterpart here"},
         BadElement{light("envmap"), "needs a filename"},
         BadElement{light("envmap", "<string name=\"filename\" value=\"none.exr\"/>"),
                    "in.xml:3: <emitter type=\"envmap\">: "},
-        BadElement{light("spot", "<float name=\"beam_width\" value=\"30\"/>"),
-                   "in.xml:3: <emitter type=\"spot\">: inner_degrees: 30 is not below outer_degrees, 20"},
+        BadElement{
+            light("spot", "<float name=\"beam_width\" value=\"30\"/>"),
+            "in.xml:3: <emitter type=\"spot\">: inner_degrees: 30 is not below outer_degrees, 20"},
         BadElement{light("spot", "<texture type=\"bitmap\" name=\"texture\"/>"),
-                   "in.xml:4: <texture type=\"bitmap\" name=\"texture\">: a emitter of type 'spot' takes no "
+                   "in.xml:4: <texture type=\"bitmap\" name=\"texture\">: a emitter of type 'spot' "
+                   "takes no "
                    "texture as 'texture' here"},
         BadElement{light("directional", "<vector name=\"direction\" value=\"0 0 0\"/>"),
                    "in.xml:4: <vector name=\"direction\">: has no direction"},
-        BadElement{light("directional",
-                         "<vector name=\"direction\" value=\"0 0 1\"/><transform name=\"to_world\"/>"),
-                   "has both direction and to_world"},
-        BadElement{light("point", "<point name=\"position\" value=\"0 0 1\"/><transform name=\"to_world\"/>"),
-                   "has both position and to_world"}));
+        BadElement{
+            light("directional",
+                  "<vector name=\"direction\" value=\"0 0 1\"/><transform name=\"to_world\"/>"),
+            "has both direction and to_world"},
+        BadElement{
+            light("point",
+                  "<point name=\"position\" value=\"0 0 1\"/><transform name=\"to_world\"/>"),
+            "has both position and to_world"}));
 
 TEST(MitsubaErrors, OfSensors) {
     const auto sensor = [](const std::string &type, const std::string &content) {
@@ -254,8 +289,9 @@ TEST(MitsubaErrors, OfSensors) {
     };
     expect_input_error("in.xml: the scene has no sensor",
                        [] { parse_mitsuba("<scene version=\"3.0.0\"/>"); });
-    expect_input_error("in.xml:2: <sensor type=\"orthographic\">: this sensor has no counterpart here",
-                       sensor("orthographic", ""));
+    expect_input_error(
+        "in.xml:2: <sensor type=\"orthographic\">: this sensor has no counterpart here",
+        sensor("orthographic", ""));
     expect_input_error("needs an aperture_radius", sensor("thinlens", ""));
     expect_input_error("in.xml:2: <sensor type=\"perspective\">: fov: 180 is not within",
                        sensor("perspective", "<float name=\"fov\" value=\"180\"/>"));
@@ -268,19 +304,23 @@ TEST(MitsubaErrors, OfSensors) {
         "has both fov and focal_length",
         sensor("perspective",
                "<float name=\"fov\" value=\"40\"/><string name=\"focal_length\" value=\"50mm\"/>"));
-    expect_input_error("in.xml:3: <float name=\"principal_point_offset_x\">: the image is centred",
-                       sensor("perspective", "<float name=\"principal_point_offset_x\" value=\"0.1\"/>"));
+    expect_input_error(
+        "in.xml:3: <float name=\"principal_point_offset_x\">: the image is centred",
+        sensor("perspective", "<float name=\"principal_point_offset_x\" value=\"0.1\"/>"));
     expect_input_error(
         "in.xml:3: <transform name=\"to_world\">: scales by 2; a camera cannot be scaled",
         sensor("perspective", "<transform name=\"to_world\"><scale value=\"2\"/></transform>"));
-    expect_input_error("in.xml:2: <sensor type=\"perspective\">: a camera: its transform mirrors",
-                       sensor("perspective", "<transform name=\"to_world\"><scale x=\"-1\"/></transform>"));
     expect_input_error(
-        "in.xml:4: <integer name=\"crop_width\">: a film of type 'hdrfilm' has no such property here",
+        "in.xml:2: <sensor type=\"perspective\">: a camera: its transform mirrors",
+        sensor("perspective", "<transform name=\"to_world\"><scale x=\"-1\"/></transform>"));
+    expect_input_error(
+        "in.xml:4: <integer name=\"crop_width\">: a film of type 'hdrfilm' has no such property "
+        "here",
         film("<integer name=\"crop_width\" value=\"3\"/>"));
     expect_input_error("in.xml:4: <integer name=\"width\">: 0 is no number of pixels",
                        film("<integer name=\"width\" value=\"0\"/>"));
-    expect_input_error("this film has no counterpart", sensor("perspective", "<film type=\"specfilm\"/>"));
+    expect_input_error("this film has no counterpart",
+                       sensor("perspective", "<film type=\"specfilm\"/>"));
     expect_input_error("a sensor has one film",
                        sensor("perspective", "<film type=\"hdrfilm\"/><film type=\"hdrfilm\"/>"));
 }
@@ -291,10 +331,12 @@ TEST(MitsubaErrors, OfDocumentsAsAWhole) {
     }
     expect_input_error("in.xml:1: <scene>: version '' is not one of Mitsuba 2 or 3",
                        [] { parse_mitsuba("<scene/>"); });
-    expect_input_error("version '0.6.0' is not one of", [] { parse_mitsuba("<scene version=\"0.6.0\"/>"); });
+    expect_input_error("version '0.6.0' is not one of",
+                       [] { parse_mitsuba("<scene version=\"0.6.0\"/>"); });
     std::ofstream(testing::TempDir() + "self.xml")
         << "<scene version=\"3.0.0\"><include filename=\"self.xml\"/></scene>";
-    expect_input_error("more than 16 deep", [] { parse_elements("<include filename=\"self.xml\"/>"); });
+    expect_input_error("more than 16 deep",
+                       [] { parse_elements("<include filename=\"self.xml\"/>"); });
     std::string open, close;
     for (int i = 0; i < 5000; ++i) {
         open += "<bsdf type=\"twosided\">";
@@ -306,8 +348,10 @@ TEST(MitsubaErrors, OfDocumentsAsAWhole) {
 /// A scene with most of what there is, from files too.
 std::string large_scene() {
     std::ofstream(testing::TempDir() + "square.ply")
-        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 "
+        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+           "float z\n"
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 "
+           "0\n0 1 "
            "0\n4 0 1 2 3\n";
     return R"(<?xml version="1.0"?>
 <scene version="3.0.0"><!-- all of it -->
@@ -373,7 +417,8 @@ TEST(MitsubaDamage, DamagedFilesLoadOrAreErrors) {
                 case 3: {  // one line in place of another
                     const size_t from = text.find('\n', random() % text.size());
                     const size_t to = text.find('\n', from == std::string::npos ? 0 : from + 1);
-                    damaged.insert(at, from == std::string::npos ? "" : text.substr(from, to - from));
+                    damaged.insert(at,
+                                   from == std::string::npos ? "" : text.substr(from, to - from));
                     break;
                 }
                 default:

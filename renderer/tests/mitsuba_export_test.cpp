@@ -40,8 +40,9 @@ class MitsubaExport : public WithImages {
 
 template <typename Matrix>
 void expect_close(const Matrix &a, const Matrix &b, double tolerance) {
-    EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance * std::max(1.0, a.cwiseAbs().maxCoeff())) << a << "\n"
-                                                                                                 << b;
+    EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance * std::max(1.0, a.cwiseAbs().maxCoeff()))
+        << a << "\n"
+        << b;
 }
 
 void expect_same_image(const TextureImage &a, const TextureImage &b) {
@@ -100,7 +101,8 @@ void expect_same_light(const LightArrays &a, uint32_t i, const LightArrays &b, u
     }
 }
 
-/// Everything that decides an image, but for rounding of doubles and the order of materials and lights.
+/// Everything that decides an image, but for rounding of doubles and the order of materials and
+/// lights.
 void expect_same_scene(const Scene &first, const Scene &second) {
     const SceneArrays &a = first.arrays();
     const SceneArrays &b = second.arrays();
@@ -157,16 +159,19 @@ const std::set<std::string> tessellated_shapes = {"cone", "ellipsoid", "hyperbol
 const std::map<std::string, const char *> &beyond_mitsuba() {
     static const std::map<std::string, const char *> reasons = {
         {"blinn_64", "no BSDF for blinn * conductor;"},
-        {"car_paint_thesis", "no BSDF for ideal_reflection * dielectric + lambert * (1 - dielectric of wo);"},
+        {"car_paint_thesis",
+         "no BSDF for ideal_reflection * dielectric + lambert * (1 - dielectric of wo);"},
         {"conductor_approximate", "no BSDF for ideal_reflection * conductor_approximate;"},
         {"julia", "no julia"},
         {"lambert_blinn", "no BSDF for lambert + blinn;"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},
         {"plane", "'ground': Mitsuba has no plane, and triangles make none"},
         {"refraction_13", "no BSDF for ideal_refraction;"},
-        {"rough_plastic", "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},
+        {"rough_plastic",
+         "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},
         {"schlick", "no BSDF for ideal_reflection * schlick;"},
-        {"ward_010", "'object': material 'object': Mitsuba has no BSDF for ward; it has some for: lambert; "},
+        {"ward_010",
+         "'object': material 'object': Mitsuba has no BSDF for ward; it has some for: lambert; "},
         {"ward_anisotropic", "no BSDF for ward * conductor;"},
         {"ward_original", "no BSDF for ward_original;"},
     };
@@ -194,7 +199,8 @@ TEST_F(MitsubaExport, ScenesOfSingleFeaturesComeBackOrAreErrors) {
             expect_same_scene(scene, through_mitsuba(scene));
             ++back;
         } catch (const Error &error) {  // of further scenes of the kinds above
-            EXPECT_NE(std::string(error.what()).find("Mitsuba has no"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("Mitsuba has no"), std::string::npos)
+                << error.what();
         }
     }
     EXPECT_GE(back, 30);
@@ -207,8 +213,10 @@ TEST_F(MitsubaExport, ShapesThatMitsubaLacksComeBackAsMeshes) {
         const Scene back = through_mitsuba(scene);
         const ShapeArrays &shapes = scene.arrays().shapes;
         const MeshArrays &meshes = back.meshes();
-        const auto shape = static_cast<size_t>(std::find(shapes.name.begin(), shapes.name.end(), "object") - shapes.name.begin());
-        const auto mesh = static_cast<size_t>(std::find(meshes.name.begin(), meshes.name.end(), "object") - meshes.name.begin());
+        const auto shape = static_cast<size_t>(
+            std::find(shapes.name.begin(), shapes.name.end(), "object") - shapes.name.begin());
+        const auto mesh = static_cast<size_t>(
+            std::find(meshes.name.begin(), meshes.name.end(), "object") - meshes.name.begin());
         ASSERT_LT(shape, shapes.name.size());
         ASSERT_LT(mesh, meshes.name.size());
         const MeshArrays wanted = tessellated(shapes, static_cast<uint32_t>(shape));
@@ -216,19 +224,24 @@ TEST_F(MitsubaExport, ShapesThatMitsubaLacksComeBackAsMeshes) {
         ASSERT_EQ(meshes.triangle_count[mesh], wanted.triangle_count[0]);
         for (uint32_t i = 0; i < wanted.vertex_count[0]; ++i) {
             ASSERT_EQ(meshes.position[meshes.first_vertex[mesh] + i], wanted.position[i]);
-            ASSERT_LE((meshes.normal[meshes.first_vertex[mesh] + i] - wanted.normal[i]).cwiseAbs().maxCoeff(), 1.2e-7f);
+            ASSERT_LE((meshes.normal[meshes.first_vertex[mesh] + i] - wanted.normal[i])
+                          .cwiseAbs()
+                          .maxCoeff(),
+                      1.2e-7f);
             ASSERT_EQ(meshes.uv[meshes.first_vertex[mesh] + i], wanted.uv[i]);
         }
-        expect_same_material(scene.arrays(), shapes.material[shape], back.arrays(), meshes.material[mesh]);
+        expect_same_material(scene.arrays(), shapes.material[shape], back.arrays(),
+                             meshes.material[mesh]);
     }
 }
 
 TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
-    const Scene scene = parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
         {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
         {"name": "tile", "geometry": {"type": "rectangle"}, "material": {"type": "plastic", "eta": 1.5,
          "reflectance": [0.5, 1, 1], "reflectance_texture": {"file": "assets/checker.png", "encoding": "srgb"}}}]})",
-                                         "in.json", "in", scenes + "/features");
+                         "in.json", "in", scenes + "/features");
     const Scene back = through_mitsuba(scene);
     const BxdfComponent &before = scene.materials().component[1];
     const BxdfComponent &after = back.materials().component[1];
@@ -243,13 +256,14 @@ TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
 }
 
 TEST_F(MitsubaExport, FarScenesStayWhereTheyAre) {
-    const Scene scene = parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
         {"name": "far", "transform": [{"translate": [1e6, 0, 0]}], "children": [
          {"name": "eye", "transform": [{"translate": [0.1, 0, 3]}], "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
          {"name": "lamp", "light": {"type": "point", "intensity": [1, 1, 1]}},
          {"name": "tile", "geometry": {"type": "rectangle"}, "material": {"type": "lambert", "reflectance": [1, 1, 1]}},
          {"name": "ball", "geometry": {"type": "sphere"}, "material": {"type": "mirror", "reflectance": [1, 1, 1]}}]}]})",
-                                         "in.json", "in");
+                         "in.json", "in");
     ASSERT_GT(scene.origin().norm(), 9e5);
     const Scene back = through_mitsuba(scene);
     EXPECT_LT((back.origin() - scene.origin()).norm(), 1e-6);
@@ -258,17 +272,19 @@ TEST_F(MitsubaExport, FarScenesStayWhereTheyAre) {
 
 TEST_F(MitsubaExport, WritesNothingOfWhatItCannotExpress) {
     const Scene scene = load_scene(scenes + "/features/julia.json");
-    expect_input_error("Mitsuba has no julia", [&] { export_mitsuba_xml(scene, folder_ / "out.xml"); });
+    expect_input_error("Mitsuba has no julia",
+                       [&] { export_mitsuba_xml(scene, folder_ / "out.xml"); });
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.xml"));
     expect_input_error("", [&] { export_mitsuba_xml(scene, folder_ / "none" / "out.xml"); });
 }
 
 TEST_F(MitsubaExport, TakesOneLightAllAround) {
-    const Scene scene = parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
         {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
         {"name": "a", "light": {"type": "dome", "radiance": [1, 1, 1]}},
         {"name": "b", "light": {"type": "dome", "radiance": [1, 1, 1]}}]})",
-                                         "in.json", "in");
+                         "in.json", "in");
     expect_input_error("'b': Mitsuba has one light all around at most, and there is 'a' already",
                        [&] { through_mitsuba(scene); });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each element of a Mitsuba scene becomes. Expectations are from Mitsuba's documentation and, where that
-// is silent, from Mitsuba 3.9 itself.
+// What each element of a Mitsuba scene becomes. Expectations are from Mitsuba's documentation and,
+// where that is silent, from Mitsuba 3.9 itself.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
@@ -33,8 +33,8 @@ Vector3d front(const MeshArrays &meshes, size_t triangle) {
 
 /// The position that a 'point' light is moved to.
 Vector3d moved_by(const std::string &operations) {
-    const Scene scene = parse_elements(R"(<emitter type="point"><transform name="to_world">)" + operations +
-                                       "</transform></emitter>");
+    const Scene scene = parse_elements(R"(<emitter type="point"><transform name="to_world">)" +
+                                       operations + "</transform></emitter>");
     return scene.lights().world_from_light[0].topRightCorner<3, 1>();
 }
 
@@ -44,7 +44,9 @@ std::vector<BxdfComponent> components_of(const std::string &bsdf) {
 }
 
 bool two_sided(const std::string &bsdf) {
-    return parse_elements(R"(<shape type="rectangle">)" + bsdf + "</shape>").materials().two_sided[0] != 0;
+    return parse_elements(R"(<shape type="rectangle">)" + bsdf + "</shape>")
+               .materials()
+               .two_sided[0] != 0;
 }
 
 void expect_near(const Vector3d &a, const Vector3d &b, double tolerance = 1e-12) {
@@ -56,8 +58,9 @@ TEST(MitsubaTransforms, ApplyInTheOrderWritten) {
     expect_near(moved_by(R"(<scale value="2"/><translate value="1, 2, 3"/>)"), {1, 2, 3});
     expect_near(moved_by(R"(<translate x="1"/><rotate z="1" angle="90"/>)"), {0, 1, 0});
     expect_near(moved_by(R"(<translate value="1 1 1"/><scale x="2" z="3"/>)"), {2, 1, 3});
-    expect_near(moved_by(R"(<translate x="1"/><matrix value="0 0 1 5  1 0 0 6  0 1 0 7  0 0 0 1"/>)"),
-                {5, 7, 7});
+    expect_near(
+        moved_by(R"(<translate x="1"/><matrix value="0 0 1 5  1 0 0 6  0 1 0 7  0 0 0 1"/>)"),
+        {5, 7, 7});
     expect_near(moved_by(R"(<translate y="1"/><matrix value="0 1 0 1 0 0 0 0 1"/>)"), {1, 0, 0});
     // +z of the object to the target: one unit along it is one unit nearer.
     expect_near(moved_by(R"(<translate z="1"/><lookat origin="0,0,5" target="0,0,0" up="0,1,0"/>)"),
@@ -93,13 +96,15 @@ TEST(MitsubaCameras, LookAlongZWithXToTheLeft) {
 
 TEST(MitsubaCameras, HaveAnglesAlongEveryAxisAndALens) {
     const auto camera = [](const std::string &type, const std::string &properties) {
-        return parse_mitsuba(R"(<scene version="3.0.0"><sensor type=")" + type + R"("><film type="hdrfilm">
+        return parse_mitsuba(R"(<scene version="3.0.0"><sensor type=")" + type +
+                             R"("><film type="hdrfilm">
             <integer name="width" value="64"/><integer name="height" value="48"/></film>)" +
                              properties + "</sensor></scene>");
     };
     const auto fov = [&](const std::string &axis) {
-        return camera("perspective",
-                      R"(<float name="fov" value="40"/><string name="fov_axis" value=")" + axis + R"("/>)");
+        return camera(
+            "perspective",
+            R"(<float name="fov" value="40"/><string name="fov_axis" value=")" + axis + R"("/>)");
     };
     EXPECT_EQ(fov("x").cameras().fov_axis[0], CameraArrays::FovAxis::x);
     EXPECT_EQ(fov("y").cameras().fov_axis[0], CameraArrays::FovAxis::y);
@@ -108,8 +113,8 @@ TEST(MitsubaCameras, HaveAnglesAlongEveryAxisAndALens) {
     EXPECT_NEAR(fov("larger").cameras().fov[0], 40 * degree, 1e-15);
     EXPECT_NEAR(fov("diagonal").cameras().fov[0] / degree, 32.468605, 1e-6);  // Mitsuba's x_fov
     EXPECT_EQ(fov("diagonal").cameras().fov_axis[0], CameraArrays::FovAxis::x);
-    const Scene lens =
-        camera("thinlens", R"(<float name="fov" value="40"/><float name="aperture_radius" value="0.5"/>
+    const Scene lens = camera(
+        "thinlens", R"(<float name="fov" value="40"/><float name="aperture_radius" value="0.5"/>
         <float name="focus_distance" value="7"/>)");
     EXPECT_EQ(lens.cameras().aperture_radius[0], 0.5);
     EXPECT_EQ(lens.cameras().focus_distance[0], 7);
@@ -128,7 +133,8 @@ TEST(MitsubaShapes, RectanglesAndCubesAreMeshes) {
     ASSERT_EQ(meshes.triangle_count[1], 12u);
     for (uint32_t i = meshes.first_triangle[1]; i < meshes.first_triangle[2]; ++i) {
         const Vector3d centre =
-            (meshes.position[meshes.triangle[i][0]] + meshes.position[meshes.triangle[i][2]]).cast<double>() /
+            (meshes.position[meshes.triangle[i][0]] + meshes.position[meshes.triangle[i][2]])
+                    .cast<double>() /
                 2 -
             Vector3d(5, 0, 0);
         EXPECT_NEAR(front(meshes, i).dot(centre), 1, 1e-12) << i;  // outwards, on every side
@@ -147,8 +153,9 @@ TEST(MitsubaShapes, RoundOnesAreShapes) {
         <shape type="cylinder"><point name="p0" x="1" y="0" z="0"/><point name="p1" value="1,3,1"/>
             <float name="radius" value="0.5"/></shape>)");
     const ShapeArrays &shapes = scene.arrays().shapes;
-    ASSERT_EQ(shapes.kind, (std::vector<ShapeArrays::Kind>{ShapeArrays::Kind::sphere, ShapeArrays::Kind::disc,
-                                                           ShapeArrays::Kind::cylinder}));
+    ASSERT_EQ(shapes.kind,
+              (std::vector<ShapeArrays::Kind>{ShapeArrays::Kind::sphere, ShapeArrays::Kind::disc,
+                                              ShapeArrays::Kind::cylinder}));
     EXPECT_TRUE(shapes.world_from_object[0].isApprox(translation({12, 4, 6}), 1e-15));
     expect_near(shapes.world_from_object[1].col(2).head<3>(), {0, 0, -1});
     // The matrix that Mitsuba prints for this cylinder.
@@ -166,10 +173,12 @@ TEST(MitsubaShapes, ShareWhatIsTheSame) {
 
 /// A pyramid's front half: two triangles that meet in an edge, as OBJ and as PLY.
 void write_models() {
-    std::ofstream(testing::TempDir() + "roof.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nvt 0 0.25\nvt 1 "
-                                                      "0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    std::ofstream(testing::TempDir() + "roof.obj")
+        << "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nvt 0 0.25\nvt 1 "
+           "0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
     std::ofstream(testing::TempDir() + "roof.ply")
-        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+           "float z\n"
            "property float u\nproperty float v\nelement face 2\nproperty list uchar int "
            "vertex_indices\nend_header\n"
            "0 0 0 0 0.25\n1 0 0 1 0\n1 1 1 1 1\n0 1 0 0 1\n3 0 1 2\n3 0 2 3\n";
@@ -179,8 +188,9 @@ TEST(MitsubaShapes, ModelFilesGetTheNormalsThatMitsubaMakes) {
     write_models();
     for (const std::string type : {"obj", "ply"}) {
         const auto read = [&](const std::string &properties) {
-            return parse_elements("<shape type=\"" + type + R"("><string name="filename" value="roof.)" +
-                                  type + "\"/>" + properties + "</shape>");
+            return parse_elements("<shape type=\"" + type +
+                                  R"("><string name="filename" value="roof.)" + type + "\"/>" +
+                                  properties + "</shape>");
         };
         const auto normal_at = [](const MeshArrays &meshes, const Vector3f &position) {
             for (size_t i = 0; i < meshes.position.size(); ++i) {
@@ -221,14 +231,16 @@ TEST(MitsubaBsdfs, Diffuse) {
     const auto weight = [](const std::string &bsdf) { return components_of(bsdf)[0].weight; };
     EXPECT_EQ(weight(""), Vector3f(0.5f, 0.5f, 0.5f));
     EXPECT_EQ(weight(R"(<bsdf type="diffuse"/>)"), Vector3f(0.5f, 0.5f, 0.5f));
-    EXPECT_EQ(weight(R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.1, 0.2 0.3"/></bsdf>)"),
-              Vector3f(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(
+        weight(R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.1, 0.2 0.3"/></bsdf>)"),
+        Vector3f(0.1f, 0.2f, 0.3f));
     for (const char *tag : {"rgb", "spectrum", "float"}) {
         EXPECT_EQ(weight(std::string(R"(<bsdf type="diffuse"><)") + tag +
                          R"( name="reflectance" value="0.25"/></bsdf>)"),
                   Vector3f(0.25f, 0.25f, 0.25f));
     }
-    const Vector3f half = weight(R"(<bsdf type="diffuse"><srgb name="reflectance" value="#80ff00"/></bsdf>)");
+    const Vector3f half =
+        weight(R"(<bsdf type="diffuse"><srgb name="reflectance" value="#80ff00"/></bsdf>)");
     EXPECT_NEAR(half[0], 0.2158605f, 1e-6f);  // IEC 61966-2-1 of 128 / 255
     EXPECT_EQ(half[1], 1);
     EXPECT_EQ(half[2], 0);
@@ -249,7 +261,8 @@ TEST(MitsubaBsdfs, Dielectrics) {
     EXPECT_EQ(smooth[1].kind, Kind::ideal_refraction);
     EXPECT_TRUE(smooth[1].complement);
     EXPECT_NEAR(smooth[1].eta[0], 1.50418, 5e-6);  // as Mitsuba prints it
-    const auto rough = components_of(R"(<bsdf type="roughdielectric"><string name="int_ior" value="water"/>
+    const auto rough =
+        components_of(R"(<bsdf type="roughdielectric"><string name="int_ior" value="water"/>
         <float name="ext_ior" value="1"/><float name="alpha" value="0.3"/><boolean name="sample_visible" value="false"/>
         <rgb name="specular_transmittance" value="0.5, 1, 1"/></bsdf>)");
     EXPECT_EQ(rough[0].kind, Kind::microfacet_reflection);
@@ -264,12 +277,14 @@ TEST(MitsubaBsdfs, Conductors) {
     const auto mirror = components_of(R"(<bsdf type="conductor"/>)");
     EXPECT_EQ(mirror[0].kind, Kind::ideal_reflection);
     EXPECT_EQ(mirror[0].fresnel, Fresnel::ideal);
-    const auto gold = components_of(R"(<bsdf type="conductor"><string name="material" value="Au"/></bsdf>)");
+    const auto gold =
+        components_of(R"(<bsdf type="conductor"><string name="material" value="Au"/></bsdf>)");
     EXPECT_EQ(gold[0].fresnel, Fresnel::conductor);
-    EXPECT_LT((gold[0].eta - Vector3d(0.143036, 0.375307, 1.44205)).norm(), 1e-3);  // as Mitsuba prints them
+    EXPECT_LT((gold[0].eta - Vector3d(0.143036, 0.375307, 1.44205)).norm(),
+              1e-3);  // as Mitsuba prints them
     EXPECT_LT((gold[0].k - Vector3d(3.983, 2.38556, 1.60336)).norm(), 1e-3);
-    const auto rough =
-        components_of(R"(<bsdf type="roughconductor"><rgb name="eta" value="1,2,3"/><rgb name="k" value="4"/>
+    const auto rough = components_of(
+        R"(<bsdf type="roughconductor"><rgb name="eta" value="1,2,3"/><rgb name="k" value="4"/>
         <string name="distribution" value="ggx"/><float name="alpha_u" value="0.1"/><float name="alpha_v" value="0.2"/>
         <rgb name="specular_reflectance" value="0.3"/></bsdf>)");
     EXPECT_EQ(rough[0].kind, Kind::microfacet_reflection);
@@ -292,7 +307,8 @@ TEST(MitsubaBsdfs, PlasticsWeighTheirBaseAsMitsubaDoes) {
     EXPECT_TRUE(plastic[1].complement);
     EXPECT_NEAR(plastic[1].eta[0], eta, 5e-6);
     EXPECT_NEAR(plastic[1].weight[0], 0.5 / (eta * eta * (1 - internal)), 5e-6);
-    const auto deep = components_of(R"(<bsdf type="roughplastic"><boolean name="nonlinear" value="true"/>
+    const auto deep =
+        components_of(R"(<bsdf type="roughplastic"><boolean name="nonlinear" value="true"/>
         <float name="alpha" value="0.05"/><rgb name="diffuse_reflectance" value="0.25, 0.5, 1"/></bsdf>)");
     EXPECT_EQ(deep[0].kind, Kind::microfacet_reflection);
     EXPECT_NEAR(deep[1].weight[0], 0.25 / (eta * eta * (1 - 0.25 * internal)), 5e-6);
@@ -301,8 +317,9 @@ TEST(MitsubaBsdfs, PlasticsWeighTheirBaseAsMitsubaDoes) {
 
 TEST(MitsubaBsdfs, RoughPlasticSaysThatItDiffers) {
     const Notices notices;
-    parse_mitsuba_xml(mitsuba_scene(R"(<shape type="rectangle"><bsdf type="roughplastic"/></shape>)"),
-                      "in.xml", "in");
+    parse_mitsuba_xml(
+        mitsuba_scene(R"(<shape type="rectangle"><bsdf type="roughplastic"/></shape>)"), "in.xml",
+        "in");
     ASSERT_EQ(notices.texts().size(), 2u);
     EXPECT_NE(notices.texts()[0].find(
                   "in.xml:3: <bsdf type=\"roughplastic\">: the coat is rough for what it reflects"),
@@ -321,11 +338,13 @@ void write_image() {
 
 TEST_F(MitsubaTextures, AreLookedUpWhereMitsubaDoes) {
     write_image();
-    const std::string textured = R"(<bsdf type="diffuse" id="paper"><texture type="bitmap" name="reflectance">
+    const std::string textured =
+        R"(<bsdf type="diffuse" id="paper"><texture type="bitmap" name="reflectance">
         <string name="filename" value="two.ppm"/><string name="filter_type" value="nearest"/>
         <string name="wrap_mode" value="clamp"/><transform name="to_uv"><scale x="2" y="4"/>
         <translate x="0.125" y="0.25"/></transform></texture></bsdf>)";
-    const Scene scene = parse_elements(textured + R"(<shape type="rectangle"><ref id="paper"/></shape>
+    const Scene scene =
+        parse_elements(textured + R"(<shape type="rectangle"><ref id="paper"/></shape>
         <shape type="sphere"><ref id="paper"/></shape><shape type="cube"><ref id="paper"/></shape>)");
     const TextureArrays &textures = scene.arrays().textures;
     ASSERT_EQ(textures.image.size(), 2u);
@@ -333,11 +352,13 @@ TEST_F(MitsubaTextures, AreLookedUpWhereMitsubaDoes) {
     EXPECT_TRUE(textures.image[0]->srgb);
     EXPECT_EQ(textures.filter[0], TextureArrays::Filter::nearest);
     EXPECT_EQ(textures.wrap[0], TextureArrays::Wrap::clamp);
-    // Mitsuba's row from the top is 4 v + 1/4 of its height, ours from the bottom uv_scale v' + uv_offset; v'
-    // is Mitsuba's v on rectangles and cubes, 1 - v on spheres.
+    // Mitsuba's row from the top is 4 v + 1/4 of its height, ours from the bottom uv_scale v' +
+    // uv_offset; v' is Mitsuba's v on rectangles and cubes, 1 - v on spheres.
     for (const double v : {0.0, 0.3, 1.0}) {
-        EXPECT_NEAR(textures.uv_scale[0][1] * v + textures.uv_offset[0][1], 1 - (4 * v + 0.25), 1e-15);
-        EXPECT_NEAR(textures.uv_scale[1][1] * (1 - v) + textures.uv_offset[1][1], 1 - (4 * v + 0.25), 1e-15);
+        EXPECT_NEAR(textures.uv_scale[0][1] * v + textures.uv_offset[0][1], 1 - (4 * v + 0.25),
+                    1e-15);
+        EXPECT_NEAR(textures.uv_scale[1][1] * (1 - v) + textures.uv_offset[1][1],
+                    1 - (4 * v + 0.25), 1e-15);
     }
     EXPECT_EQ(textures.uv_scale[0][0], 2);
     EXPECT_EQ(textures.uv_offset[1][0], 0.125);
@@ -348,7 +369,8 @@ TEST_F(MitsubaTextures, AreDecodedUnlessRaw) {
     write_image();
     const auto image = [](const std::string &properties) {
         return parse_elements(
-                   R"(<texture type="bitmap" id="t"><string name="filename" value="two.ppm"/>)" + properties +
+                   R"(<texture type="bitmap" id="t"><string name="filename" value="two.ppm"/>)" +
+                   properties +
                    R"(</texture><shape type="rectangle"><bsdf type="diffuse"><ref name="reflectance" id="t"/>
                                   </bsdf></shape>)")
             .arrays()
@@ -368,7 +390,8 @@ TEST_F(MitsubaTextures, NeedCoordinatesInCommon) {
         };
     };
     expect_input_error(
-        "in.xml:3: <texture type=\"bitmap\" name=\"reflectance\">: this shape has no texture coordinates",
+        "in.xml:3: <texture type=\"bitmap\" name=\"reflectance\">: this shape has no texture "
+        "coordinates",
         on("disk"));
     EXPECT_NO_THROW(on("cylinder")());
 }
@@ -376,7 +399,8 @@ TEST_F(MitsubaTextures, NeedCoordinatesInCommon) {
 TEST_F(MitsubaTextures, Environments) {
     std::ofstream(testing::TempDir() + "sky.pfm", std::ios::binary) << "PF\n2 3\n-1.0\n"
                                                                     << std::string(72, '\0');
-    const Scene scene = parse_elements(R"(<emitter type="envmap"><string name="filename" value="sky.pfm"/>
+    const Scene scene =
+        parse_elements(R"(<emitter type="envmap"><string name="filename" value="sky.pfm"/>
         <float name="scale" value="3"/><transform name="to_world"><rotate y="1" angle="90"/></transform></emitter>)");
     const LightArrays &lights = scene.lights();
     EXPECT_EQ(lights.kind[0], LightArrays::Kind::environment);
@@ -396,8 +420,9 @@ TEST(MitsubaEmitters, BecomeLights) {
         <emitter type="constant"><spectrum name="radiance" value="2"/></emitter>)");
     const LightArrays &lights = scene.lights();
     using Light = LightArrays::Kind;
-    ASSERT_EQ(lights.kind, (std::vector<Light>{Light::diffuse_area, Light::point, Light::spot,
-                                               Light::directional, Light::directional, Light::dome}));
+    ASSERT_EQ(lights.kind,
+              (std::vector<Light>{Light::diffuse_area, Light::point, Light::spot,
+                                  Light::directional, Light::directional, Light::dome}));
     EXPECT_EQ(lights.radiance[0], Vector3f(1, 2, 3));
     EXPECT_DOUBLE_EQ(lights.area[0], 4);
     EXPECT_EQ(lights.radiance[1], Vector3f(4, 4, 4));
@@ -420,14 +445,16 @@ TEST(MitsubaEmitters, BecomeLights) {
 
 TEST(MitsubaNotices, NameWhatIsReplaced) {
     const Notices notices;
-    const Scene scene = parse_mitsuba_xml(R"(<scene version="3.0.0"><default name="depth" value="6"/>
+    const Scene scene =
+        parse_mitsuba_xml(R"(<scene version="3.0.0"><default name="depth" value="6"/>
         <integrator type="$unknown"><integer name="max_depth" value="$depth"/></integrator>
         <sensor type="perspective"><float name="near_clip" value="0.5"/><sampler type="independent">
         <integer name="sample_count" value="32"/></sampler></sensor></scene>)",
-                                          "in.xml", "in");
+                          "in.xml", "in");
     ASSERT_EQ(notices.texts().size(), 1u);
-    for (const char *part : {"integrator '$unknown'", "max_depth 6, here --set integrator.max_depth=5",
-                             "rfilter 'gaussian'", "sampler 'independent' of 32", "near_clip 0.5"}) {
+    for (const char *part :
+         {"integrator '$unknown'", "max_depth 6, here --set integrator.max_depth=5",
+          "rfilter 'gaussian'", "sampler 'independent' of 32", "near_clip 0.5"}) {
         EXPECT_NE(notices.texts()[0].find(part), std::string::npos) << notices.texts()[0];
     }
 }
@@ -447,8 +474,9 @@ TEST(MitsubaScenesOfOthers, Load) {
     EXPECT_EQ(veach.arrays().shapes.name.size(), 3u);
     EXPECT_EQ(veach.lights().name.size(), 3u);
     // These lack their mesh files; and one is of a BSDF that we have not.
-    expect_input_error("breakfast-room/scene.xml:157: <shape type=\"obj\" id=\"FrostedGlass_0001\">: ",
-                       [&] { load_scene(std::string(meshes) + "/breakfast-room/scene.xml"); });
+    expect_input_error(
+        "breakfast-room/scene.xml:157: <shape type=\"obj\" id=\"FrostedGlass_0001\">: ",
+        [&] { load_scene(std::string(meshes) + "/breakfast-room/scene.xml"); });
     expect_input_error("bistro-interior/scene.xml:",
                        [&] { load_scene(std::string(meshes) + "/bistro-interior/scene.xml"); });
 }

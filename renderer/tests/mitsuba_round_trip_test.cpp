@@ -45,7 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MitsubaRoundTrip,
                                          "features/thin_lens"),
                          [](const auto &tested) {
                              const std::string path = tested.param;
-                             return path.substr(0, path.find('/')) + "_" + path.substr(path.find('/') + 1);
+                             return path.substr(0, path.find('/')) + "_" +
+                                    path.substr(path.find('/') + 1);
                          });
 
 }  // namespace

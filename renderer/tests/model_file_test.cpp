@@ -90,7 +90,8 @@ TEST(ModelFile, MapsTheMaterialsOfMtl) {
     ASSERT_EQ(scaled.size(), 2u);
     EXPECT_LT((scaled[0].weight - Vector3f(0.5f, 1 / 3.0f, 1 / 3.0f)).norm(), 1e-6f);
     EXPECT_LT((scaled[1].weight - Vector3f(0.5f, 1 / 3.0f, 1 / 6.0f)).norm(), 1e-6f);
-    EXPECT_TRUE(model.says("reflect more than they receive are scaled (1: too_bright)")) << model.told;
+    EXPECT_TRUE(model.says("reflect more than they receive are scaled (1: too_bright)"))
+        << model.told;
 
     const auto glass = model.material("glass");
     ASSERT_EQ(glass.size(), 2u);
@@ -129,7 +130,8 @@ TEST(ModelFile, GivesAModelWithoutLightAndCameraBoth) {
     EXPECT_EQ(model.scene.lights().radiance[0], Vector3f(1, 1, 1));
     EXPECT_EQ(model.material("default")[0].weight, Vector3f::Constant(0.6f));
     EXPECT_FALSE(model.scene.meshes().has_normals[0]);  // STL says those of triangles once more
-    // All of the model is seen: every corner of its box is within half the angle of view of the axis.
+    // All of the model is seen: every corner of its box is within half the angle of view of the
+    // axis.
     const CameraArrays &cameras = model.scene.cameras();
     const Eigen::Matrix4d camera_from_world = cameras.world_from_camera[0].inverse();
     for (const Vector3f &vertex : model.scene.meshes().position) {
@@ -159,7 +161,8 @@ TEST(ModelFile, ReadsNodesInstancesLightsAndCamerasOfGltf) {
     const CameraArrays &cameras = model.scene.cameras();
     ASSERT_EQ(cameras.name.size(), 1u);
     EXPECT_EQ(cameras.fov_axis[0], CameraArrays::FovAxis::x);
-    EXPECT_NEAR(std::tan(0.5 * cameras.fov[0]), 2 * std::tan(0.3), 1e-6);  // 0.6 along y, aspect ratio 2
+    EXPECT_NEAR(std::tan(0.5 * cameras.fov[0]), 2 * std::tan(0.3),
+                1e-6);  // 0.6 along y, aspect ratio 2
     EXPECT_EQ(cameras.world_from_camera[0].col(3), Eigen::Vector4d(0, 0, 5, 1));
     EXPECT_EQ(model.scene.film_width(), 2 * model.scene.film_height());
 
@@ -219,14 +222,16 @@ TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
     EXPECT_EQ(brass[3].kind, Kind::ideal_refraction);
     EXPECT_EQ(brass[3].weight, Vector3f::Constant(0.5f));
     // Means of decoded texels: red of (1, 0), green of (128, 64) / 255, blue of (0, 1).
-    const double green =
-        0.5 * (std::pow((128 / 255.0 + 0.055) / 1.055, 2.4) + std::pow((64 / 255.0 + 0.055) / 1.055, 2.4));
+    const double green = 0.5 * (std::pow((128 / 255.0 + 0.055) / 1.055, 2.4) +
+                                std::pow((64 / 255.0 + 0.055) / 1.055, 2.4));
     const LightArrays &lights = loaded.scene.lights();
     const size_t glow = loaded.light("left");
     ASSERT_LT(glow, lights.name.size());
     EXPECT_LT((lights.radiance[glow].cast<double>() - Vector3d(0.5, green, 0.25)).norm(), 1e-6);
-    EXPECT_TRUE(loaded.says("maps of emission are replaced by their mean (1: brass)")) << loaded.told;
-    EXPECT_TRUE(loaded.says("maps of metalness and roughness are replaced by their mean")) << loaded.told;
+    EXPECT_TRUE(loaded.says("maps of emission are replaced by their mean (1: brass)"))
+        << loaded.told;
+    EXPECT_TRUE(loaded.says("maps of metalness and roughness are replaced by their mean"))
+        << loaded.told;
     EXPECT_TRUE(loaded.says("bump and normal maps are left out")) << loaded.told;
 }
 
@@ -236,7 +241,9 @@ TEST(ModelFile, ReadsCollada) {
     EXPECT_LT((model.scene.meshes().position[2] - Vector3f(2, 0, -2)).norm(), 1e-6f);
     EXPECT_NEAR(model.scene.cameras().fov[0], 50 * degree, 1e-6);
     EXPECT_EQ(model.scene.cameras().fov_axis[0], CameraArrays::FovAxis::x);
-    EXPECT_LT((model.scene.cameras().world_from_camera[0].col(3) - Eigen::Vector4d(0, 7, 0, 1)).norm(), 1e-6);
+    EXPECT_LT(
+        (model.scene.cameras().world_from_camera[0].col(3) - Eigen::Vector4d(0, 7, 0, 1)).norm(),
+        1e-6);
     EXPECT_EQ(model.scene.lights().radiance[0], Vector3f(4, 3, 2));
     EXPECT_TRUE(model.says("fall off with the square of the distance")) << model.told;
     const auto paint = model.material("paint");
@@ -284,8 +291,10 @@ TEST(ModelFile, KeepsTheSquaresOfEveryFormat) {
         // In 3DS files z is up: what was y is taken for it and becomes -z.
         const bool is_turned = std::string(format.id) == "3ds";
         const Vector3d front = is_turned ? Vector3d::UnitY() : Vector3d::UnitZ();
-        EXPECT_LT((bounds.min() - (is_turned ? Vector3d(0, 0, -1) : Vector3d(0, 0, 0))).norm(), 1e-6);
-        EXPECT_LT((bounds.max() - (is_turned ? Vector3d(1, 0, 0) : Vector3d(1, 1, 0))).norm(), 1e-6);
+        EXPECT_LT((bounds.min() - (is_turned ? Vector3d(0, 0, -1) : Vector3d(0, 0, 0))).norm(),
+                  1e-6);
+        EXPECT_LT((bounds.max() - (is_turned ? Vector3d(1, 0, 0) : Vector3d(1, 1, 0))).norm(),
+                  1e-6);
         const auto mesh = load_mesh_file(folder.path() / format.file, "m");
         EXPECT_EQ(mesh->triangles().size(), 16u);
         // The front is where it was.
@@ -316,14 +325,16 @@ TEST(ModelFile, SaysWhatIsWrong) {
     expect_input_error("gone.obj: no such file", [&] { Loaded model(folder.path() / "gone.obj"); });
     expect_input_error("empty.obj", [&] { Loaded model(folder.write("empty.obj", "")); });
     expect_input_error("a.gltf", [&] { Loaded model(folder.write("a.gltf", "{}")); });
-    expect_input_error("points.obj: it has no",
-                       [&] { Loaded model(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")); });
+    expect_input_error("points.obj: it has no", [&] {
+        Loaded model(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"));
+    });
     expect_input_error("'.foo' is not a known scene format",
                        [&] { Loaded model(folder.write("a.foo", "")); });
     expect_input_error("'.assbin' is not a known scene format",
                        [&] { Loaded model(folder.write("a.assbin", "")); });
     // It makes Assimp 5.2.5 abort, in the child process.
-    expect_input_error("damaged.3mf: cannot be read: ", [&] { Loaded model(corpus / "damaged.3mf"); });
+    expect_input_error("damaged.3mf: cannot be read: ",
+                       [&] { Loaded model(corpus / "damaged.3mf"); });
     // Binary STL of four billion triangles, and of as many as there are.
     std::string stl(80, ' ');
     expect_input_error("a.stl", [&] {

@@ -43,9 +43,11 @@ TEST(Ply, ReadsEveryEncodingAlike) {
         const PlyFile file = read_ply(corpus / name, notes, true);
         EXPECT_EQ(file.geometry.vertices,
                   (std::vector<Vector3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 2, 0}}));
-        EXPECT_EQ(file.geometry.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {3, 2, 4}}));
+        EXPECT_EQ(file.geometry.triangles,
+                  (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {3, 2, 4}}));
         EXPECT_EQ(file.geometry.normals, std::vector<Vector3d>(5, {0, 0, 1}));
-        EXPECT_EQ(file.geometry.uvs, (std::vector<Vector2d>{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 2}}));
+        EXPECT_EQ(file.geometry.uvs,
+                  (std::vector<Vector2d>{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 2}}));
         EXPECT_EQ(file.material, (std::vector<int64_t>{0, 0, 1}));
     }
 }
@@ -61,21 +63,24 @@ TEST(Ply, LeavesOutWhatMeansNothingHereAndSaysSo) {
     std::vector<std::string> told;
     const NoticeReceiver receiver([&](const std::string &text) { told.push_back(text); });
     const TemporaryFolder folder;
-    const auto path = folder.write("in.ply",
-                                   "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar float "
-                                   "view\nelement vertex 4\nproperty float x\n"
-                                   "property float y\nproperty float z\nproperty uchar red\nproperty list "
-                                   "uchar int near\nelement face 2\n"
-                                   "property list uchar int vertex_indices\nend_header\n2 0.5 0.5\n0 0 0 1 "
-                                   "0\n1 0 0 2 1 3\n1 1 0 3 2 1 2\n"
-                                   "0 1 0 4 0\n2 0 1\n4 0 1 2 3\n");
+    const auto path =
+        folder.write("in.ply",
+                     "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar float "
+                     "view\nelement vertex 4\nproperty float x\n"
+                     "property float y\nproperty float z\nproperty uchar red\nproperty list "
+                     "uchar int near\nelement face 2\n"
+                     "property list uchar int vertex_indices\nend_header\n2 0.5 0.5\n0 0 0 1 "
+                     "0\n1 0 0 2 1 3\n1 1 0 3 2 1 2\n"
+                     "0 1 0 4 0\n2 0 1\n4 0 1 2 3\n");
     const auto mesh = load_mesh_file(path, "m");
     EXPECT_EQ(mesh->vertices().size(), 4u);
     EXPECT_EQ(mesh->triangles().size(), 2u);
     ASSERT_EQ(told.size(), 3u);
-    EXPECT_NE(told[0].find("elements that mean nothing here are left out (1: camera)"), std::string::npos)
+    EXPECT_NE(told[0].find("elements that mean nothing here are left out (1: camera)"),
+              std::string::npos)
         << told[0];
-    EXPECT_NE(told[1].find("points and lines are left out (1: face 0 of in.ply)"), std::string::npos)
+    EXPECT_NE(told[1].find("points and lines are left out (1: face 0 of in.ply)"),
+              std::string::npos)
         << told[1];
     EXPECT_NE(told[2].find("(2: vertex red, vertex near)"), std::string::npos) << told[2];
 }
@@ -92,22 +97,28 @@ TEST(Ply, SaysWhatIsWrong) {
         {"ply\nelement vertex 3\nend_header\n", "the header states no format"},
         {"ply\nformat utf8 1.0\nend_header\n", "'utf8' is no format"},
         {"ply\nformat ascii 1.0\nproperty float x\nend_header\n", "before the first element"},
-        {"ply\nformat ascii 1.0\nelement vertex 3\nproperty real x\nend_header\n", "'real' is no type"},
+        {"ply\nformat ascii 1.0\nelement vertex 3\nproperty real x\nend_header\n",
+         "'real' is no type"},
         {"ply\nformat ascii 1.0\nelement vertex -3\nend_header\n", "'-3' is no number of elements"},
-        {"ply\nformat ascii 1.0\nelement vertex 3\nelement vertex 3\nend_header\n", "two elements 'vertex'"},
+        {"ply\nformat ascii 1.0\nelement vertex 3\nelement vertex 3\nend_header\n",
+         "two elements 'vertex'"},
         {"ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int x\nend_header\n",
          "two properties 'x'"},
-        {"ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_index\nend_header\n",
+        {"ply\nformat ascii 1.0\nelement face 1\nproperty list float int "
+         "vertex_index\nend_header\n",
          "no integer"},
         {"ply\nformat ascii 1.0\nelement face 9999999999999999999\nproperty int a\nend_header\n1\n",
          "too short for the"},
-        {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n", "no x, y and z"},
+        {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
+         "no x, y and z"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty int a\nend_header\n1\n",
          "no list 'vertex_indices'"},
         {"ply\nformat ascii 1.0\nelement vertex 99999999999999999999999\nend_header\n",
          "is no number of elements"},
-        {"ply\nformat ascii 1.0\nelement void 4000000000000000000\nend_header\n", "it has no faces"},
-        {ply("4000000000", "1", three + "3 0 1 2\n"), "too short for the 4000000000 rows of 'vertex'"},
+        {"ply\nformat ascii 1.0\nelement void 4000000000000000000\nend_header\n",
+         "it has no faces"},
+        {ply("4000000000", "1", three + "3 0 1 2\n"),
+         "too short for the 4000000000 rows of 'vertex'"},
         {ply("3", "0", three), "it has no faces"},
         {ply("3", "1", three + "2 0 1\n"), "it has no faces"},
         {ply("3", "1", three + "3 0 1\n"), "face 0: the file ends too early"},
@@ -135,18 +146,20 @@ TEST(Ply, SaysWhatIsWrong) {
 
 TEST(ModelGeometry, JoinsEqualVerticesOnly) {
     Geometry geometry;
-    geometry.vertices = {{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+    geometry.vertices = {{9, 9, 9},    {0, 0, 0}, {1, 0, 0}, {0, 1, 0},
+                         {-0.0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
     geometry.uvs = {{0, 0}, {0, 0}, {1, 0}, {0, 1}, {0, 0}, {0, 1}, {1, 0.5}};
     geometry.triangles = {{1, 2, 3}, {4, 5, 6}};
     join_vertices(geometry);
     EXPECT_EQ(geometry.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
-    EXPECT_EQ(geometry.vertices, (std::vector<Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}));
+    EXPECT_EQ(geometry.vertices,
+              (std::vector<Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}));
     EXPECT_EQ(geometry.uvs[3], Vector2d(1, 0.5));
 }
 
 TEST(ModelGeometry, SmoothNormalsOfACubeCornerAreItsDiagonal) {
-    // Three sides that meet in the origin, one of them of two triangles: without weights it would count
-    // twice.
+    // Three sides that meet in the origin, one of them of two triangles: without weights it would
+    // count twice.
     Geometry geometry;
     geometry.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}};
     geometry.triangles = {{0, 4, 1}, {0, 2, 4}, {0, 1, 3}, {0, 3, 2}};
@@ -204,7 +217,8 @@ TEST(ModelGeometry, SplitsPolygonsWithoutLosingArea) {
     double area = 0;
     for (const Triangle &t : geometry.triangles) {
         const Vector3d &a = geometry.vertices[t[0]];
-        const double signed_area = 0.5 * (geometry.vertices[t[1]] - a).cross(geometry.vertices[t[2]] - a).z();
+        const double signed_area =
+            0.5 * (geometry.vertices[t[1]] - a).cross(geometry.vertices[t[2]] - a).z();
         EXPECT_GE(signed_area, 0);
         area += signed_area;
     }
@@ -222,28 +236,32 @@ TEST(MeshFile, OptionsChooseNormalsAndFlipV) {
     options.normals = MeshFileOptions::Normals::smooth;
     const TemporaryFolder folder;
     const auto path = folder.write("in.ply", ply("3", "1", "0 0 0\n0 1 0\n0 0 1\n3 0 1 2\n"));
-    EXPECT_EQ(load_mesh_file(path, "m", options)->normals(), std::vector<Vector3d>(3, Vector3d(1, 0, 0)));
+    EXPECT_EQ(load_mesh_file(path, "m", options)->normals(),
+              std::vector<Vector3d>(3, Vector3d(1, 0, 0)));
 }
 
 TEST(MeshFile, IsGeometryOfScenes) {
     const auto scene = [](const std::string &geometry) {
-        return parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 8}, "nodes": [
+        return parse_scene_json(
+            R"({"version": 1, "film": {"width": 8, "height": 8}, "nodes": [
             {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
             {"name": "square", "geometry": )" +
-                                    geometry +
-                                    R"(, "material": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}}]})",
-                                "in.json", "in", corpus);
+                geometry +
+                R"(, "material": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}}]})",
+            "in.json", "in", corpus);
     };
     EXPECT_TRUE(scene(R"({"type": "file", "file": "square.ply"})").meshes().has_normals[0]);
-    const Scene flat = scene(R"({"type": "file", "file": "square.ply", "shading_normals": "none"})");
+    const Scene flat =
+        scene(R"({"type": "file", "file": "square.ply", "shading_normals": "none"})");
     EXPECT_FALSE(flat.meshes().has_normals[0]);
     EXPECT_EQ(flat.meshes().triangle_count[0], 3u);
     const std::string missing =
         error_of(ExitCode::bad_input, [&] { scene(R"({"type": "file", "file": "no.ply"})"); });
     EXPECT_NE(missing.find("in.json:3"), std::string::npos) << missing;
     EXPECT_NE(missing.find("no.ply: cannot be read"), std::string::npos) << missing;
-    expect_input_error("shading_normals",
-                       [&] { scene(R"({"type": "file", "file": "square.ply", "shading_normals": 1})"); });
+    expect_input_error("shading_normals", [&] {
+        scene(R"({"type": "file", "file": "square.ply", "shading_normals": 1})");
+    });
 }
 
 }  // namespace

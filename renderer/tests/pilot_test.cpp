@@ -36,7 +36,8 @@ std::vector<int64_t> render_words(const std::string &scene, const RenderSettings
 
 TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
     const auto choose = [](const std::string &scene) {
-        const Pilot pilot = choose_light_paths(load_scene(RTRAYS_SCENES + scene), settings_of(LIGHT_PATHS_AUTO), device());
+        const Pilot pilot = choose_light_paths(load_scene(RTRAYS_SCENES + scene),
+                                               settings_of(LIGHT_PATHS_AUTO), device());
         EXPECT_GE(pilot.trials.size(), 4u);
         const PilotTrial *best = &pilot.trials.front();
         for (const PilotTrial &trial : pilot.trials) {
@@ -75,12 +76,14 @@ TEST(Pilot, IsThrownAwayAndRecorded) {
     const nlohmann::json report = RenderSession(scene, automatic, device()).report();
     const auto chosen = report.at("pilot").at("light_paths").get<uint32_t>();
     EXPECT_EQ(report.at("settings").at("integrator.light_paths"), std::to_string(chosen));
-    EXPECT_EQ(render_words("/cornell_mirrors/scene.json", automatic), render_words("/cornell_mirrors/scene.json", settings_of(chosen)));
+    EXPECT_EQ(render_words("/cornell_mirrors/scene.json", automatic),
+              render_words("/cornell_mirrors/scene.json", settings_of(chosen)));
 }
 
 TEST(Pilot, NoLightPathsArePathTracing) {
     const std::string scene = "/cornell_box/scene.json";
-    const std::vector<int64_t> expected = render_words(scene, settings_of(LIGHT_PATHS_LIKE_PIXELS, "path_tracing"));
+    const std::vector<int64_t> expected =
+        render_words(scene, settings_of(LIGHT_PATHS_LIKE_PIXELS, "path_tracing"));
     EXPECT_EQ(render_words(scene, settings_of(0)), expected);
     RenderSettings all = settings_of(0);
     all.features = "all";
@@ -92,7 +95,8 @@ TEST(Pilot, IsOfTruncatedBdptAlone) {
     expect_input_error("light_tracing has no choice", [&] {
         RenderSession(scene, settings_of(LIGHT_PATHS_AUTO, "light_tracing"), device());
     });
-    expect_input_error("light_tracing has nothing else", [&] { RenderSession(scene, settings_of(0, "light_tracing"), device()); });
+    expect_input_error("light_tracing has nothing else",
+                       [&] { RenderSession(scene, settings_of(0, "light_tracing"), device()); });
 }
 
 }  // namespace

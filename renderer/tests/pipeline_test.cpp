@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pipeline on the device: what is compiled, allocated and launched for a scene, and that it changes no bit.
+// The pipeline on the device: what is compiled, allocated and launched for a scene, and that it
+// changes no bit.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,7 +26,9 @@ DeviceContext &device() {
     return context;
 }
 
-Scene cornell_box() { return load_scene(RTRAYS_SCENES "/cornell_box/scene.json"); }
+Scene cornell_box() {
+    return load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+}
 
 RenderSettings small(const std::vector<std::string> &assignments = {}) {
     RenderSettings settings;
@@ -71,7 +74,8 @@ Mean mean_of(const Image &image, const std::string &channel, int begin, int end)
         for (int x = begin; x < end; ++x) {
             const auto i = static_cast<size_t>(y * image.width() + x);
             mean.value += static_cast<double>(image.channel(channel)[i]) / n;
-            mean.standard_error += static_cast<double>(image.channel("variance." + channel)[i]) / (n * n);
+            mean.standard_error +=
+                static_cast<double>(image.channel("variance." + channel)[i]) / (n * n);
         }
     }
     mean.standard_error = std::sqrt(mean.standard_error);
@@ -90,9 +94,12 @@ TEST_P(Algorithms, GiveTheSameBitsHoweverTheWorkIsCut) {
     EXPECT_NE(std::count(words.begin(), words.end(), 0), static_cast<long>(words.size()));
     EXPECT_EQ(render_words(with({})), words) << "a second run";
     EXPECT_EQ(render_words(with({}), 1), words) << "a batch split";
-    // All at once, for most make other programs of every stage; what any of them changed would show.
-    EXPECT_EQ(render_words(with({"device.group_size=16", "device.stream_capacity=3000", "device.stream_chunk=7",
-                                 "device.path_layout=arrays"}), 1), words)
+    // All at once, for most make other programs of every stage; what any of them changed would
+    // show.
+    EXPECT_EQ(render_words(with({"device.group_size=16", "device.stream_capacity=3000",
+                                 "device.stream_chunk=7", "device.path_layout=arrays"}),
+                           1),
+              words)
         << "other group size, stream capacity, chunk of work, layout";
     EXPECT_EQ(render_words(with({"device.features=all"})), words) << "everything compiled in";
     if (GetParam() == "ray_casting" || GetParam() == "whitted") {
@@ -127,8 +134,9 @@ TEST(Pipeline, HierarchiesDifferInTiesAlone) {
     const std::vector<int64_t> words = render_words(small({}));
     for (const NamedBvhMethod &method : bvh_methods) {
         for (const NamedBvhLayout &layout : bvh_layouts) {
-            const std::vector<int64_t> other = render_words(small({std::string("device.bvh_builder=") + method.name,
-                                                                   std::string("device.bvh_layout=") + layout.name}));
+            const std::vector<int64_t> other =
+                render_words(small({std::string("device.bvh_builder=") + method.name,
+                                    std::string("device.bvh_layout=") + layout.name}));
             size_t different = 0;
             for (size_t i = 0; i < words.size(); ++i) {
                 different += other[i] != words[i] ? 1 : 0;
@@ -139,13 +147,19 @@ TEST(Pipeline, HierarchiesDifferInTiesAlone) {
 }
 
 TEST(Pipeline, EverythingCompiledInChangesNoBit) {
-    for (const char *strategies : {"integrator.strategies=implicit", "integrator.strategies=explicit", "integrator.strategies=mis"}) {
+    for (const char *strategies : {"integrator.strategies=implicit",
+                                   "integrator.strategies=explicit", "integrator.strategies=mis"}) {
         const std::vector<int64_t> words = render_words(small({strategies}));
         EXPECT_EQ(render_words(small({strategies, "device.features=all"})), words) << strategies;
     }
-    for (const char *termination : {"integrator.termination=fixed", "integrator.termination=adaptive"}) {
-        const std::vector<int64_t> words = render_words(small({termination, "integrator.max_depth=3"}));
-        EXPECT_EQ(render_words(small({termination, "integrator.max_depth=3", "device.features=all"})), words) << termination;
+    for (const char *termination :
+         {"integrator.termination=fixed", "integrator.termination=adaptive"}) {
+        const std::vector<int64_t> words =
+            render_words(small({termination, "integrator.max_depth=3"}));
+        EXPECT_EQ(
+            render_words(small({termination, "integrator.max_depth=3", "device.features=all"})),
+            words)
+            << termination;
     }
 }
 
@@ -170,8 +184,8 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
     EXPECT_EQ(merged.light_paths, whole.light_paths);
     const Image image = develop_film(merged);
     for (size_t i = 0; i < image.pixel_count(); ++i) {
-        ASSERT_NEAR(image.channel("camera.G")[i] + image.channel("light.G")[i], image.channel("G")[i],
-                    1e-6 * (1 + image.channel("G")[i]));
+        ASSERT_NEAR(image.channel("camera.G")[i] + image.channel("light.G")[i],
+                    image.channel("G")[i], 1e-6 * (1 + image.channel("G")[i]));
     }
     settings.algorithm = "bdpt";
     expect_input_error("share their light paths", [&] { render("light"); });
@@ -187,7 +201,8 @@ TEST(Pipeline, KeepsWhatARoundMaySplatWithinOneWordOfTheFilm) {
     RenderSettings settings = small({"device.stream_capacity=1048576"});
     settings.algorithm = "light_tracing";
     const RenderSession session(cornell_box(), settings, device());
-    EXPECT_LE(2 * session.report()["stream"]["capacity"].get<uint64_t>(), FILM_ADDITIONS_BETWEEN_CARRIES);
+    EXPECT_LE(2 * session.report()["stream"]["capacity"].get<uint64_t>(),
+              FILM_ADDITIONS_BETWEEN_CARRIES);
 }
 
 TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
@@ -206,16 +221,19 @@ TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
     };
     const auto [all, light_of_all] = mean("integrator.light_paths=1024");
     const auto [few, light_of_few] = mean("integrator.light_paths=64");
-    EXPECT_LT(std::abs(all.value - few.value), 4 * std::hypot(all.standard_error, few.standard_error));
+    EXPECT_LT(std::abs(all.value - few.value),
+              4 * std::hypot(all.standard_error, few.standard_error));
     EXPECT_LT(all.standard_error, 0.01 * all.value) << "power";
     EXPECT_LT(light_of_few, 0.7 * light_of_all);
 }
 
-// With 16 vertices all strategies find all but the longest paths, with 1 only those of two scattering events: nothing is
-// lost or counted twice on either side of the limit. Five differences from path tracing at a family-wise level of 0.01,
-// standard errors from how 32 batches scatter: each may be 3.4 of them off (two-sided, t of 31 degrees, Bonferroni).
+// With 16 vertices all strategies find all but the longest paths, with 1 only those of two
+// scattering events: nothing is lost or counted twice on either side of the limit. Five differences
+// from path tracing at a family-wise level of 0.01, standard errors from how 32 batches scatter:
+// each may be 3.4 of them off (two-sided, t of 31 degrees, Bonferroni).
 TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
-    const auto mean = [&](const std::string &algorithm, uint32_t seed, const std::vector<std::string> &assignments,
+    const auto mean = [&](const std::string &algorithm, uint32_t seed,
+                          const std::vector<std::string> &assignments,
                           const SourceOverlays &overlays = {}) {
         RenderSettings settings = small(assignments);
         settings.algorithm = algorithm;
@@ -241,22 +259,30 @@ TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
     const Mean expected = mean("path_tracing", 1, {});
     EXPECT_LT(expected.standard_error, 0.005 * expected.value) << "power";
     const auto errors_off = [&](const Mean &found) {
-        return std::abs(found.value - expected.value) / std::hypot(found.standard_error, expected.standard_error);
+        return std::abs(found.value - expected.value) /
+               std::hypot(found.standard_error, expected.standard_error);
     };
     uint32_t seed = 2;
     for (const char *vertices : {"16", "8", "2", "1", "0"}) {
-        EXPECT_LT(errors_off(mean("bdpt", seed++, {std::string("integrator.bdpt_vertices=") + vertices})), 3.4) << vertices;
+        EXPECT_LT(
+            errors_off(mean("bdpt", seed++, {std::string("integrator.bdpt_vertices=") + vertices})),
+            3.4)
+            << vertices;
     }
-    // And would be seen: a cosine that is missing in the joins, one strategy that is missing in all weights.
+    // And would be seen: a cosine that is missing in the joins, one strategy that is missing in all
+    // weights.
     const auto planted = [&](const char *file, const std::string &search, const char *replacement) {
         std::string text = device_source(file);
         const size_t at = text.find(search);
         EXPECT_NE(at, std::string::npos) << search;
-        return errors_off(mean("bdpt", seed++, {}, {{file, text.replace(at, search.size(), replacement)}}));
+        return errors_off(
+            mean("bdpt", seed++, {}, {{file, text.replace(at, search.size(), replacement)}}));
     };
     EXPECT_GT(planted("kernels/connect_vertices.cl", "weight * cos_there", "weight"), 6);
-    EXPECT_GT(planted("kernels/light/mis.h", "return log_norm(log_arrival, log_pdf + log_strategies, beta);",
-                      "(void)log_arrival; (void)beta; return log_pdf + log_strategies;"), 6);
+    EXPECT_GT(planted("kernels/light/mis.h",
+                      "return log_norm(log_arrival, log_pdf + log_strategies, beta);",
+                      "(void)log_arrival; (void)beta; return log_pdf + log_strategies;"),
+              6);
 }
 
 TEST(Pipeline, KeepsLightVerticesInProportionToTheirNumber) {
@@ -266,16 +292,20 @@ TEST(Pipeline, KeepsLightVerticesInProportionToTheirNumber) {
         return RenderSession(cornell_box(), settings, device()).report();
     };
     const nlohmann::json truncated = report("truncated_bdpt", "integrator.max_depth=40");
-    EXPECT_EQ(truncated["bytes_per_path"], report("truncated_bdpt", "integrator.max_depth=4")["bytes_per_path"]);
+    EXPECT_EQ(truncated["bytes_per_path"],
+              report("truncated_bdpt", "integrator.max_depth=4")["bytes_per_path"]);
     const nlohmann::json four = report("bdpt", "integrator.bdpt_vertices=4");
     const int vertex = four["light_vertex_bytes_per_path"].get<int>() / 4;
     EXPECT_EQ(vertex, 44) << "hit, direction, throughput, two logarithms";
     const nlohmann::json sixteen = report("bdpt", "integrator.bdpt_vertices=16");
-    EXPECT_EQ(sixteen["bytes_per_path"].get<int>() - four["bytes_per_path"].get<int>(), 12 * vertex);
+    EXPECT_EQ(sixteen["bytes_per_path"].get<int>() - four["bytes_per_path"].get<int>(),
+              12 * vertex);
     uint64_t bytes = 0;
     for (const auto &buffer : sixteen["buffers"]) {
         const std::string name = buffer.at("name");
-        bytes += name == "path_states" || name == "queues" || name == "light_vertices" ? buffer.at("bytes").get<uint64_t>() : 0;
+        bytes += name == "path_states" || name == "queues" || name == "light_vertices"
+                     ? buffer.at("bytes").get<uint64_t>()
+                     : 0;
     }
     EXPECT_EQ(bytes, sixteen["bytes_per_path"].get<uint64_t>() * 512);
 }
@@ -320,21 +350,25 @@ TEST(Pipeline, RestartsWithAnotherDepthToTheSameBits) {
     EXPECT_THROW(unlimited.restart(1, 2), Error);
 }
 
-// Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are left out: all walls emit, and
-// cos cos / d^2 has no finite variance where two of them meet; experiments/tests/estimators_test.cpp covers them. 12
-// means and 3 of the emitter below share a family-wise level of 0.01: each may lie 3.5 standard errors off
-// (two-sided, Bonferroni). The standard errors are small enough that an error of 2 % is seen.
+// Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are left out: all
+// walls emit, and cos cos / d^2 has no finite variance where two of them meet;
+// experiments/tests/estimators_test.cpp covers them. 12 means and 3 of the emitter below share a
+// family-wise level of 0.01: each may lie 3.5 standard errors off (two-sided, Bonferroni). The
+// standard errors are small enough that an error of 2 % is seen.
 constexpr double bound = 3.5;
 
 TEST(ClosedForm, FurnaceGivesEmissionOverOneMinusAlbedo) {
-    for (const auto &[file, albedo] : {std::pair("/analytic/furnace_050.json", 0.5f), std::pair("/analytic/furnace_090.json", 0.9f)}) {
+    for (const auto &[file, albedo] : {std::pair("/analytic/furnace_050.json", 0.5f),
+                                       std::pair("/analytic/furnace_090.json", 0.9f)}) {
         for (const char *strategies : {"implicit", "mis"}) {
             RenderSettings settings = small({std::string("integrator.strategies=") + strategies});
-            RenderSession session(load_scene(RTRAYS_SCENES + std::string(file)), settings, device());
+            RenderSession session(load_scene(RTRAYS_SCENES + std::string(file)), settings,
+                                  device());
             session.render(0, 512);
             const Image image = session.develop();
             const double expected = 1.0 / (1.0 - static_cast<double>(albedo));
-            for (const auto &[channel, emission] : {std::pair("R", 1.0), std::pair("G", 0.5), std::pair("B", 0.25)}) {
+            for (const auto &[channel, emission] :
+                 {std::pair("R", 1.0), std::pair("G", 0.5), std::pair("B", 0.25)}) {
                 const Mean mean = mean_of(image, channel, 0, 32);
                 EXPECT_LT(std::abs(mean.value - emission * expected), bound * mean.standard_error)
                     << file << " " << strategies << " " << channel;
@@ -349,14 +383,18 @@ TEST(ClosedForm, IrradianceBelowASquareEmitter) {
     settings.width = settings.height = 33;
     settings.max_depth = 1;
     settings.stream_capacity = 512;
-    RenderSession session(load_scene(RTRAYS_SCENES "/analytic/emitter_direct.json"), settings, device());
+    RenderSession session(load_scene(RTRAYS_SCENES "/analytic/emitter_direct.json"), settings,
+                          device());
     session.render(0, 16384);
     const Image image = session.develop();
     const double a = 1.0, h = 2.0, r = std::sqrt(a * a + h * h);  // half side, height
-    const double irradiance = 4.0 * a / r * std::atan(a / r);     // per unit radiance, at the foot of the centre
-    for (const auto &[channel, factor] : {std::pair("R", 0.8 * 1), std::pair("G", 0.5 * 2), std::pair("B", 0.2 * 4)}) {
+    const double irradiance =
+        4.0 * a / r * std::atan(a / r);  // per unit radiance, at the foot of the centre
+    for (const auto &[channel, factor] :
+         {std::pair("R", 0.8 * 1), std::pair("G", 0.5 * 2), std::pair("B", 0.2 * 4)}) {
         const Mean mean = mean_of(image, channel, 16, 17);
-        EXPECT_NEAR(mean.value, factor * irradiance / 3.14159265358979, bound * mean.standard_error);
+        EXPECT_NEAR(mean.value, factor * irradiance / 3.14159265358979,
+                    bound * mean.standard_error);
         EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * mean.value) << "power";
     }
 }
@@ -404,9 +442,11 @@ TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
 
 TEST(Features, AreNamedAndClosed) {
     // Each pass starts at one end.
-    const FeatureMask from_light = FeatureMask::all().with(Feature::from_camera, false).with(Feature::convergence, false);
+    const FeatureMask from_light =
+        FeatureMask::all().with(Feature::from_camera, false).with(Feature::convergence, false);
     EXPECT_EQ(FeatureMask::all().closed().bits(), from_light.bits());
-    const FeatureMask from_camera = FeatureMask::all().with(Feature::from_light, false).with(Feature::emission_density, false);
+    const FeatureMask from_camera =
+        FeatureMask::all().with(Feature::from_light, false).with(Feature::emission_density, false);
     EXPECT_EQ(from_camera.closed().bits(), from_camera.bits());
     EXPECT_EQ(FeatureMask().closed().bits(), FeatureMask().with(Feature::from_camera).bits());
     const FeatureMask dark = FeatureMask::all().with(Feature::lights, false).closed();
@@ -414,15 +454,18 @@ TEST(Features, AreNamedAndClosed) {
     EXPECT_FALSE(dark.has(Feature::many_lights));
     EXPECT_EQ(dark.defines().at("FEATURE_lights"), "0");
     EXPECT_TRUE(contains(dark.names(), "scattering"));
-    for (const Feature feature : {Feature::light_strategy, Feature::from_light, Feature::point_lights}) {
+    for (const Feature feature :
+         {Feature::light_strategy, Feature::from_light, Feature::point_lights}) {
         EXPECT_FALSE(dark.has(feature));
     }
-    // Light paths start at lights that camera paths cannot hit, also where those are not joined to them.
+    // Light paths start at lights that camera paths cannot hit, also where those are not joined to
+    // them.
     const FeatureMask forward = FeatureMask::all().with(Feature::explicit_light, false).closed();
     EXPECT_TRUE(forward.has(Feature::point_lights));
     EXPECT_TRUE(forward.has(Feature::many_lights));
     EXPECT_FALSE(forward.with(Feature::from_light, false).closed().has(Feature::point_lights));
-    // Where nothing scatters nothing is joined, but both ends still see the emitters and weigh them.
+    // Where nothing scatters nothing is joined, but both ends still see the emitters and weigh
+    // them.
     const FeatureMask bare = FeatureMask::all().with(Feature::scattering, false).closed();
     EXPECT_FALSE(bare.has(Feature::vertex_joins));
     EXPECT_TRUE(bare.has(Feature::light_emitters));
@@ -461,9 +504,11 @@ TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
 TEST(Settings, NameTheAlternatives) {
     for (const auto &[assignment, fragment] :
          {std::pair("integrator.strategies=both", "implicit, explicit, mis"),
-          std::pair("integrator.strategy=mis", "integrator.strategies"), std::pair("integrator.max_depth=-1", "number"),
-          std::pair("integrator.max_depth=3x", "number"), std::pair("integrator.beta=nan", "number"),
-          std::pair("integrator.beta=0", "above 0"), std::pair("integrator.beta", "NAME=VALUE")}) {
+          std::pair("integrator.strategy=mis", "integrator.strategies"),
+          std::pair("integrator.max_depth=-1", "number"),
+          std::pair("integrator.max_depth=3x", "number"),
+          std::pair("integrator.beta=nan", "number"), std::pair("integrator.beta=0", "above 0"),
+          std::pair("integrator.beta", "NAME=VALUE")}) {
         RenderSettings settings;
         expect_input_error(fragment, [&, text = assignment] { apply_setting(settings, text); });
     }
@@ -474,7 +519,8 @@ TEST(Settings, NameTheAlternatives) {
     settings.termination = "sudden";
     expect_input_error("roulette, fixed, adaptive", [&] { require_consistent(settings); });
     settings.algorithm = "magic";
-    expect_input_error("no algorithm 'magic'; there are: ray_casting, whitted, path_tracing", [&] { require_consistent(settings); });
+    expect_input_error("no algorithm 'magic'; there are: ray_casting, whitted, path_tracing",
+                       [&] { require_consistent(settings); });
 }
 
 }  // namespace

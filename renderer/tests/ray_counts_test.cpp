@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays counted by depth.
+#include "renderer/shared/ray_counts.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -8,7 +10,6 @@
 #include "renderer/device/context.h"
 #include "renderer/import/scene_json.h"
 #include "renderer/pipeline/render_session.h"
-#include "renderer/shared/ray_counts.h"
 #include "renderer/tests/errors.h"
 
 namespace rtrays {
@@ -26,8 +27,8 @@ struct Rendered {
     nlohmann::json report;
 };
 
-Rendered render(const Scene &scene, const std::string &algorithm, const std::vector<std::string> &assignments,
-                uint64_t samples = 5) {
+Rendered render(const Scene &scene, const std::string &algorithm,
+                const std::vector<std::string> &assignments, uint64_t samples = 5) {
     RenderSettings settings;
     settings.algorithm = algorithm;
     settings.width = settings.height = 16;
@@ -52,7 +53,8 @@ Scene closed_sphere() {
 
 TEST(RayCounts, AreExactInAClosedScene) {
     const Scene scene = closed_sphere();
-    const std::vector<std::string> by_depth = {"device.count_rays=by_depth", "integrator.strategies=explicit",
+    const std::vector<std::string> by_depth = {"device.count_rays=by_depth",
+                                               "integrator.strategies=explicit",
                                                "integrator.termination=fixed"};
     const auto rays = [&](const std::string &max_depth) {
         std::vector<std::string> assignments = by_depth;
@@ -72,17 +74,22 @@ TEST(RayCounts, AreExactInAClosedScene) {
 TEST(RayCounts, AddUpToTheTotalsAndChangeNoBit) {
     const Scene box = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
     for (const std::string &algorithm : algorithm_names()) {
-        const Rendered plain = render(box, algorithm, {}), counted = render(box, algorithm, {"device.count_rays=by_depth"});
+        const Rendered plain = render(box, algorithm, {}),
+                       counted = render(box, algorithm, {"device.count_rays=by_depth"});
         EXPECT_EQ(counted.words, plain.words) << algorithm;
         uint64_t nearest = 0, shadow = 0;
         for (const nlohmann::json &pass : counted.report["passes"]) {
-            const auto of_pass = pass.at("rays_by_depth").at("nearest").get<std::vector<uint64_t>>();
-            const auto shadow_of_pass = pass.at("rays_by_depth").at("shadow").get<std::vector<uint64_t>>();
+            const auto of_pass =
+                pass.at("rays_by_depth").at("nearest").get<std::vector<uint64_t>>();
+            const auto shadow_of_pass =
+                pass.at("rays_by_depth").at("shadow").get<std::vector<uint64_t>>();
             nearest = std::accumulate(of_pass.begin(), of_pass.end(), nearest);
             shadow = std::accumulate(shadow_of_pass.begin(), shadow_of_pass.end(), shadow);
         }
         EXPECT_GT(shadow, 0u) << algorithm;
-        EXPECT_EQ(counted.report["rays"], (nlohmann::json{{"nearest", nearest}, {"shadow", shadow}})) << algorithm;
+        EXPECT_EQ(counted.report["rays"],
+                  (nlohmann::json{{"nearest", nearest}, {"shadow", shadow}}))
+            << algorithm;
         EXPECT_EQ(plain.report["rays"], counted.report["rays"]) << algorithm;
         for (const nlohmann::json &buffer : plain.report["buffers"]) {
             EXPECT_EQ(buffer.at("name").get<std::string>().find("ray_counts"), std::string::npos);
@@ -98,7 +105,8 @@ TEST(RayCounts, NeedStreams) {
     RenderSettings settings;
     apply_setting(settings, "device.pipeline=megakernel");
     apply_setting(settings, "device.count_rays=by_depth");
-    expect_input_error("device.count_rays=by_depth counts what is in the streams", [&] { require_consistent(settings); });
+    expect_input_error("device.count_rays=by_depth counts what is in the streams",
+                       [&] { require_consistent(settings); });
 }
 
 }  // namespace

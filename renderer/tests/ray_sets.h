@@ -8,7 +8,10 @@
 namespace rtrays::test {
 
 inline RayRecord make_ray(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction) {
-    return {{origin.x(), origin.y(), origin.z()}, INFINITY, {direction.x(), direction.y(), direction.z()}, 0};
+    return {{origin.x(), origin.y(), origin.z()},
+            INFINITY,
+            {direction.x(), direction.y(), direction.z()},
+            0};
 }
 
 inline Eigen::Vector3f ray_origin(const RayRecord &ray) {
@@ -18,10 +21,11 @@ inline Eigen::Vector3f ray_direction(const RayRecord &ray) {
     return {ray.direction[0], ray.direction[1], ray.direction[2]};
 }
 
-/// One of the vertices of a random triangle, a point of one of its edges, or one inside it, in turns.
+/// One of the vertices of a random triangle, a point of one of its edges, or one inside it, in
+/// turns.
 inline Eigen::Vector3f aim(const Mesh &mesh, size_t turn, Random &random) {
-    const auto triangle =
-        std::uniform_int_distribution<uint32_t>(0, static_cast<uint32_t>(mesh.triangles.size() - 1))(random);
+    const auto triangle = std::uniform_int_distribution<uint32_t>(
+        0, static_cast<uint32_t>(mesh.triangles.size() - 1))(random);
     const Eigen::Vector3f a = mesh.vertex(triangle, 0), b = mesh.vertex(triangle, 1),
                           c = mesh.vertex(triangle, 2);
     const float s = uniform(random), t = uniform(random);
@@ -30,9 +34,9 @@ inline Eigen::Vector3f aim(const Mesh &mesh, size_t turn, Random &random) {
                            : Eigen::Vector3f(a + s * (b - a) + (1 - s) * t * (c - a));
 }
 
-/// `count` rays in equal parts of: random origin in twice the mesh's box and random direction; grazing
-/// (towards a point of a triangle within 1e-1 to 1e-5 of its plane, from outside); axis-aligned through a
-/// vertex or through the middle of an edge.
+/// `count` rays in equal parts of: random origin in twice the mesh's box and random direction;
+/// grazing (towards a point of a triangle within 1e-1 to 1e-5 of its plane, from outside);
+/// axis-aligned through a vertex or through the middle of an edge.
 inline std::vector<RayRecord> fuzzed_rays(const Mesh &mesh, size_t count, uint64_t seed) {
     Random random(seed);
     const Eigen::AlignedBox3f box = mesh.box();
@@ -46,13 +50,14 @@ inline std::vector<RayRecord> fuzzed_rays(const Mesh &mesh, size_t count, uint64
         if (i % 3 == 0) {
             const Eigen::Vector3f spread(uniform(random, -1, 1), uniform(random, -1, 1),
                                          uniform(random, -1, 1));
-            rays.push_back(
-                make_ray(box.center() + spread.cwiseProduct(box.sizes()), uniform_direction(random)));
+            rays.push_back(make_ray(box.center() + spread.cwiseProduct(box.sizes()),
+                                    uniform_direction(random)));
         } else if (i % 3 == 1) {
             const float s = uniform(random), t = uniform(random) * (1 - s);
             const Eigen::Vector3f target = a + s * (b - a) + t * (c - a);
             const Eigen::Vector3f normal = (b - a).cross(c - a).stableNormalized();
-            const Eigen::Vector3f along = (uniform_direction(random).cross(normal)).stableNormalized();
+            const Eigen::Vector3f along =
+                (uniform_direction(random).cross(normal)).stableNormalized();
             const Eigen::Vector3f direction =
                 (along + std::pow(10.0f, uniform(random, -5, -1)) * normal).stableNormalized();
             rays.push_back(make_ray(target - size * direction, direction));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random numbers, discrete choices and their weights: the shipped device code compiled for the host. Samplers of lights
-// and cameras: light_sampling_test.cpp, of BSDFs: bsdf_sampling_test.cpp.
+// Random numbers, discrete choices and their weights: the shipped device code compiled for the
+// host. Samplers of lights and cameras: light_sampling_test.cpp, of BSDFs: bsdf_sampling_test.cpp.
 #define FEATURE_sobol 1
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/hemisphere.h"
@@ -23,7 +23,9 @@ constexpr double level = 0.01;  // one chi-square test
 constexpr double pi = 3.14159265358979323846;
 constexpr uint32_t sample_count = 1'000'000;
 
-uint4 words(uint32_t sample, uint32_t block = 0) { return random_words(11, 0, 3, sample, block); }
+uint4 words(uint32_t sample, uint32_t block = 0) {
+    return random_words(11, 0, 3, sample, block);
+}
 
 // The known-answer vectors of Random123's own test suite (kat_vectors: philox4x32 10).
 TEST(Random, PhiloxKnownAnswers) {
@@ -51,9 +53,11 @@ TEST(Random, UniformFloatsStayBelowOne) {
 TEST(ChiSquare, GivesKnownProbabilitiesAndLeavesNoSampleOut) {
     // One degree of freedom: erfc(sqrt(x / 2)); two: exp(-x / 2).
     EXPECT_NEAR(chi_square_p({600, 400}, {500, 500}) / std::erfc(std::sqrt(20.0)), 1.0, 1e-9);
-    EXPECT_NEAR(chi_square_p({104, 100, 84}, {96, 96, 96}) / std::exp(-(64.0 + 16 + 144) / 96 / 2), 1.0, 1e-9);
+    EXPECT_NEAR(chi_square_p({104, 100, 84}, {96, 96, 96}) / std::exp(-(64.0 + 16 + 144) / 96 / 2),
+                1.0, 1e-9);
     EXPECT_EQ(chi_square_p({1, 500, 499}, {0, 500, 500}), 0.0);
-    EXPECT_LT(chi_square_p({50, 100, 1000}, {1e-6, 100, 1000}), 1e-5) << "where next to none is expected";
+    EXPECT_LT(chi_square_p({50, 100, 1000}, {1e-6, 100, 1000}), 1e-5)
+        << "where next to none is expected";
 }
 
 TEST(Random, UniformFloatsPassChiSquareInPairs) {
@@ -61,9 +65,12 @@ TEST(Random, UniformFloatsPassChiSquareInPairs) {
     std::vector<uint64_t> observed(bins * bins);
     for (uint32_t i = 0; i < sample_count; ++i) {
         const uint4 w = words(i);
-        ++observed[static_cast<size_t>(uniform_float(w.x) * bins) * bins + static_cast<size_t>(uniform_float(w.y) * bins)];
+        ++observed[static_cast<size_t>(uniform_float(w.x) * bins) * bins +
+                   static_cast<size_t>(uniform_float(w.y) * bins)];
     }
-    EXPECT_GT(chi_square_p(observed, std::vector<double>(bins * bins, sample_count / double(bins * bins))), level);
+    EXPECT_GT(chi_square_p(observed,
+                           std::vector<double>(bins * bins, sample_count / double(bins * bins))),
+              level);
 }
 
 TEST(Circle, PointsAreThoseOfTheirAngles) {
@@ -76,14 +83,16 @@ TEST(Circle, PointsAreThoseOfTheirAngles) {
                             std::abs(static_cast<double>(point.y) - std::sin(angle))});
     }
     EXPECT_LT(largest, 8.6e-8);
-    const float2 east = point_on_circle(0.0f), north = point_on_circle(0.25f), west = point_on_circle(0.5f), round = point_on_circle(1.0f);
+    const float2 east = point_on_circle(0.0f), north = point_on_circle(0.25f),
+                 west = point_on_circle(0.5f), round = point_on_circle(1.0f);
     EXPECT_EQ(std::pair(east.x, east.y), std::pair(1.0f, 0.0f));
     EXPECT_EQ(std::pair(north.x, north.y), std::pair(0.0f, 1.0f));
     EXPECT_EQ(std::pair(west.x, west.y), std::pair(-1.0f, 0.0f));
     EXPECT_EQ(std::pair(round.x, round.y), std::pair(1.0f, 0.0f));
 }
 
-// The direction numbers from the primitive polynomials and initial values of Joe & Kuo's table (new-joe-kuo-6).
+// The direction numbers from the primitive polynomials and initial values of Joe & Kuo's table
+// (new-joe-kuo-6).
 TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
     struct Row {
         uint32_t degree, coefficients;
@@ -108,7 +117,8 @@ TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
     }
 }
 
-uint4 stratified_words(uint32_t sampler, uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
+uint4 stratified_words(uint32_t sampler, uint32_t seed, uint32_t pixel, uint64_t sample,
+                       uint32_t block) {
     IntegratorSettings settings{};
     settings.seed = seed;
     settings.sampler = sampler;
@@ -121,10 +131,12 @@ uint4 sobol_words(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block
 class Stratified : public testing::TestWithParam<uint32_t> {};
 
 TEST_P(Stratified, EveryRunOfSamplesIs) {
-    // Elementary intervals of every shape in the first two dimensions, and each dimension by itself.
+    // Elementary intervals of every shape in the first two dimensions, and each dimension by
+    // itself.
     for (const uint32_t log_count : {4u, 8u}) {
         const uint32_t count = 1u << log_count;
-        for (const uint64_t first : {uint64_t{0}, uint64_t{3} * count, (uint64_t{1} << 32) + count}) {
+        for (const uint64_t first :
+             {uint64_t{0}, uint64_t{3} * count, (uint64_t{1} << 32) + count}) {
             for (uint32_t split = 0; split <= log_count; ++split) {
                 std::vector<int> cells(count);
                 for (uint32_t i = 0; i < count; ++i) {
@@ -133,7 +145,8 @@ TEST_P(Stratified, EveryRunOfSamplesIs) {
                     const uint32_t y = split < log_count ? w.y >> (32 - (log_count - split)) : 0;
                     ++cells[(y << split) + x];
                 }
-                EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), count) << "2^" << split << " columns";
+                EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), count)
+                    << "2^" << split << " columns";
             }
             std::vector<int> z(count), w(count);
             for (uint32_t i = 0; i < count; ++i) {
@@ -156,7 +169,8 @@ TEST(Regular, BeginsInTheCentreAndIsTheSameEverywhere) {
         EXPECT_EQ(uniform_float(first.y), 0.5f);
         EXPECT_EQ(uniform_float(first.z), 0.0f) << "the radius on the lens";
         EXPECT_EQ(uniform_float(first.w), 0.5f);
-        const uint4 here = stratified_words(SAMPLER_REGULAR, 1, 5, 9, block), there = stratified_words(SAMPLER_REGULAR, 2, 6, 9, block);
+        const uint4 here = stratified_words(SAMPLER_REGULAR, 1, 5, 9, block),
+                    there = stratified_words(SAMPLER_REGULAR, 2, 6, 9, block);
         EXPECT_EQ(here.x, there.x);
         EXPECT_EQ(here.w, there.w);
     }
@@ -169,7 +183,8 @@ TEST(Regular, BeginsInTheCentreAndIsTheSameEverywhere) {
         const float b = uniform_float(stratified_words(SAMPLER_REGULAR, 1, 0, i, BLOCK_LIGHT(0)).x);
         ++observed[static_cast<size_t>(a * bins) * bins + static_cast<size_t>(b * bins)];
     }
-    EXPECT_GT(chi_square_p(observed, std::vector<double>(bins * bins, pairs / double(bins * bins))), level);
+    EXPECT_GT(chi_square_p(observed, std::vector<double>(bins * bins, pairs / double(bins * bins))),
+              level);
 }
 
 TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
@@ -180,22 +195,37 @@ TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
         std::vector<uint64_t> observed(bins * bins);
         for (uint32_t i = 0; i < pairs; ++i) {
             const auto [a, b] = pair(i);
-            ++observed[static_cast<size_t>(uniform_float(a) * bins) * bins + static_cast<size_t>(uniform_float(b) * bins)];
+            ++observed[static_cast<size_t>(uniform_float(a) * bins) * bins +
+                       static_cast<size_t>(uniform_float(b) * bins)];
         }
-        return chi_square_p(observed, std::vector<double>(bins * bins, pairs / double(bins * bins)));
+        return chi_square_p(observed,
+                            std::vector<double>(bins * bins, pairs / double(bins * bins)));
     };
-    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i + 1, 6, 0).x); }), level / 4);
-    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i, 6, 2).x); }), level / 4);
-    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).y, sobol_words(2, i, 6, 0).y); }), level / 4);
-    EXPECT_GT(uniform([](uint32_t i) { return std::pair(sobol_words(1, i, 6, 0).z, sobol_words(1, i, 6, 0).w); }), level / 4);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i + 1, 6, 0).x);
+              }),
+              level / 4);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i, 6, 2).x);
+              }),
+              level / 4);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).y, sobol_words(2, i, 6, 0).y);
+              }),
+              level / 4);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).z, sobol_words(1, i, 6, 0).w);
+              }),
+              level / 4);
 }
 
 TEST(Frame, IsOrthonormalInAllDirections) {
     for (uint32_t i = 0; i < 10000; ++i) {
         const uint4 w = words(i, 3);
-        const float3 n = i == 0   ? make_float3(0, 0, -1)
-                         : i == 1 ? make_float3(0, 0, 1)
-                                  : normalize(sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y)));
+        const float3 n =
+            i == 0   ? make_float3(0, 0, -1)
+            : i == 1 ? make_float3(0, 0, 1)
+                     : normalize(sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y)));
         const Frame f = frame_from_z(n);
         EXPECT_NEAR(dot(f.x, f.y), 0.0f, 1e-6f);
         EXPECT_NEAR(dot(f.x, f.z), 0.0f, 1e-6f);

@@ -41,15 +41,16 @@ TEST(Animation, RotationsTurnEvenlyAndLengthsChangeEvenly) {
              {4, rotation({0, 0, 1}, pi)}});
     for (const double time : {0.25, 0.5, 1.0, 1.75}) {
         const double s = time / 2;
-        const Matrix4d wanted =
-            translation({0, 4 * s, 0}) * rotation({0, 0, 1}, s * pi / 2) * scaling({1 + 2 * s, 1, 1});
+        const Matrix4d wanted = translation({0, 4 * s, 0}) * rotation({0, 0, 1}, s * pi / 2) *
+                                scaling({1 + 2 * s, 1, 1});
         EXPECT_TRUE(turning.matrix_at(time).isApprox(wanted, 1e-14)) << time << '\n'
                                                                      << turning.matrix_at(time);
     }
     EXPECT_TRUE(turning.matrix_at(3).topLeftCorner(3, 3).isApprox(
         (rotation({0, 0, 1}, 0.75 * pi) * scaling({2, 1, 1})).topLeftCorner(3, 3), 1e-14));
     // The shorter way round: 340 degrees is -20.
-    const AnimatedTransform wide("", {{0, Matrix4d::Identity()}, {1, rotation({0, 0, 1}, 340 * pi / 180)}});
+    const AnimatedTransform wide(
+        "", {{0, Matrix4d::Identity()}, {1, rotation({0, 0, 1}, 340 * pi / 180)}});
     EXPECT_TRUE(wide.matrix_at(0.5).isApprox(rotation({0, 0, 1}, -10 * pi / 180), 1e-14));
 }
 
@@ -76,9 +77,11 @@ TEST(Animation, ErrorsNameTheKeyframe) {
     for (
         const Case &c : {
             Case{R"("animation": [])", "in.json:3: /nodes/1/animation (in 'a')"},
-            Case{R"("animation": [{"time": 0}])", "/nodes/1/animation/0 (in 'a'): missing key 'transform'"},
+            Case{R"("animation": [{"time": 0}])",
+                 "/nodes/1/animation/0 (in 'a'): missing key 'transform'"},
             Case{R"("animation": [{"time": 0, "transform": []}, {"time": 0, "transform": []}])",
-                 "in.json:3: /nodes/1/animation: animation: keyframe 1 is at 0 s, not after the one before "
+                 "in.json:3: /nodes/1/animation: animation: keyframe 1 is at 0 s, not after the "
+                 "one before "
                  "it, at 0 s"},
             Case{
                 R"("animation": [{"time": 0, "transform": []}, {"time": 1, "transform": [{"scale": [1, 0, 1]}]}])",
@@ -127,7 +130,8 @@ TEST(Animation, MovesGeometryLightsAndCamerasWithTheirNodes) {
 
 /// A triangle with its second corner, and the normal there, at a time.
 MorphedMesh::Key corner_at(double time, const Vector3d &corner, const Vector3d &normal) {
-    return {time, {{{0, 0, 0}, corner, {0, 1, 0}}, {{0, 1, 2}}, {{0, 0, 1}, normal, {0, 0, 1}}, {}}};
+    return {time,
+            {{{0, 0, 0}, corner, {0, 1, 0}}, {{0, 1, 2}}, {{0, 0, 1}, normal, {0, 0, 1}}, {}}};
 }
 
 TEST(Morph, VerticesFollowTheKeyframes) {
@@ -145,7 +149,8 @@ TEST(Morph, VerticesFollowTheKeyframes) {
     EXPECT_EQ(corner_of(2), Vector3d(1, 0, 1));
     EXPECT_EQ(mesh.normals()[1], Vector3d(1, 0, 0));
     EXPECT_EQ(corner_of(3), Vector3d(1.5, 0, 0.5));
-    EXPECT_EQ(mesh.normals()[1], Vector3d(-1, 0, 0)) << "half-way between opposite ones: of the next keyframe";
+    EXPECT_EQ(mesh.normals()[1], Vector3d(-1, 0, 0))
+        << "half-way between opposite ones: of the next keyframe";
     EXPECT_EQ(corner_of(4), Vector3d(2, 0, 0));
     EXPECT_EQ(corner_of(1e300), Vector3d(2, 0, 0));
     EXPECT_EQ(corner_of(1), Vector3d(1, 0, 0));
@@ -182,17 +187,22 @@ TEST(Morph, ErrorsNameTheKeyframe) {
         const char *keyframes;
         const char *message;
     };
-    for (const Case &c : {
-             Case{"", "/nodes/1/geometry/keyframes (in 'a')"},
-             Case{R"({"time": 0, "geometry": {"type": "sphere"}})", "keyframe 0 is no mesh, file, rectangle or box"},
-             Case{R"({"time": 1, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "box"}})",
-                  "mesh 'a': keyframe 1 is at 1 s, not after the one before it, at 1 s"},
-             Case{R"({"time": 0, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "rectangle"}})",
-                  "mesh 'a': keyframe 1 has 4 vertices and 0 normals, the first one 24 and 0"},
-             Case{R"({"time": 0, "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]]}},
+    for (
+        const Case &c : {
+            Case{"", "/nodes/1/geometry/keyframes (in 'a')"},
+            Case{R"({"time": 0, "geometry": {"type": "sphere"}})",
+                 "keyframe 0 is no mesh, file, rectangle or box"},
+            Case{
+                R"({"time": 1, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "box"}})",
+                "mesh 'a': keyframe 1 is at 1 s, not after the one before it, at 1 s"},
+            Case{
+                R"({"time": 0, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "rectangle"}})",
+                "mesh 'a': keyframe 1 has 4 vertices and 0 normals, the first one 24 and 0"},
+            Case{
+                R"({"time": 0, "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]]}},
                      {"time": 1, "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,2,1]]}})",
-                  "mesh 'a': keyframe 1 has other triangles than the first one"},
-         }) {
+                "mesh 'a': keyframe 1 has other triangles than the first one"},
+        }) {
         SCOPED_TRACE(c.keyframes);
         expect_input_error(c.message, [&] { scene(c.keyframes); });
     }
@@ -200,7 +210,8 @@ TEST(Morph, ErrorsNameTheKeyframe) {
 
 std::shared_ptr<AnimatedTransform> sliding(double x_after_10_seconds) {
     return std::make_shared<AnimatedTransform>(
-        "", std::vector<Keyframe>{{0, Matrix4d::Identity()}, {10, translation({x_after_10_seconds, 0, 0})}});
+        "", std::vector<Keyframe>{{0, Matrix4d::Identity()},
+                                  {10, translation({x_after_10_seconds, 0, 0})}});
 }
 
 TEST(Animation, CoresComeToTheTimeOfTheirGraph) {
@@ -241,13 +252,14 @@ double step_seconds(int nodes) {
     for (int i = 1; i <= 501; ++i) {
         const auto start = std::chrono::steady_clock::now();
         graph.update(0.01 * i);
-        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        seconds.push_back(
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         EXPECT_EQ(graph.visited_nodes(), 1u);
         EXPECT_EQ(graph.mesh_counts().written, 1u);
         EXPECT_EQ(graph.light_counts().written, 1u);
-        EXPECT_EQ(
-            graph.shape_counts().written + graph.material_counts().written + graph.camera_counts().written,
-            0u);
+        EXPECT_EQ(graph.shape_counts().written + graph.material_counts().written +
+                      graph.camera_counts().written,
+                  0u);
     }
     std::nth_element(seconds.begin(), seconds.begin() + 250, seconds.end());
     return seconds[250];

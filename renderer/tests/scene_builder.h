@@ -43,17 +43,19 @@ inline std::shared_ptr<LightCore> area_light(const Eigen::Vector3d &radiance) {
 }
 
 inline std::shared_ptr<CameraCore> pinhole(double fov_degrees, const std::string &fov_axis) {
-    return std::make_shared<CameraCore>("", "pinhole",
-                                        ParameterValues{{"fov", fov_degrees}, {"fov_axis", fov_axis}});
+    return std::make_shared<CameraCore>(
+        "", "pinhole", ParameterValues{{"fov", fov_degrees}, {"fov_axis", fov_axis}});
 }
 
-inline std::shared_ptr<ShapeCore> shape(const std::string &type, const ParameterValues &values = {}) {
+inline std::shared_ptr<ShapeCore> shape(const std::string &type,
+                                        const ParameterValues &values = {}) {
     return std::make_shared<ShapeCore>(type, type, values);
 }
 
 /// The right triangle (0,0,0), (1,0,0), (0,1,0), facing +z; area 1/2.
 inline std::shared_ptr<MeshCore> right_triangle(const std::string &name = "triangle") {
-    return std::make_shared<MeshCore>(name, std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+    return std::make_shared<MeshCore>(name,
+                                      std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                       std::vector<Triangle>{{0, 1, 2}});
 }
 
@@ -90,7 +92,8 @@ inline void expect_consistent_light(const SceneArrays &arrays, uint32_t light) {
     }
 }
 
-/// Every index of the serialized scene is valid and every record belongs to one object: what readers rely on.
+/// Every index of the serialized scene is valid and every record belongs to one object: what
+/// readers rely on.
 inline void expect_consistent(const SceneGraph &graph) {
     const SceneArrays &arrays = graph.arrays();
     const MeshArrays &meshes = arrays.meshes;
@@ -106,8 +109,8 @@ inline void expect_consistent(const SceneGraph &graph) {
             ASSERT_LT(meshes.light[mesh], arrays.lights.mesh.size());
             ASSERT_EQ(arrays.lights.mesh[meshes.light[mesh]], mesh);
         }
-        for (uint32_t vertex = meshes.first_vertex[mesh]; vertex < vertices && !meshes.normal.empty();
-             ++vertex) {
+        for (uint32_t vertex = meshes.first_vertex[mesh];
+             vertex < vertices && !meshes.normal.empty(); ++vertex) {
             ASSERT_NEAR(meshes.normal[vertex].norm(), meshes.has_normals[mesh] != 0 ? 1 : 0, 1e-6)
                 << meshes.name[mesh];
         }

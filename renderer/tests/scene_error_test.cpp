@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the scene model refuses: one clear error for each way to get a material, a shape, a light or a camera
-// wrong.
+// What the scene model refuses: one clear error for each way to get a material, a shape, a light or
+// a camera wrong.
 #include <filesystem>
 #include <fstream>
 
@@ -24,7 +24,8 @@ struct Refused {
     std::string message;  ///< fragment
 };
 
-void expect_refused(const std::string &before, const std::string &after, const std::vector<Refused> &cases) {
+void expect_refused(const std::string &before, const std::string &after,
+                    const std::vector<Refused> &cases) {
     for (const Refused &c : cases) {
         SCOPED_TRACE(c.value);
         expect_input_error(c.message, [&] { parse(before + c.value + after); });
@@ -41,7 +42,8 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "lambert"})",
              "in.json:2: /nodes/1/material: missing key 'reflectance' of the lambert: albedo"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "sigma": 0})",
-             "/nodes/1/material/sigma: unknown key 'sigma' of the lambert; allowed: emission, reflectance, "
+             "/nodes/1/material/sigma: unknown key 'sigma' of the lambert; allowed: emission, "
+             "reflectance, "
              "reflectance_texture, two_sided"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "specular_texture": {"file": "a", "encoding": "srgb"}})",
              "unknown key 'specular_texture' of the lambert"},
@@ -51,16 +53,19 @@ TEST(SceneErrors, Materials) {
              "/nodes/1/material/emission/1"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "emission": [1, 1, 1e39]})",
              "/nodes/1/material/emission: emission: [1, 1, 1e+39] is not within [0, 3.402823e+38]"},
-            {R"({"type": "lambert", "reflectance": [1, 1, 1], "two_sided": 1})", "1 is not of type boolean"},
+            {R"({"type": "lambert", "reflectance": [1, 1, 1], "two_sided": 1})",
+             "1 is not of type boolean"},
             {R"({"type": "oren_nayar", "reflectance": [0, 0, 0], "sigma": 30})",
-             "sigma: 30 is not within [0, 1.570796] (standard deviation of the slope angles, radians)"},
+             "sigma: 30 is not within [0, 1.570796] (standard deviation of the slope angles, "
+             "radians)"},
             {R"({"type": "glass", "eta": 0})",
              "eta: 0 is not within [0.01, 100] (index of refraction behind"},
             {R"({"type": "glass", "eta": -1.5})", "eta: -1.5 is not within"},
             {R"({"type": "glass", "eta": [1.5, 1.5, 1.5]})", "eta: [1.5,1.5,1.5] is not number"},
             {R"({"type": "glass"})", "missing key 'eta' of the glass"},
             {R"({"type": "glass", "eta": 1.5, "roughness": 1e-5})",
-             "roughness: [1e-05, 1e-05] must be 0 along both axes, which is ideally smooth, or within "
+             "roughness: [1e-05, 1e-05] must be 0 along both axes, which is ideally smooth, or "
+             "within "
              "[0.0001, 1]"},
             {R"({"type": "glass", "eta": 1.5, "roughness": [0, 0.5]})",
              "roughness: [0, 0.5] must be 0 along both"},
@@ -71,7 +76,8 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "glass", "eta": 1.5, "distribution": "phong"})",
              "\"phong\" is not one of: ggx, beckmann"},
             {R"({"type": "metal"})", "a metal needs a 'preset', or 'eta' and 'k'"},
-            {R"({"type": "metal", "preset": "lead"})", "\"lead\" is not one of: silver, gold, copper"},
+            {R"({"type": "metal", "preset": "lead"})",
+             "\"lead\" is not one of: silver, gold, copper"},
             {R"({"type": "metal", "preset": "gold", "eta": 1.5})",
              "a metal has a 'preset', or 'eta' and 'k'"},
             {R"({"type": "metal", "k": [1, 1, 1]})", "a metal has a 'preset', or 'eta' and 'k'"},
@@ -96,7 +102,8 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite", "components": [{"bxdf": "lambert"}]})",
              "missing key 'component_0_weight'"},
             {R"({"type": "composite", "components": [{"bxdf": "lambert", "weight": [1, 1, 1], "alpha": 0.5}]})",
-             "/nodes/1/material/components/0/alpha: unknown key 'alpha' of the lambert; allowed: bxdf, "
+             "/nodes/1/material/components/0/alpha: unknown key 'alpha' of the lambert; allowed: "
+             "bxdf, "
              "fresnel, weight, "
              "weight_texture"},
             {R"({"type": "composite", "components": [{"bxdf": "ward", "weight": [1, 1, 1]}]})",
@@ -104,11 +111,13 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite", "components": [{"bxdf": "ward", "weight": [1, 1, 1], "alpha": 1.5}]})",
              "/nodes/1/material/components/0/alpha: alpha: [1.5, 1.5] is not within [0.0001, 1]"},
             {R"({"type": "composite", "components": [{"bxdf": "lambert", "weight": [1, 1, 1], "fresnel": {"type": "ideal", "eta": 1.5}}]})",
-             "/nodes/1/material/components/0/fresnel/eta: unknown key 'eta' of the ideal Fresnel term"},
+             "/nodes/1/material/components/0/fresnel/eta: unknown key 'eta' of the ideal Fresnel "
+             "term"},
             {R"({"type": "composite", "components": [{"bxdf": "ideal_reflection", "weight": [1, 1, 1], "fresnel": {"type": "dielectric", "eta": 1.5, "of_wo": true}}]})",
              "unknown key 'of_wo' of the dielectric Fresnel term"},
             {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "fresnel": {"type": "schlick", "reflectance": [0, 0, 0]}}]})",
-             "component 0: what refracts goes with the Fresnel terms ideal and dielectric, not with schlick"},
+             "component 0: what refracts goes with the Fresnel terms ideal and dielectric, not "
+             "with schlick"},
             {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "fresnel": {"type": "dielectric", "eta": 1.6}}]})",
              "component_0_fresnel_eta: 1.6 is not the component's eta, 1.5; leave it out"},
             {R"({"type": "composite", "components": [{"bxdf": "microfacet_refraction", "weight": [1, 1, 1], "eta": 1, "alpha": 0.5}]})",
@@ -121,14 +130,17 @@ TEST(SceneErrors, EnergyAboveOne) {
         R"({"name": "a", "geometry": {"type": "sphere"}, "material": )", "}",
         {
             {R"({"type": "lambert_blinn", "reflectance": [0.5, 0.75, 0.5], "specular": [0.25, 0.375, 0.25], "exponent": 8})",
-             "in.json:2: /nodes/1/material: returns more light than arrives: its weights * textures * "
+             "in.json:2: /nodes/1/material: returns more light than arrives: its weights * "
+             "textures * "
              "Fresnel terms add up "
-             "to 1.125 in green, seen from the front at an angle of 90 degrees; the largest part, 0.75, is "
+             "to 1.125 in green, seen from the front at an angle of 90 degrees; the largest part, "
+             "0.75, is "
              "that of "
              "component 0 (lambert), by its reflectance: lower that"},
             {R"({"type": "composite", "components": [{"bxdf": "lambert", "weight": [0.25, 0.25, 0.25]},
                  {"bxdf": "ideal_reflection", "weight": [0, 0, 0.875], "fresnel": {"type": "schlick", "reflectance": [0, 0, 0]}}]})",
-             "add up to 1.125 in blue, seen from the front at an angle of 90 degrees; the largest part, "
+             "add up to 1.125 in blue, seen from the front at an angle of 90 degrees; the largest "
+             "part, "
              "0.875, is that "
              "of component 1 (ideal_reflection), by its component_1_weight"},
             // F is 1/4 at normal incidence, so 3/4 is refracted there.
@@ -150,7 +162,8 @@ TEST(SceneErrors, EnergyAboveOne) {
          R"({"type": "car_paint", "base": [1, 1, 1], "eta": 1.6, "variant": "thesis"})",
          R"({"type": "lambert_blinn", "reflectance": [0.7, 0.7, 0.7], "specular": [0.3, 0.3, 0.3], "exponent": 8})"}) {
         EXPECT_NO_THROW(
-            parse(std::string(R"({"name": "a", "geometry": {"type": "sphere"}, "material": )") + legal + "}"))
+            parse(std::string(R"({"name": "a", "geometry": {"type": "sphere"}, "material": )") +
+                  legal + "}"))
             << legal;
     }
 }
@@ -164,7 +177,8 @@ TEST_F(TexturedMaterials, EnergyIsCheckedWithThemAndOnEdits) {
     const auto textured = [](const char *weight) {
         return std::string(
                    R"({"name": "a", "geometry": {"type": "sphere"}, "material": {"type": "lambert", "reflectance": )") +
-               weight + R"(, "reflectance_texture": {"file": "energy.pfm", "encoding": "linear"}}})";
+               weight +
+               R"(, "reflectance_texture": {"file": "energy.pfm", "encoding": "linear"}}})";
     };
     expect_input_error("add up to 2 in blue", [&] { parse(textured("[1, 1, 1]")); });
     Scene scene = parse(textured("[1, 1, 0.5]"));
@@ -175,15 +189,19 @@ TEST_F(TexturedMaterials, EnergyIsCheckedWithThemAndOnEdits) {
 
 TEST(SceneErrors, Geometry) {
     expect_refused(
-        R"({"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]}, "geometry": )", "}",
+        R"({"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]}, "geometry": )",
+        "}",
         {
             {R"({"type": "torus"})",
-             "/nodes/1/geometry/type (in 'a'): \"torus\" is not one of: mesh, file, rectangle, box, sphere"},
+             "/nodes/1/geometry/type (in 'a'): \"torus\" is not one of: mesh, file, rectangle, "
+             "box, sphere"},
             {R"({"type": "sphere", "radius": 0})", "/nodes/1/geometry/radius"},
             {R"({"type": "sphere", "radius": 1e39})",
              "radius: 1e+39 is not within (0, 3.402823e+38] (scene units)"},
-            {R"({"type": "sphere", "height": 1})", "unknown key 'height' of the sphere; allowed: radius"},
-            {R"({"type": "rectangle", "radius": 1})", "unknown key 'radius' of the rectangle; allowed: "},
+            {R"({"type": "sphere", "height": 1})",
+             "unknown key 'height' of the sphere; allowed: radius"},
+            {R"({"type": "rectangle", "radius": 1})",
+             "unknown key 'radius' of the rectangle; allowed: "},
             {R"({"type": "ellipsoid", "radii": [1, 0, 1]})", "radii: [1, 0, 1] is not within"},
             {R"({"type": "cylinder", "radius": 1})",
              "/nodes/1/geometry: missing key 'height' of the cylinder"},
@@ -247,11 +265,12 @@ TEST(SceneErrors, Lights) {
           "sphere 'a' is beyond"},
          {R"("light": {"type": "point", "intensity": [1, 1, 1]}, "transform": [{"translate": [1e39, 0, 0]}])",
           "light 'a' is beyond the range of float"}});
-    expect_input_error("light 'a': its geometry is a light already, by the emission of material 'a'", [] {
-        parse(
-            R"({"name": "a", "geometry": {"type": "sphere"}, "light": {"type": "diffuse_area", "radiance": [1, 1, 1]},
+    expect_input_error(
+        "light 'a': its geometry is a light already, by the emission of material 'a'", [] {
+            parse(
+                R"({"name": "a", "geometry": {"type": "sphere"}, "light": {"type": "diffuse_area", "radiance": [1, 1, 1]},
                   "material": {"type": "lambert", "reflectance": [0, 0, 0], "emission": [0, 0, 1]}})");
-    });
+        });
     expect_input_error("light 'a': of the shapes only spheres and discs can emit", [] {
         parse(R"({"name": "a", "geometry": {"type": "cone", "radius": 1, "height": 1},
                   "material": {"type": "lambert", "reflectance": [0, 0, 0], "emission": [0, 0, 1]}})");
@@ -267,9 +286,12 @@ TEST(SceneErrors, Cameras) {
     for (const Refused &c :
          {Refused{"", "missing key 'aperture_radius' of the thin_lens"},
           Refused{R"(, "aperture_radius": 1)", "missing key 'focus_distance' of the thin_lens"},
-          Refused{R"(, "aperture_radius": -1, "focus_distance": 1)", "/nodes/0/camera/aperture_radius"},
-          Refused{R"(, "aperture_radius": 1, "focus_distance": 0)", "/nodes/0/camera/focus_distance"},
-          Refused{R"(, "aperture_radius": 1, "focus_distance": 1e39)", "focus_distance: 1e+39 is not"}}) {
+          Refused{R"(, "aperture_radius": -1, "focus_distance": 1)",
+                  "/nodes/0/camera/aperture_radius"},
+          Refused{R"(, "aperture_radius": 1, "focus_distance": 0)",
+                  "/nodes/0/camera/focus_distance"},
+          Refused{R"(, "aperture_radius": 1, "focus_distance": 1e39)",
+                  "focus_distance: 1e+39 is not"}}) {
         expect_input_error(c.message, [&] { parse_scene_json(camera(c.value), "in.json", "in"); });
     }
     expect_input_error("unknown key 'aperture_radius' of the pinhole", [] {

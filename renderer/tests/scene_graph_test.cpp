@@ -51,7 +51,8 @@ TEST(Attributes, ARemovedCoreNoLongerCounts) {
     graph.update(0);
     parent.remove_core(CoreRole::transform);
     graph.update(0);
-    EXPECT_EQ(child.attributes().get<TransformAttribute>().world_from_object, Eigen::Matrix4d::Identity());
+    EXPECT_EQ(child.attributes().get<TransformAttribute>().world_from_object,
+              Eigen::Matrix4d::Identity());
 }
 
 TEST(Attributes, DefaultCloneAndMergeAreThoseOfTheThesis) {
@@ -122,11 +123,15 @@ TEST(Transform, LookAtPointsMinusZAtTheTarget) {
     Eigen::Matrix4d expected;
     expected << -1, 0, 0, 1, 0, 1, 0, 2, 0, 0, -1, 3, 0, 0, 0, 1;
     EXPECT_TRUE(pose.isApprox(expected, 1e-15)) << pose;
-    expect_input_error("look_at: origin and target", [] { look_at({1, 2, 3}, {1, 2, 3}, {0, 1, 0}); });
+    expect_input_error("look_at: origin and target", [] {
+        look_at({1, 2, 3}, {1, 2, 3}, {0, 1, 0});
+    });
     expect_input_error("look_at: up must not be parallel", [] {
         look_at({0, 0, 0}, {0, 1e-3, 0}, {0, 9, 0});
     });
-    expect_input_error("look_at: up has no direction", [] { look_at({0, 0, 0}, {0, 0, 1}, {0, 0, 0}); });
+    expect_input_error("look_at: up has no direction", [] {
+        look_at({0, 0, 0}, {0, 0, 1}, {0, 0, 0});
+    });
 }
 
 TEST(Transform, RefusesWhatCannotBeInverted) {
@@ -172,14 +177,15 @@ TEST(Properties, AreListedReadAndSetByName) {
     graph.set_property("lamp.transform", "[[1,0,0,9],[0,1,0,8],[0,0,1,7],[0,0,0,1]]");
     graph.set_property("lamp.translation", "3,2,1");
     graph.update(0);
-    EXPECT_EQ(lamp.attributes().get<TransformAttribute>().world_from_object, translation({3, 2, 1}));
+    EXPECT_EQ(lamp.attributes().get<TransformAttribute>().world_from_object,
+              translation({3, 2, 1}));
     EXPECT_FALSE(lamp.attributes().get<VisibilityAttribute>().visible);
 
     const std::string list = graph.list_properties();
-    for (const char *line :
-         {"lamp.radiance = [7, 8, 9]  # three numbers", "materials.white.reflectance = [0.1, 0.2, 0.3]",
-          "lamp.fov_axis = y  # one of: x, y, smaller, larger", "lamp.visible = false  # boolean",
-          "lamp.triangles = 2  # number"}) {
+    for (const char *line : {"lamp.radiance = [7, 8, 9]  # three numbers",
+                             "materials.white.reflectance = [0.1, 0.2, 0.3]",
+                             "lamp.fov_axis = y  # one of: x, y, smaller, larger",
+                             "lamp.visible = false  # boolean", "lamp.triangles = 2  # number"}) {
         EXPECT_NE(list.find(line), std::string::npos) << line << "\nin\n" << list;
     }
 }
@@ -210,7 +216,8 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
         expect_input_error("is not within (0, 180) (full angle of view along fov_axis, degrees)",
                            set("box.fov", fov));
     }
-    expect_input_error("'box.fov_axis': 'z' is not one of: x, y, smaller, larger", set("box.fov_axis", "z"));
+    expect_input_error("'box.fov_axis': 'z' is not one of: x, y, smaller, larger",
+                       set("box.fov_axis", "z"));
     expect_input_error("is not a value of type three numbers", set("box.reflectance", "1,2"));
     expect_input_error("is not within [0, 1]", set("box.reflectance", "0,0,1.0000001"));
     expect_input_error("is not a value of type boolean", set("box.visible", "1"));

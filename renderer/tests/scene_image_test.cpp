@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Image files: what they become, and that a damaged one is an error, never a crash or a wrong texture.
+// Image files: what they become, and that a damaged one is an error, never a crash or a wrong
+// texture.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,8 +19,8 @@
 namespace rtrays {
 namespace {
 
-/// OpenImageIO's PNG reader leaves an error by longjmp, past the destructors of its strings: a few bytes that
-/// are not ours to free.
+/// OpenImageIO's PNG reader leaves an error by longjmp, past the destructors of its strings: a few
+/// bytes that are not ours to free.
 struct IgnoreLeaksOfDamagedFiles {
 #ifdef __SANITIZE_ADDRESS__
     __lsan::ScopedDisabler disabler;
@@ -56,7 +57,8 @@ const std::string &png_with_alpha() {
 
 std::string pfm(const std::vector<float> &values) {
     return "PF\n" + std::to_string(values.size() / 3) + " 1\n-1.0\n" +
-           std::string(reinterpret_cast<const char *>(values.data()), values.size() * sizeof(float));
+           std::string(reinterpret_cast<const char *>(values.data()),
+                       values.size() * sizeof(float));
 }
 
 std::shared_ptr<const TextureImage> load(const std::filesystem::path &path,
@@ -66,14 +68,16 @@ std::shared_ptr<const TextureImage> load(const std::filesystem::path &path,
 
 TEST_F(ImageFiles, EightBitsStayBytes) {
     const auto colours =
-        load(file("c.ppm", "P6 2 1 255\n" + std::string("\x01\x02\x03\xfd\xfe\xff")), TextureEncoding::srgb);
+        load(file("c.ppm", "P6 2 1 255\n" + std::string("\x01\x02\x03\xfd\xfe\xff")),
+             TextureEncoding::srgb);
     EXPECT_EQ(colours->bytes, (Bytes{1, 2, 3, 253, 254, 255}));
     EXPECT_TRUE(colours->srgb);
     EXPECT_TRUE(colours->floats.empty());
     EXPECT_EQ(load(file("g.pgm", "P5 1 2 255\n" + std::string("\x07\x08")))->bytes,
               (Bytes{7, 7, 7, 8, 8, 8}));
     const auto with_alpha = load(file("a.png", png_with_alpha()));
-    EXPECT_EQ(with_alpha->bytes, (Bytes{10, 20, 30, 200, 100, 50})) << "alpha is dropped, not multiplied";
+    EXPECT_EQ(with_alpha->bytes, (Bytes{10, 20, 30, 200, 100, 50}))
+        << "alpha is dropped, not multiplied";
     EXPECT_FALSE(with_alpha->srgb);
     EXPECT_EQ(with_alpha->width, 2);
     EXPECT_EQ(with_alpha->height, 1);
@@ -82,10 +86,10 @@ TEST_F(ImageFiles, EightBitsStayBytes) {
 TEST_F(ImageFiles, EverythingElseBecomesLinearFloats) {
     EXPECT_EQ(load(file("f.pfm", pfm({0, 0.5f, 7e4f})))->floats, (Floats{0, 0.5f, 7e4f}));
     // 2 x 1 texels of one grey channel of 16 bits, 32768 and 65535.
-    const auto sixteen = file(
-        "s.png",
-        from_hex("89504e470d0a1a0a0000000d494844520000000200000001100000000081d9fc150000000d49444154789c6368"
-                 "60f8ff1f000502027f165ec4650000000049454e44ae426082"));
+    const auto sixteen =
+        file("s.png", from_hex("89504e470d0a1a0a0000000d494844520000000200000001100000000081d9fc150"
+                               "000000d49444154789c6368"
+                               "60f8ff1f000502027f165ec4650000000049454e44ae426082"));
     const auto linear = load(sixteen);
     EXPECT_FLOAT_EQ(linear->floats[0], 32768.0f / 65535.0f);
     EXPECT_EQ(linear->floats[5], 1);
@@ -109,7 +113,8 @@ TEST_F(ImageFiles, EverythingElseBecomesLinearFloats) {
         image.add_channel(name) = {1.0f + static_cast<float>(name[0]), 2};
     }
     write_exr(image, testing::TempDir() + "layers.exr");
-    EXPECT_EQ(load(testing::TempDir() + "layers.exr")->floats, (Floats{1 + 'R', 1 + 'G', 1 + 'B', 2, 2, 2}))
+    EXPECT_EQ(load(testing::TempDir() + "layers.exr")->floats,
+              (Floats{1 + 'R', 1 + 'G', 1 + 'B', 2, 2, 2}))
         << "by name, whatever else there is";
 }
 
@@ -140,7 +145,8 @@ TEST_F(ImageFiles, WhatIsNoTextureIsAnError) {
         const std::filesystem::path path = file(c.name, c.content);
         expect_input_error(path.string() + ": " + c.message, [&] { load(path); });
     }
-    expect_input_error("nowhere.png: no such file", [] { load(testing::TempDir() + "nowhere.png"); });
+    expect_input_error("nowhere.png: no such file",
+                       [] { load(testing::TempDir() + "nowhere.png"); });
     expect_input_error(": no such file", [] { load(testing::TempDir()); });
     expect_input_error("holds floats, which are linear: \"encoding\" must be \"linear\"", [] {
         load(file("f.pfm", pfm({0, 0, 0})), TextureEncoding::srgb);
@@ -172,18 +178,22 @@ TEST_F(ImageFiles, ErrorsNameFileAndKeyOfTheScene) {
     expect_input_error("uv_scale: [10000000, 1] is not within [-1000000, 1000000]", [&] {
         parse(R"({"file": "nowhere.png", "encoding": "srgb", "uv_scale": [1e7, 1]})");
     });
-    expect_input_error("in.json:2: /materials/m/reflectance_texture: no texture 'oak'; there are: none", [] {
-        parse_scene_json(
-            "{\"version\": 1, \"film\": {\"width\": 1, \"height\": 1}, \"materials\": {\"m\":\n"
-            R"({"type": "mirror", "reflectance": [1, 1, 1], "reflectance_texture": "oak"}}, "nodes": []})",
-            "in.json", "in");
-    });
+    expect_input_error(
+        "in.json:2: /materials/m/reflectance_texture: no texture 'oak'; there are: none", [] {
+            parse_scene_json(
+                "{\"version\": 1, \"film\": {\"width\": 1, \"height\": 1}, \"materials\": {\"m\":\n"
+                R"({"type": "mirror", "reflectance": [1, 1, 1], "reflectance_texture": "oak"}}, "nodes": []})",
+                "in.json", "in");
+        });
     file("c.ppm", "P6 1 1 255\nabc");
     expect_input_error(
-        "in.json:2: /nodes/0/light/file: file: an environment needs an image of floats (.hdr, .exr)", [] {
-            parse_scene_json(R"({"version": 1, "film": {"width": 1, "height": 1}, "nodes": [{"name": "sky",
+        "in.json:2: /nodes/0/light/file: file: an environment needs an image of floats (.hdr, "
+        ".exr)",
+        [] {
+            parse_scene_json(
+                R"({"version": 1, "film": {"width": 1, "height": 1}, "nodes": [{"name": "sky",
                              "light": {"type": "environment", "file": "c.ppm"}}]})",
-                             "in.json", "in", testing::TempDir());
+                "in.json", "in", testing::TempDir());
         });
 }
 
@@ -218,7 +228,8 @@ TEST_F(ImageFiles, TruncatedOrDamagedFilesLoadOrAreErrors) {
                               const std::string &content) -> std::shared_ptr<const TextureImage> {
         try {
             const auto texture = load(file(name, content));
-            const auto size = 3 * static_cast<size_t>(texture->width) * static_cast<size_t>(texture->height);
+            const auto size =
+                3 * static_cast<size_t>(texture->width) * static_cast<size_t>(texture->height);
             EXPECT_EQ(texture->bytes.size() + texture->floats.size(), size);
             ++loaded;
             return texture;

@@ -75,7 +75,8 @@ TEST(SceneJson, HashFollowsTheImageNotTheNames) {
     const std::string nodes = R"({"name": "a", "geometry": "tile", "material": "white"})";
     const std::string hash = parse(with_nodes(nodes)).hash();
     EXPECT_EQ(
-        parse(with_nodes(R"({"name": "b", "description": "x", "geometry": "tile", "material": "white"})"))
+        parse(with_nodes(
+                  R"({"name": "b", "description": "x", "geometry": "tile", "material": "white"})"))
             .hash(),
         hash);
     for (const char *edit : {"a.translation=0,0,1e-6", "eye.fov=61", "eye.translation=1,0,0",
@@ -89,7 +90,8 @@ TEST(SceneJson, HashFollowsTheImageNotTheNames) {
 }
 
 TEST(SceneJson, FarScenesAreMovedToTheOriginInDouble) {
-    const char *nodes = R"({"name": "world", "transform": [{"translate": [1e6, -1e6, 0]}], "children": [
+    const char *nodes =
+        R"({"name": "world", "transform": [{"translate": [1e6, -1e6, 0]}], "children": [
         {"name": "a", "geometry": "tile", "material": "white"},
         {"name": "view", "transform": [{"translate": [0.1, 0, 2]}], "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}]})";
     std::string text = with_nodes(nodes);
@@ -112,8 +114,8 @@ struct BadScene {
 const std::string three_vertices = "[[0,0,0],[1,0,0],[0,1,0]]";
 
 std::string mesh_node(const std::string &vertices, const std::string &polygons) {
-    return R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": )" + vertices +
-           R"(, "polygons": )" + polygons + "}}";
+    return R"({"name": "a", "material": "white", "geometry": {"type": "mesh", "vertices": )" +
+           vertices + R"(, "polygons": )" + polygons + "}}";
 }
 
 class BadScenes : public testing::TestWithParam<BadScene> {};
@@ -126,12 +128,15 @@ INSTANTIATE_TEST_SUITE_P(
     SceneJson, BadScenes,
     testing::Values(
         BadScene{R"({"name": "a", "geometri": "tile"})",
-                 "in.json:5: /nodes/1 (in 'a'): unknown key 'geometri'; allowed: animation, camera, children, "
+                 "in.json:5: /nodes/1 (in 'a'): unknown key 'geometri'; allowed: animation, "
+                 "camera, children, "
                  "description, geometry, light, "},
-        BadScene{R"({"name": "a", "name": "b"})", "in.json:5: /nodes/1/name (in 'a'): duplicate key 'name'"},
+        BadScene{R"({"name": "a", "name": "b"})",
+                 "in.json:5: /nodes/1/name (in 'a'): duplicate key 'name'"},
         BadScene{R"({"geometry": "tile"})", "in.json:5: /nodes/1: missing key 'name'"},
         BadScene{R"({"name": ""})", "/nodes/1/name"},
-        BadScene{R"({"name": "a.b"})", "in.json:5: /nodes/1/name: 'a.b': a name must not contain a dot"},
+        BadScene{R"({"name": "a.b"})",
+                 "in.json:5: /nodes/1/name: 'a.b': a name must not contain a dot"},
         BadScene{R"({"name": "eye"})", "in.json:5: /nodes/1/name: two nodes are called 'eye'"},
         BadScene{R"({"name": "a", "geometry": "tiles", "material": "white"})",
                  "in.json:5: /nodes/1/geometry: no geometry 'tiles'; there are: tile"},
@@ -153,8 +158,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "/nodes/1/light/radiance: radiance: [1, 1, 1e+39] is not within"},
         BadScene{R"({"name": "a", "light": {"type": "diffuse_area", "radiance": [1, -1, 1]}})",
                  "/nodes/1/light/radiance/1"},
-        BadScene{R"({"name": "a", "light": {"type": "laser", "radiance": [1, 1, 1]}})",
-                 "\"laser\" is not one of: diffuse_area, point, spot, directional, dome, environment"},
+        BadScene{
+            R"({"name": "a", "light": {"type": "laser", "radiance": [1, 1, 1]}})",
+            "\"laser\" is not one of: diffuse_area, point, spot, directional, dome, environment"},
         BadScene{
             R"({"name": "a", "material": "white", "light": {"type": "diffuse_area", "radiance": [1, 1, 1]},
                      "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[2,0,0]], "polygons": [[0,1,2]]}})",
@@ -167,12 +173,13 @@ INSTANTIATE_TEST_SUITE_P(
                  "/nodes/1/geometry/vertices/1/0 (in 'a'): syntax error"},
         BadScene{mesh_node("[[0,0,0],[1e39,0,0],[0,1,0]]", "[[0,1,2]]"),
                  "mesh 'a': vertex 1, [1e+39, 0, 0], is beyond the range of float"},
-        BadScene{
-            mesh_node(three_vertices, "[[0,1,3]]"),
-            "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex 3, but there are only "
-            "3 vertices"},
+        BadScene{mesh_node(three_vertices, "[[0,1,3]]"),
+                 "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex 3, but "
+                 "there are only "
+                 "3 vertices"},
         BadScene{mesh_node(three_vertices, "[[0,1,4294967296]]"), "has vertex 4294967296, but"},
-        BadScene{mesh_node(three_vertices, "[[0,1,-1]]"), "/nodes/1/geometry/polygons/0/2 (in 'a'): -1"},
+        BadScene{mesh_node(three_vertices, "[[0,1,-1]]"),
+                 "/nodes/1/geometry/polygons/0/2 (in 'a'): -1"},
         BadScene{mesh_node(three_vertices, "[[0,1,1.5]]"), "1.5 is not of type integer"},
         BadScene{mesh_node(three_vertices, "[[0,1]]"), "/nodes/1/geometry/polygons/0"},
         BadScene{mesh_node("[]", "[]"), "mesh 'a' has no triangle"},
@@ -192,25 +199,31 @@ INSTANTIATE_TEST_SUITE_P(
                  "the scene has several cameras; choose one by \"camera\": eye, a"},
         BadScene{R"({"name": "a", "camera": {"type": "pinhole", "fov": 180, "fov_axis": "x"}})",
                  "/nodes/1/camera/fov"},
-        BadScene{R"({"name": "a", "camera": {"type": "pinhole", "fov": 40, "fov_axis": "diagonal"}})",
-                 "\"diagonal\" is not one of: x, y, smaller, larger"},
+        BadScene{
+            R"({"name": "a", "camera": {"type": "pinhole", "fov": 40, "fov_axis": "diagonal"}})",
+            "\"diagonal\" is not one of: x, y, smaller, larger"},
         BadScene{R"({"name": "a", "children": {"name": "b"}})", "/nodes/1/children (in 'b')"}));
 
 TEST(SceneJson, DocumentsThatAreWrongAsAWhole) {
     const char *film = R"("film": {"width": 4, "height": 4})";
-    const auto document = [&](const std::string &rest) { return "{" + std::string(film) + rest + "}"; };
+    const auto document = [&](const std::string &rest) {
+        return "{" + std::string(film) + rest + "}";
+    };
     expect_input_error("missing key 'version'", [&] { parse(document(R"(, "nodes": [])")); });
     expect_input_error("/version: 2 is not one of: 1",
                        [&] { parse(document(R"(, "version": 2, "nodes": [])")); });
-    expect_input_error("the scene has no camera", [&] { parse(document(R"(, "version": 1, "nodes": [])")); });
+    expect_input_error("the scene has no camera",
+                       [&] { parse(document(R"(, "version": 1, "nodes": [])")); });
     expect_input_error("unknown key 'shapes'; allowed: camera, description, film, ",
                        [&] { parse(document(R"(, "version": 1, "nodes": [], "shapes": [])")); });
-    expect_input_error("/film/width",
-                       [&] { parse(R"({"version": 1, "film": {"width": 0, "height": 1}, "nodes": []})"); });
+    expect_input_error("/film/width", [&] {
+        parse(R"({"version": 1, "film": {"width": 0, "height": 1}, "nodes": []})");
+    });
     std::string text = with_nodes(R"({"name": "a"})");
     text.insert(1, R"("camera": "a", )");
     expect_input_error("has no camera 'a'; it has: eye", [&] { parse(text); });
-    for (const char *not_a_scene : {"", "[]", "null", "7", "\"scene\"", "{}", "\x1f\x8b", "<scene/>"}) {
+    for (const char *not_a_scene :
+         {"", "[]", "null", "7", "\"scene\"", "{}", "\x1f\x8b", "<scene/>"}) {
         expect_input_error("in.json:1", [&] { parse(not_a_scene); });
     }
 }
@@ -237,7 +250,8 @@ TEST(SceneJson, NestsAsDeepAsDocumentsMay) {
 }
 
 TEST(SceneJson, FilesThatAreNone) {
-    expect_input_error("none.json: cannot be read: No such file", [] { load_scene(scenes + "/none.json"); });
+    expect_input_error("none.json: cannot be read: No such file",
+                       [] { load_scene(scenes + "/none.json"); });
     expect_input_error("is a directory", [] { load_scene(scenes); });
     expect_input_error("'.md' is not a known scene format; known: .json",
                        [] { load_scene(scenes + "/README.md"); });
@@ -296,11 +310,13 @@ TEST(Scenes, CornellBoxIsTheMeasuredOne) {
         const std::string &name = meshes.name[meshes.triangle_mesh[triangle]];
         const Triangle &t = meshes.triangle[triangle];
         const Vector3d middle =
-            (meshes.position[t[0]] + meshes.position[t[1]] + meshes.position[t[2]]).cast<double>() / 3;
+            (meshes.position[t[0]] + meshes.position[t[1]] + meshes.position[t[2]]).cast<double>() /
+            3;
         if (name == "luminaire") {
             EXPECT_EQ(front(meshes, triangle), Vector3d(0, -1, 0));
         } else if (name == "small_box" || name == "large_box") {
-            const Vector3d inside = name == "small_box" ? Vector3d(186, 82, 169) : Vector3d(368, 165, 351);
+            const Vector3d inside =
+                name == "small_box" ? Vector3d(186, 82, 169) : Vector3d(368, 165, 351);
             EXPECT_GT(front(meshes, triangle).dot(middle - inside), 0) << name << ' ' << triangle;
         } else {
             EXPECT_GT(front(meshes, triangle).dot(centre - middle), 0) << name << ' ' << triangle;
@@ -321,9 +337,10 @@ TEST(Scenes, FurnacesAreClosedAndFaceInwards) {
         double volume = 0;
         for (size_t triangle = 0; triangle < 12; ++triangle) {
             const Triangle &t = meshes.triangle[triangle];
-            volume += meshes.position[t[0]].cast<double>().dot(
-                          meshes.position[t[1]].cast<double>().cross(meshes.position[t[2]].cast<double>())) /
-                      6;
+            volume +=
+                meshes.position[t[0]].cast<double>().dot(meshes.position[t[1]].cast<double>().cross(
+                    meshes.position[t[2]].cast<double>())) /
+                6;
             EXPECT_LT(front(meshes, triangle).dot(meshes.position[t[0]].cast<double>()), 0);
         }
         EXPECT_NEAR(volume, -8, 1e-12) << "closed, fronts inwards";
@@ -372,7 +389,9 @@ TEST(Triangulate, SplitsPolygonsIntoTheirArea) {
     const std::vector<Vector3d> star = {{0, 3, 0}, {2, -3, 0}, {-3, 1, 0}, {3, 1, 0}, {-2, -3, 0}};
     expect_input_error("crosses itself", [&] { triangulate(star, {0, 1, 2, 3, 4}); });
     expect_input_error("has 2 corners", [&] { triangulate(square, {0, 1}); });
-    expect_input_error("has corner 4, but there are only 4", [&] { triangulate(square, {0, 1, 4}); });
+    expect_input_error("has corner 4, but there are only 4", [&] {
+        triangulate(square, {0, 1, 4});
+    });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene model: what materials, shapes, lights, cameras and meshes of scene files serialize into.
+// The scene model: what materials, shapes, lights, cameras and meshes of scene files serialize
+// into.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
@@ -25,8 +26,8 @@ constexpr double pi = 3.14159265358979323846;
 Scene parse(const std::string &nodes, const std::string &sections = "") {
     const std::string text =
         R"({"version": 1, "film": {"width": 8, "height": 4}, )" + sections +
-        R"("nodes": [{"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}, )" + nodes +
-        "]}";
+        R"("nodes": [{"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}, )" +
+        nodes + "]}";
     Scene scene = parse_scene_json(text, "in.json", "in", testing::TempDir());
     expect_consistent(scene.graph());
     return scene;
@@ -53,7 +54,8 @@ BxdfComponent with_dielectric(BxdfComponent component, double eta, bool compleme
     return component;
 }
 
-void expect_equal(const std::vector<BxdfComponent> &found, const std::vector<BxdfComponent> &wanted) {
+void expect_equal(const std::vector<BxdfComponent> &found,
+                  const std::vector<BxdfComponent> &wanted) {
     ASSERT_EQ(found.size(), wanted.size());
     for (size_t i = 0; i < found.size(); ++i) {
         SCOPED_TRACE(i);
@@ -77,8 +79,9 @@ TEST(Materials, DiffuseTypes) {
                  {expected(Kind::lambert, {0.25f, 0.5f, 1})});
     BxdfComponent rough = expected(Kind::oren_nayar, {0.5f, 0.5f, 0.5f});
     rough.sigma = 0.3;
-    expect_equal(components(R"({"type": "oren_nayar", "reflectance": [0.5, 0.5, 0.5], "sigma": 0.3})"),
-                 {rough});
+    expect_equal(
+        components(R"({"type": "oren_nayar", "reflectance": [0.5, 0.5, 0.5], "sigma": 0.3})"),
+        {rough});
 }
 
 TEST(Materials, SpecularTypes) {
@@ -89,12 +92,13 @@ TEST(Materials, SpecularTypes) {
                   with_dielectric(expected(Kind::ideal_refraction, {1, 1, 0.5f}), 1.5, true)});
     BxdfComponent bare = expected(Kind::ideal_refraction, {1, 1, 1});
     bare.eta.setConstant(1.3);
-    expect_equal(components(R"({"type": "refraction", "eta": 1.3, "transmittance": [1, 1, 1]})"), {bare});
+    expect_equal(components(R"({"type": "refraction", "eta": 1.3, "transmittance": [1, 1, 1]})"),
+                 {bare});
 }
 
 TEST(Materials, RoughGlassIsMadeOfMicrofacets) {
-    const std::vector<BxdfComponent> found =
-        components(R"({"type": "glass", "eta": 1.5, "roughness": [0.25, 0.5], "distribution": "beckmann"})");
+    const std::vector<BxdfComponent> found = components(
+        R"({"type": "glass", "eta": 1.5, "roughness": [0.25, 0.5], "distribution": "beckmann"})");
     std::vector<BxdfComponent> wanted = {
         with_dielectric(expected(Kind::microfacet_reflection, {1, 1, 1}), 1.5, false),
         with_dielectric(expected(Kind::microfacet_refraction, {1, 1, 1}), 1.5, true)};
@@ -110,7 +114,8 @@ TEST(Materials, Metals) {
     metal.fresnel = Fresnel::conductor;
     metal.eta = Vector3d(0.2, 0.9, 1.1);
     metal.k = Vector3d(3.9, 2.4, 2.1);
-    expect_equal(components(R"({"type": "metal", "eta": [0.2, 0.9, 1.1], "k": [3.9, 2.4, 2.1]})"), {metal});
+    expect_equal(components(R"({"type": "metal", "eta": [0.2, 0.9, 1.1], "k": [3.9, 2.4, 2.1]})"),
+                 {metal});
     struct Model {
         const char *keys;
         Kind kind;
@@ -121,9 +126,9 @@ TEST(Materials, Metals) {
           Model{R"("model": "ward_original", "roughness": [0.1, 0.3])", Kind::ward_original},
           Model{R"("model": "blinn", "exponent": 64)", Kind::blinn}}) {
         for (const char *preset : {"silver", "gold", "copper"}) {
-            const std::vector<BxdfComponent> found =
-                components(std::string(R"({"type": "metal", "fresnel": "approximate", "preset": ")") +
-                           preset + "\", " + model.keys + "}");
+            const std::vector<BxdfComponent> found = components(
+                std::string(R"({"type": "metal", "fresnel": "approximate", "preset": ")") + preset +
+                "\", " + model.keys + "}");
             ASSERT_EQ(found.size(), 1u);
             EXPECT_EQ(found[0].kind, model.kind);
             EXPECT_EQ(found[0].fresnel, Fresnel::conductor_approximate);
@@ -140,9 +145,9 @@ Vector3d normal_reflectance(const BxdfComponent &metal) {
 }
 
 TEST(Materials, PresetsHaveTheColoursOfTheMetals) {
-    // Well-known reflectances at normal incidence, linear Rec. 709 (for example A. Lagarde, "Feeding a
-    // physically based shading model", 2011): silver (0.97, 0.96, 0.92), gold (1.0, 0.77, 0.34), copper
-    // (0.96, 0.64, 0.54).
+    // Well-known reflectances at normal incidence, linear Rec. 709 (for example A. Lagarde,
+    // "Feeding a physically based shading model", 2011): silver (0.97, 0.96, 0.92), gold (1.0,
+    // 0.77, 0.34), copper (0.96, 0.64, 0.54).
     const auto reflectance = [](const char *preset) {
         return normal_reflectance(
             components(std::string(R"({"type": "metal", "preset": ")") + preset + "\"}")[0]);
@@ -170,12 +175,15 @@ TEST(Materials, LayeredTypes) {
         with_dielectric(expected(Kind::lambert, {0.5f, 0, 0}), 1.6, true)};
     expect_equal(components(R"({"type": "car_paint", "base": [0.5, 0, 0], "eta": 1.6})"), paint);
     paint[1].fresnel_of_wo = true;
-    expect_equal(components(R"({"type": "car_paint", "base": [0.5, 0, 0], "eta": 1.6, "variant": "thesis"})"),
-                 paint);
+    expect_equal(
+        components(
+            R"({"type": "car_paint", "base": [0.5, 0, 0], "eta": 1.6, "variant": "thesis"})"),
+        paint);
 }
 
 TEST(Materials, CompositesSayEverything) {
-    BxdfComponent diffuse = with_dielectric(expected(Kind::oren_nayar, {0.5f, 0.5f, 0.5f}), 1.25, true);
+    BxdfComponent diffuse =
+        with_dielectric(expected(Kind::oren_nayar, {0.5f, 0.5f, 0.5f}), 1.25, true);
     diffuse.sigma = 0.5;
     diffuse.fresnel_of_wo = true;
     BxdfComponent schlick = expected(Kind::microfacet_reflection, {0.25f, 0.25f, 0.25f});
@@ -215,7 +223,8 @@ TEST(Materials, PropertiesReachTheRecords) {
     EXPECT_EQ(scene.materials().component[1].alpha, Vector2d(0.25, 0.25));
     EXPECT_EQ(scene.materials().component[0].weight, Vector3f::Constant(0.125f));
     EXPECT_EQ(scene.materials().two_sided[0], 0);
-    EXPECT_EQ(scene.graph().shape_counts().written, 0u) << "shapes refer to a material, they do not copy it";
+    EXPECT_EQ(scene.graph().shape_counts().written, 0u)
+        << "shapes refer to a material, they do not copy it";
 }
 
 /// A canonical point of each shape, and where its parameters and a transform put it.
@@ -227,29 +236,37 @@ TEST(Shapes, ParametersBecomePartOfTheTransform) {
         Vector3d world;  ///< after a scale of 2 and a move of 10 along x
     };
     using Shape = ShapeArrays::Kind;
-    for (const Case &c : {
-             Case{R"({"type": "sphere", "radius": 3})", Shape::sphere, {1, 0, 0}, {16, 0, 0}},
-             Case{R"({"type": "ellipsoid", "radii": [1, 2, 3]})", Shape::sphere, {0, 0, 1}, {10, 0, 6}},
-             Case{R"({"type": "cylinder", "radius": 2, "height": 5})",
-                  Shape::cylinder,
-                  {1, 0, 1},
-                  {14, 0, 10}},
-             Case{R"({"type": "cone", "radius": 2, "height": 5})", Shape::cone, {0, 1, 0}, {10, 4, 0}},
-             Case{R"({"type": "paraboloid", "radius": 2, "height": 5})",
-                  Shape::paraboloid,
-                  {1, 0, 1},
-                  {14, 0, 10}},
-             Case{R"({"type": "hyperboloid", "radius": 2, "height": 5, "flare": 3})",
-                  Shape::hyperboloid,
-                  {2, 0, -1},
-                  {18, 0, -5}},
-             Case{R"({"type": "disc", "radius": 2})", Shape::disc, {0, 1, 0}, {10, 4, 0}},
-             Case{R"({"type": "plane"})", Shape::plane, {5, 0, 0}, {20, 0, 0}},
-             Case{R"({"type": "julia", "constant": [-0.2, 0.8, 0, 0], "slice": 0.25, "iterations": 12})",
-                  Shape::julia,
-                  {1, 1, 1},
-                  {12, 2, 2}},
-         }) {
+    for (
+        const Case &c : {
+            Case{R"({"type": "sphere", "radius": 3})", Shape::sphere, {1, 0, 0}, {16, 0, 0}},
+            Case{R"({"type": "ellipsoid", "radii": [1, 2, 3]})",
+                 Shape::sphere,
+                 {0, 0, 1},
+                 {10, 0, 6}},
+            Case{R"({"type": "cylinder", "radius": 2, "height": 5})",
+                 Shape::cylinder,
+                 {1, 0, 1},
+                 {14, 0, 10}},
+            Case{R"({"type": "cone", "radius": 2, "height": 5})",
+                 Shape::cone,
+                 {0, 1, 0},
+                 {10, 4, 0}},
+            Case{R"({"type": "paraboloid", "radius": 2, "height": 5})",
+                 Shape::paraboloid,
+                 {1, 0, 1},
+                 {14, 0, 10}},
+            Case{R"({"type": "hyperboloid", "radius": 2, "height": 5, "flare": 3})",
+                 Shape::hyperboloid,
+                 {2, 0, -1},
+                 {18, 0, -5}},
+            Case{R"({"type": "disc", "radius": 2})", Shape::disc, {0, 1, 0}, {10, 4, 0}},
+            Case{R"({"type": "plane"})", Shape::plane, {5, 0, 0}, {20, 0, 0}},
+            Case{
+                R"({"type": "julia", "constant": [-0.2, 0.8, 0, 0], "slice": 0.25, "iterations": 12})",
+                Shape::julia,
+                {1, 1, 1},
+                {12, 2, 2}},
+        }) {
         SCOPED_TRACE(c.geometry);
         const Scene scene = parse(
             R"({"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]},
@@ -266,7 +283,8 @@ TEST(Shapes, ParametersBecomePartOfTheTransform) {
 }
 
 TEST(Shapes, FarScenesOfShapesAreMovedToTheOriginToo) {
-    std::string text = R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [{"name": "world",
+    std::string text =
+        R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [{"name": "world",
         "transform": [{"translate": [1e7, 0, 0]}], "material": {"type": "lambert", "reflectance": [0, 0, 0]}, "children": [
         {"name": "eye", "transform": [{"translate": [0, 0, 5]}], "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
         {"name": "ball", "geometry": {"type": "sphere"}},
@@ -290,7 +308,8 @@ TEST(Meshes, BoxAndRectangleFaceOutAndCarryCoordinates) {
         const Vector3f e1 = meshes.position[t[1]] - meshes.position[t[0]];
         const Vector3f e2 = meshes.position[t[2]] - meshes.position[t[0]];
         const Vector3f normal = e1.cross(e2).normalized();
-        const Vector3f middle = (meshes.position[t[0]] + meshes.position[t[1]] + meshes.position[t[2]]) / 3;
+        const Vector3f middle =
+            (meshes.position[t[0]] + meshes.position[t[1]] + meshes.position[t[2]]) / 3;
         EXPECT_EQ(normal.dot(i < 12 ? middle : Vector3f(0, 0, 1)), 1) << i;
         // (u, v) is a right-handed frame seen from the front, of half the size.
         const Vector2f u1 = meshes.uv[t[1]] - meshes.uv[t[0]];
@@ -302,20 +321,21 @@ TEST(Meshes, BoxAndRectangleFaceOutAndCarryCoordinates) {
 }
 
 TEST(Meshes, NormalsFollowTheSurface) {
-    // The plane x + y = 1 with its own normal; whatever the transform, it must stay across the plane and in
-    // front.
+    // The plane x + y = 1 with its own normal; whatever the transform, it must stay across the
+    // plane and in front.
     const char *mesh =
         R"({"type": "mesh", "vertices": [[1, 0, 0], [0, 1, 0], [0, 1, 1]], "polygons": [[0, 1, 2]],
                            "normals": [[3, 3, 0], [1, 1, 0], [1e-200, 1e-200, 0]]})";
     for (const char *transform :
          {R"({"scale": [1, 1, 1]})", R"({"scale": [3, 1, 0.5]})", R"({"scale": [-1, 1, 1]})",
-          R"({"scale": [1, 1e-18, 1]})", R"({"scale": [1, -2, -1]})", R"({"scale": [-1e-9, -1e9, -1]})",
+          R"({"scale": [1, 1e-18, 1]})", R"({"scale": [1, -2, -1]})",
+          R"({"scale": [-1e-9, -1e9, -1]})",
           R"({"matrix": [[1, 2, 0, 0], [0, 1, 0.5, 0], [0.25, 0, -1, 0], [0, 0, 0, 1]]})"}) {
         SCOPED_TRACE(transform);
-        const Scene scene =
-            parse(std::string(R"({"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]},
+        const Scene scene = parse(
+            std::string(R"({"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]},
             "geometry": )") +
-                  mesh + R"(, "transform": [)" + transform + "]}");
+            mesh + R"(, "transform": [)" + transform + "]}");
         const MeshArrays &meshes = scene.meshes();
         const Triangle &t = meshes.triangle[0];
         const Vector3d p0 = meshes.position[t[0]].cast<double>();
@@ -367,13 +387,15 @@ TEST(Lights, StandWhereTheirNodesAre) {
             {"name": "sky", "light": {"type": "dome", "radiance": [0.5, 0.5, 0.5]}}]})");
     const LightArrays &lights = scene.lights();
     using Light = LightArrays::Kind;
-    ASSERT_EQ(lights.kind, (std::vector<Light>{Light::point, Light::spot, Light::directional, Light::dome}));
+    ASSERT_EQ(lights.kind,
+              (std::vector<Light>{Light::point, Light::spot, Light::directional, Light::dome}));
     EXPECT_EQ(lights.radiance[0], Vector3f(1, 2, 3));
     EXPECT_EQ(lights.radiance[2], Vector3f(7, 8, 9));
     EXPECT_EQ(lights.world_from_light[0].col(3).head<3>(), Vector3d(1, 2, 3));
     EXPECT_EQ(lights.world_from_light[1].col(3).head<3>(), Vector3d(1, 2, 3));
     for (const int i : {1, 2}) {  // -z turned by 90 degrees about y
-        EXPECT_LT((-lights.world_from_light[i].col(2).head<3>() - Vector3d(-1, 0, 0)).norm(), 1e-15);
+        EXPECT_LT((-lights.world_from_light[i].col(2).head<3>() - Vector3d(-1, 0, 0)).norm(),
+                  1e-15);
         const Eigen::Matrix3d axes = lights.world_from_light[i].topLeftCorner<3, 3>();
         EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-14));
         EXPECT_NEAR(axes.determinant(), 1, 1e-14);
@@ -427,11 +449,11 @@ TEST(Lights, EmissiveMaterialsMakeLightsOfGeometry) {
 }
 
 TEST(Cameras, ThinLensesGrowWithTheirNodes) {
-    Scene scene =
-        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [{"name": "eye",
+    Scene scene = parse_scene_json(
+        R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [{"name": "eye",
         "transform": [{"scale": [2, 2, 2]}], "camera": {"type": "thin_lens", "fov": 60, "fov_axis": "y",
         "aperture_radius": 0.25, "focus_distance": 5}}]})",
-                         "in.json", "in");
+        "in.json", "in");
     EXPECT_EQ(scene.cameras().aperture_radius[0], 0.5);
     EXPECT_EQ(scene.cameras().focus_distance[0], 10);
     const std::string hash = scene.hash();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The documentation of the scene format holds: its examples are read, and they, the schema and the tables of
-// types name the same things.
+// The documentation of the scene format holds: its examples are read, and they, the schema and the
+// tables of types name the same things.
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -29,14 +29,15 @@ std::vector<Json> examples() {
     for (size_t at = text.find(opening); at != std::string::npos; at = text.find(opening, at)) {
         at += opening.size();
         const size_t end = text.find("```", at);
-        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        const auto line =
+            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
         blocks.push_back(parse_json(text.substr(at, end - at), path + ":" + std::to_string(line)));
     }
     return blocks;
 }
 
-/// A whole scene around a part of one: what is missing is added, and a node for every shared material and
-/// geometry, so that all of them reach the arrays.
+/// A whole scene around a part of one: what is missing is added, and a node for every shared
+/// material and geometry, so that all of them reach the arrays.
 Json completed(Json part) {
     part.emplace("version", 1);
     part.emplace("film", Json{{"width", 1}, {"height", 1}});
@@ -61,9 +62,10 @@ Json completed(Json part) {
     return part;
 }
 
-/// The values of `key` wherever it stands below `value`, within objects that are the value of `owner` or an
-/// item of it.
-void collect(const Json &value, const std::string &owner, const std::string &key, bool inside, Names &names) {
+/// The values of `key` wherever it stands below `value`, within objects that are the value of
+/// `owner` or an item of it.
+void collect(const Json &value, const std::string &owner, const std::string &key, bool inside,
+             Names &names) {
     if (inside && value.is_object() && value.contains(key)) {
         names.insert(value.at(key).get<std::string>());
     }
@@ -72,7 +74,8 @@ void collect(const Json &value, const std::string &owner, const std::string &key
             const bool is_owner = value.is_object() && (item.key() == owner);
             const bool keeps = inside && !value.contains(key);  // "materials": {NAME: {...}}
             collect(item.value(), owner, key,
-                    is_owner || (keeps && item.value().is_object()) || (inside && value.is_array()), names);
+                    is_owner || (keeps && item.value().is_object()) || (inside && value.is_array()),
+                    names);
         }
     }
 }
@@ -144,7 +147,8 @@ TEST_F(SceneReadme, ExamplesSchemaAndTablesNameTheSameTypes) {
     const Json schema =
         parse_json(std::string(embedded::scene_schemas().text("scene.schema.json")), "schema");
     EXPECT_EQ(
-        schema.at("/definitions/component/properties/fresnel/properties/type/enum"_json_pointer).get<Names>(),
+        schema.at("/definitions/component/properties/fresnel/properties/type/enum"_json_pointer)
+            .get<Names>(),
         fresnels);
 }
 
@@ -177,7 +181,8 @@ Names parameters_of(const Types &types) {
 
 TEST(SceneSchema, HasTheKeysOfTheTables) {
     EXPECT_EQ(schema_keys("material", {"type", "components"}), parameters_of(material_types()));
-    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs", "keyframes", "file", "shading_normals"}),
+    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs",
+                                       "keyframes", "file", "shading_normals"}),
               parameters_of(shape_types()));
     EXPECT_EQ(schema_keys("light", {"type", "file"}), parameters_of(light_types()));
     EXPECT_EQ(schema_keys("camera", {"type"}), parameters_of(camera_types()));

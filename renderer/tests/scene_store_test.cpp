@@ -15,7 +15,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// A graph with `count` triangles "0", "1", ... side by side under a node "all", every third one a light.
+/// A graph with `count` triangles "0", "1", ... side by side under a node "all", every third one a
+/// light.
 std::unique_ptr<SceneGraph> row_of_triangles(int count) {
     auto graph = std::make_unique<SceneGraph>();
     Node &all = add_node(graph->root(), "all");
@@ -61,8 +62,8 @@ TEST(Stores, NothingDirtyNothingWritten) {
     graph->update(0);
     graph->update(1);
     EXPECT_EQ(graph->visited_nodes(), 0u);
-    for (const StoreCounts &counts :
-         {graph->mesh_counts(), graph->light_counts(), graph->material_counts(), graph->camera_counts()}) {
+    for (const StoreCounts &counts : {graph->mesh_counts(), graph->light_counts(),
+                                      graph->material_counts(), graph->camera_counts()}) {
         EXPECT_EQ(counts.allocated + counts.freed + counts.written + counts.moved, 0u);
     }
 }
@@ -79,7 +80,8 @@ TEST(Stores, OnlyWhatChangedIsRewritten) {
     core_at<MaterialCore>(*graph, "all", CoreRole::material).set("reflectance", Vector3d(1, 0, 0));
     graph->update(0);
     EXPECT_EQ(graph->material_counts().written, 1u);
-    EXPECT_EQ(graph->mesh_counts().written, 0u) << "meshes refer to a material, they do not copy it";
+    EXPECT_EQ(graph->mesh_counts().written, 0u)
+        << "meshes refer to a material, they do not copy it";
     EXPECT_EQ(graph->arrays().materials.component[0].weight, Vector3f(1, 0, 0));
 
     graph->find("all")->set_core(grey("other"));
@@ -178,20 +180,24 @@ std::shared_ptr<Core> any_geometry(unsigned choice) {
     return choice == 0 ? unit_square() : std::make_shared<MeshCore>("", geometry);
 }
 
-/// A material of one or two components that glows or has a texture of its own or a shared one, or neither.
-std::shared_ptr<MaterialCore> any_material(unsigned choice, const std::shared_ptr<Texture> &shared) {
+/// A material of one or two components that glows or has a texture of its own or a shared one, or
+/// neither.
+std::shared_ptr<MaterialCore> any_material(unsigned choice,
+                                           const std::shared_ptr<Texture> &shared) {
     ParameterValues values{{"reflectance", Vector3d(0.5, 0.5, 0.5)}};
     if (choice % 4 == 0) {
         values["emission"] = Vector3d(1, 2, 3);
     }
     ParameterTextures textures;
     if (choice % 4 == 1) {
-        textures["reflectance"] = choice >= 4 ? shared : std::make_shared<Texture>("own", shared->image());
+        textures["reflectance"] =
+            choice >= 4 ? shared : std::make_shared<Texture>("own", shared->image());
     }
     if (choice % 2 == 0) {
         values["eta"] = 1.5;
     }
-    return std::make_shared<MaterialCore>("", choice % 2 == 0 ? "plastic" : "lambert", values, textures);
+    return std::make_shared<MaterialCore>("", choice % 2 == 0 ? "plastic" : "lambert", values,
+                                          textures);
 }
 
 /// Everything of the arrays that an image depends on, in words that compare.
@@ -201,17 +207,20 @@ std::vector<std::string> described(const SceneArrays &arrays) {
         all.push_back(fmt::format("{}", fmt::join(std::vector<std::string>{values...}, " ")));
     };
     const auto component = [&](uint32_t material) {
-        const BxdfComponent &c = arrays.materials.component[arrays.materials.first_component[material]];
+        const BxdfComponent &c =
+            arrays.materials.component[arrays.materials.first_component[material]];
         return c.texture == no_index ? std::string("plain") : arrays.textures.name[c.texture];
     };
     const auto light = [&](uint32_t index) {
-        return index == no_index ? 0.0 : arrays.lights.radiance[index].sum() * arrays.lights.area[index];
+        return index == no_index ? 0.0
+                                 : arrays.lights.radiance[index].sum() * arrays.lights.area[index];
     };
     for (uint32_t i = 0; i < arrays.meshes.name.size(); ++i) {
         const uint32_t v = arrays.meshes.first_vertex[i] + 1;
         add(arrays.meshes.name[i], component(arrays.meshes.material[i]),
             fmt::format("{}", light(arrays.meshes.light[i])),
-            fmt::format("{}", arrays.meshes.position[v].x()), fmt::format("{}", arrays.meshes.has_normals[i]),
+            fmt::format("{}", arrays.meshes.position[v].x()),
+            fmt::format("{}", arrays.meshes.has_normals[i]),
             fmt::format("{}", arrays.meshes.has_uv[i] != 0 ? arrays.meshes.uv[v].x() : 0));
     }
     for (uint32_t i = 0; i < arrays.shapes.name.size(); ++i) {
@@ -255,8 +264,9 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
                     give_light(*node, area_light(Vector3d(1, 1, 1)));
                     break;
                 case 4:
-                    give_light(*node, std::make_shared<LightCore>(
-                                          "", "point", ParameterValues{{"intensity", Vector3d(1, 1, 1)}}));
+                    give_light(*node,
+                               std::make_shared<LightCore>(
+                                   "", "point", ParameterValues{{"intensity", Vector3d(1, 1, 1)}}));
                     break;
                 case 5:
                     node->remove_core(CoreRole::light);
@@ -284,7 +294,8 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
         const TextureArrays &textures = graph->arrays().textures;
         for (size_t i = 0; i < textures.name.size(); ++i) {
             if (textures.name[i] == "shared") {
-                EXPECT_EQ(textures.uv_scale[i], shared->parameters().get<Eigen::Vector2d>("uv_scale"));
+                EXPECT_EQ(textures.uv_scale[i],
+                          shared->parameters().get<Eigen::Vector2d>("uv_scale"));
             }
         }
     }
@@ -333,7 +344,8 @@ TEST(Stores, AMirrorKeepsTheFrontOfASurface) {
         const MeshArrays &meshes = graph.arrays().meshes;
         const Triangle &t = meshes.triangle[0];
         const Vector3f a = meshes.position[t[0]];
-        EXPECT_EQ((meshes.position[t[1]] - a).cross(meshes.position[t[2]] - a), Vector3f(0, 0, facing));
+        EXPECT_EQ((meshes.position[t[1]] - a).cross(meshes.position[t[2]] - a),
+                  Vector3f(0, 0, facing));
     }
 }
 
@@ -384,8 +396,8 @@ TEST(Stores, AFarOriginCostsNoPrecision) {
     SceneGraph graph;
     graph.root().set_core(grey("grey"));
     Node &node = add_node(graph.root(), "node");
-    node.set_core(
-        std::make_shared<TransformCore>("", translation({1e6, 1e6, 1e6}) * scaling({1e-3, 1e-3, 1e-3})));
+    node.set_core(std::make_shared<TransformCore>(
+        "", translation({1e6, 1e6, 1e6}) * scaling({1e-3, 1e-3, 1e-3})));
     node.set_core(right_triangle());
     graph.update(0);
     EXPECT_EQ(graph.arrays().meshes.position[0], graph.arrays().meshes.position[1])

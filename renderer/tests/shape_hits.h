@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hits of shapes on the host. That balls leave out no shape which is hit is tested wherever these are called. Static, as the
-// kernels' functions are: each file compiles the kinds of shape that it tests.
+// Hits of shapes on the host. That balls leave out no shape which is hit is tested wherever these
+// are called. Static, as the kernels' functions are: each file compiles the kinds of shape that it
+// tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +29,8 @@ inline ShapeRecord compile(const Shape &shape, uint32_t light = no_index) {
     return compile_shapes(arrays).at(0);
 }
 
-DEVICE ShapeHit nearest_shape(const ShapeRecord *shapes, uint count, float3 origin, float3 direction, float t_max) {
+DEVICE ShapeHit nearest_shape(const ShapeRecord *shapes, uint count, float3 origin,
+                              float3 direction, float t_max) {
     ShapeHit expected{t_max, NO_HIT, {0, 0, 0}};
     for (uint i = 0; i < count; ++i) {
         float t;
@@ -44,7 +46,8 @@ DEVICE ShapeHit nearest_shape(const ShapeRecord *shapes, uint count, float3 orig
     return hit;
 }
 
-DEVICE bool any_shape(const ShapeRecord *shapes, uint count, float3 origin, float3 direction, float t_max) {
+DEVICE bool any_shape(const ShapeRecord *shapes, uint count, float3 origin, float3 direction,
+                      float t_max) {
     const std::vector<ShapeBounds> bounds = bound_shapes({shapes, shapes + count});
     return ::any_shape(shapes, bounds.data(), count, origin, direction, t_max);
 }

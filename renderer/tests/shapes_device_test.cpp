@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes on the OpenCL device: the same hits as on the host, and the guarantees of the point of a hit.
+// Shapes on the OpenCL device: the same hits as on the host, and the guarantees of the point of a
+// hit.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #define FEATURE_julia 1
@@ -15,8 +16,9 @@
 namespace rtrays::test {
 namespace {
 
-// Per ray 9 floats in: origin, direction, direction of leaving. Out: t, shape, shape that `any` finds,
-// whether the ray left to the front, t and shape of the next hit; shapes as floats, -1 for none.
+// Per ray 9 floats in: origin, direction, direction of leaving. Out: t, shape, shape that `any`
+// finds, whether the ray left to the front, t and shape of the next hit; shapes as floats, -1 for
+// none.
 const char *const kernel_source = R"(
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
@@ -74,11 +76,11 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
     std::vector<float> rays;
     for (uint32_t i = 0; i < count; ++i) {
         const Eigen::Vector3d origin = 6 * uniform_direction(random);
-        const Eigen::Vector3d direction =
-            arrays.world_from_object[i % 8].topRightCorner<3, 1>() + uniform_direction(random) - origin;
+        const Eigen::Vector3d direction = arrays.world_from_object[i % 8].topRightCorner<3, 1>() +
+                                          uniform_direction(random) - origin;
         for (const Eigen::Vector3d &v : {origin, direction, uniform_direction(random)}) {
-            rays.insert(rays.end(),
-                        {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
+            rays.insert(rays.end(), {static_cast<float>(v.x()), static_cast<float>(v.y()),
+                                     static_cast<float>(v.z())});
         }
     }
 
@@ -91,7 +93,8 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
         single_bounds.push_back(bound_shapes({shape}).front());
     }
     const Buffer<ShapeRecord> shape_buffer(device, "shapes", shapes);
-    const Buffer<ShapeBounds> bounds_buffer(device, "bounds", bound_shapes(shapes)), single_buffer(device, "single", single_bounds);
+    const Buffer<ShapeBounds> bounds_buffer(device, "bounds", bound_shapes(shapes)),
+        single_buffer(device, "single", single_bounds);
     const Buffer<float> ray_buffer(device, "rays", rays), hit_buffer(device, "hits", 6 * count);
     kernel.bind({shape_buffer, bounds_buffer, single_buffer, 8u, ray_buffer, hit_buffer, count});
     kernel.enqueue(count);
@@ -104,7 +107,8 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
                                                 make_float3(r[3], r[4], r[5]), INFINITY);
         const bool hit = out[1] >= 0.0f;
         ASSERT_EQ(out[2] > 0.0f, hit);
-        // Built-in functions of the device may round differently: grazing rays may decide differently.
+        // Built-in functions of the device may round differently: grazing rays may decide
+        // differently.
         different += hit ? out[1] != static_cast<float>(expected.shape) ||
                                std::abs(out[0] - expected.t) > 1e-5f * expected.t
                          : expected.shape != NO_HIT;

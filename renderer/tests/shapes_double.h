@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes in extended precision, written from their definitions in ShapeArrays: the judge of the device's.
-// Knows nothing of ShapeRecord.
+// Shapes in extended precision, written from their definitions in ShapeArrays: the judge of the
+// device's. Knows nothing of ShapeRecord.
 #pragma once
 
 #include <Eigen/Dense>
@@ -29,7 +29,8 @@ inline double log_uniform(Random &random, double lower, double upper) {
 }
 
 inline Eigen::Vector3d uniform_direction(Random &random) {
-    const double z = uniform(random, -1, 1), phi = uniform(random, 0, 2 * M_PI), r = std::sqrt(1 - z * z);
+    const double z = uniform(random, -1, 1), phi = uniform(random, 0, 2 * M_PI),
+                 r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
@@ -40,10 +41,11 @@ inline Eigen::Matrix3d uniform_rotation(Random &random) {
         .toRotationMatrix();
 }
 
-/// Not inlined: GCC 12 takes (double)(float)x for x once it has vectorized two components, and the judge must
-/// see the ray that the device sees.
+/// Not inlined: GCC 12 takes (double)(float)x for x once it has vectorized two components, and the
+/// judge must see the ray that the device sees.
 [[gnu::noinline]] inline float3 to_float3(const Eigen::Vector3d &v) {
-    return make_float3(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
+    return make_float3(static_cast<float>(v.x()), static_cast<float>(v.y()),
+                       static_cast<float>(v.z()));
 }
 
 inline Eigen::Vector3d to_double(float3 v) {
@@ -62,7 +64,8 @@ struct Shape {
     /// The length by which rounding of world coordinates is measured: size of the shape and of its
     /// coordinates.
     double scale() const {
-        return linear().cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(1 + flare) + centre().norm();
+        return linear().cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(1 + flare) +
+               centre().norm();
     }
 
     /// Norm of |inverse| |linear part|: how much transforms back and forth magnify rounding.
@@ -193,11 +196,12 @@ inline std::vector<double> hits(const Shape &shape, const Eigen::Vector3d &origi
     return found;
 }
 
-/// Whether a ray that first hits at `t` (infinite for a miss) overlooked nothing: some ray within `tolerance`
-/// (a length) of it has no hit before `t` either. That a hit is one is for the caller to check: its point
-/// lies on the surface and on the ray.
+/// Whether a ray that first hits at `t` (infinite for a miss) overlooked nothing: some ray within
+/// `tolerance` (a length) of it has no hit before `t` either. That a hit is one is for the caller
+/// to check: its point lies on the surface and on the ray.
 inline bool nothing_before(const Shape &shape, const Eigen::Vector3d &origin,
-                           const Eigen::Vector3d &direction, double t, double tolerance, Random &random) {
+                           const Eigen::Vector3d &direction, double t, double tolerance,
+                           Random &random) {
     const double slack = tolerance / direction.norm() + (std::isfinite(t) ? 1e-6 * t : 0);
     const auto holds = [&](const Eigen::Vector3d &o) {
         const std::vector<double> all = hits(shape, o, direction);
@@ -208,7 +212,8 @@ inline bool nothing_before(const Shape &shape, const Eigen::Vector3d &origin,
     if (holds(origin)) {
         return true;
     }
-    // Shifts across the clipping planes, across the surface where the ray is nearest to it, and at random.
+    // Shifts across the clipping planes, across the surface where the ray is nearest to it, and at
+    // random.
     const Eigen::Matrix3d inverse_transpose = shape.linear().inverse().transpose();
     const Vector3r o = shape.to_object(origin),
                    d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Quaternion Julia sets: the shipped marching against dense brute force in double precision, and against the
-// one that has a closed form.
+// Quaternion Julia sets: the shipped marching against dense brute force in double precision, and
+// against the one that has a closed form.
 #define FEATURE_shapes 1
 #define FEATURE_julia 1
 #include <gtest/gtest.h>
@@ -95,7 +95,8 @@ TEST_P(JuliaSets, ClearStepsDoNotPassTheSurface) {
     for (int i = 0; i < 20'000; ++i) {
         // Anywhere within the sphere, or near the surface.
         float3 p = to_float3(uniform_direction(random) * r * uniform(random));
-        const Eigen::Vector3d aim = i % 4 == 0 ? uniform_direction(random) * r * uniform(random) : on_surface;
+        const Eigen::Vector3d aim =
+            i % 4 == 0 ? uniform_direction(random) * r * uniform(random) : on_surface;
         const ShapeHit hit = nearest_shape(&record, 1, p, to_float3(aim) - p, INFINITY);
         on_surface = hit.shape != NO_HIT ? to_double(hit.object_point) : on_surface;
         if (i % 2 == 0) {
@@ -118,8 +119,8 @@ TEST_P(JuliaSets, ClearStepsDoNotPassTheSurface) {
 }
 
 /// Where the ray first changes sides: dense samples, then bisection. Infinite if nowhere.
-double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen::Vector3d &d, double s,
-                      double end, int samples) {
+double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen::Vector3d &d,
+                      double s, double end, int samples) {
     const bool side = outside(julia, o + s * d);
     const double step = (end - s) / samples;
     for (int i = 1; i <= samples; ++i) {
@@ -135,12 +136,13 @@ double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen:
     return INFINITY;
 }
 
-/// Whether a ray may overlook what it crosses: it stays on the other side for less than the least step, or
-/// nearer to the surface than rounding can tell.
+/// Whether a ray may overlook what it crosses: it stays on the other side for less than the least
+/// step, or nearer to the surface than rounding can tell.
 bool may_overlook(const Julia &julia, const ShapeRecord &record, const Eigen::Vector3d &o,
                   const Eigen::Vector3d &d, double crossing) {
     const double r = radius_of(record), start = crossing + 1e-9 * r;
-    const double length = first_crossing(julia, o, d, start, crossing + 0.1 * r, 100'000) - crossing;
+    const double length =
+        first_crossing(julia, o, d, start, crossing + 0.1 * r, 100'000) - crossing;
     if (!(length < 0.1 * r)) {
         return false;
     }
@@ -148,14 +150,15 @@ bool may_overlook(const Julia &julia, const ShapeRecord &record, const Eigen::Ve
     for (int i = 1; i < 1'000; ++i) {
         const Eigen::Vector3d p = o + (crossing + i / 1e3 * length) * d;
         const double distance = std::abs(iterate(julia, p).norm() - 4) / gradient(julia, p).norm();
-        deepest =
-            std::max(deepest, distance / to_double(shape_point(&record, to_float3(p)).error).maxCoeff());
+        deepest = std::max(
+            deepest, distance / to_double(shape_point(&record, to_float3(p)).error).maxCoeff());
     }
     return length < 0x1p-16 * r * 1.01 || deepest < 1;
 }
 
 enum class RaySet { random, grazing, axis, far, inside };
-constexpr RaySet ray_sets[] = {RaySet::random, RaySet::grazing, RaySet::axis, RaySet::far, RaySet::inside};
+constexpr RaySet ray_sets[] = {RaySet::random, RaySet::grazing, RaySet::axis, RaySet::far,
+                               RaySet::inside};
 
 TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
     const Julia julia = rounded(GetParam());
@@ -194,13 +197,14 @@ TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
         const Eigen::Vector3d d = to_double(way).normalized();
         const double shift = distance > 0 ? -to_double(origin).dot(d) : 0.0;
         const Eigen::Vector3d o = to_double(origin) + shift * d;
-        const double expected = first_crossing(julia, o, d, distance > 0 ? -1.1 * r : 0.0, 1.1 * r, 4'000);
+        const double expected =
+            first_crossing(julia, o, d, distance > 0 ? -1.1 * r : 0.0, 1.1 * r, 4'000);
         double s = INFINITY;
         if (hit.shape != NO_HIT) {
             ++hit_count;
             s = (to_double(hit.object_point) - o).dot(d);
-            // It is a point of the surface: sides differ about it within the rounding that shape_point
-            // states.
+            // It is a point of the surface: sides differ about it within the rounding that
+            // shape_point states.
             const SurfacePoint point = shape_point(&record, hit.object_point);
             const Eigen::Vector3d n = to_double(point.normal), p = to_double(hit.object_point);
             const double h = to_double(point.error).maxCoeff();
@@ -208,7 +212,8 @@ TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
             ASSERT_LT(((p - o) - s * d).norm(), 16 * half_ulp * r);
             ASSERT_NEAR(static_cast<double>(hit.t) * to_double(way).norm(), shift + s,
                         8 * half_ulp * (std::abs(shift) + r));
-            ASSERT_EQ(nearest_shape(&record, 1, origin, way, std::nextafter(hit.t, INFINITY)).t, hit.t);
+            ASSERT_EQ(nearest_shape(&record, 1, origin, way, std::nextafter(hit.t, INFINITY)).t,
+                      hit.t);
             ASSERT_FALSE(any_shape(&record, 1, origin, way, hit.t));
         }
         if (expected < s - 1e-4 * r) {  // overlooked: see there
@@ -234,8 +239,8 @@ Eigen::Matrix4d random_map(Random &random) {
     return map;
 }
 
-// Rays that leave a hit under affine maps: they start on the side they are meant for, those from inside hit
-// again, and a hit near the start is one in double precision as well.
+// Rays that leave a hit under affine maps: they start on the side they are meant for, those from
+// inside hit again, and a hit near the start is one in double precision as well.
 TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
     const Julia julia = rounded(GetParam());
     Random random(3);
@@ -245,7 +250,8 @@ TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
         const double r = radius_of(record);
         Eigen::Matrix4d world_from_object = Eigen::Matrix4d::Identity();  // as the device has it
         for (int i = 0; i < 12; ++i) {
-            world_from_object(i / 4, i % 4) = static_cast<double>(record.world_from_object[i / 4][i % 4]);
+            world_from_object(i / 4, i % 4) =
+                static_cast<double>(record.world_from_object[i / 4][i % 4]);
         }
         const Eigen::Matrix4d object_from_world = world_from_object.inverse();
         for (int k = 0; k < 10; ++k) {
@@ -255,30 +261,33 @@ TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
                 return Eigen::Vector3d((world_from_object * p.homogeneous()).head<3>());
             };
             const float3 origin = to_float3(world(from));
-            const ShapeHit hit =
-                nearest_shape(&record, 1, origin, to_float3(world(target) - to_double(origin)), INFINITY);
+            const ShapeHit hit = nearest_shape(
+                &record, 1, origin, to_float3(world(target) - to_double(origin)), INFINITY);
             if (hit.shape == NO_HIT) {
                 continue;
             }
             const SurfacePoint point = shape_point(&record, hit.object_point);
             const Eigen::Vector3d n = to_double(point.normal);
             for (int i = 0; i < 10; ++i, ++left) {
-                const double cosine =
-                    (i % 2 == 0 ? 1 : -1) * (i % 4 < 2 ? uniform(random) : log_uniform(random, -7, 0));
+                const double cosine = (i % 2 == 0 ? 1 : -1) *
+                                      (i % 4 < 2 ? uniform(random) : log_uniform(random, -7, 0));
                 const Eigen::Vector3d tangent = uniform_direction(random).cross(n).normalized();
-                const float3 away = to_float3(tangent * std::sqrt(1 - cosine * cosine) + cosine * n);
+                const float3 away =
+                    to_float3(tangent * std::sqrt(1 - cosine * cosine) + cosine * n);
                 const bool front = !(dot(point.normal, away) < 0.0f);
                 const float3 start = offset_ray_origin(point, away);
                 const ShapeHit next = nearest_shape(&record, 1, start, away, INFINITY);
-                const Eigen::Vector3d o = (object_from_world * to_double(start).homogeneous()).head<3>();
+                const Eigen::Vector3d o =
+                    (object_from_world * to_double(start).homogeneous()).head<3>();
                 const Eigen::Vector3d w = object_from_world.topLeftCorner<3, 3>() * to_double(away);
                 wrong_side += outside(julia, o) != front;
                 leaks += !front && next.shape == NO_HIT;
-                const double s = next.shape != NO_HIT ? static_cast<double>(next.t) * w.norm() : INFINITY;
+                const double s =
+                    next.shape != NO_HIT ? static_cast<double>(next.t) * w.norm() : INFINITY;
                 if (s < 0x1p-10 * r) {
                     ++near_hits;
-                    self_hits +=
-                        !std::isfinite(first_crossing(julia, o, w.normalized(), 0, s + 0x1p-16 * r, 2'000));
+                    self_hits += !std::isfinite(
+                        first_crossing(julia, o, w.normalized(), 0, s + 0x1p-16 * r, 2'000));
                 }
             }
         }
@@ -286,7 +295,8 @@ TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
     EXPECT_EQ(wrong_side, 0);
     EXPECT_EQ(leaks, 0);
     EXPECT_EQ(self_hits, 0);
-    EXPECT_EQ(near_hits > 100, julia.iterations > 1) << near_hits;  // the set of one iteration is smooth
+    EXPECT_EQ(near_hits > 100, julia.iterations > 1)
+        << near_hits;  // the set of one iteration is smooth
 }
 
 TEST_P(JuliaSets, NormalsAreTheGradient) {
@@ -297,7 +307,8 @@ TEST_P(JuliaSets, NormalsAreTheGradient) {
     int checked = 0;
     for (int i = 0; i < 20'000; ++i) {
         const float3 origin = to_float3(2 * r * uniform_direction(random));
-        const float3 way = to_float3(r * uniform(random) * uniform_direction(random) - to_double(origin));
+        const float3 way =
+            to_float3(r * uniform(random) * uniform_direction(random) - to_double(origin));
         const ShapeHit hit = nearest_shape(&record, 1, origin, way, INFINITY);
         if (hit.shape != NO_HIT) {
             const SurfacePoint point = shape_point(&record, hit.object_point);
@@ -326,7 +337,8 @@ TEST(Julia, IsASphereForTheConstantZero) {
         const double radius = std::pow(4.0, std::pow(0.5, iterations));
         int hit_count = 0;
         for (int i = 0; i < 3'000; ++i) {
-            const float3 origin = to_float3((i % 2 == 0 ? 0.5 : 3.0) * radius * uniform_direction(random));
+            const float3 origin =
+                to_float3((i % 2 == 0 ? 0.5 : 3.0) * radius * uniform_direction(random));
             const float3 way = to_float3(uniform_direction(random));
             const Eigen::Vector3d o = to_double(origin), d = to_double(way).normalized();
             const double b = o.dot(d), discriminant = b * b - o.squaredNorm() + radius * radius;
@@ -342,18 +354,24 @@ TEST(Julia, IsASphereForTheConstantZero) {
                 ASSERT_NEAR(static_cast<double>(hit.t) * to_double(way).norm(), expected,
                             1e-6 * (1 + 1 / std::sqrt(discriminant)));
                 const SurfacePoint point = shape_point(&record, hit.object_point);
-                ASSERT_LT((to_double(point.normal) - to_double(hit.object_point).normalized()).norm(), 1e-5);
+                ASSERT_LT(
+                    (to_double(point.normal) - to_double(hit.object_point).normalized()).norm(),
+                    1e-5);
             }
         }
         EXPECT_GT(hit_count, 1'500);
     }
 }
 
-// Iterations beyond what float resolves, and rays at the ends of its range: no NaN, no endless march.
+// Iterations beyond what float resolves, and rays at the ends of its range: no NaN, no endless
+// march.
 TEST(Julia, ExtremesGiveFiniteHitsOrMisses) {
     Random random(8);
-    const float values[] = {0.0f, 1e-38f, 1e-7f, 0.5f, -1.0f, 1.0f, 2.0f, 1e5f, -1e10f, 3e38f, INFINITY, NAN};
-    const auto any_value = [&] { return values[std::uniform_int_distribution<size_t>(0, 11)(random)]; };
+    const float values[] = {0.0f, 1e-38f, 1e-7f,  0.5f,  -1.0f,    1.0f,
+                            2.0f, 1e5f,   -1e10f, 3e38f, INFINITY, NAN};
+    const auto any_value = [&] {
+        return values[std::uniform_int_distribution<size_t>(0, 11)(random)];
+    };
     for (const uint32_t iterations : {1u, 12u, 40u, 1000u}) {
         const ShapeRecord record = compile({"deep", {-0.2, 0.8, 0, 0}, 0, iterations});
         int hit_count = 0;

@@ -43,16 +43,18 @@ struct Light {
         }
         light.kind = kind == Kind::disc ? LIGHT_DISC : LIGHT_SPHERE;
         const double radius2 = linear.col(0).squaredNorm();
-        light.area = static_cast<float>(kind == Kind::disc ? pi * linear.col(0).cross(linear.col(1)).norm()
-                                                           : 4 * pi * radius2);
+        light.area = static_cast<float>(
+            kind == Kind::disc ? pi * linear.col(0).cross(linear.col(1)).norm() : 4 * pi * radius2);
     }
 
     ShapeLightSample sample(float3 from, bool cone, uint32_t i) const {
         const uint4 w = random_words(21, 0, 5, i, 0);
-        return sample_shape_light(sampled(cone), &shape, from, uniform_float(w.x), uniform_float(w.y));
+        return sample_shape_light(sampled(cone), &shape, from, uniform_float(w.x),
+                                  uniform_float(w.y));
     }
 
-    /// The record as the scene compiler writes it when spheres are to be sampled by their cones, or by area.
+    /// The record as the scene compiler writes it when spheres are to be sampled by their cones, or
+    /// by area.
     LightRecord sampled(bool cone) const {
         LightRecord record = light;
         record.kind = light.kind == LIGHT_SPHERE && !cone ? LIGHT_SPHERE_BY_AREA : light.kind;
@@ -61,8 +63,8 @@ struct Light {
 
     /// The density at a point of the surface, given in object space.
     double pdf_a(float3 from, bool cone, const Eigen::Vector3d &object_point) const {
-        return static_cast<double>(
-            shape_light_pdf_a(sampled(cone), &shape, from, shape_point(&shape, to_float3(object_point))));
+        return static_cast<double>(shape_light_pdf_a(sampled(cone), &shape, from,
+                                                     shape_point(&shape, to_float3(object_point))));
     }
 };
 
@@ -71,10 +73,11 @@ struct Result {
     double integral;  ///< of the density over the light
 };
 
-/// Counts in bins of the cosine to `axis` (object space, unit) above `horizon` and of the angle about it,
-/// against the integrated density. `planted` raises the density of the upper half of the bins.
-Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vector3d &axis, double horizon,
-                    double planted) {
+/// Counts in bins of the cosine to `axis` (object space, unit) above `horizon` and of the angle
+/// about it, against the integrated density. `planted` raises the density of the upper half of the
+/// bins.
+Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vector3d &axis,
+                    double horizon, double planted) {
     const Frame frame = frame_from_z(to_float3(axis));
     const Eigen::Vector3d x = to_double(frame.x), y = to_double(frame.y), z = axis;
     const Eigen::Matrix3d inverse = light.linear.inverse();
@@ -100,13 +103,16 @@ Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vec
             const auto density = [&](double height, double turn) {
                 const double c = horizon + height * (1 - horizon), s = std::sqrt(1 - c * c),
                              phi = 2 * pi * (turn - 0.5);
-                return light.pdf_a(from, cone, s * std::cos(phi) * x + s * std::sin(phi) * y + c * z);
+                return light.pdf_a(from, cone,
+                                   s * std::cos(phi) * x + s * std::sin(phi) * y + c * z);
             };
-            const double probability = 2 * pi * (1 - horizon) * radius2 *
-                                       integrate(density, double(ring) / rings, (ring + 1.0) / rings,
-                                                 double(sector) / sectors, (sector + 1.0) / sectors);
+            const double probability =
+                2 * pi * (1 - horizon) * radius2 *
+                integrate(density, double(ring) / rings, (ring + 1.0) / rings,
+                          double(sector) / sectors, (sector + 1.0) / sectors);
             integral += probability;
-            expected.push_back(sample_count * probability * (ring < rings / 2 ? 1.0 : 1.0 + planted));
+            expected.push_back(sample_count * probability *
+                               (ring < rings / 2 ? 1.0 : 1.0 + planted));
         }
     }
     return {chi_square_p(observed, expected), integral};
@@ -119,8 +125,8 @@ Result check_cone(double radius, double distance, double planted = 0) {
     const Eigen::Vector3d axis = Eigen::Vector3d(-0.4, 0.8, 0.2).normalized();
     const float3 from = to_float3(light.centre + distance * radius * axis);
     const Eigen::Vector3d way = to_double(from) - light.centre;
-    return check_sphere(light, from, true, (light.linear.inverse() * way).normalized(), radius / way.norm(),
-                        planted);
+    return check_sphere(light, from, true, (light.linear.inverse() * way).normalized(),
+                        radius / way.norm(), planted);
 }
 
 TEST(SphereLight, SamplesItsConeFromAFewRadii) {
@@ -169,8 +175,8 @@ TEST(SphereLight, PlantedErrorOfTwoPercentInTheAreaIsRejected) {
     EXPECT_LT(check_area(false, 0.02).p, level);
 }
 
-/// Counts in bins of radius and angle in the disc's plane, against the density times the bin's area in world
-/// space.
+/// Counts in bins of radius and angle in the disc's plane, against the density times the bin's area
+/// in world space.
 Result check_disc(const Eigen::Matrix3d &linear, double planted = 0) {
     const Light light(Kind::disc, linear, {-1, 0, 2});
     const float3 from = make_float3(5, 5, 5);
@@ -180,8 +186,8 @@ Result check_disc(const Eigen::Matrix3d &linear, double planted = 0) {
         const Eigen::Vector3d p =
             inverse * (to_double(light.sample(from, true, i).point.position) - light.centre);
         const int ring = std::min(static_cast<int>(p.head<2>().norm() * rings), rings - 1);
-        const int sector =
-            std::min(static_cast<int>((std::atan2(p.y(), p.x()) / (2 * pi) + 0.5) * sectors), sectors - 1);
+        const int sector = std::min(
+            static_cast<int>((std::atan2(p.y(), p.x()) / (2 * pi) + 0.5) * sectors), sectors - 1);
         ++observed[static_cast<size_t>(ring * sectors + sector)];
     }
     const double stretch = light.linear.col(0).cross(light.linear.col(1)).norm();
@@ -192,7 +198,8 @@ Result check_disc(const Eigen::Matrix3d &linear, double planted = 0) {
             const double area = stretch * pi * (2 * ring + 1) / (rings * rings * sectors);
             const double probability = light.pdf_a(from, true, {(ring + 0.5) / rings, 0, 0}) * area;
             integral += probability;
-            expected.push_back(sample_count * probability * (ring < rings / 2 ? 1.0 : 1.0 + planted));
+            expected.push_back(sample_count * probability *
+                               (ring < rings / 2 ? 1.0 : 1.0 + planted));
         }
     }
     return {chi_square_p(observed, expected), integral};
@@ -220,8 +227,9 @@ TEST(DiscLight, PlantedErrorOfTwoPercentIsRejected) {
     EXPECT_LT(check_disc(skewed(), 0.02).p, level);
 }
 
-// From anywhere, for spheres of any size: samples lie on the sphere, see `from` when they come from a cone,
-// and the estimate of solid angle, cos / (d^2 pdf_a), is that of the cone for every single one.
+// From anywhere, for spheres of any size: samples lie on the sphere, see `from` when they come from
+// a cone, and the estimate of solid angle, cos / (d^2 pdf_a), is that of the cone for every single
+// one.
 TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
     Random random(9);
     int cones = 0;
@@ -231,7 +239,8 @@ TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
                           radius * uniform(random, 0, 3) * uniform_direction(random));
         const float3 from = to_float3(light.centre + distance * radius * uniform_direction(random));
         const ShapeLightSample sample = light.sample(from, true, i);
-        const Eigen::Vector3d n = to_double(sample.point.normal), p = to_double(sample.point.position);
+        const Eigen::Vector3d n = to_double(sample.point.normal),
+                              p = to_double(sample.point.position);
         const double r = light.linear.col(0).norm();
         ASSERT_LT((p - light.centre - r * n).norm(), 2e-6 * (r + light.centre.norm()));
         const Eigen::Vector3d axis = to_double(from) - light.centre;
@@ -271,7 +280,8 @@ TEST(ShapeLights, DoNotShadowThemselves) {
         const float3 way = sample.point.position - from;
         if (dot(sample.point.normal, way) < 0.0f) {
             ++rays;
-            hidden += any_shape(&light.shape, 1, from, offset_ray_origin(sample.point, -way) - from, 1.0f);
+            hidden += any_shape(&light.shape, 1, from, offset_ray_origin(sample.point, -way) - from,
+                                1.0f);
         }
     }
     EXPECT_EQ(hidden, 0);
@@ -280,8 +290,8 @@ TEST(ShapeLights, DoNotShadowThemselves) {
 
 TEST(SphereLight, FromTheCentreAndTheSurfaceAreaIsSampled) {
     const Light light(Kind::sphere, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
-    for (const float3 from : {make_float3(0, 0, 0), make_float3(0, 0, 1), make_float3(0.6f, 0.8f, 0),
-                              make_float3(0, 1.00005f, 0)}) {
+    for (const float3 from : {make_float3(0, 0, 0), make_float3(0, 0, 1),
+                              make_float3(0.6f, 0.8f, 0), make_float3(0, 1.00005f, 0)}) {
         for (uint32_t i = 0; i < 1'000; ++i) {
             EXPECT_EQ(light.sample(from, true, i).pdf_a, 1.0f / light.light.area);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Closed mirrors keep out the rays that graze them: what the BSDF sends on leaves on the side that it came from. As compiled
-// for a scene of shapes alone, where no shading normal differs from the geometric one.
+// Closed mirrors keep out the rays that graze them: what the BSDF sends on leaves on the side that
+// it came from. As compiled for a scene of shapes alone, where no shading normal differs from the
+// geometric one.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #define FEATURE_smooth_normals 0
@@ -21,7 +22,8 @@ Shape random_ball(Random &random) {
     ball.kind = Kind::sphere;
     const double size = log_uniform(random, -3, 3);
     ball.world_from_object.topLeftCorner<3, 3>() = size * uniform_rotation(random);
-    ball.world_from_object.topRightCorner<3, 1>() = uniform(random, 0, 10) * size * uniform_direction(random);
+    ball.world_from_object.topRightCorner<3, 1>() =
+        uniform(random, 0, 10) * size * uniform_direction(random);
     return ball;
 }
 
@@ -38,14 +40,16 @@ TEST(Mirrors, KeepGrazingRaysOutside) {
         if (!(dot(point.normal, wo) > 0.0f)) {
             continue;  // rounded to the inside
         }
-        const SurfaceFrame frame = make_surface_frame(point.normal, point.normal, make_float3(0.0f, 0.0f, 0.0f),
-                                                      make_float2(0.0f, 0.0f), wo);
+        const SurfaceFrame frame = make_surface_frame(
+            point.normal, point.normal, make_float3(0.0f, 0.0f, 0.0f), make_float2(0.0f, 0.0f), wo);
         const BsdfSample sample = mirror.sample(frame, 0.5f, 0.5f, 0.5f);
         if (!(sample.pdf_w > 0.0f)) {
             continue;
         }
         ++reflected;
-        ASSERT_EQ(nearest_shape(&ball, 1, offset_ray_origin(point, sample.wi), sample.wi, INFINITY).shape, NO_HIT)
+        ASSERT_EQ(
+            nearest_shape(&ball, 1, offset_ray_origin(point, sample.wi), sample.wi, INFINITY).shape,
+            NO_HIT)
             << "cosine " << dot(point.normal, wo);
     }
     EXPECT_GT(reflected, 100000u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Quadrics, discs and planes: the shipped device code against extended precision, over rays that are random,
-// grazing, axis-parallel, from far away and from inside, under random affine maps.
+// Quadrics, discs and planes: the shipped device code against extended precision, over rays that
+// are random, grazing, axis-parallel, from far away and from inside, under random affine maps.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ constexpr Kind quadrics[] = {Kind::sphere,      Kind::cylinder, Kind::cone, Kind
                              Kind::hyperboloid, Kind::disc,     Kind::plane};
 constexpr double half_ulp = 0x1p-24;
 
-/// A shape under a random affine map: ratio of axes up to `ratio`, mirrored half the time, overall size 1e-6
-/// to 1e6, at up to ten times its size from the origin.
+/// A shape under a random affine map: ratio of axes up to `ratio`, mirrored half the time, overall
+/// size 1e-6 to 1e6, at up to ten times its size from the origin.
 Shape random_shape(Kind kind, double ratio, Random &random) {
     Shape shape;
     shape.kind = kind;
@@ -60,7 +60,8 @@ Ray make_ray(const Shape &shape, RaySet set, Random &random) {
         case RaySet::grazing: {
             const Eigen::Vector3d g = shape.gradient(p.cast<Real>()).cast<double>();
             const Eigen::Vector3d n = (linear.inverse().transpose() * g).normalized();
-            direction = (direction.cross(n).normalized() + n * log_uniform(random, -7, -1)).normalized();
+            direction =
+                (direction.cross(n).normalized() + n * log_uniform(random, -7, -1)).normalized();
             break;
         }
         case RaySet::object_axis:
@@ -79,7 +80,8 @@ Ray make_ray(const Shape &shape, RaySet set, Random &random) {
             break;
     }
     direction = uniform(random) < 0.5 ? direction : Eigen::Vector3d(-direction);
-    return {to_float3(target - distance * direction), to_float3(direction * log_uniform(random, -6, 6))};
+    return {to_float3(target - distance * direction),
+            to_float3(direction * log_uniform(random, -6, 6))};
 }
 
 /// The point of a hit in the space of ShapeArrays.
@@ -91,8 +93,8 @@ Vector3r canonical(Kind kind, float3 object_point) {
 
 class Quadrics : public testing::TestWithParam<Kind> {};
 
-/// Hits and misses, distances and points of `count` rays per set. Tolerances are backward errors: what is
-/// found is right for a ray within 64 half ulps of the size of shape and coordinates.
+/// Hits and misses, distances and points of `count` rays per set. Tolerances are backward errors:
+/// what is found is right for a ray within 64 half ulps of the size of shape and coordinates.
 void check_against_double(Kind kind, double ratio, int count) {
     Random random(1000 + static_cast<uint64_t>(kind));
     int hit_count = 0;
@@ -116,18 +118,21 @@ void check_against_double(Kind kind, double ratio, int count) {
             if (found) {
                 ++hit_count;
                 const Vector3r p = canonical(kind, hit.object_point);
-                const double off = static_cast<double>(std::abs(shape.value(p)) / shape.gradient(p).norm());
+                const double off =
+                    static_cast<double>(std::abs(shape.value(p)) / shape.gradient(p).norm());
                 ASSERT_LE(off, 8 * half_ulp * std::max(1.0, static_cast<double>(p.norm())))
                     << static_cast<int>(set);
                 ASSERT_FALSE(shape.clipped(p * (1 - 1e-6)) && shape.clipped(p * (1 + 1e-6)));
                 const double from_ray =
                     (shape.linear() * p.cast<double>() + shape.centre() - (o + t * d)).norm();
-                ASSERT_LE(from_ray, tolerance + 8 * half_ulp * t * d.norm()) << static_cast<int>(set);
+                ASSERT_LE(from_ray, tolerance + 8 * half_ulp * t * d.norm())
+                    << static_cast<int>(set);
                 // t_max is exclusive, and bounds nothing else.
                 ASSERT_FALSE(any_shape(&record, 1, ray.origin, ray.direction, hit.t));
-                ASSERT_EQ(
-                    nearest_shape(&record, 1, ray.origin, ray.direction, std::nextafter(hit.t, INFINITY)).t,
-                    hit.t);
+                ASSERT_EQ(nearest_shape(&record, 1, ray.origin, ray.direction,
+                                        std::nextafter(hit.t, INFINITY))
+                              .t,
+                          hit.t);
             }
         }
     }
@@ -148,9 +153,9 @@ struct Departures {
     int leaks = 0;      ///< through a sphere or an ellipsoid, or hits of it from outside
 };
 
-/// Rays that leave a hit, to either side, at all angles down to 1e-8. A surface of second order that is left
-/// at t = 0 is met again at -2 B / A or not at all; offsets only lengthen that way. `error_factor` scales the
-/// error of the point.
+/// Rays that leave a hit, to either side, at all angles down to 1e-8. A surface of second order
+/// that is left at t = 0 is met again at -2 B / A or not at all; offsets only lengthen that way.
+/// `error_factor` scales the error of the point.
 Departures leave(Kind kind, int count, float error_factor) {
     Random random(2000 + static_cast<uint64_t>(kind));
     Departures departures;
@@ -172,9 +177,11 @@ Departures leave(Kind kind, int count, float error_factor) {
             const float3 away = to_float3((tangent * std::sqrt(1 - cosine * cosine) + cosine * n) *
                                           log_uniform(random, -6, 6));
             const bool front = !(dot(point.normal, away) < 0.0f);
-            const ShapeHit next = nearest_shape(&record, 1, offset_ray_origin(point, away), away, INFINITY);
+            const ShapeHit next =
+                nearest_shape(&record, 1, offset_ray_origin(point, away), away, INFINITY);
             const Vector3r d = shape.linear().cast<Real>().inverse() * to_double(away).cast<Real>();
-            const RayQuadratic q = along_ray(shape, canonical(kind, hit.object_point), d / d.norm());
+            const RayQuadratic q =
+                along_ray(shape, canonical(kind, hit.object_point), d / d.norm());
             const bool returns = front ? q.a < 0 : q.a > 0;
             const auto chord = static_cast<double>(returns ? std::abs(2 * q.b / q.a) : INFINITY);
             if (next.shape != NO_HIT) {
@@ -218,10 +225,12 @@ TEST_P(Quadrics, PointsAndNormalsAreThoseOfTheSurface) {
         const Vector3r exact = canonical(kind, object_point);
         const Eigen::Vector3d world = shape.linear() * exact.cast<double>() + shape.centre();
         for (int axis = 0; axis < 3; ++axis) {
-            ASSERT_LE(std::abs(to_double(point.position)[axis] - world[axis]), to_double(point.error)[axis]);
+            ASSERT_LE(std::abs(to_double(point.position)[axis] - world[axis]),
+                      to_double(point.error)[axis]);
             ASSERT_LE(to_double(point.error)[axis], 1e-4 * shape.scale());
         }
-        const Eigen::Vector3d g = shape.linear().inverse().transpose() * shape.gradient(exact).cast<double>();
+        const Eigen::Vector3d g =
+            shape.linear().inverse().transpose() * shape.gradient(exact).cast<double>();
         ASSERT_LT((to_double(point.normal) - g.normalized()).norm(), 1e-4);
     }
 }
@@ -243,7 +252,8 @@ Eigen::Vector2d canonical_uv(Kind kind, const Eigen::Vector3d &p) {
     }
 }
 
-// Texture coordinates against their definition; the tangent against the difference of two points along u.
+// Texture coordinates against their definition; the tangent against the difference of two points
+// along u.
 TEST_P(Quadrics, TextureCoordinatesAndTangentsAreThoseDefined) {
     const Kind kind = GetParam();
     Random random(4000 + static_cast<uint64_t>(kind));
@@ -257,8 +267,10 @@ TEST_P(Quadrics, TextureCoordinatesAndTangentsAreThoseDefined) {
         const float2 uv = shape_uv(&record, object_point(p));
         const Eigen::Vector2d expected = canonical_uv(kind, p);
         const double around = std::abs(static_cast<double>(uv.x) - expected.x());
-        ASSERT_LT(std::min(around, kind == Kind::plane || kind == Kind::disc ? around : std::abs(1 - around)),
-                  3e-6);
+        ASSERT_LT(
+            std::min(around,
+                     kind == Kind::plane || kind == Kind::disc ? around : std::abs(1 - around)),
+            3e-6);
         ASSERT_NEAR(static_cast<double>(uv.y), expected.y(), 3e-6);
         if (kind != Kind::plane) {
             ASSERT_GE(std::min(uv.x, uv.y), 0.0f);
@@ -275,7 +287,8 @@ TEST_P(Quadrics, TextureCoordinatesAndTangentsAreThoseDefined) {
     }
 }
 
-const char *const kind_names[] = {"sphere", "cylinder", "cone", "paraboloid", "hyperboloid", "disc", "plane"};
+const char *const kind_names[] = {"sphere",      "cylinder", "cone", "paraboloid",
+                                  "hyperboloid", "disc",     "plane"};
 
 std::string kind_name(const testing::TestParamInfo<Kind> &kind) {
     return kind_names[static_cast<int>(kind.param)];
@@ -292,7 +305,8 @@ TEST(Shapes, AnyIsTrueExactlyWhereANearestExists) {
         shape.kind = quadrics[i % 6];
         shape.flare = 0.5;
         shape.world_from_object.topLeftCorner<3, 3>() = 0.3 * uniform_rotation(random);
-        shape.world_from_object.topRightCorner<3, 1>() = 2 * uniform_direction(random) * uniform(random);
+        shape.world_from_object.topRightCorner<3, 1>() =
+            2 * uniform_direction(random) * uniform(random);
         records.push_back(compile(shape));
     }
     int both = 0;
@@ -330,27 +344,38 @@ TEST(Shapes, BallsLeaveOutWhatARayMisses) {
         const float3 origin = to_float3(3 * uniform_direction(random));
         const uint32_t target = i % 8;
         const float3 centre = shape_centre(&records[target]);
-        ASSERT_TRUE(shapes_in_reach(bounds.data(), 8, origin, centre - origin, 1.0f) & 1u << target);
-        const uint32_t short_of = shapes_in_reach(bounds.data(), 8, origin, 0.5f * (centre - origin), 1.0f);
+        ASSERT_TRUE(shapes_in_reach(bounds.data(), 8, origin, centre - origin, 1.0f) &
+                    1u << target);
+        const uint32_t short_of =
+            shapes_in_reach(bounds.data(), 8, origin, 0.5f * (centre - origin), 1.0f);
         const uint32_t away = shapes_in_reach(bounds.data(), 8, origin, origin - centre, INFINITY);
         ASSERT_EQ(short_of >> target & 1u, target == 7) << i;
         ASSERT_EQ(away >> target & 1u, target == 7) << i;
-        kept += static_cast<uint32_t>(__builtin_popcount(shapes_in_reach(bounds.data(), 7, origin, to_float3(uniform_direction(random)), INFINITY)));
+        kept += static_cast<uint32_t>(__builtin_popcount(shapes_in_reach(
+            bounds.data(), 7, origin, to_float3(uniform_direction(random)), INFINITY)));
     }
-    EXPECT_LT(kept, 7 * rays / 50);  // a ball seen from there takes up (1 - sqrt(1 - 0.26^2 / r^2)) / 2, r in [2, 4]
+    EXPECT_LT(
+        kept,
+        7 * rays /
+            50);  // a ball seen from there takes up (1 - sqrt(1 - 0.26^2 / r^2)) / 2, r in [2, 4]
 }
 
-// Rays and shapes at the ends of the range of float: no NaN, nothing but a clean miss or a finite hit.
+// Rays and shapes at the ends of the range of float: no NaN, nothing but a clean miss or a finite
+// hit.
 TEST(Shapes, ExtremeRaysGiveFiniteHitsOrMisses) {
     Random random(6);
     const float values[] = {0.0f, -0.0f, 1e-45f, 1e-38f, -1e-20f, 1e-7f, 0.5f,     -1.0f,
                             1.0f, 2.0f,  1e5f,   -1e10f, 1e20f,   3e38f, INFINITY, NAN};
-    const auto any_value = [&] { return values[std::uniform_int_distribution<size_t>(0, 15)(random)]; };
+    const auto any_value = [&] {
+        return values[std::uniform_int_distribution<size_t>(0, 15)(random)];
+    };
     for (int i = 0; i < 700'000; ++i) {
         Shape shape;
         shape.kind = quadrics[i % 7];
         shape.flare = 1;
-        shape.world_from_object.topLeftCorner<3, 3>() *= i % 3 == 0 ? 1.0 : i % 3 == 1 ? 1e-12 : 1e12;
+        shape.world_from_object.topLeftCorner<3, 3>() *= i % 3 == 0   ? 1.0
+                                                         : i % 3 == 1 ? 1e-12
+                                                                      : 1e12;
         const ShapeRecord record = compile(shape);
         const float3 origin = make_float3(any_value(), any_value(), any_value());
         const float3 direction = make_float3(any_value(), any_value(), any_value());

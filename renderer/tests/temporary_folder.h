@@ -14,7 +14,8 @@ namespace rtrays {
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "rtrays-test-XXXXXX").string();
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "rtrays-test-XXXXXX").string();
         path_ = mkdtemp(pattern.data());
     }
     ~TemporaryFolder() { std::filesystem::remove_all(path_); }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Triangles lie on the quadric they stand for, face its front and have its area and coordinates.
+#include "renderer/export/tessellation.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -8,7 +10,6 @@
 #include <functional>
 #include <map>
 
-#include "renderer/export/tessellation.h"
 #include "renderer/tests/errors.h"
 
 namespace rtrays {
@@ -21,7 +22,8 @@ using Kind = ShapeArrays::Kind;
 constexpr double pi = 3.14159265358979323846, flare = 0.7;
 constexpr TessellationGrid grids[] = {{256, 512}, {32, 64}};
 
-MeshArrays triangles_of(Kind kind, const TessellationGrid &grid = {}, const Matrix4d &world = Matrix4d::Identity()) {
+MeshArrays triangles_of(Kind kind, const TessellationGrid &grid = {},
+                        const Matrix4d &world = Matrix4d::Identity()) {
     ShapeArrays shapes;
     shapes.name = {"shape"};
     shapes.kind = {kind};
@@ -58,13 +60,15 @@ TEST(Tessellation, PointsLieOnTheSurface) {
         const MeshArrays mesh = triangles_of(kind);
         for (const Eigen::Vector3f &position : mesh.position) {
             const Vector3d p = position.cast<double>();
-            ASSERT_NEAR(p.x() * p.x() + p.y() * p.y(), profile(p.z()), 1e-4) << static_cast<int>(kind);
+            ASSERT_NEAR(p.x() * p.x() + p.y() * p.y(), profile(p.z()), 1e-4)
+                << static_cast<int>(kind);
         }
     }
 }
 
 TEST(Tessellation, NormalsAreThoseOfTheTriangles) {
-    for (const Kind kind : {Kind::sphere, Kind::cylinder, Kind::cone, Kind::paraboloid, Kind::hyperboloid, Kind::disc}) {
+    for (const Kind kind : {Kind::sphere, Kind::cylinder, Kind::cone, Kind::paraboloid,
+                            Kind::hyperboloid, Kind::disc}) {
         for (const TessellationGrid &grid : grids) {
             const MeshArrays mesh = triangles_of(kind, grid);
             ASSERT_EQ(mesh.triangle.size(), mesh.triangle_count[0]);
@@ -74,8 +78,10 @@ TEST(Tessellation, NormalsAreThoseOfTheTriangles) {
                     ASSERT_NEAR(mesh.normal[vertex].norm(), 1, 2e-7);
                     normal += mesh.normal[vertex].cast<double>() / 3;
                 }
-                // The two triangles at the tip of a paraboloid's cell turn most; the tip of a cone has no normal.
-                ASSERT_GT(twice_area(mesh, triangle).normalized().dot(normal), 0.99) << static_cast<int>(kind);
+                // The two triangles at the tip of a paraboloid's cell turn most; the tip of a cone
+                // has no normal.
+                ASSERT_GT(twice_area(mesh, triangle).normalized().dot(normal), 0.99)
+                    << static_cast<int>(kind);
             }
         }
     }
@@ -103,7 +109,8 @@ TEST(Tessellation, Coordinates) {
         const Vector3d p = sphere.position[i].cast<double>().normalized();
         EXPECT_NEAR(sphere.uv[i].y(), 1 - std::acos(std::clamp(p.z(), -1.0, 1.0)) / pi, 1e-6);
         if (std::abs(p.z()) < 0.999) {
-            const double turns = std::atan2(p.y(), p.x()) / (2 * pi) - static_cast<double>(sphere.uv[i].x());
+            const double turns =
+                std::atan2(p.y(), p.x()) / (2 * pi) - static_cast<double>(sphere.uv[i].x());
             EXPECT_NEAR(turns, std::round(turns), 1e-6);  // u = 1 where the seam is met again
         }
     }
@@ -124,7 +131,8 @@ TEST(Tessellation, AMirrorKeepsTheFront) {
             ASSERT_GT(twice_area(mesh, triangle).dot(corner(mesh, triangle, 0) - centre), 0);
         }
         for (size_t i = 0; i < mesh.position.size(); ++i) {
-            ASSERT_GT(mesh.normal[i].cast<double>().dot(mesh.position[i].cast<double>() - centre), 0);
+            ASSERT_GT(mesh.normal[i].cast<double>().dot(mesh.position[i].cast<double>() - centre),
+                      0);
         }
     }
 }

@@ -43,7 +43,8 @@ struct TestTexture {
                                                    : std::pow((s + 0.055) / 1.055, 2.4);
     }
 
-    /// The lookup, rows from the bottom as v runs; `spread` is by how much neighbouring texels may differ.
+    /// The lookup, rows from the bottom as v runs; `spread` is by how much neighbouring texels may
+    /// differ.
     double lookup(double u, double v, uint channel) const {
         u = record.uv_scale[0] * u + record.uv_offset[0];
         v = record.uv_scale[1] * v + record.uv_offset[1];
@@ -61,7 +62,8 @@ struct TestTexture {
         if ((record.flags & TEXTURE_BILINEAR) == 0u) {
             return at(static_cast<long>(std::floor(x)), static_cast<long>(std::floor(y)));
         }
-        const double i = std::floor(x - 0.5), j = std::floor(y - 0.5), s = x - 0.5 - i, t = y - 0.5 - j;
+        const double i = std::floor(x - 0.5), j = std::floor(y - 0.5), s = x - 0.5 - i,
+                     t = y - 0.5 - j;
         const auto li = static_cast<long>(i), lj = static_cast<long>(j);
         return (1 - t) * ((1 - s) * at(li, lj) + s * at(li + 1, lj)) +
                t * ((1 - s) * at(li, lj + 1) + s * at(li + 1, lj + 1));
@@ -134,11 +136,11 @@ TEST(Texture, StaysInsideTheImageWhateverTheCoordinates) {
     for (uint flags = 0; flags < 16; ++flags) {
         const TestTexture texture(flags);
         std::vector<double> values;
-        for (const float u : {0.0f, -0.0f, 1.0f, -1.0f, -1e-10f, -1e-45f, 0.99999994f, 1e9f, -3e38f, 3e38f,
-                              infinity, -infinity, NAN}) {
+        for (const float u : {0.0f, -0.0f, 1.0f, -1.0f, -1e-10f, -1e-45f, 0.99999994f, 1e9f, -3e38f,
+                              3e38f, infinity, -infinity, NAN}) {
             for (const float v : {0.5f, -1e-10f, 1e30f, NAN}) {
-                const float3 found =
-                    texture.device_lookup(u, v);  // an index out of range is caught by the sanitizers
+                const float3 found = texture.device_lookup(
+                    u, v);  // an index out of range is caught by the sanitizers
                 EXPECT_TRUE(found.x >= 0.0f && found.x <= 255 * 10.5f) << u << ", " << v;
                 values.push_back(static_cast<double>(found.x));
             }
@@ -154,8 +156,8 @@ TEST(Texture, ScalesTheWeightOfAComponent) {
     const MaterialRecord material = {0, 1, 0, 0};
     SurfaceFrame frame = tilted_frame(20);
     frame.uv = make_float2(0.5f, 0.5f);
-    const BsdfValue value =
-        bsdf_evaluate(&material, &lambert, &texture.record, texture.texels.data(), 0, frame, frame.ns);
+    const BsdfValue value = bsdf_evaluate(&material, &lambert, &texture.record,
+                                          texture.texels.data(), 0, frame, frame.ns);
     EXPECT_NEAR(value.f_cos.x, 0.5 * texture.texel(2, 1, 0) / pi, 1e-6);
     EXPECT_NEAR(value.f_cos.y, texture.texel(2, 1, 1) / pi, 1e-6);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hits against Embree 3 (ROBUST), 1e6 fuzzed rays for each layout: same hit or miss, |dt| <= 1e-5 of the scale. Where
-// they differ, double precision decides whether ours is right: a judge held to brute force in traversal_hits_test.cpp.
+// Hits against Embree 3 (ROBUST), 1e6 fuzzed rays for each layout: same hit or miss, |dt| <= 1e-5
+// of the scale. Where they differ, double precision decides whether ours is right: a judge held to
+// brute force in traversal_hits_test.cpp.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,8 +9,8 @@
 
 #include "renderer/tests/double_intersector.h"
 #include "renderer/tests/embree_scene.h"
-#include "renderer/tests/tree_test.h"
 #include "renderer/tests/ray_sets.h"
+#include "renderer/tests/tree_test.h"
 
 namespace rtrays {
 namespace {
@@ -19,7 +20,8 @@ using namespace test;
 class TraversalEmbree : public TreeTest {};
 EACH_TREE(TraversalEmbree);
 
-/// Differences by kind of ray: random, grazing, and along an axis through a vertex or an edge (ray_sets.h).
+/// Differences by kind of ray: random, grazing, and along an axis through a vertex or an edge
+/// (ray_sets.h).
 using Differences = std::array<size_t, 3>;
 
 /// Rays on which ours differs from Embree and double precision does not side with ours.
@@ -39,7 +41,10 @@ size_t count_wrong(const Mesh &mesh, TreeKind kind, size_t count, Differences *d
             continue;
         }
         (*differences)[i % 3] += 1;
-        wrong += judge.is_right(ray_origin(ray), ray_direction(ray), ours.t, ours.triangle, static_cast<double>(tolerance)) ? 0 : 1;
+        wrong += judge.is_right(ray_origin(ray), ray_direction(ray), ours.t, ours.triangle,
+                                static_cast<double>(tolerance))
+                     ? 0
+                     : 1;
     }
     EXPECT_GT(hits, count / 10) << mesh.name << ": rays must hit something to mean anything";
     return wrong;
@@ -55,7 +60,8 @@ TEST_P(TraversalEmbree, FuzzedRaysAgree) {
         rays += rays_of_each;
     }
     std::printf(
-        "of %zu rays %zu random, %zu grazing, %zu tied ones differ from Embree; %zu of them wrong in "
+        "of %zu rays %zu random, %zu grazing, %zu tied ones differ from Embree; %zu of them wrong "
+        "in "
         "double\n",
         rays, differences[0], differences[1], differences[2], wrong);
     EXPECT_EQ(wrong, 0u);

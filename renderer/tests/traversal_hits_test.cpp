@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What traversal finds: against brute force in double, any hit against nearest hit, device against host.
+// What traversal finds: against brute force in double, any hit against nearest hit, device against
+// host.
 #include <gtest/gtest.h>
 
 #include "renderer/device/kernel.h"
 #include "renderer/tests/double_intersector.h"
-#include "renderer/tests/tree_test.h"
 #include "renderer/tests/ray_sets.h"
+#include "renderer/tests/tree_test.h"
 
 namespace rtrays {
 namespace {
@@ -33,12 +34,17 @@ TEST_P(TraversalHits, AgreeWithBruteForceInDouble) {
         const DoubleJudge judge(mesh);
         for (const RayRecord &ray : fuzzed_rays(mesh, count, 5)) {
             const Hit hit = bvh.nearest(ray_origin(ray), ray_direction(ray));
-            const bool right = hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance);
+            const bool right = hit_is_right(mesh, ray_origin(ray), ray_direction(ray), hit.t,
+                                            hit.triangle, tolerance);
             wrong += right ? 0 : 1;
-            ASSERT_EQ(judge.is_right(ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance), right);
+            ASSERT_EQ(
+                judge.is_right(ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance),
+                right);
             // Of a hit left out both think alike, too.
-            ASSERT_EQ(judge.is_right(ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT, tolerance),
-                      hit_is_right(mesh, ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT, tolerance));
+            ASSERT_EQ(
+                judge.is_right(ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT, tolerance),
+                hit_is_right(mesh, ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT,
+                             tolerance));
             hits += hit.triangle != NO_HIT ? 1 : 0;
         }
         EXPECT_EQ(wrong, 0) << mesh.name;
@@ -55,7 +61,8 @@ TEST_P(TraversalHits, TheJudgeRejectsWrongHits) {
     EXPECT_TRUE(hit_is_right(mesh, origin, down, hit.t, hit.triangle, tolerance));
     EXPECT_FALSE(hit_is_right(mesh, origin, down, hit.t, NO_HIT, tolerance));
     EXPECT_FALSE(hit_is_right(mesh, origin, down, hit.t * 1.001f, hit.triangle, tolerance));
-    EXPECT_FALSE(hit_is_right(mesh, {200, 400, 200}, down, 400, hit.triangle, tolerance)) << "behind a block";
+    EXPECT_FALSE(hit_is_right(mesh, {200, 400, 200}, down, 400, hit.triangle, tolerance))
+        << "behind a block";
 }
 
 TEST_P(TraversalHits, AnyHitIsNearestHitBelowTheLimit) {
@@ -87,10 +94,11 @@ TEST_P(TraversalHits, BarycentricsGiveTheHitPoint) {
         ASSERT_EQ(bvh.triangle_at(hit.slot), hit.triangle);
         ASSERT_TRUE(hit.u >= 0 && hit.v >= 0 && hit.u + hit.v <= 1.000001f);
         const Eigen::Vector3f a = mesh.vertex(hit.triangle, 0);
-        const Eigen::Vector3f p =
-            a + hit.u * (mesh.vertex(hit.triangle, 1) - a) + hit.v * (mesh.vertex(hit.triangle, 2) - a);
+        const Eigen::Vector3f p = a + hit.u * (mesh.vertex(hit.triangle, 1) - a) +
+                                  hit.v * (mesh.vertex(hit.triangle, 2) - a);
         const Eigen::Vector3f along = ray_origin(ray) + hit.t * ray_direction(ray);
-        // The point of the triangle lies beside the ray by rounding alone, whatever the angle between them.
+        // The point of the triangle lies beside the ray by rounding alone, whatever the angle
+        // between them.
         ASSERT_LT((p - ray_origin(ray)).cross(ray_direction(ray)).norm(),
                   2e-6f * mesh.box().diagonal().norm())
             << along;
@@ -99,8 +107,9 @@ TEST_P(TraversalHits, BarycentricsGiveTheHitPoint) {
 
 TEST_P(TraversalHits, DeviceFindsWhatTheHostFinds) {
     DeviceContext &device = test_device();
-    const Program program(device, "kernels/traversal/trace_rays.cl",
-                          {{"BVH_LAYOUT", std::to_string(static_cast<uint32_t>(GetParam().layout))}});
+    const Program program(
+        device, "kernels/traversal/trace_rays.cl",
+        {{"BVH_LAYOUT", std::to_string(static_cast<uint32_t>(GetParam().layout))}});
     for (const Mesh &mesh : {room(), terrain(100, 4)}) {
         const Bvh bvh = build_on_device(mesh, GetParam());
         const HostBvh host(bvh);
@@ -127,7 +136,8 @@ TEST_P(TraversalHits, DeviceFindsWhatTheHostFinds) {
         const std::vector<Hit> hits = hit_buffer.read();
         const std::vector<uint32_t> occluded = occluded_buffer.read();
         for (size_t i = 0; i < rays.size(); ++i) {
-            const Hit expected = host.nearest(ray_origin(rays[i]), ray_direction(rays[i]), rays[i].t_max);
+            const Hit expected =
+                host.nearest(ray_origin(rays[i]), ray_direction(rays[i]), rays[i].t_max);
             ASSERT_EQ(hits[i].triangle, expected.triangle) << i;
             ASSERT_EQ(hits[i].t, expected.t) << i;
             ASSERT_EQ(hits[i].u, expected.u) << i;

@@ -26,28 +26,34 @@ EACH_TREE(BadRays);
 constexpr int million = 1000000;
 
 /// Rays from inside a closed mesh that hit nothing.
-int count_misses(const Mesh &mesh, TreeKind kind, const Eigen::Vector3f &centre, float spread, int rays) {
+int count_misses(const Mesh &mesh, TreeKind kind, const Eigen::Vector3f &centre, float spread,
+                 int rays) {
     const HostBvh bvh = build_bvh(mesh, kind);
     Random random(11);
     int misses = 0;
     for (int i = 0; i < rays; ++i) {
-        const Eigen::Vector3f origin = centre + spread * uniform(random) * uniform_direction(random);
+        const Eigen::Vector3f origin =
+            centre + spread * uniform(random) * uniform_direction(random);
         const Eigen::Vector3f direction =
-            i % 2 == 0 ? uniform_direction(random) : Eigen::Vector3f(aim(mesh, static_cast<size_t>(i / 2), random) - origin);
+            i % 2 == 0 ? uniform_direction(random)
+                       : Eigen::Vector3f(aim(mesh, static_cast<size_t>(i / 2), random) - origin);
         misses += bvh.nearest(origin, direction).triangle == NO_HIT ? 1 : 0;
     }
     return misses;
 }
 
 TEST_P(Watertight, ClosedSphereFromInside) {
-    EXPECT_EQ(count_misses(sphere(64, 128, 1.0f, 0.05f, {0, 0, 0}), GetParam(), {0, 0, 0}, 0.5f, million / 2), 0);
+    EXPECT_EQ(count_misses(sphere(64, 128, 1.0f, 0.05f, {0, 0, 0}), GetParam(), {0, 0, 0}, 0.5f,
+                           million / 2),
+              0);
 }
 
 TEST_P(Watertight, ClosedRoomOnAxesAndEdges) {
     EXPECT_EQ(count_misses(room(), GetParam(), {450.0f, 400.0f, 200.0f}, 60.0f, million / 2), 0);
     const HostBvh bvh = build_bvh(room(), GetParam());
     Random random(5);
-    for (int i = 0; i < 10000; ++i) {  // along the planes of the blocks, on their edges' coordinates
+    for (int i = 0; i < 10000;
+         ++i) {  // along the planes of the blocks, on their edges' coordinates
         const Eigen::Vector3f origin(i % 2 ? 130.0f : 423.0f, uniform(random, 331.0f, 540.0f),
                                      i % 4 < 2 ? 65.0f : 456.0f);
         Eigen::Vector3f direction = Eigen::Vector3f::Zero();
@@ -58,7 +64,8 @@ TEST_P(Watertight, ClosedRoomOnAxesAndEdges) {
 
 TEST_P(Watertight, FarFromTheCoordinateOrigin) {
     const Eigen::Vector3f offset(148376.0f, 1234.0f, -223423.0f);  // Embree's own test
-    EXPECT_LE(count_misses(sphere(64, 128, 10.0f, 0.05f, offset), GetParam(), offset, 5.0f, million), 20);
+    EXPECT_LE(
+        count_misses(sphere(64, 128, 10.0f, 0.05f, offset), GetParam(), offset, 5.0f, million), 20);
 }
 
 /// The open grid is watertight inside its outline too.
@@ -69,8 +76,9 @@ TEST_P(Watertight, GridFromAbove) {
     int misses = 0;
     for (int i = 0; i < 200000; ++i) {
         const Eigen::Vector3f origin(uniform(random, 2, 8), 5, uniform(random, 2, 8));
-        Eigen::Vector3f target =
-            aim(mesh, static_cast<size_t>(i), random).cwiseMax(Eigen::Vector3f(2, -10, 2)).cwiseMin(Eigen::Vector3f(8, 10, 8));
+        Eigen::Vector3f target = aim(mesh, static_cast<size_t>(i), random)
+                                     .cwiseMax(Eigen::Vector3f(2, -10, 2))
+                                     .cwiseMin(Eigen::Vector3f(8, 10, 8));
         misses += bvh.nearest(origin, target - origin).triangle == NO_HIT ? 1 : 0;
     }
     EXPECT_EQ(misses, 0);
@@ -89,7 +97,8 @@ TEST(EdgeFunction, HasTheExactSign) {
         const float forwards = edge_function(v[0], v[1], v[2], v[3]);
         const float backwards = edge_function(v[2], v[3], v[0], v[1]);
         ASSERT_EQ((forwards > 0) - (forwards < 0), (exact > 0) - (exact < 0));
-        ASSERT_EQ((backwards > 0) - (backwards < 0), (exact < 0) - (exact > 0)) << "neighbours agree";
+        ASSERT_EQ((backwards > 0) - (backwards < 0), (exact < 0) - (exact > 0))
+            << "neighbours agree";
         ASSERT_NEAR(forwards, exact, 2e-7 * std::abs(exact));
     }
 }
@@ -110,7 +119,8 @@ std::pair<float, float> uniform_weights(Random &random) {
     return u + v > 1 ? std::pair(1 - u, 1 - v) : std::pair(u, v);
 }
 
-/// Rays leaving a random point of each of 1000 triangles: scales 1e-6 to 1e6, far from the origin, slivers.
+/// Rays leaving a random point of each of 1000 triangles: scales 1e-6 to 1e6, far from the origin,
+/// slivers.
 TEST(SelfHit, SingleTriangles) {
     Random random(4);
     int self_hits = 0, rays = 0;
@@ -136,8 +146,9 @@ TEST(SelfHit, SingleTriangles) {
         const float3 lower = to_float3(mesh.box().min()), upper = to_float3(mesh.box().max());
         for (int i = 0; i < 1000; ++i, ++rays) {
             const auto [u, v] = uniform_weights(random);
-            const SurfacePoint point = surface_point(to_float3(mesh.positions[0]), to_float3(mesh.positions[1]),
-                                                     to_float3(mesh.positions[2]), u, v);
+            const SurfacePoint point =
+                surface_point(to_float3(mesh.positions[0]), to_float3(mesh.positions[1]),
+                              to_float3(mesh.positions[2]), u, v);
             Eigen::Vector3f d = uniform_direction(random);
             if (i % 4 == 0) {  // grazing
                 const Eigen::Vector3f normal(point.normal.x, point.normal.y, point.normal.z);
@@ -147,8 +158,8 @@ TEST(SelfHit, SingleTriangles) {
             const float3 direction = to_float3(d);
             TraversalRay ray;
             Hit hit;
-            ASSERT_TRUE(
-                make_traversal_ray(offset_ray_origin(point, direction), direction, lower, upper, &ray));
+            ASSERT_TRUE(make_traversal_ray(offset_ray_origin(point, direction), direction, lower,
+                                           upper, &ray));
             self_hits += intersect_triangle(&leaf, &ray, INFINITY, &hit) ? 1 : 0;
         }
     }
@@ -156,18 +167,20 @@ TEST(SelfHit, SingleTriangles) {
     EXPECT_EQ(self_hits, 0);
 }
 
-/// Where a secondary ray starts: a random point of the mesh, uniform by area or within 1e-3 of an edge.
+/// Where a secondary ray starts: a random point of the mesh, uniform by area or within 1e-3 of an
+/// edge.
 struct Departure {
     uint32_t triangle;
     float u, v;  ///< weights of vertices 1 and 2
     SurfacePoint point;
 };
 
-Departure depart(const Mesh &mesh, const std::vector<double> &sums, bool near_edge, Random &random) {
+Departure depart(const Mesh &mesh, const std::vector<double> &sums, bool near_edge,
+                 Random &random) {
     const double pick = static_cast<double>(uniform(random)) * sums.back();
-    const auto triangle = static_cast<uint32_t>(
-        std::min<size_t>(static_cast<size_t>(std::upper_bound(sums.begin(), sums.end(), pick) - sums.begin()),
-                         sums.size() - 1));
+    const auto triangle = static_cast<uint32_t>(std::min<size_t>(
+        static_cast<size_t>(std::upper_bound(sums.begin(), sums.end(), pick) - sums.begin()),
+        sums.size() - 1));
     const auto [weight, v] = uniform_weights(random);
     const float u = near_edge ? 1e-3f * weight : weight;
     return {triangle, u, v,
@@ -178,7 +191,8 @@ Departure depart(const Mesh &mesh, const std::vector<double> &sums, bool near_ed
 std::vector<double> area_sums(const Mesh &mesh) {
     std::vector<double> sums;
     for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Eigen::Vector3d a = mesh.vertex(i, 0).cast<double>(), b = mesh.vertex(i, 1).cast<double>(),
+        const Eigen::Vector3d a = mesh.vertex(i, 0).cast<double>(),
+                              b = mesh.vertex(i, 1).cast<double>(),
                               c = mesh.vertex(i, 2).cast<double>();
         sums.push_back((sums.empty() ? 0 : sums.back()) + (b - a).cross(c - a).norm());
     }
@@ -197,15 +211,18 @@ struct SecondaryRays {
 };
 
 /// Diffuse secondary rays on one side of the surface: `side` +1 along the normals, -1 against them.
-SecondaryRays trace_secondary(const Mesh &mesh, TreeKind kind, float side, int rays, bool near_edges) {
+SecondaryRays trace_secondary(const Mesh &mesh, TreeKind kind, float side, int rays,
+                              bool near_edges) {
     const HostBvh bvh = build_bvh(mesh, kind);
     const std::vector<double> sums = area_sums(mesh);
     Random random(21);
     SecondaryRays result;
     for (int i = 0; i < rays; ++i) {
         const Departure start = depart(mesh, sums, near_edges, random);
-        const Eigen::Vector3f normal(start.point.normal.x, start.point.normal.y, start.point.normal.z);
-        const Eigen::Vector3f direction = (side * normal + 0.9999f * uniform_direction(random)).normalized();
+        const Eigen::Vector3f normal(start.point.normal.x, start.point.normal.y,
+                                     start.point.normal.z);
+        const Eigen::Vector3f direction =
+            (side * normal + 0.9999f * uniform_direction(random)).normalized();
         const float3 origin = offset_ray_origin(start.point, to_float3(direction));
         const Hit hit = bvh.nearest({origin.x, origin.y, origin.z}, direction);
         result.self_hits += hit.triangle == start.triangle ? 1 : 0;
@@ -220,18 +237,21 @@ TEST_P(Secondary, NoSelfHitAndNoLeakInAClosedRoom) {
     Mesh box{"box", {}, {}};
     box.add_box({0, 0, 0}, {552.8f, 548.8f, 559.2f});
     for (const bool near_edges : {false, true}) {
-        const SecondaryRays inside = trace_secondary(box, GetParam(), -1.0f, million / 2, near_edges);
+        const SecondaryRays inside =
+            trace_secondary(box, GetParam(), -1.0f, million / 2, near_edges);
         EXPECT_EQ(inside.self_hits, 0);
         EXPECT_EQ(inside.escapes.size(), 0u);
-        const SecondaryRays outside = trace_secondary(box, GetParam(), 1.0f, million / 4, near_edges);
-        EXPECT_EQ(outside.escapes.size(), size_t{million / 4}) << "a convex body does not shadow itself";
+        const SecondaryRays outside =
+            trace_secondary(box, GetParam(), 1.0f, million / 4, near_edges);
+        EXPECT_EQ(outside.escapes.size(), size_t{million / 4})
+            << "a convex body does not shadow itself";
     }
 }
 
 TEST_P(Secondary, NoSelfHitAndNoLeakInAClosedSphere) {
     for (const float radius : {1e-6f, 1.0f, 1e6f}) {
-        const SecondaryRays rays =
-            trace_secondary(sphere(40, 80, radius, 0.02f, {0, 0, 0}), GetParam(), -1.0f, million / 3, false);
+        const SecondaryRays rays = trace_secondary(sphere(40, 80, radius, 0.02f, {0, 0, 0}),
+                                                   GetParam(), -1.0f, million / 3, false);
         EXPECT_EQ(rays.self_hits, 0) << radius;
         EXPECT_EQ(rays.escapes.size(), 0u) << radius;
     }
@@ -243,13 +263,15 @@ Eigen::Vector3d step_off_the_surface(const Mesh &mesh, const Escape &escape) {
     const double u = static_cast<double>(start.u), v = static_cast<double>(start.v);
     return Eigen::Vector3d(escape.origin.x, escape.origin.y, escape.origin.z) -
            (1 - u - v) * mesh.vertex(start.triangle, 0).cast<double>() -
-           u * mesh.vertex(start.triangle, 1).cast<double>() - v * mesh.vertex(start.triangle, 2).cast<double>();
+           u * mesh.vertex(start.triangle, 1).cast<double>() -
+           v * mesh.vertex(start.triangle, 2).cast<double>();
 }
 
 /// Whether that step leads through another triangle, in double.
 bool leads_through_a_fold(const Mesh &mesh, const Escape &escape) {
     const Eigen::Vector3d step = step_off_the_surface(mesh, escape);
-    const Eigen::Vector3d point = Eigen::Vector3d(escape.origin.x, escape.origin.y, escape.origin.z) - step;
+    const Eigen::Vector3d point =
+        Eigen::Vector3d(escape.origin.x, escape.origin.y, escape.origin.z) - step;
     for (uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
         const DoubleHit hit = intersect_double(mesh, triangle, point, step);
         if (triangle != escape.start.triangle && hit.crosses && hit.t >= 0 && hit.t <= 1) {
@@ -259,12 +281,14 @@ bool leads_through_a_fold(const Mesh &mesh, const Escape &escape) {
     return false;
 }
 
-/// Rays from within 1e-3 of the edges of a crumpled sphere, whose faces meet at acute angles near its poles. Zero leaks,
-/// as of the spheres and the room above, cannot be had here: an origin must leave its face by the offset h, the error of
-/// its own position and of the next triangle test, or the face is hit again; but h off the face and nearer than
-/// h / tan(angle) to the edge it is beyond the other face of the fold already, where nothing stops the ray. What
-/// can be had, and must: every leak is such a start, and h stays below 1e-6 of the coordinates: with coordinates of
-/// 1 and triangles of 0.1, gamma(7) + 16 u 0.1 = 5.2e-7 along each axis (surface_point.h), sqrt(3) times that in all.
+/// Rays from within 1e-3 of the edges of a crumpled sphere, whose faces meet at acute angles near
+/// its poles. Zero leaks, as of the spheres and the room above, cannot be had here: an origin must
+/// leave its face by the offset h, the error of its own position and of the next triangle test, or
+/// the face is hit again; but h off the face and nearer than h / tan(angle) to the edge it is
+/// beyond the other face of the fold already, where nothing stops the ray. What can be had, and
+/// must: every leak is such a start, and h stays below 1e-6 of the coordinates: with coordinates of
+/// 1 and triangles of 0.1, gamma(7) + 16 u 0.1 = 5.2e-7 along each axis (surface_point.h), sqrt(3)
+/// times that in all.
 TEST_P(Secondary, OnlyFoldsThinnerThanTheOffsetLeak) {
     const Mesh mesh = sphere(40, 80, 1.0f, 0.02f, {0, 0, 0});
     const SecondaryRays rays = trace_secondary(mesh, GetParam(), -1.0f, million, true);
@@ -277,8 +301,9 @@ TEST_P(Secondary, OnlyFoldsThinnerThanTheOffsetLeak) {
 
     // The judge excuses no start in the middle of a face.
     const uint32_t triangle = 1000;
-    const SurfacePoint middle = surface_point(to_float3(mesh.vertex(triangle, 0)), to_float3(mesh.vertex(triangle, 1)),
-                                              to_float3(mesh.vertex(triangle, 2)), 0.25f, 0.25f);
+    const SurfacePoint middle =
+        surface_point(to_float3(mesh.vertex(triangle, 0)), to_float3(mesh.vertex(triangle, 1)),
+                      to_float3(mesh.vertex(triangle, 2)), 0.25f, 0.25f);
     EXPECT_FALSE(leads_through_a_fold(
         mesh, {{triangle, 0.25f, 0.25f, middle}, offset_ray_origin(middle, -middle.normal)}));
 }
@@ -317,11 +342,12 @@ TEST(BadTriangles, AreNeverHit) {
         if (i % 2 == 0) {
             leaf.coordinate[i / 2 % 3][i / 6 % 3] = i % 4 == 0 ? nan : infinity;
         }
-        const Eigen::Vector3f target = (v[0] + v[1] + v[2]) / 3, origin = 3 * uniform_direction(random);
+        const Eigen::Vector3f target = (v[0] + v[1] + v[2]) / 3,
+                              origin = 3 * uniform_direction(random);
         TraversalRay ray;
         Hit hit;
-        ASSERT_TRUE(
-            make_traversal_ray(to_float3(origin), to_float3(target - origin), {-1, -1, -1}, {1, 1, 1}, &ray));
+        ASSERT_TRUE(make_traversal_ray(to_float3(origin), to_float3(target - origin), {-1, -1, -1},
+                                       {1, 1, 1}, &ray));
         EXPECT_FALSE(intersect_triangle(&leaf, &ray, infinity, &hit)) << i;
     }
 }

@@ -10,7 +10,7 @@ namespace rtrays::test {
 
 /// Base of a suite of TEST_P, which EACH_TREE instantiates.
 using TreeTest = testing::TestWithParam<TreeKind>;
-#define EACH_TREE(suite)                                                       \
+#define EACH_TREE(suite)                                                        \
     INSTANTIATE_TEST_SUITE_P(Trees, suite, testing::ValuesIn(all_tree_kinds()), \
                              [](const auto &test) { return test.param.name(); })
 

@@ -16,7 +16,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// Mean of green over the image and its standard error, from 32 batches.
-std::pair<double, double> mean_of(const std::string &scene, const std::string &algorithm, uint32_t max_depth) {
+std::pair<double, double> mean_of(const std::string &scene, const std::string &algorithm,
+                                  uint32_t max_depth) {
     static DeviceContext device;
     RenderSettings settings;
     settings.algorithm = algorithm;

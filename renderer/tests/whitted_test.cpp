@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ray casting and Whitted's ray tracing against closed forms in every pixel, and against path tracing where it sees the
-// same paths. Neither draws random numbers, so nothing here is statistical but path tracing's own error.
+// Ray casting and Whitted's ray tracing against closed forms in every pixel, and against path
+// tracing where it sees the same paths. Neither draws random numbers, so nothing here is
+// statistical but path tracing's own error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,11 +29,13 @@ DeviceContext &device() {
 Scene scene_of(const std::string &nodes) {
     return parse_scene_json(R"({"version": 1, "film": {"width": 16, "height": 16}, "nodes": [
         {"name": "camera", "transform": [{"look_at": {"origin": [0, 0, 5], "target": [0, 0, 0], "up": [0, 1, 0]}}],
-         "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}, )" + nodes + "]}",
+         "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}, )" +
+                                nodes + "]}",
                             "test", "test");
 }
 
-RenderSettings settings_of(const std::string &algorithm, const std::vector<std::string> &assignments = {}) {
+RenderSettings settings_of(const std::string &algorithm,
+                           const std::vector<std::string> &assignments = {}) {
     RenderSettings settings;
     settings.algorithm = algorithm;
     settings.stream_capacity = 300;
@@ -57,10 +60,12 @@ Eigen::Vector3d direction_of(size_t i) {
 
 /// Expects radiance(direction) in every pixel of the channel.
 template <typename Radiance>
-void expect_pixels(const Image &image, const std::string &channel, const Radiance &radiance, double relative) {
+void expect_pixels(const Image &image, const std::string &channel, const Radiance &radiance,
+                   double relative) {
     double largest = 0;
     for (size_t i = 0; i < image.pixel_count(); ++i) {
-        const double expected = radiance(direction_of(i)), found = static_cast<double>(image.channel(channel)[i]);
+        const double expected = radiance(direction_of(i)),
+                     found = static_cast<double>(image.channel(channel)[i]);
         ASSERT_NEAR(found, expected, relative * std::abs(expected)) << channel << " of pixel " << i;
         largest = std::max(largest, expected);
     }
@@ -94,13 +99,18 @@ TEST(RayCasting, ShowsWhatAPointLightSendsToAPlane) {
 
 TEST(RayCasting, AddsUpAllLights) {
     const auto lit = [&](const std::string &lamps) {
-        return render(scene_of(R"({"name": "floor", "geometry": {"type": "plane"}, "material": {"type": "lambert",
-                                   "reflectance": [0.8, 0.5, 0.2]}}, )" + lamps), settings_of("ray_casting"))
+        return render(
+                   scene_of(
+                       R"({"name": "floor", "geometry": {"type": "plane"}, "material": {"type": "lambert",
+                                   "reflectance": [0.8, 0.5, 0.2]}}, )" +
+                       lamps),
+                   settings_of("ray_casting"))
             .channel("G");
     };
     const std::string point = R"({"name": "lamp", "transform": [{"translate": [0.5, -0.25, 2]}],
                                   "light": {"type": "point", "intensity": [10, 20, 40]}})";
-    const std::string sun = R"({"name": "sun", "transform": [{"look_at": {"origin": [1, 3, 2], "target": [0, 0, 0],
+    const std::string sun =
+        R"({"name": "sun", "transform": [{"look_at": {"origin": [1, 3, 2], "target": [0, 0, 0],
                                 "up": [0, 1, 0]}}], "light": {"type": "directional", "irradiance": [1, 0.8, 0.5]}})";
     const std::vector<float> first = lit(point), second = lit(sun), both = lit(point + ", " + sun);
     for (size_t i = 0; i < both.size(); ++i) {
@@ -111,17 +121,21 @@ TEST(RayCasting, AddsUpAllLights) {
 }
 
 TEST(RayCasting, EndsAtMirrors) {
-    const Scene scene = scene_of(std::string(R"({"name": "mirror", "transform": [{"translate": [0, 0, 1]}],
-        "geometry": {"type": "rectangle"}, "material": {"type": "mirror", "reflectance": [1, 1, 1]}}, )") + floor_and_lamp);
+    const Scene scene =
+        scene_of(std::string(R"({"name": "mirror", "transform": [{"translate": [0, 0, 1]}],
+        "geometry": {"type": "rectangle"}, "material": {"type": "mirror", "reflectance": [1, 1, 1]}}, )") +
+                 floor_and_lamp);
     const Image image = render(scene, settings_of("ray_casting"));
     EXPECT_EQ(image.channel("G")[8 * size + 8], 0);
     EXPECT_GT(image.channel("G")[0], 0);
-    const nlohmann::json report = RenderSession(scene, settings_of("ray_casting"), device()).report();
+    const nlohmann::json report =
+        RenderSession(scene, settings_of("ray_casting"), device()).report();
     EXPECT_EQ(report["settings"]["integrator.max_depth"], "1");
     EXPECT_EQ(report["settings"]["integrator.sampler"], "regular");
 }
 
-// A white surface that faces the camera in the middle of the scene shows 1; nothing that is seen is in shadow.
+// A white surface that faces the camera in the middle of the scene shows 1; nothing that is seen is
+// in shadow.
 TEST(RayCasting, LightsADarkSceneFromTheCamera) {
     const Scene scene = scene_of(R"({"name": "square", "geometry": {"type": "rectangle"},
         "transform": [{"scale": [0.5, 0.5, 1]}], "material": {"type": "lambert", "reflectance": [1, 0.5, 0.25]}})");
@@ -129,11 +143,14 @@ TEST(RayCasting, LightsADarkSceneFromTheCamera) {
         const Image image = render(scene, settings_of(algorithm));
         const auto centre = static_cast<size_t>(8 * size + 8);
         const double cosine = 1 / direction_of(centre).norm();
-        for (const auto &[channel, reflectance] : {std::pair("R", 1.0), std::pair("G", 0.5), std::pair("B", 0.25)}) {
-            EXPECT_NEAR(image.channel(channel)[centre], reflectance * std::pow(cosine, 3), 1e-5) << algorithm;
+        for (const auto &[channel, reflectance] :
+             {std::pair("R", 1.0), std::pair("G", 0.5), std::pair("B", 0.25)}) {
+            EXPECT_NEAR(image.channel(channel)[centre], reflectance * std::pow(cosine, 3), 1e-5)
+                << algorithm;
         }
     }
-    EXPECT_EQ(render(scene, settings_of("path_tracing")).channel("R")[8 * size + 8], 0) << "others show it as it is";
+    EXPECT_EQ(render(scene, settings_of("path_tracing")).channel("R")[8 * size + 8], 0)
+        << "others show it as it is";
 }
 
 // The mirror at z = 0 shows the wall at z = 8 behind the camera as from a camera at z = -5.
@@ -149,10 +166,12 @@ TEST(Whitted, ShowsTheMirrorImage) {
         expect_pixels(
             image, channel,
             [&, r = reflectance, i = intensity](const Eigen::Vector3d &d) {
-                const Eigen::Vector3d point = Eigen::Vector3d(0, 0, -5) + 13 * Eigen::Vector3d(d.x(), d.y(), 1);
+                const Eigen::Vector3d point =
+                    Eigen::Vector3d(0, 0, -5) + 13 * Eigen::Vector3d(d.x(), d.y(), 1);
                 const Eigen::Vector3d way = Eigen::Vector3d(1, 0.5, 6) - point;
                 const double direct = 0.5 / pi * i * -way.z() / std::pow(way.norm(), 3);
-                // The lamp's image in the mirror lights the wall in nature, not here: that path is a caustic.
+                // The lamp's image in the mirror lights the wall in nature, not here: that path is
+                // a caustic.
                 return r * direct;
             },
             1e-5);
@@ -173,12 +192,13 @@ const char *slab_under_sky = R"(
      "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": 180}}, {"translate": [0, 0, -0.5]}]},
     {"name": "sky", "light": {"type": "dome", "radiance": [1, 1, 1]}})";
 
-// Of light from all around a slab of glass shows F after one event and (1 - F)^2 F^(n - 2) after n: all orders of
-// reflection and transmission, up to the limit, in one sample. Together they are 1.
+// Of light from all around a slab of glass shows F after one event and (1 - F)^2 F^(n - 2) after n:
+// all orders of reflection and transmission, up to the limit, in one sample. Together they are 1.
 TEST(Whitted, FollowsEveryOrderOfReflectionInASlab) {
     for (const int depth : {1, 2, 3, 5, 8, 12}) {
         const Image image =
-            render(scene_of(slab_under_sky), settings_of("whitted", {"integrator.max_depth=" + std::to_string(depth)}));
+            render(scene_of(slab_under_sky),
+                   settings_of("whitted", {"integrator.max_depth=" + std::to_string(depth)}));
         expect_pixels(
             image, "G",
             [&](const Eigen::Vector3d &d) {
@@ -191,22 +211,27 @@ TEST(Whitted, FollowsEveryOrderOfReflectionInASlab) {
             },
             1e-5);
     }
-    const nlohmann::json report = RenderSession(scene_of(slab_under_sky), settings_of("whitted"), device()).report();
+    const nlohmann::json report =
+        RenderSession(scene_of(slab_under_sky), settings_of("whitted"), device()).report();
     EXPECT_EQ(report["settings"]["integrator.max_depth"], "8");
-    EXPECT_EQ(report["branch_bytes_per_path"], 8 * 48) << "hit, direction, throughput, depth, component";
+    EXPECT_EQ(report["branch_bytes_per_path"], 8 * 48)
+        << "hit, direction, throughput, depth, component";
 }
 
 TEST(Whitted, CutsBranchesBelowAThreshold) {
-    // Inside, each reflection leaves less than 5 % of what passes: with a threshold of 0.06 only what passes is followed.
+    // Inside, each reflection leaves less than 5 % of what passes: with a threshold of 0.06 only
+    // what passes is followed.
     const Image image = render(scene_of(slab_under_sky),
-                               settings_of("whitted", {"integrator.termination=adaptive", "integrator.adaptive_threshold=0.06"}));
+                               settings_of("whitted", {"integrator.termination=adaptive",
+                                                       "integrator.adaptive_threshold=0.06"}));
     const auto centre = static_cast<size_t>(8 * size + 8);
     const double f = fresnel(1 / direction_of(centre).norm());
     EXPECT_NEAR(image.channel("G")[centre], (1 - f) * (1 - f), 1e-5);
 }
 
-// Seen through panes of glass, the wall's light takes the path E SS D L, and E SSSS D L is beyond the limit of 4; a path
-// that went on from the wall would need five events. So path tracing finds the same paths, by chance.
+// Seen through panes of glass, the wall's light takes the path E SS D L, and E SSSS D L is beyond
+// the limit of 4; a path that went on from the wall would need five events. So path tracing finds
+// the same paths, by chance.
 TEST(Whitted, IsWhatPathTracingExpects) {
     const Scene scene = scene_of(R"(
         {"name": "pane", "geometry": {"type": "box"}, "transform": [{"scale": [9, 9, 0.2]}, {"translate": [0, 0, 2]}],
@@ -216,12 +241,14 @@ TEST(Whitted, IsWhatPathTracingExpects) {
         {"name": "spot", "transform": [{"look_at": {"origin": [-1, 0, 1.5], "target": [0, 0, 0], "up": [0, 1, 0]}}],
          "light": {"type": "spot", "intensity": [3, 3, 3], "inner_degrees": 20, "outer_degrees": 60}})");
     const Image sure = render(scene, settings_of("whitted", {"integrator.max_depth=4"}), 1024);
-    const Image chance = render(scene, settings_of("path_tracing", {"integrator.max_depth=4"}), 4096);
+    const Image chance =
+        render(scene, settings_of("path_tracing", {"integrator.max_depth=4"}), 4096);
     for (const char *channel : {"R", "G", "B"}) {
         double difference = 0, mean = 0, variance = 0;
         const std::vector<float> &errors = chance.channel(std::string("variance.") + channel);
         for (size_t i = 0; i < sure.pixel_count(); ++i) {
-            difference += static_cast<double>(chance.channel(channel)[i] - sure.channel(channel)[i]) / 256;
+            difference +=
+                static_cast<double>(chance.channel(channel)[i] - sure.channel(channel)[i]) / 256;
             mean += static_cast<double>(sure.channel(channel)[i]) / 256;
             variance += static_cast<double>(errors[i]) / (256.0 * 256.0);
         }
@@ -248,25 +275,30 @@ TEST(Whitted, DrawsNothing) {
         if (algorithm == std::string("whitted")) {
             EXPECT_EQ(words(1, {"device.features=all"}), first) << "everything compiled in";
         }
-        EXPECT_EQ(words(1, {"device.path_layout=arrays", "device.stream_capacity=77", "device.stream_chunk=5"}), first);
+        EXPECT_EQ(words(1, {"device.path_layout=arrays", "device.stream_capacity=77",
+                            "device.stream_chunk=5"}),
+                  first);
     }
 }
 
 TEST(Whitted, LightsSoftlyByMoreSamples) {
-    // Emitters that have an extent are met at a point that is the same for all pixels, sample by sample others.
+    // Emitters that have an extent are met at a point that is the same for all pixels, sample by
+    // sample others.
     const Scene scene = load_scene(RTRAYS_SCENES "/analytic/emitter_direct.json");
     RenderSettings settings = settings_of("ray_casting");
     settings.width = settings.height = 33;
     const double a = 1.0, h = 2.0, r = std::sqrt(a * a + h * h);  // half side, height
     const double expected = 0.8 / pi * 4.0 * a / r * std::atan(a / r);
-    EXPECT_NEAR(render(scene, settings, 1024).channel("R")[16 * 33 + 16], expected, 0.005 * expected);
+    EXPECT_NEAR(render(scene, settings, 1024).channel("R")[16 * 33 + 16], expected,
+                0.005 * expected);
     EXPECT_GT(render(scene, settings, 1).channel("R")[16 * 33 + 16], 0.5 * expected);
 }
 
 TEST(Whitted, RefusesWhatItDoesNotDo) {
     for (const auto &[algorithm, assignment, fragment] :
          {std::tuple("whitted", "integrator.sampler=sobol", "draws no random numbers"),
-          std::tuple("whitted", "integrator.light_selection=power", "joins every point to all of them"),
+          std::tuple("whitted", "integrator.light_selection=power",
+                     "joins every point to all of them"),
           std::tuple("whitted", "integrator.strategies=implicit", "strategies of its own"),
           std::tuple("path_tracing", "integrator.sampler=regular", "needs random numbers")}) {
         expect_input_error(fragment, [&, a = algorithm, s = assignment] {

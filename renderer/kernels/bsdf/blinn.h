@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Torrance-Sparrow reflection with Blinn's distribution of normals: thesis (3.44-3.47), exponent e. Local
-// directions as in lobe.h.
+// Torrance-Sparrow reflection with Blinn's distribution of normals: thesis (3.44-3.47), exponent e.
+// Local directions as in lobe.h.
 //
 // The density of directions is (e + 1) cos^e(theta_h) / (8 pi wo.h): (3.48) lacks 1 / (2 pi).
 //
-// cos^e is taken from tan^2(theta_h) = (h.x^2 + h.y^2) / h.z^2, cos^e = exp(-e/2 log(1 + tan^2)): next to the
-// pole one ulp of the cosine is a factor 0.55 at exponent 1e7, while tan^2 has full precision.
+// cos^e is taken from tan^2(theta_h) = (h.x^2 + h.y^2) / h.z^2, cos^e = exp(-e/2 log(1 + tan^2)):
+// next to the pole one ulp of the cosine is a factor 0.55 at exponent 1e7, while tan^2 has full
+// precision.
 #pragma once
 
 #include "renderer/kernels/bsdf/lobe.h"
@@ -32,9 +33,11 @@ DEVICE Lobe blinn_evaluate(float3 wo, float3 wi, float exponent) {
     return make_lobe(f_cos, pdf_w, wo_h);
 }
 
-/// Half vectors with density (e + 1) / (2 pi) cos^e; u, v in [0, 1). A direction below the horizon is none.
+/// Half vectors with density (e + 1) / (2 pi) cos^e; u, v in [0, 1). A direction below the horizon
+/// is none.
 DEVICE float3 blinn_direction(float3 wo, float exponent, float u, float v) {
-    // cos = (1 - u)^(1 / (e + 1)), hence tan^2 = cos^-2 - 1 = expm1(...); its argument is at most 34.
+    // cos = (1 - u)^(1 / (e + 1)), hence tan^2 = cos^-2 - 1 = expm1(...); its argument is at
+    // most 34.
     const float slope = sqrt(expm1(-2.0f * log1p(-u) / (exponent + 1.0f)));
     const float2 around = point_on_circle(v);
     const float3 h = normalize(make_float3(slope * around.x, slope * around.y, 1.0f));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The BSDF of a material: the sum of its components (thesis 3.51), and directions sampled from it.
 //
-// Directions wi and wo are unit vectors pointing away from the surface; wo leads to where the path came from.
-// Densities are per solid angle. What holds of the records (the scene's loader sees to it): eta > 0; a
-// refracting component has a dielectric or ideal Fresnel term, and an index other than 1 where it is rough;
-// roughness in [1e-4, 1].
+// Directions wi and wo are unit vectors pointing away from the surface; wo leads to where the path
+// came from. Densities are per solid angle. What holds of the records (the scene's loader sees to
+// it): eta > 0; a refracting component has a dielectric or ideal Fresnel term, and an index other
+// than 1 where it is rough; roughness in [1e-4, 1].
 #pragma once
 
 #include "renderer/kernels/bsdf/component.h"
@@ -15,31 +15,34 @@
 /// What bsdf_evaluate says of a direction.
 typedef struct BsdfValue {
     float3 f_cos;  ///< f |cos(ns, wi)|, 1/sr, delta components left out
-    float pdf_w;  ///< density per solid angle with which bsdf_sample gives it, deltas left out: thesis 2.7.4,
-                  ///< but the sum over the components
+    float pdf_w;   ///< density per solid angle with which bsdf_sample gives it, deltas left out:
+                   ///< thesis 2.7.4, but the sum over the components
 } BsdfValue;
 
 /// A sampled direction.
 typedef struct BsdfSample {
     float3 wi;
-    float3 weight;  ///< f |cos(ns, wi)| / pdf_w over all components but deltas. Of a delta: coefficient /
-                    ///< probability
-    float pdf_w;  ///< per solid angle; 0: nothing was sampled, the path ends; INFINITY: wi is that of a delta
-    float scale;    ///< the factor that (3.40) puts on radiance crossing a boundary, in the weight; 1 for reflection
+    float3 weight;  ///< f |cos(ns, wi)| / pdf_w over all components but deltas. Of a delta:
+                    ///< coefficient / probability
+    float pdf_w;  ///< per solid angle; 0: nothing was sampled, the path ends; INFINITY: wi is that
+                  ///< of a delta
+    float scale;  ///< the factor that (3.40) puts on radiance crossing a boundary, in the weight; 1
+                  ///< for reflection
     uint component;     ///< the one that was drawn
     float probability;  ///< with which it was
 } BsdfSample;
 
-/// A unit vector in the frame. Normalised: where narrow lobes are seen at a grazing angle the sum wo + wi is
-/// short, and an error of 1e-7 in either length shifts its slope by more than that of the direction itself.
+/// A unit vector in the frame. Normalised: where narrow lobes are seen at a grazing angle the sum
+/// wo + wi is short, and an error of 1e-7 in either length shifts its slope by more than that of
+/// the direction itself.
 DEVICE float3 to_local(SurfaceFrame frame, float3 w) {
     return normalize(make_float3(dot(frame.x, w), dot(frame.y, w), dot(frame.ns, w)));
 }
 
-/// Whether light may pass between wo (on the front of both normals) and a direction of the given local
-/// height: not where it is on different sides of the geometric and the shading normal, nor in the plane of
-/// the latter (lobe.h). Also where the two are one: rounding takes a grazing direction across the surface, and a closed
-/// mirror that a path gets into does not let it go.
+/// Whether light may pass between wo (on the front of both normals) and a direction of the given
+/// local height: not where it is on different sides of the geometric and the shading normal, nor in
+/// the plane of the latter (lobe.h). Also where the two are one: rounding takes a grazing direction
+/// across the surface, and a closed mirror that a path gets into does not let it go.
 DEVICE bool sides_agree(SurfaceFrame frame, float3 wi, float local_z) {
     return fabs(local_z) >= MIN_COSINE && dot(frame.ng, wi) * local_z > 0.0f;
 }
@@ -65,19 +68,20 @@ DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos
 }
 
 /// bsdf_evaluate in local directions whose sides agree.
-DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame,
-                                     float3 wo, float3 wi) {
+DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material,
+                                     SurfaceFrame frame, float3 wo, float3 wi) {
     BsdfValue value;
     GLOBAL const BxdfRecord *component = components + material.first_component;
     const float eta = component_eta(component, material.flags, frame.front);
     const float3 colour = component_colour(MATERIAL_ARGUMENTS component, frame.uv);
     const Lobe lobe = component_evaluate(component, eta, wo, wi);
     value.pdf_w = lobe.pdf_w;
-    value.f_cos = colour * component_fresnel(component, eta, lobe.cosine, squared_sine_of(lobe.cosine), wi) *
+    value.f_cos = colour *
+                  component_fresnel(component, eta, lobe.cosine, squared_sine_of(lobe.cosine), wi) *
                   lobe.f_cos;
 #if FEATURE_composite
-    // A material of one component, of which nothing is drawn, ends here with the bits it has in a scene
-    // without others.
+    // A material of one component, of which nothing is drawn, ends here with the bits it has in a
+    // scene without others.
     if (material.component_count > 1u) {
         float shares = component_share(component, eta, wo, colour);
         value.pdf_w *= shares;
@@ -89,10 +93,10 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
             const Lobe other_lobe = component_evaluate(other, other_eta, wo, wi);
             shares += share;
             value.pdf_w += share * other_lobe.pdf_w;
-            value.f_cos +=
-                other_colour *
-                component_fresnel(other, other_eta, other_lobe.cosine, squared_sine_of(other_lobe.cosine), wi) *
-                other_lobe.f_cos;
+            value.f_cos += other_colour *
+                           component_fresnel(other, other_eta, other_lobe.cosine,
+                                             squared_sine_of(other_lobe.cosine), wi) *
+                           other_lobe.f_cos;
         }
         value.pdf_w = shares > 0.0f ? value.pdf_w / shares : 0.0f;
     }
@@ -100,8 +104,8 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
     return value;
 }
 
-/// f |cos(ns, wi)| and the density of bsdf_sample; both 0 where the sides of the geometric and the shading
-/// normal disagree.
+/// f |cos(ns, wi)| and the density of bsdf_sample; both 0 where the sides of the geometric and the
+/// shading normal disagree.
 DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float3 wi) {
     const MaterialRecord record = materials[material];
     const float3 local_wo = to_local(frame, frame.wo);
@@ -119,25 +123,26 @@ DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame f
     return bsdf_evaluate_local(MATERIAL_ARGUMENTS record, frame, local_wo, local_wi);
 }
 
-/// A component drawn by its share. False when all shares are 0. `probability` is the share over the sum of
-/// all.
-DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame, float3 wo,
-                             float select, PRIVATE uint *selected, PRIVATE float *probability) {
+/// A component drawn by its share. False when all shares are 0. `probability` is the share over the
+/// sum of all.
+DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame,
+                             float3 wo, float select, PRIVATE uint *selected,
+                             PRIVATE float *probability) {
     *selected = material.first_component;
     *probability = 1.0f;
 #if FEATURE_composite
     if (material.component_count == 1u) {
         return true;
     }
-    // One pass, however many: each component takes over from the one before with its share of the sum so far,
-    // and what remains of the random number is uniform again.
+    // One pass, however many: each component takes over from the one before with its share of the
+    // sum so far, and what remains of the random number is uniform again.
     float shares = 0.0f, share = 0.0f;
     for (uint i = 0u; i < material.component_count; ++i) {
         const uint index = material.first_component + i;
         GLOBAL const BxdfRecord *component = components + index;
         const float eta = component_eta(component, material.flags, frame.front);
-        const float candidate =
-            component_share(component, eta, wo, component_colour(MATERIAL_ARGUMENTS component, frame.uv));
+        const float candidate = component_share(
+            component, eta, wo, component_colour(MATERIAL_ARGUMENTS component, frame.uv));
         if (candidate > 0.0f) {
             shares += candidate;
             const float take_over = candidate / shares;
@@ -172,10 +177,11 @@ DEVICE BsdfSample no_sample(SurfaceFrame frame) {
     return sample;
 }
 
-/// Completes `sample`, in which component and probability are set, by a direction of that component, from u and v in
-/// [0, 1). `wo` is frame.wo in the frame; the side that it is on scatters.
-DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame, float3 wo,
-                                   BsdfSample sample, float u, float v) {
+/// Completes `sample`, in which component and probability are set, by a direction of that
+/// component, from u and v in [0, 1). `wo` is frame.wo in the frame; the side that it is on
+/// scatters.
+DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame,
+                                   float3 wo, BsdfSample sample, float u, float v) {
     GLOBAL const BxdfRecord *component = components + sample.component;
     const float eta = component_eta(component, record.flags, frame.front);
     const float3 wi = component_direction(component, eta, wo, u, v);
@@ -194,7 +200,8 @@ DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, Su
 #if FEATURE_delta
     if (is_delta(component->kind)) {
         sample.weight = component_colour(MATERIAL_ARGUMENTS component, frame.uv) *
-                        component_fresnel(component, eta, wo.z, squared_sine(wo), wi) / sample.probability;
+                        component_fresnel(component, eta, wo.z, squared_sine(wo), wi) /
+                        sample.probability;
         sample.weight *= sample.scale;
         sample.pdf_w = INFINITY;
         return sample;
@@ -209,13 +216,14 @@ DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, Su
 }
 
 /// A direction, from `select`, u and v in [0, 1).
-DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float select, float u,
-                              float v) {
+DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float select,
+                              float u, float v) {
     BsdfSample sample = no_sample(frame);
     const MaterialRecord record = materials[material];
     const float3 wo = to_local(frame, frame.wo);
     if (!side_scatters(record, frame, wo.z) ||
-        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &sample.component, &sample.probability)) {
+        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &sample.component,
+                          &sample.probability)) {
         return sample;
     }
     return sample_component(MATERIAL_ARGUMENTS record, frame, wo, sample, u, v);
@@ -223,9 +231,10 @@ DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame fr
 
 #if FEATURE_delta
 
-/// The direction of an ideal reflection or refraction, its weight the coefficient of the delta; nothing of another kind of
-/// component, nor past the critical angle.
-DEVICE BsdfSample bsdf_delta(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame, uint component) {
+/// The direction of an ideal reflection or refraction, its weight the coefficient of the delta;
+/// nothing of another kind of component, nor past the critical angle.
+DEVICE BsdfSample bsdf_delta(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame,
+                             uint component) {
     BsdfSample sample = no_sample(frame);
     const float3 wo = to_local(frame, frame.wo);
     if (!is_delta(components[component].kind) || !side_scatters(record, frame, wo.z)) {

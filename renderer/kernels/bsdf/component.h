@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One component of a material: its kind's model, dispatched under the features of the scene, with weight,
-// texture and Fresnel term, thesis (3.52). renderer/scene/stores.h says what each component means. Local
-// directions as in lobe.h.
+// One component of a material: its kind's model, dispatched under the features of the scene, with
+// weight, texture and Fresnel term, thesis (3.52). renderer/scene/stores.h says what each component
+// means. Local directions as in lobe.h.
 #pragma once
 
 #include "renderer/kernels/bsdf/blinn.h"
@@ -17,8 +17,8 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-/// The index of refraction beyond the surface over that on wo's side: a boundary is told apart by its sides,
-/// all other materials look alike from both.
+/// The index of refraction beyond the surface over that on wo's side: a boundary is told apart by
+/// its sides, all other materials look alike from both.
 DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_flags, uint front) {
     const float eta = component->eta[0];
     return (material_flags & MATERIAL_BOUNDARY) != 0u && front == 0u ? 1.0f / eta : eta;
@@ -48,8 +48,8 @@ DEVICE bool is_delta(uint kind) {
 #endif
 }
 
-/// Whether light passes through: wi below the surface, and nothing above. The other way round for all other
-/// kinds.
+/// Whether light passes through: wi below the surface, and nothing above. The other way round for
+/// all other kinds.
 DEVICE bool is_refracting(uint kind) {
 #if FEATURE_ideal_refraction || FEATURE_microfacet_refraction
     return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
@@ -68,7 +68,8 @@ DEVICE Roughness component_roughness(GLOBAL const BxdfRecord *component) {
 }
 
 /// The model of a component that is no delta; nothing of a delta.
-DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, float3 wo, float3 wi) {
+DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, float3 wo,
+                               float3 wi) {
     switch (component->kind) {
 #if FEATURE_lambert
         case BXDF_LAMBERT:
@@ -103,8 +104,8 @@ DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, fl
     }
 }
 
-/// A direction sampled by the component's model from u, v in [0, 1); on the wrong side of the surface, or
-/// with z = 0, when there is none.
+/// A direction sampled by the component's model from u, v in [0, 1); on the wrong side of the
+/// surface, or with z = 0, when there is none.
 DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta, float3 wo, float u,
                                   float v) {
     switch (component->kind) {
@@ -138,12 +139,13 @@ DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta,
     }
 }
 
-/// The Fresnel term of the component's weight for wo and wi. `cosine`: Lobe's; `sine2`: the square of its sine.
+/// The Fresnel term of the component's weight for wo and wi. `cosine`: Lobe's; `sine2`: the square
+/// of its sine.
 ///
-/// Diffuse kinds take the product of the terms of both directions, so that they stay reciprocal, unless the
-/// material asks for that of wo alone: thesis (3.55).
-DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine, float sine2,
-                                float3 wi) {
+/// Diffuse kinds take the product of the terms of both directions, so that they stay reciprocal,
+/// unless the material asks for that of wo alone: thesis (3.55).
+DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine,
+                                float sine2, float3 wi) {
 #if FEATURE_fresnel
     float3 f = fresnel_term(component, eta, cosine, sine2);
 #if FEATURE_lambert || FEATURE_oren_nayar
@@ -165,14 +167,17 @@ DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, f
 #endif
 }
 
-/// What component selection goes by: an estimate of the share of light from wo that the component scatters,
-/// times `colour`, mean of the channels. It depends on the geometry at the point, its texture and Fresnel
-/// term alone (digest, 2.7.4), is exact for deltas and positive wherever the component is.
+/// What component selection goes by: an estimate of the share of light from wo that the component
+/// scatters, times `colour`, mean of the channels. It depends on the geometry at the point, its
+/// texture and Fresnel term alone (digest, 2.7.4), is exact for deltas and positive wherever the
+/// component is.
 ///
-/// The Fresnel term of a rough boundary is met at the microfacets' normals, here unknown: it is drawn towards
-/// 1/2 by the root of the roughness, as (1 - F) grows with the root of the angle next to total internal
-/// reflection. So no direction is chosen far too seldom, and the contributions keep bounded.
-DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, float3 wo, float3 colour) {
+/// The Fresnel term of a rough boundary is met at the microfacets' normals, here unknown: it is
+/// drawn towards 1/2 by the root of the roughness, as (1 - F) grows with the root of the angle next
+/// to total internal reflection. So no direction is chosen far too seldom, and the contributions
+/// keep bounded.
+DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, float3 wo,
+                             float3 colour) {
 #if FEATURE_fresnel
     float3 f = fresnel_term(component, eta, wo.z, squared_sine(wo));
 #if FEATURE_blinn || FEATURE_ward || FEATURE_ward_original || FEATURE_microfacet_reflection || \
@@ -189,7 +194,8 @@ DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, floa
     colour *= f;
 #endif
 #if FEATURE_ideal_refraction
-    if (component->kind == BXDF_IDEAL_REFRACTION && refracted_cosine(wo.z, squared_sine(wo), eta) <= 0.0f) {
+    if (component->kind == BXDF_IDEAL_REFRACTION &&
+        refracted_cosine(wo.z, squared_sine(wo), eta) <= 0.0f) {
         return 0.0f;
     }
 #endif

@@ -21,9 +21,10 @@ DEVICE Lobe lambert_evaluate(float3 wo, float3 wi) {
 
 /// Thesis (3.33-3.35), `sigma` in [0, pi/2].
 ///
-/// cos(phi_i - phi_o) sin(alpha) tan(beta) is (wi.x wo.x + wi.y wo.y) / max(wi.z, wo.z): the sine of the
-/// larger angle and that of the smaller cancel those that normalise the azimuths, and the smaller angle has
-/// the larger cosine. The product with wi.z is taken after the division, which then is at most 1.
+/// cos(phi_i - phi_o) sin(alpha) tan(beta) is (wi.x wo.x + wi.y wo.y) / max(wi.z, wo.z): the sine
+/// of the larger angle and that of the smaller cancel those that normalise the azimuths, and the
+/// smaller angle has the larger cosine. The product with wi.z is taken after the division, which
+/// then is at most 1.
 DEVICE Lobe oren_nayar_evaluate(float3 wo, float3 wi, float sigma) {
     if (!(wi.z > 0.0f)) {
         return no_lobe();

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Distributions of microfacet normals, GGX and Beckmann, with visible-normal sampling. Local directions as in
-// lobe.h; normals m are unit vectors with m.z > 0; roughness in [1e-4, 1] along x and y.
+// Distributions of microfacet normals, GGX and Beckmann, with visible-normal sampling. Local
+// directions as in lobe.h; normals m are unit vectors with m.z > 0; roughness in [1e-4, 1] along x
+// and y.
 //
-// B. Walter, S. Marschner, H. Li, K. Torrance, "Microfacet Models for Refraction through Rough Surfaces",
-// 2007 (D and G1); anisotropic as in E. Heitz, "Understanding the Masking-Shadowing Function in
-// Microfacet-Based BRDFs", 2014. GGX is sampled by J. Dupuy, A. Benyoub, "Sampling Visible GGX Normals with
-// Spherical Caps", 2023; Beckmann after W. Jakob, "An Improved Visible Normal Sampling Routine for the
-// Beckmann Distribution", 2014. Departures: G1 of Beckmann is exact, not Walter's rational fit, whose 0.4 %
-// would stand in the sampling density; the slope equation is scaled by the sine instead of divided by the
-// cosine, so that it holds from normal to grazing incidence.
+// B. Walter, S. Marschner, H. Li, K. Torrance, "Microfacet Models for Refraction through Rough
+// Surfaces", 2007 (D and G1); anisotropic as in E. Heitz, "Understanding the Masking-Shadowing
+// Function in Microfacet-Based BRDFs", 2014. GGX is sampled by J. Dupuy, A. Benyoub, "Sampling
+// Visible GGX Normals with Spherical Caps", 2023; Beckmann after W. Jakob, "An Improved Visible
+// Normal Sampling Routine for the Beckmann Distribution", 2014. Departures: G1 of Beckmann is
+// exact, not Walter's rational fit, whose 0.4 % would stand in the sampling density; the slope
+// equation is scaled by the sine instead of divided by the cosine, so that it holds from normal to
+// grazing incidence.
 #pragma once
 
 #include "renderer/kernels/math/circle.h"
@@ -40,9 +42,9 @@ DEVICE float ggx_shadowing(float3 w, Roughness r) {
     return 2.0f / (fabs(w.z) + sqrt(w.z * w.z + stretched_sine2(w, r)));
 }
 
-/// A uniform point on the cap of the unit sphere above -w.z, plus w, is normal to the stretched ellipsoid of
-/// normals. With t = 1 - u its height is t (1 + w.z) - w.z; the height of the sum is t (1 + w.z) > 0, and 1 -
-/// z^2 is a product of two sums of positive terms.
+/// A uniform point on the cap of the unit sphere above -w.z, plus w, is normal to the stretched
+/// ellipsoid of normals. With t = 1 - u its height is t (1 + w.z) - w.z; the height of the sum is t
+/// (1 + w.z) > 0, and 1 - z^2 is a product of two sums of positive terms.
 DEVICE float3 ggx_visible_normal(float3 wo, Roughness r, float u, float v) {
     const float3 w = normalize(make_float3(r.alpha_x * wo.x, r.alpha_y * wo.y, wo.z));
     const float t = 1.0f - u;
@@ -68,8 +70,8 @@ DEVICE float beckmann_density(float3 m, Roughness r) {
     return power > 0.0f ? INV_PI * power / (r.alpha_x * r.alpha_y * z2 * z2) : 0.0f;
 }
 
-/// G1(w) / |w.z| = 1 / (|w.z| (1 + Lambda)), Lambda = (exp(-a^2) / (a sqrt(pi)) - erfc(a)) / 2, a = |w.z| /
-/// |alpha w|. The terms cancel for large a only, where both vanish beside the 1.
+/// G1(w) / |w.z| = 1 / (|w.z| (1 + Lambda)), Lambda = (exp(-a^2) / (a sqrt(pi)) - erfc(a)) / 2, a =
+/// |w.z| / |alpha w|. The terms cancel for large a only, where both vanish beside the 1.
 DEVICE float beckmann_shadowing(float3 w, Roughness r) {
     const float z = fabs(w.z);
     const float sine = sqrt(stretched_sine2(w, r));
@@ -81,14 +83,15 @@ DEVICE float beckmann_shadowing(float3 w, Roughness r) {
     return 2.0f / (z * (2.0f - erfc(a)) + sine * INV_SQRT_PI * exp(-a * a));
 }
 
-/// The slope along the azimuth of a direction with cosine c and sine s on a surface of unit roughness:
-/// density proportional to max(c - x s, 0) exp(-x^2). Its distribution function, in w = 1 + erf(x), is P(w) =
-/// c w + s exp(-x^2) / sqrt(pi) up to a factor: dP/dw = c - s x, positive up to the largest visible slope c /
-/// s. Newton's steps in w stay in a bracket by bisection; towards u = 1 the root becomes double and they
-/// halve the distance.
+/// The slope along the azimuth of a direction with cosine c and sine s on a surface of unit
+/// roughness: density proportional to max(c - x s, 0) exp(-x^2). Its distribution function, in w =
+/// 1 + erf(x), is P(w) = c w + s exp(-x^2) / sqrt(pi) up to a factor: dP/dw = c - s x, positive up
+/// to the largest visible slope c / s. Newton's steps in w stay in a bracket by bisection; towards
+/// u = 1 the root becomes double and they halve the distance.
 DEVICE float beckmann_visible_slope(float c, float s, float u) {
     const float largest = s > 0.0f ? c / s : INFINITY;
-    float upper = largest < 4.0f ? min(1.0f + erf(largest), 1.9999999f) : 1.9999999f;  // x = 3.7 there
+    float upper =
+        largest < 4.0f ? min(1.0f + erf(largest), 1.9999999f) : 1.9999999f;  // x = 3.7 there
     const float tail = largest < 4.0f ? exp(-largest * largest) : 0.0f;
     const float target = u * (c * upper + s * INV_SQRT_PI * tail);
     // Jakob's starting point, with theta the angle of incidence.
@@ -159,7 +162,8 @@ DEVICE float shadowing(float3 w, Roughness r) {
 #endif
 }
 
-/// A normal visible from wo; density per solid angle max(wo.m, 0) D(m) G1(wo) / wo.z. u, v in [0, 1).
+/// A normal visible from wo; density per solid angle max(wo.m, 0) D(m) G1(wo) / wo.z. u, v in [0,
+/// 1).
 DEVICE float3 visible_normal(float3 wo, Roughness r, float u, float v) {
 #if FEATURE_beckmann
     if (r.beckmann != 0u) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Fresnel terms: the reflected share of unpolarized light. `cosine` is that of the angle of incidence, in [0,
-// 1], `sine2` the square of its sine.
+// Fresnel terms: the reflected share of unpolarized light. `cosine` is that of the angle of
+// incidence, in [0, 1], `sine2` the square of its sine.
 //
-// Sources: thesis (3.26-3.30); the exact conductor is Born and Wolf 1999, 14.2 (the derivation in S. Lagarde,
-// "Memo on Fresnel equations", 2013). Numerators of the form (x - y)^2 are written so, not expanded: they
-// cannot come out negative.
+// Sources: thesis (3.26-3.30); the exact conductor is Born and Wolf 1999, 14.2 (the derivation in
+// S. Lagarde, "Memo on Fresnel equations", 2013). Numerators of the form (x - y)^2 are written so,
+// not expanded: they cannot come out negative.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -18,21 +18,24 @@ DEVICE float squared_sine_of(float cosine) {
     return (1.0f - cosine) * (1.0f + cosine);
 }
 
-/// Cosine on the other side of a smooth boundary, -1 at total internal reflection; `eta` is the index of
-/// refraction there over that on the side of `cosine` and `sine2`, the square of its sine.
+/// Cosine on the other side of a smooth boundary, -1 at total internal reflection; `eta` is the
+/// index of refraction there over that on the side of `cosine` and `sine2`, the square of its sine.
 ///
-/// cos_t^2 = (eta^2 - s^2) / eta^2 = ((eta - 1) (eta + 1) + c^2) / eta^2. Where the critical angle is below 45 degrees,
-/// s has more digits next to it than c: from within a high index an ulp of c is many of the grazing angle outside.
-/// Elsewhere the last form does not cancel, be eta close to 1 or c to 0. Next to the critical angle the rounding of
-/// the input alone decides, here for all who ask.
+/// cos_t^2 = (eta^2 - s^2) / eta^2 = ((eta - 1) (eta + 1) + c^2) / eta^2. Where the critical angle
+/// is below 45 degrees, s has more digits next to it than c: from within a high index an ulp of c
+/// is many of the grazing angle outside. Elsewhere the last form does not cancel, be eta close to 1
+/// or c to 0. Next to the critical angle the rounding of the input alone decides, here for all who
+/// ask.
 DEVICE float refracted_cosine(float cosine, float sine2, float eta) {
-    const float scaled = eta * eta < 0.5f ? eta * eta - sine2 : (eta - 1.0f) * (eta + 1.0f) + cosine * cosine;
+    const float scaled =
+        eta * eta < 0.5f ? eta * eta - sine2 : (eta - 1.0f) * (eta + 1.0f) + cosine * cosine;
     return scaled > 0.0f ? min(sqrt(scaled) / eta, 1.0f) : -1.0f;
 }
 
 #if FEATURE_fresnel_dielectric
 
-/// Thesis (3.26, 3.27); 1 at total internal reflection. Denominators are positive: one of the cosines is.
+/// Thesis (3.26, 3.27); 1 at total internal reflection. Denominators are positive: one of the
+/// cosines is.
 DEVICE float fresnel_dielectric(float cosine, float sine2, float eta) {
     const float cos_t = refracted_cosine(cosine, sine2, eta);
     if (cos_t < 0.0f) {
@@ -47,16 +50,17 @@ DEVICE float fresnel_dielectric(float cosine, float sine2, float eta) {
 
 #if FEATURE_fresnel_conductor
 
-/// Exact, for the complex index eta + i k relative to the medium in front, eta > 0; eta and k up to 1e8.
+/// Exact, for the complex index eta + i k relative to the medium in front, eta > 0; eta and k up to
+/// 1e8.
 ///
-/// With a + i b = sqrt((eta + i k)^2 - sin^2): R_perpendicular = ((a - c)^2 + b^2) / ((a + c)^2 + b^2) and
-/// R_parallel = R_perpendicular ((a c - s^2)^2 + b^2 c^2) / ((a c + s^2)^2 + b^2 c^2).
+/// With a + i b = sqrt((eta + i k)^2 - sin^2): R_perpendicular = ((a - c)^2 + b^2) / ((a + c)^2 +
+/// b^2) and R_parallel = R_perpendicular ((a c - s^2)^2 + b^2 c^2) / ((a c + s^2)^2 + b^2 c^2).
 DEVICE float fresnel_conductor(float cosine, float eta, float k) {
     const float cos2 = cosine * cosine;
     const float sin2 = max(1.0f - cos2, 0.0f);
-    const float re =
-        (eta - 1.0f) * (eta + 1.0f) - k * k + cos2;  // of eta^2 - k^2 - sin^2, exact next to eta = 1
-    const float im = eta * k;                        // half the imaginary part
+    const float re = (eta - 1.0f) * (eta + 1.0f) - k * k +
+                     cos2;     // of eta^2 - k^2 - sin^2, exact next to eta = 1
+    const float im = eta * k;  // half the imaginary part
     const float modulus = sqrt(re * re + 4.0f * im * im);
     // The root is taken of the sum that does not cancel; the other part follows from a b = im.
     const float root = sqrt(0.5f * (modulus + fabs(re)));
@@ -69,7 +73,8 @@ DEVICE float fresnel_conductor(float cosine, float eta, float k) {
     }
     const float perpendicular = ((a - cosine) * (a - cosine) + b2) / denominator;
     const float ac = a * cosine;
-    const float ratio = ((ac - sin2) * (ac - sin2) + b2 * cos2) / ((ac + sin2) * (ac + sin2) + b2 * cos2);
+    const float ratio =
+        ((ac - sin2) * (ac - sin2) + b2 * cos2) / ((ac + sin2) * (ac + sin2) + b2 * cos2);
     return 0.5f * perpendicular * (1.0f + ratio);
 }
 
@@ -102,9 +107,11 @@ DEVICE float fresnel_schlick(float cosine, float r0) {
 
 #if FEATURE_fresnel
 
-/// F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a dielectric: see
-/// component_eta. Dielectrics are reciprocal: a ray and its refraction give the same F to either side.
-DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float cosine, float sine2) {
+/// F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a dielectric:
+/// see component_eta. Dielectrics are reciprocal: a ray and its refraction give the same F to
+/// either side.
+DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float cosine,
+                           float sine2) {
     float3 f = make_float3(1.0f, 1.0f, 1.0f);
     const float c = min(fabs(cosine), 1.0f);
     (void)sine2;
@@ -133,7 +140,8 @@ DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float 
 #endif
 #if FEATURE_fresnel_schlick
         case FRESNEL_SCHLICK:
-            f = make_float3(fresnel_schlick(c, component->eta[0]), fresnel_schlick(c, component->eta[1]),
+            f = make_float3(fresnel_schlick(c, component->eta[0]),
+                            fresnel_schlick(c, component->eta[1]),
                             fresnel_schlick(c, component->eta[2]));
             break;
 #endif

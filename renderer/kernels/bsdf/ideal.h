@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Ideal reflection and refraction: delta distributions, thesis (3.36-3.43). Only their directions and the
-// coefficients of the deltas exist; local directions as in lobe.h.
+// Ideal reflection and refraction: delta distributions, thesis (3.36-3.43). Only their directions
+// and the coefficients of the deltas exist; local directions as in lobe.h.
 #pragma once
 
 #include "renderer/kernels/bsdf/fresnel.h"
 #include "renderer/shared/compat.h"
 
-/// By how much radiance that arrives through a boundary changes besides its Fresnel term: thesis (3.40), the
-/// squared ratio of the index on wo's side to that on wi's; `eta` is the index on wi's side over that on
-/// wo's. This is the only place where radiance and importance part: importance, which light paths carry,
-/// takes 1 (Veach 1997, 5.2).
+/// By how much radiance that arrives through a boundary changes besides its Fresnel term: thesis
+/// (3.40), the squared ratio of the index on wo's side to that on wi's; `eta` is the index on wi's
+/// side over that on wo's. This is the only place where radiance and importance part: importance,
+/// which light paths carry, takes 1 (Veach 1997, 5.2).
 DEVICE float refraction_scale(float eta) {
     return 1.0f / (eta * eta);
 }
@@ -28,7 +28,8 @@ DEVICE float3 ideal_reflection_direction(float3 wo) {
 /// Thesis (3.41); z is 0 at total internal reflection.
 DEVICE float3 ideal_refraction_direction(float3 wo, float eta) {
     const float cosine = refracted_cosine(wo.z, squared_sine(wo), eta);
-    return cosine > 0.0f ? make_float3(-wo.x / eta, -wo.y / eta, -cosine) : make_float3(0.0f, 0.0f, 0.0f);
+    return cosine > 0.0f ? make_float3(-wo.x / eta, -wo.y / eta, -cosine)
+                         : make_float3(0.0f, 0.0f, 0.0f);
 }
 
 #endif

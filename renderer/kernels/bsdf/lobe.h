@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What all models of BxDFs share. A model works in local directions, unit length, away from the surface: z
-// along the shading normal, x and y along its tangents, wo.z > 0. Weight, texture and Fresnel term of thesis
-// (3.52) are applied outside.
+// What all models of BxDFs share. A model works in local directions, unit length, away from the
+// surface: z along the shading normal, x and y along its tangents, wo.z > 0. Weight, texture and
+// Fresnel term of thesis (3.52) are applied outside.
 //
-// Cosines of wi and wo are MIN_COSINE at least (bsdf.h): the quotients of the models are bounded by that. A
-// direction closer to the horizon carries less than 1e-9 of the light that a surface may receive.
+// Cosines of wi and wo are MIN_COSINE at least (bsdf.h): the quotients of the models are bounded by
+// that. A direction closer to the horizon carries less than 1e-9 of the light that a surface may
+// receive.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -14,8 +15,8 @@
 /// A BxDF for a pair of directions.
 typedef struct Lobe {
     float f_cos;   ///< f |wi.z|, 1/sr
-    float pdf_w;   ///< density per solid angle with which the model's own sampling gives wi; positive where
-                   ///< f_cos is
+    float pdf_w;   ///< density per solid angle with which the model's own sampling gives wi;
+                   ///< positive where f_cos is
     float cosine;  ///< of wo and the normal at which a Fresnel term is evaluated
 } Lobe;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reflection and refraction by rough boundaries: Walter et al. 2007, eq. 20 and 21, with separable shadowing
-// G = G1(wi) G1(wo), their eq. 23. Local directions as in lobe.h. Fresnel terms are applied outside, at wo.m.
+// Reflection and refraction by rough boundaries: Walter et al. 2007, eq. 20 and 21, with separable
+// shadowing G = G1(wi) G1(wo), their eq. 23. Local directions as in lobe.h. Fresnel terms are
+// applied outside, at wo.m.
 #pragma once
 
 #include "renderer/kernels/bsdf/distribution.h"
@@ -31,8 +32,8 @@ DEVICE float3 microfacet_reflection_direction(float3 wo, Roughness r, float u, f
 
 #if FEATURE_microfacet_refraction
 
-/// `eta` is the index on wi's side over that on wo's, not 1 (then there is no boundary). Radiance is scaled
-/// by refraction_scale, which in eq. 21 is the factor eta_o^2.
+/// `eta` is the index on wi's side over that on wo's, not 1 (then there is no boundary). Radiance
+/// is scaled by refraction_scale, which in eq. 21 is the factor eta_o^2.
 DEVICE Lobe microfacet_refraction_evaluate(float3 wo, float3 wi, Roughness r, float eta) {
     if (!(wi.z < 0.0f)) {
         return no_lobe();
@@ -49,7 +50,8 @@ DEVICE Lobe microfacet_refraction_evaluate(float3 wo, float3 wi, Roughness r, fl
     if (!(m.z > 0.0f && wo_m > 0.0f && wi_m < 0.0f)) {
         return no_lobe();
     }
-    // Eq. 17: dw_m / dw_i = eta^2 |wi.m| / (wo.m + eta wi.m)^2, and the denominator is |wo + eta wi|^2.
+    // Eq. 17: dw_m / dw_i = eta^2 |wi.m| / (wo.m + eta wi.m)^2, and the denominator is |wo + eta
+    // wi|^2.
     const float pdf_w = normal_density(m, r) * shadowing(wo, r) * wo_m * (eta * eta * -wi_m / m2);
     return make_lobe(pdf_w * (shadowing(wi, r) * -wi.z) * refraction_scale(eta), pdf_w, wo_m);
 }

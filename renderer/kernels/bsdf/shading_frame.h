@@ -6,8 +6,8 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-/// The frame in which a hit scatters, seen from wo. Its axes follow the surface's tangent only where the material
-/// would look different otherwise.
+/// The frame in which a hit scatters, seen from wo. Its axes follow the surface's tangent only
+/// where the material would look different otherwise.
 DEVICE SurfaceFrame shading_frame(MATERIAL_PARAMETERS SurfaceHit hit, float3 wo) {
     float3 tangent = make_float3(0.0f, 0.0f, 0.0f);
 #if FEATURE_tangents

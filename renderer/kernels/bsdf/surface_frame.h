@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The frame in which a surface scatters: shading normal and tangents, the geometric normal, and the side from
-// which the path came.
+// The frame in which a surface scatters: shading normal and tangents, the geometric normal, and the
+// side from which the path came.
 #pragma once
 
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/shared/compat.h"
 
-/// World space. Both normals are on wo's side; x and y complete ns to an orthonormal frame, x along the
-/// surface's tangent.
+/// World space. Both normals are on wo's side; x and y complete ns to an orthonormal frame, x along
+/// the surface's tangent.
 typedef struct SurfaceFrame {
     float3 x, y, ns;
     float3 ng;
@@ -16,9 +16,9 @@ typedef struct SurfaceFrame {
     uint front;  ///< 1: wo is on the surface's front
 } SurfaceFrame;
 
-/// Tangents about the unit vector `z`, x as close to `tangent` as it can be. Where the tangent has no length
-/// (or is not finite) or is closer than 0.01 radians to `z`, where its direction across `z` would drown in
-/// rounding, they are those of frame_from_z.
+/// Tangents about the unit vector `z`, x as close to `tangent` as it can be. Where the tangent has
+/// no length (or is not finite) or is closer than 0.01 radians to `z`, where its direction across
+/// `z` would drown in rounding, they are those of frame_from_z.
 DEVICE Frame frame_from_tangent(float3 z, float3 tangent) {
     // Scaled first: the derivative of a position by u may be of any size, its square not a float.
     const float3 magnitude = fabs(tangent);
@@ -38,9 +38,10 @@ DEVICE Frame frame_from_tangent(float3 z, float3 tangent) {
     return frame_from_z(z);
 }
 
-/// The frame at a point with unit normals `ng` and `ns` (both on the front; ns may lean beyond ng's horizon),
-/// a tangent of any length (zero: none) and unit `wo`. Where wo is below the shading normal's horizon, ns is
-/// replaced by ng: such a point would be black, although the path did hit it.
+/// The frame at a point with unit normals `ng` and `ns` (both on the front; ns may lean beyond ng's
+/// horizon), a tangent of any length (zero: none) and unit `wo`. Where wo is below the shading
+/// normal's horizon, ns is replaced by ng: such a point would be black, although the path did hit
+/// it.
 DEVICE SurfaceFrame make_surface_frame(float3 ng, float3 ns, float3 tangent, float2 uv, float3 wo) {
     SurfaceFrame frame;
     frame.front = dot(ng, wo) >= 0.0f ? 1u : 0u;

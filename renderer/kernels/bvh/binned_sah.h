@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Binned surface area heuristic: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
-// 2007; thesis 3.1 with (3.4): K = BVH_BINS bins on each of the three axes, over centroid bounds. A node's cost of
-// a split is A_left N_left + A_right N_right: with leaves made by count alone, the constants of (3.4) do not
-// matter.
+// Binned surface area heuristic: I. Wald, "On fast Construction of SAH-based Bounding Volume
+// Hierarchies", 2007; thesis 3.1 with (3.4): K = BVH_BINS bins on each of the three axes, over
+// centroid bounds. A node's cost of a split is A_left N_left + A_right N_right: with leaves made by
+// count alone, the constants of (3.4) do not matter.
 #pragma once
 
 #include "renderer/kernels/bvh/range_bounds.h"
@@ -30,8 +30,8 @@ DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
     for (uint axis = 0; axis < 3; ++axis) {
         const float extent = bounds->centroids[1][axis] - bounds->centroids[0][axis];
         binning.lower[axis] = bounds->centroids[0][axis];
-        binning.scale[axis] =
-            extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;  // far above where 16 / extent overflows
+        binning.scale[axis] = extent > 1.0e-30f ? (float)BVH_BINS / extent
+                                                : 0.0f;  // far above where 16 / extent overflows
     }
 #if BVH_BINNED_AXES == 1u
     float widest = -1.0f;
@@ -79,10 +79,11 @@ DEVICE float half_area_of_bins(float8 box, float scale) {
     return half_area(-b[4] - b[0], -b[5] - b[1], -b[6] - b[2], scale);
 }
 
-/// Best split of `count` primitives. Ties go to the lower axis, then the lower bin. By count, in the present
-/// order, below BVH_AREA_DEPTH (bvh_node.h) and where no axis can be split: all centroids equal.
-DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *binning, uint count, uint depth,
-                          float scale) {
+/// Best split of `count` primitives. Ties go to the lower axis, then the lower bin. By count, in
+/// the present order, below BVH_AREA_DEPTH (bvh_node.h) and where no axis can be split: all
+/// centroids equal.
+DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *binning, uint count,
+                          uint depth, float scale) {
     Split best;
     best.axis = BVH_SPLIT_BY_COUNT;
     best.last_left_bin = 0;
@@ -109,7 +110,8 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
         for (uint bin = 0; bin + 1u < BVH_BINS; ++bin) {
             box = enclosing(box, vload8(0, bins->box[place][bin]));
             left_count += bins->count[place][bin];
-            const float cost = (float)left_count * half_area_of_bins(box, scale) + right_cost[bin + 1u];
+            const float cost =
+                (float)left_count * half_area_of_bins(box, scale) + right_cost[bin + 1u];
             if (left_count > 0 && left_count < count && cost < best_cost) {
                 best_cost = cost;
                 best.axis = axis;
@@ -121,8 +123,8 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
     return best;
 }
 
-/// Whether a primitive goes left; `rank` is its place in the range. Both uses of a split call this one
-/// predicate.
+/// Whether a primitive goes left; `rank` is its place in the range. Both uses of a split call this
+/// one predicate.
 DEVICE bool goes_left(PRIVATE const Split *split, PRIVATE const Binning *binning,
                       PRIVATE const PrimitiveRef *ref, uint rank) {
     if (split->axis == BVH_SPLIT_BY_COUNT) {

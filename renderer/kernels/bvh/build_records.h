@@ -5,8 +5,9 @@
 
 #include "renderer/shared/bvh_node.h"
 
-/// Bins on an axis (K of the thesis, 3.1), and how many axes are binned: all three, or 1, the one along which the
-/// centroids lie widest. Programs are compiled for others to be compared with these.
+/// Bins on an axis (K of the thesis, 3.1), and how many axes are binned: all three, or 1, the one
+/// along which the centroids lie widest. Programs are compiled for others to be compared with
+/// these.
 #ifndef BVH_BINS
 #define BVH_BINS 16u
 #endif
@@ -14,17 +15,19 @@
 #define BVH_BINNED_AXES 3u
 #endif
 
-/// Chunks of a task at most: those of large tasks are longer, for some stages go through all chunks of a task one by one.
+/// Chunks of a task at most: those of large tasks are longer, for some stages go through all chunks
+/// of a task one by one.
 #define BVH_CHUNKS_PER_TASK 1024u
 
-/// Coordinates beyond this count as not finite: sums of two and products of three of them stay in float's
-/// range.
+/// Coordinates beyond this count as not finite: sums of two and products of three of them stay in
+/// float's range.
 #define BVH_COORDINATE_LIMIT 1.0e12f
 
 #define BVH_NO_PARENT 0xffffffffu
 #define BVH_SPLIT_BY_COUNT 3u
 
-/// The box of one triangle, and which. These records are what the builder moves: 32 bytes, read in order.
+/// The box of one triangle, and which. These records are what the builder moves: 32 bytes, read in
+/// order.
 typedef struct PrimitiveRef {
     float lower[3];
     uint triangle;
@@ -32,15 +35,15 @@ typedef struct PrimitiveRef {
     uint padding;
 } PrimitiveRef;
 
-/// A box, and the box of twice the centroids in it (lower + upper of each primitive: no product, no rounding
-/// bias).
+/// A box, and the box of twice the centroids in it (lower + upper of each primitive: no product, no
+/// rounding bias).
 typedef struct RangeBounds {
     float box[2][3];  ///< [lower, upper][x, y, z]
     float centroids[2][3];
 } RangeBounds;
 
-/// How a range of primitives is split: by bin on an axis, or, with axis BVH_SPLIT_BY_COUNT, into equal
-/// halves.
+/// How a range of primitives is split: by bin on an axis, or, with axis BVH_SPLIT_BY_COUNT, into
+/// equal halves.
 typedef struct Split {
     uint axis;
     uint last_left_bin;
@@ -63,7 +66,8 @@ typedef struct BuildTask {
 typedef struct BuildChunk {
     uint task;
     uint begin, end;
-    RangeBounds bounds[2];  ///< of what this chunk sends left and right (set by partition_primitives)
+    RangeBounds
+        bounds[2];  ///< of what this chunk sends left and right (set by partition_primitives)
 } BuildChunk;
 
 /// A range small enough for one work-item to finish.
@@ -114,8 +118,8 @@ typedef struct BuildState {
 
 /// Boxes and counts of the bins of one range.
 typedef struct BinSet {
-    float box[BVH_BINNED_AXES][BVH_BINS][8];  ///< [axis, or 0 for the widest][bin][lower x, y, z, 0, upper x, y, z with the
-                                              ///< sign changed, 0]
+    float box[BVH_BINNED_AXES][BVH_BINS][8];  ///< [axis, or 0 for the widest][bin][lower x, y, z,
+                                              ///< 0, upper x, y, z with the sign changed, 0]
     uint count[BVH_BINNED_AXES][BVH_BINS];
 } BinSet;
 

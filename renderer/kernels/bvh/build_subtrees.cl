@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The small phase: each work-item finishes one subtree of up to a few thousand primitives alone, depth first,
-// without barriers, atomics or local memory; on a CPU its primitives stay in the core's cache. Nodes go to
-// scratch at the subtree's own range (n primitives have at most n - 1 inner nodes), in depth-first order,
-// with links counted from the subtree's first node.
+// The small phase: each work-item finishes one subtree of up to a few thousand primitives alone,
+// depth first, without barriers, atomics or local memory; on a CPU its primitives stay in the
+// core's cache. Nodes go to scratch at the subtree's own range (n primitives have at most n - 1
+// inner nodes), in depth-first order, with links counted from the subtree's first node.
 #include "renderer/kernels/bvh/binned_sah.h"
 
 typedef struct PendingRange {
@@ -13,7 +13,8 @@ typedef struct PendingRange {
     RangeBounds bounds;
 } PendingRange;
 
-/// Stable partition of a range: the left part stays in `primitives`, the right one waits in `scratch`.
+/// Stable partition of a range: the left part stays in `primitives`, the right one waits in
+/// `scratch`.
 static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef *scratch,
                             PRIVATE const PendingRange *range, PRIVATE const Split *split,
                             PRIVATE const Binning *binning, PRIVATE RangeBounds *left_bounds,
@@ -54,9 +55,9 @@ static Split split_range(GLOBAL const PrimitiveRef *primitives, PRIVATE const Pe
                         inverse_extent(&range->bounds));
 }
 
-/// Reads the subtree's primitives and orders them in place; writes nodes and the subtree's counts. Cost: the
-/// area of every inner node below the subtree's root, and of every leaf times its triangles, the root itself
-/// apart.
+/// Reads the subtree's primitives and orders them in place; writes nodes and the subtree's counts.
+/// Cost: the area of every inner node below the subtree's root, and of every leaf times its
+/// triangles, the root itself apart.
 __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
                              GLOBAL PrimitiveRef *primitives_0, GLOBAL PrimitiveRef *primitives_1,
                              GLOBAL const BuildState *state, GLOBAL BvhNode *scratch_nodes) {
@@ -70,7 +71,8 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
     GLOBAL BvhNode *nodes = scratch_nodes + subtree->begin;
     const float area_scale = state->inverse_extent;
 
-    // The right sibling of each node on the way down waits here: never more than the depth of a leaf.
+    // The right sibling of each node on the way down waits here: never more than the depth of a
+    // leaf.
     PendingRange pending[BVH_BINNED_DEPTH];
     uint pending_count = 0;
     uint node_count = 0;
@@ -85,7 +87,8 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
     range.parent = BVH_NO_PARENT;
     range.side = 0;
     range.bounds = subtree->bounds;
-    if (range.end - range.begin <= BVH_LEAF_SIZE) {  // a leaf: its parent among the top nodes links it
+    if (range.end - range.begin <=
+        BVH_LEAF_SIZE) {  // a leaf: its parent among the top nodes links it
         subtree->node_count = 0;
         subtree->leaf_count = range.end > range.begin ? 1u : 0u;
         subtree->deepest_leaf = deepest;
@@ -116,11 +119,14 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
         const uint right_count = right.end - right.begin;
         const bool left_is_leaf = left_count <= BVH_LEAF_SIZE;
         const bool right_is_leaf = right_count <= BVH_LEAF_SIZE;
-        write_child(nodes + node, 0, &left.bounds, left_count, bvh_leaf(left.begin, left_is_leaf ? left_count : 0u));
-        write_child(nodes + node, 1, &right.bounds, right_count, bvh_leaf(right.begin, right_is_leaf ? right_count : 0u));
+        write_child(nodes + node, 0, &left.bounds, left_count,
+                    bvh_leaf(left.begin, left_is_leaf ? left_count : 0u));
+        write_child(nodes + node, 1, &right.bounds, right_count,
+                    bvh_leaf(right.begin, right_is_leaf ? right_count : 0u));
         leaf_count += (left_is_leaf ? 1u : 0u) + (right_is_leaf ? 1u : 0u);
-        cost += half_area_of(&left.bounds, area_scale) * (left_is_leaf ? (float)left_count : 1.0f) +
-                half_area_of(&right.bounds, area_scale) * (right_is_leaf ? (float)right_count : 1.0f);
+        cost +=
+            half_area_of(&left.bounds, area_scale) * (left_is_leaf ? (float)left_count : 1.0f) +
+            half_area_of(&right.bounds, area_scale) * (right_is_leaf ? (float)right_count : 1.0f);
         if (!left_is_leaf) {
             if (!right_is_leaf) {
                 pending[pending_count] = right;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The two-wide tree collapsed to nodes of eight children, level by level: open_wide_nodes (a work-item per node of the
-// level) -> prefix sums of how many children of each are nodes, then leaves -> link_wide_nodes (per node); in the end
-// fill_blocks (per leaf). Numbering follows the tree alone: nothing depends on scheduling.
+// The two-wide tree collapsed to nodes of eight children, level by level: open_wide_nodes (a
+// work-item per node of the level) -> prefix sums of how many children of each are nodes, then
+// leaves -> link_wide_nodes (per node); in the end fill_blocks (per leaf). Numbering follows the
+// tree alone: nothing depends on scheduling.
 //
-// A wide node opens its largest child (by area, the chance of a ray to enter it) until it has eight, or only leaves: I. Wald,
-// C. Benthin, S. Boulos, RT 2008. A subtree of at most eight triangles, which are tested at once, is a leaf.
+// A wide node opens its largest child (by area, the chance of a ray to enter it) until it has
+// eight, or only leaves: I. Wald, C. Benthin, S. Boulos, RT 2008. A subtree of at most eight
+// triangles, which are tested at once, is a leaf.
 #include "renderer/kernels/bvh/collapse.h"
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/triangle.h"
@@ -24,8 +26,8 @@ static Candidate make_candidate(GLOBAL const BvhNode *nodes, uint node, uint sid
     candidate.begin = begin;
     candidate.count = nodes[node].count[side];
     GLOBAL const float(*bounds)[3] = nodes[node].bounds[side];
-    candidate.area =
-        half_area(bounds[1][0] - bounds[0][0], bounds[1][1] - bounds[0][1], bounds[1][2] - bounds[0][2], 1.0f);
+    candidate.area = half_area(bounds[1][0] - bounds[0][0], bounds[1][1] - bounds[0][1],
+                               bounds[1][2] - bounds[0][2], 1.0f);
     return candidate;
 }
 
@@ -44,9 +46,11 @@ static void write_no_child(GLOBAL WideNode *wide, uint lane) {
     wide->child[lane] = 0;
 }
 
-/// One work-item: node 0, which holds the scene's box and the link to the root, and the root's task or leaf.
-__kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *state, GLOBAL WideNode *wide_nodes,
-                             GLOBAL WideTask *tasks, GLOBAL WideLeaf *leaves) {
+/// One work-item: node 0, which holds the scene's box and the link to the root, and the root's task
+/// or leaf.
+__kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *state,
+                             GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
+                             GLOBAL WideLeaf *leaves) {
     if (get_global_id(0) != 0) {
         return;
     }
@@ -55,8 +59,10 @@ __kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *
         write_no_child(wide_nodes, lane);
     }
     for (uint axis = 0; axis < 3; ++axis) {
-        wide_nodes->bounds[0][axis][0] = lesser(nodes->bounds[0][0][axis], nodes->bounds[1][0][axis]);
-        wide_nodes->bounds[1][axis][0] = greater(nodes->bounds[0][1][axis], nodes->bounds[1][1][axis]);
+        wide_nodes->bounds[0][axis][0] =
+            lesser(nodes->bounds[0][0][axis], nodes->bounds[1][0][axis]);
+        wide_nodes->bounds[1][axis][0] =
+            greater(nodes->bounds[0][1][axis], nodes->bounds[1][1][axis]);
     }
     CollapseState begin;
     begin.node_count = 1;
@@ -75,9 +81,11 @@ __kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *
     *state = begin;
 }
 
-/// `counts`: of the nodes of this level, how many of their children are nodes; then how many are leaves; then 0.
-__kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uint level_end, GLOBAL WideNode *wide_nodes,
-                              GLOBAL WideTask *tasks, GLOBAL uint *counts) {
+/// `counts`: of the nodes of this level, how many of their children are nodes; then how many are
+/// leaves; then 0.
+__kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uint level_end,
+                              GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
+                              GLOBAL uint *counts) {
     const uint index = level_begin + (uint)get_global_id(0);
     if (index >= level_end) {
         return;
@@ -116,7 +124,8 @@ __kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uin
         const bool is_leaf = child.count <= WIDE_LANES;
         write_wide_child(wide, lane, nodes[child.node].bounds[child.side]);
         // For link_wide_nodes: the two-wide node, or the size of the leaf.
-        wide->child[lane] = is_leaf ? wide_leaf(0, child.count) : nodes[child.node].child[child.side];
+        wide->child[lane] =
+            is_leaf ? wide_leaf(0, child.count) : nodes[child.node].child[child.side];
         task->child_begin[lane] = child.begin;
         inner += is_leaf ? 0u : 1u;
     }
@@ -131,8 +140,9 @@ __kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uin
 }
 
 /// `sums`: of the counts, exclusive. The first work-item books what the level has added.
-__kernel void link_wide_nodes(uint level_begin, uint level_end, uint first_leaf, GLOBAL const uint *sums,
-                              GLOBAL CollapseState *state, GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
+__kernel void link_wide_nodes(uint level_begin, uint level_end, uint first_leaf,
+                              GLOBAL const uint *sums, GLOBAL CollapseState *state,
+                              GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
                               GLOBAL WideLeaf *leaves) {
     const uint index = level_begin + (uint)get_global_id(0);
     if (index >= level_end) {
@@ -165,8 +175,8 @@ __kernel void link_wide_nodes(uint level_begin, uint level_end, uint first_leaf,
     }
 }
 
-__kernel void fill_blocks(GLOBAL const WideLeaf *leaves, uint leaf_count, GLOBAL const LeafTriangle *triangles,
-                          GLOBAL TriangleBlock *blocks) {
+__kernel void fill_blocks(GLOBAL const WideLeaf *leaves, uint leaf_count,
+                          GLOBAL const LeafTriangle *triangles, GLOBAL TriangleBlock *blocks) {
     const uint index = (uint)get_global_id(0);
     if (index >= leaf_count) {
         return;
@@ -174,7 +184,8 @@ __kernel void fill_blocks(GLOBAL const WideLeaf *leaves, uint leaf_count, GLOBAL
     const WideLeaf leaf = leaves[index];
     GLOBAL TriangleBlock *block = blocks + index;
     for (uint lane = 0; lane < WIDE_LANES; ++lane) {
-        GLOBAL const LeafTriangle *triangle = triangles + leaf.begin + (lane < leaf.count ? lane : 0u);
+        GLOBAL const LeafTriangle *triangle =
+            triangles + leaf.begin + (lane < leaf.count ? lane : 0u);
         for (uint axis = 0; axis < 3; ++axis) {
             for (uint vertex = 0; vertex < 3; ++vertex) {
                 block->coordinate[axis][vertex][lane] = triangle->coordinate[axis][vertex];
@@ -184,7 +195,8 @@ __kernel void fill_blocks(GLOBAL const WideLeaf *leaves, uint leaf_count, GLOBAL
     }
 }
 
-__kernel void copy_wide_nodes(GLOBAL const WideNode *scratch, uint node_count, GLOBAL WideNode *wide_nodes) {
+__kernel void copy_wide_nodes(GLOBAL const WideNode *scratch, uint node_count,
+                              GLOBAL WideNode *wide_nodes) {
     const uint index = (uint)get_global_id(0);
     if (index < node_count) {
         wide_nodes[index] = scratch[index];

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Records of the collapse to eight-wide nodes, shared by its kernels and the host that schedules them
-// (renderer/bvh/collapse.cpp).
+// Records of the collapse to eight-wide nodes, shared by its kernels and the host that schedules
+// them (renderer/bvh/collapse.cpp).
 #pragma once
 
 #include "renderer/shared/wide_node.h"
 
 /// A wide node to be made of a node of the two-wide tree. Tasks are numbered as their nodes.
 typedef struct WideTask {
-    uint node;         ///< of the two-wide tree
-    uint begin;        ///< its first triangle, in leaf order
+    uint node;                     ///< of the two-wide tree
+    uint begin;                    ///< its first triangle, in leaf order
     uint child_count;              ///< set by open_wide_nodes
     uint child_begin[WIDE_LANES];  ///< first triangle of each child
 } WideTask;

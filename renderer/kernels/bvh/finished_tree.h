@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What both builders write last: leaf triangles in tree order, and the areas that a tree's SAH cost sums.
+// What both builders write last: leaf triangles in tree order, and the areas that a tree's SAH cost
+// sums.
 #pragma once
 
 #include "renderer/kernels/bvh/range_bounds.h"
@@ -12,7 +13,8 @@ DEVICE float node_child_area(GLOBAL const BvhNode *node, uint side, float scale)
 }
 
 /// Triangle `id` of the input, with its corners.
-DEVICE LeafTriangle leaf_triangle(GLOBAL const float *positions, GLOBAL const uint *indices, uint id) {
+DEVICE LeafTriangle leaf_triangle(GLOBAL const float *positions, GLOBAL const uint *indices,
+                                  uint id) {
     LeafTriangle triangle;
     triangle.id = id;
     for (uint corner = 0; corner < 3; ++corner) {

@@ -7,8 +7,9 @@
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/kernels/bvh/tasks.h"
 
-__kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices,
-                              uint triangle_count, uint chunk_size, GLOBAL InputChunk *chunks) {
+__kernel void check_triangles(GLOBAL const float *positions, uint vertex_count,
+                              GLOBAL const uint *indices, uint triangle_count, uint chunk_size,
+                              GLOBAL InputChunk *chunks) {
     const uint chunk = (uint)get_global_id(0);
     const uint begin = chunk * chunk_size;
     if (begin >= triangle_count) {
@@ -19,7 +20,8 @@ __kernel void check_triangles(GLOBAL const float *positions, uint vertex_count, 
     SignedBounds bounds = empty_signed_bounds();
     for (uint triangle = begin; triangle < end; ++triangle) {
         PrimitiveRef ref;
-        const TriangleFault fault = load_primitive(positions, vertex_count, indices, triangle, &ref);
+        const TriangleFault fault =
+            load_primitive(positions, vertex_count, indices, triangle, &ref);
         faults[fault] += 1u;
         if (fault == TRIANGLE_GOOD) {
             extend_bounds(&bounds, &ref);
@@ -75,14 +77,14 @@ __kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint
     total.top_node_count = total.task_count;
     total.subtree_count = 1u - total.task_count;
     const Numbers numbers = {0, 0, 0, 0};
-    emit_range(&numbers, tasks, chunks, subtrees, chunk_size, subtree_size, 0, total.primitive_count, 0,
-               BVH_NO_PARENT, 0, 0, &bounds);
+    emit_range(&numbers, tasks, chunks, subtrees, chunk_size, subtree_size, 0,
+               total.primitive_count, 0, BVH_NO_PARENT, 0, 0, &bounds);
     *state = total;
 }
 
-__kernel void gather_primitives(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices,
-                                uint triangle_count, uint chunk_size, GLOBAL const InputChunk *chunks,
-                                GLOBAL PrimitiveRef *primitives) {
+__kernel void gather_primitives(GLOBAL const float *positions, uint vertex_count,
+                                GLOBAL const uint *indices, uint triangle_count, uint chunk_size,
+                                GLOBAL const InputChunk *chunks, GLOBAL PrimitiveRef *primitives) {
     const uint chunk = (uint)get_global_id(0);
     const uint begin = chunk * chunk_size;
     if (begin >= triangle_count) {

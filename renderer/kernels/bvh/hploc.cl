@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Clusters united from the bottom up along the radix tree of their codes (hploc.h): begin_ranges (one work-item) ->
-// divide_ranges, level by level (a work-item per range) -> cluster_subtrees (per subtree) -> cluster_ranges, level by level
-// upwards (per range) -> cluster_root (one).
+// Clusters united from the bottom up along the radix tree of their codes (hploc.h): begin_ranges
+// (one work-item) -> divide_ranges, level by level (a work-item per range) -> cluster_subtrees (per
+// subtree) -> cluster_ranges, level by level upwards (per range) -> cluster_root (one).
 #include "renderer/kernels/bvh/hploc.h"
 #include "renderer/kernels/bvh/range_bounds.h"
 
@@ -9,13 +9,14 @@
 
 /// The clusters of one node of the radix tree, in order.
 typedef struct Clusters {
-    float box[2][3][WINDOW + HPLOC_RADIUS];  ///< [lower, upper][x, y, z][cluster]; beyond the last those of far_box
+    float box[2][3][WINDOW + HPLOC_RADIUS];  ///< [lower, upper][x, y, z][cluster]; beyond the last
+                                             ///< those of far_box
     uint link[WINDOW];                       ///< of a ClusterNode, or a leaf of one triangle
     uint place[WINDOW];                      ///< free for the node that it becomes part of
 } Clusters;
 
-/// Where the radix tree divides a range of at least two codes: before the first with the highest bit in which any two
-/// differ; in halves where they are all equal.
+/// Where the radix tree divides a range of at least two codes: before the first with the highest
+/// bit in which any two differ; in halves where they are all equal.
 static uint divide_codes(GLOBAL const ulong *codes, uint begin, uint end) {
     const ulong first = codes[begin];
     const ulong last = codes[end - 1u];
@@ -52,14 +53,16 @@ static float8 union_areas(PRIVATE const Clusters *c, uint i) {
         const float8 upper = vload8(0, c->box[1][axis] + i + 1u);
         const float8 own_lower = splat_float8(c->box[0][axis][i]);
         const float8 own_upper = splat_float8(c->box[1][axis][i]);
-        side[axis] = (upper > own_upper ? upper : own_upper) - (lower < own_lower ? lower : own_lower);
+        side[axis] =
+            (upper > own_upper ? upper : own_upper) - (lower < own_lower ? lower : own_lower);
     }
     return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
 }
 
-/// What orders the pairs that a cluster can be one of: the area, but for its four lowest bits, then how far apart they are,
-/// then, of neighbours, whether the first is an even one. Among equal pairs the first one comes first. So there is always one
-/// pair that is the best for both, and of equal clusters half of them are.
+/// What orders the pairs that a cluster can be one of: the area, but for its four lowest bits, then
+/// how far apart they are, then, of neighbours, whether the first is an even one. Among equal pairs
+/// the first one comes first. So there is always one pair that is the best for both, and of equal
+/// clusters half of them are.
 CONSTANT uint behind[HPLOC_RADIUS] = {0, 2, 4, 6, 8, 10, 12, 14};
 
 static uint distance_of(uint key) {
@@ -97,7 +100,8 @@ static ClusterNode cluster_node(GLOBAL const ClusterNode *cluster_nodes, uint li
     return node;
 }
 
-static void unite(PRIVATE Clusters *c, uint a, uint b, GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes, uint to) {
+static void unite(PRIVATE Clusters *c, uint a, uint b, GLOBAL BvhNode *nodes,
+                  GLOBAL ClusterNode *cluster_nodes, uint to) {
     const uint number = c->place[a];
     GLOBAL BvhNode *node = nodes + number;
     for (uint axis = 0; axis < 3; ++axis) {
@@ -140,7 +144,8 @@ static void copy_cluster(PRIVATE Clusters *c, uint from, uint to) {
     c->place[to] = c->place[from];
 }
 
-static void load_clusters(PRIVATE Clusters *c, uint to, GLOBAL const PrimitiveRef *clusters, uint count) {
+static void load_clusters(PRIVATE Clusters *c, uint to, GLOBAL const PrimitiveRef *clusters,
+                          uint count) {
     for (uint i = 0; i < count; ++i, ++to) {
         const PrimitiveRef cluster = clusters[i];
         for (uint axis = 0; axis < 3; ++axis) {
@@ -152,10 +157,11 @@ static void load_clusters(PRIVATE Clusters *c, uint to, GLOBAL const PrimitiveRe
     }
 }
 
-/// Unites the clusters of [begin, middle) and [middle, end), of which the first `left` and `right` of each are there, until
-/// at most `target` are left; those are written from `begin` on. Returns their number.
-static uint cluster(GLOBAL PrimitiveRef *clusters, uint begin, uint left, uint middle, uint right, uint target,
-                    GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes) {
+/// Unites the clusters of [begin, middle) and [middle, end), of which the first `left` and `right`
+/// of each are there, until at most `target` are left; those are written from `begin` on. Returns
+/// their number.
+static uint cluster(GLOBAL PrimitiveRef *clusters, uint begin, uint left, uint middle, uint right,
+                    uint target, GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes) {
     Clusters c;
     load_clusters(&c, 0, clusters + begin, left);
     load_clusters(&c, left, clusters + middle, right);
@@ -197,10 +203,10 @@ static uint kept_of(GLOBAL const uint *kept, uint begin, uint end) {
     return end - begin <= HPLOC_KEPT ? end - begin : kept[begin];
 }
 
-/// Books a range as one of the next level, as a subtree or, where its primitives are its clusters, not at all. The order of
-/// ranges and subtrees is of no consequence.
-static void book_range(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges, GLOBAL CodeSubtree *subtrees, uint subtree_size,
-                       uint begin, uint end) {
+/// Books a range as one of the next level, as a subtree or, where its primitives are its clusters,
+/// not at all. The order of ranges and subtrees is of no consequence.
+static void book_range(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges,
+                       GLOBAL CodeSubtree *subtrees, uint subtree_size, uint begin, uint end) {
     if (end - begin > subtree_size) {
         GLOBAL CodeRange *range = ranges + atomic_add(&state->range_count, 1u);
         range->begin = begin;
@@ -212,8 +218,8 @@ static void book_range(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges, GLO
     }
 }
 
-__kernel void begin_ranges(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges, GLOBAL CodeSubtree *subtrees,
-                           uint subtree_size, uint count) {
+__kernel void begin_ranges(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges,
+                           GLOBAL CodeSubtree *subtrees, uint subtree_size, uint count) {
     if (get_global_id(0) != 0) {
         return;
     }
@@ -225,8 +231,9 @@ __kernel void begin_ranges(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges,
     book_range(state, ranges, subtrees, subtree_size, 0, count);
 }
 
-__kernel void divide_ranges(GLOBAL const ulong *codes, uint level_begin, uint level_end, uint subtree_size,
-                            GLOBAL ClusterState *state, GLOBAL CodeRange *ranges, GLOBAL CodeSubtree *subtrees) {
+__kernel void divide_ranges(GLOBAL const ulong *codes, uint level_begin, uint level_end,
+                            uint subtree_size, GLOBAL ClusterState *state, GLOBAL CodeRange *ranges,
+                            GLOBAL CodeSubtree *subtrees) {
     const uint index = level_begin + (uint)get_global_id(0);
     if (index >= level_end) {
         return;
@@ -239,8 +246,9 @@ __kernel void divide_ranges(GLOBAL const ulong *codes, uint level_begin, uint le
     book_range(state, ranges, subtrees, subtree_size, middle, end);
 }
 
-__kernel void cluster_subtrees(GLOBAL const CodeSubtree *subtrees, uint subtree_count, GLOBAL const ulong *codes,
-                               GLOBAL PrimitiveRef *clusters, GLOBAL uint *kept, GLOBAL BvhNode *nodes,
+__kernel void cluster_subtrees(GLOBAL const CodeSubtree *subtrees, uint subtree_count,
+                               GLOBAL const ulong *codes, GLOBAL PrimitiveRef *clusters,
+                               GLOBAL uint *kept, GLOBAL BvhNode *nodes,
                                GLOBAL ClusterNode *cluster_nodes) {
     const uint index = (uint)get_global_id(0);
     if (index >= subtree_count) {
@@ -256,13 +264,14 @@ __kernel void cluster_subtrees(GLOBAL const CodeSubtree *subtrees, uint subtree_
         const CodeRange range = pending[size - 1u];
         const uint count = range.end - range.begin;
         if (count <= 2u * HPLOC_KEPT) {
-            kept[range.begin] = cluster(clusters, range.begin, count, range.end, 0, HPLOC_KEPT, nodes, cluster_nodes);
+            kept[range.begin] = cluster(clusters, range.begin, count, range.end, 0, HPLOC_KEPT,
+                                        nodes, cluster_nodes);
             --size;
         } else if (range.middle != BVH_NO_PARENT) {
             const uint left = kept_of(kept, range.begin, range.middle);
             const uint right = kept_of(kept, range.middle, range.end);
-            kept[range.begin] =
-                cluster(clusters, range.begin, left, range.middle, right, HPLOC_KEPT, nodes, cluster_nodes);
+            kept[range.begin] = cluster(clusters, range.begin, left, range.middle, right,
+                                        HPLOC_KEPT, nodes, cluster_nodes);
             --size;
         } else {
             const uint middle = divide_codes(codes, range.begin, range.end);
@@ -283,8 +292,9 @@ __kernel void cluster_subtrees(GLOBAL const CodeSubtree *subtrees, uint subtree_
     }
 }
 
-__kernel void cluster_ranges(GLOBAL const CodeRange *ranges, uint level_begin, uint level_end, GLOBAL PrimitiveRef *clusters,
-                             GLOBAL uint *kept, GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes) {
+__kernel void cluster_ranges(GLOBAL const CodeRange *ranges, uint level_begin, uint level_end,
+                             GLOBAL PrimitiveRef *clusters, GLOBAL uint *kept,
+                             GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes) {
     const uint index = level_begin + (uint)get_global_id(0);
     if (index >= level_end) {
         return;
@@ -292,12 +302,14 @@ __kernel void cluster_ranges(GLOBAL const CodeRange *ranges, uint level_begin, u
     const CodeRange range = ranges[index];
     const uint left = kept_of(kept, range.begin, range.middle);
     const uint right = kept_of(kept, range.middle, range.end);
-    kept[range.begin] = cluster(clusters, range.begin, left, range.middle, right, HPLOC_KEPT, nodes, cluster_nodes);
+    kept[range.begin] =
+        cluster(clusters, range.begin, left, range.middle, right, HPLOC_KEPT, nodes, cluster_nodes);
 }
 
 /// One work-item: unites what is left of all. There are at least two primitives.
-__kernel void cluster_root(GLOBAL PrimitiveRef *clusters, GLOBAL const uint *kept, uint count, GLOBAL BvhNode *nodes,
-                           GLOBAL ClusterNode *cluster_nodes, GLOBAL ClusterState *state) {
+__kernel void cluster_root(GLOBAL PrimitiveRef *clusters, GLOBAL const uint *kept, uint count,
+                           GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes,
+                           GLOBAL ClusterState *state) {
     if (get_global_id(0) != 0) {
         return;
     }

@@ -18,7 +18,8 @@ DEVICE float3 load_vertex(GLOBAL const float *positions, uint index) {
 
 /// The box of a triangle of the input, where it can be hit.
 DEVICE TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_count,
-                                    GLOBAL const uint *indices, uint triangle, PRIVATE PrimitiveRef *ref) {
+                                    GLOBAL const uint *indices, uint triangle,
+                                    PRIVATE PrimitiveRef *ref) {
     const uint i0 = indices[3 * triangle];
     const uint i1 = indices[3 * triangle + 1];
     const uint i2 = indices[3 * triangle + 2];
@@ -33,8 +34,8 @@ DEVICE TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_c
     const float3 b = fabs(v1);
     const float3 c = fabs(v2);
     const float limit = BVH_COORDINATE_LIMIT;
-    if (!(a.x <= limit && a.y <= limit && a.z <= limit && b.x <= limit && b.y <= limit && b.z <= limit &&
-          c.x <= limit && c.y <= limit && c.z <= limit)) {
+    if (!(a.x <= limit && a.y <= limit && a.z <= limit && b.x <= limit && b.y <= limit &&
+          b.z <= limit && c.x <= limit && c.y <= limit && c.z <= limit)) {
         return TRIANGLE_NOT_FINITE;
     }
     const float3 normal = triangle_normal(v0, v1, v2);

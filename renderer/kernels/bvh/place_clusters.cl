@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The finished tree from united clusters: nodes in depth-first order, those of at most four triangles turned into leaves.
-// place_clusters (a work-item per place): above the subtree size a node finds its own number by the way up to the root; the
-// first below it finds that of its subtree, and walks down. Then fill_triangles (a work-item per triangle), and sum_costs and
+// The finished tree from united clusters: nodes in depth-first order, those of at most four
+// triangles turned into leaves. place_clusters (a work-item per place): above the subtree size a
+// node finds its own number by the way up to the root; the first below it finds that of its
+// subtree, and walks down. Then fill_triangles (a work-item per triangle), and sum_costs and
 // sum_cost.
 #include "renderer/kernels/bvh/finished_tree.h"
 #include "renderer/kernels/bvh/hploc.h"
@@ -17,12 +18,14 @@ static uint nodes_below(GLOBAL const ClusterNode *cluster_nodes, uint link) {
     return (link & BVH_LEAF_BIT) != 0 ? 0u : cluster_nodes[link].nodes;
 }
 
-static Placed find_place(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes, uint cluster) {
+static Placed find_place(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes,
+                         uint cluster) {
     Placed placed;
     placed.cluster = cluster;
     placed.node = 0;
     placed.first = 0;
-    for (uint up = cluster_nodes[cluster].parent; up != BVH_NO_PARENT; up = cluster_nodes[up >> 1].parent) {
+    for (uint up = cluster_nodes[cluster].parent; up != BVH_NO_PARENT;
+         up = cluster_nodes[up >> 1].parent) {
         placed.node += 1u;
         if ((up & 1u) != 0) {
             placed.node += nodes_below(cluster_nodes, nodes[up >> 1].child[0]);
@@ -51,10 +54,11 @@ static void list_triangles(GLOBAL const BvhNode *nodes, uint link, GLOBAL uint *
     }
 }
 
-/// Writes a node, and the triangles of what is a leaf below it; the links of its clusters to `child`, BVH_EMPTY_LEAF
-/// for leaves.
-static void write_node(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes, Placed placed,
-                       GLOBAL BvhNode *finished, GLOBAL uint *order, PRIVATE Placed child[2]) {
+/// Writes a node, and the triangles of what is a leaf below it; the links of its clusters to
+/// `child`, BVH_EMPTY_LEAF for leaves.
+static void write_node(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes,
+                       Placed placed, GLOBAL BvhNode *finished, GLOBAL uint *order,
+                       PRIVATE Placed child[2]) {
     BvhNode node = nodes[placed.cluster];
     child[0].node = placed.node + 1u;
     child[0].first = placed.first;
@@ -74,8 +78,9 @@ static void write_node(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cl
 }
 
 /// The tree is not deeper than traversal allows.
-__kernel void place_clusters(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes, uint count,
-                             uint subtree_size, GLOBAL BvhNode *finished, GLOBAL uint *order) {
+__kernel void place_clusters(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes,
+                             uint count, uint subtree_size, GLOBAL BvhNode *finished,
+                             GLOBAL uint *order) {
     const uint index = (uint)get_global_id(0);
     if (index >= count || cluster_nodes[index].count <= BVH_LEAF_SIZE) {
         return;
@@ -101,8 +106,8 @@ __kernel void place_clusters(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNo
     }
 }
 
-__kernel void fill_triangles(GLOBAL const uint *order, uint count, GLOBAL const float *positions, GLOBAL const uint *indices,
-                             GLOBAL LeafTriangle *triangles) {
+__kernel void fill_triangles(GLOBAL const uint *order, uint count, GLOBAL const float *positions,
+                             GLOBAL const uint *indices, GLOBAL LeafTriangle *triangles) {
     const uint slot = (uint)get_global_id(0);
     if (slot >= count) {
         return;
@@ -111,7 +116,8 @@ __kernel void fill_triangles(GLOBAL const uint *order, uint count, GLOBAL const 
 }
 
 /// Areas of the children of nodes, those of leaves times their triangles; in (scene extents)^2.
-__kernel void sum_costs(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL const BuildState *state, GLOBAL float *costs) {
+__kernel void sum_costs(GLOBAL const BvhNode *nodes, uint node_count,
+                        GLOBAL const BuildState *state, GLOBAL float *costs) {
     const uint block = (uint)get_global_id(0);
     const uint begin = block * BVH_COST_BLOCK;
     if (begin >= node_count) {

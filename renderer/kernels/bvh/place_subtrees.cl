@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-group) numbers them
-// and links them to the top nodes, copy_top_nodes and copy_subtrees (a work-item per subtree) write the
-// compact arrays.
+// The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-group)
+// numbers them and links them to the top nodes, copy_top_nodes and copy_subtrees (a work-item per
+// subtree) write the compact arrays.
 #include "renderer/kernels/bvh/finished_tree.h"
 #include "renderer/kernels/bvh/one_group.h"
 
-/// Without top nodes the root is a subtree; when that is a single leaf, or nothing at all, it is given a node
-/// here.
-__kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subtrees, uint subtree_count,
-                             GLOBAL BvhNode *top_nodes) {
+/// Without top nodes the root is a subtree; when that is a single leaf, or nothing at all, it is
+/// given a node here.
+__kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subtrees,
+                             uint subtree_count, GLOBAL BvhNode *top_nodes) {
     __local uint shared[ONE_GROUP];
     __local float shared_cost[ONE_GROUP];
     const uint item = (uint)get_local_id(0);
@@ -19,7 +19,8 @@ __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subt
         if (item == 0) {
             const RangeBounds all = subtrees[0].bounds;
             const RangeBounds nothing = empty_bounds();
-            write_child(top_nodes, 0, &all, total.primitive_count, bvh_leaf(0, total.primitive_count));
+            write_child(top_nodes, 0, &all, total.primitive_count,
+                        bvh_leaf(0, total.primitive_count));
             write_child(top_nodes, 1, &nothing, 0, BVH_EMPTY_LEAF);
         }
     }
@@ -71,7 +72,8 @@ __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subt
     *state = total;
 }
 
-__kernel void copy_top_nodes(GLOBAL const BvhNode *top_nodes, uint top_node_count, GLOBAL BvhNode *nodes) {
+__kernel void copy_top_nodes(GLOBAL const BvhNode *top_nodes, uint top_node_count,
+                             GLOBAL BvhNode *nodes) {
     const uint index = (uint)get_global_id(0);
     if (index < top_node_count) {
         nodes[index] = top_nodes[index];
@@ -79,7 +81,8 @@ __kernel void copy_top_nodes(GLOBAL const BvhNode *top_nodes, uint top_node_coun
 }
 
 __kernel void copy_subtrees(GLOBAL const BuildSubtree *subtrees, uint subtree_count,
-                            GLOBAL const BvhNode *scratch_nodes, GLOBAL const PrimitiveRef *primitives_0,
+                            GLOBAL const BvhNode *scratch_nodes,
+                            GLOBAL const PrimitiveRef *primitives_0,
                             GLOBAL const PrimitiveRef *primitives_1, GLOBAL const float *positions,
                             GLOBAL const uint *indices, GLOBAL BvhNode *nodes,
                             GLOBAL LeafTriangle *triangles) {

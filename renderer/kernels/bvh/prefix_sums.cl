@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Exclusive prefix sums of any length, in blocks: sum_blocks (a work-item per block), the same of the sums of blocks until
-// they are one block, and back through scan_blocks. Integers: the same bits whatever the size of a block.
+// Exclusive prefix sums of any length, in blocks: sum_blocks (a work-item per block), the same of
+// the sums of blocks until they are one block, and back through scan_blocks. Integers: the same
+// bits whatever the size of a block.
 #include "renderer/shared/compat.h"
 
-__kernel void sum_blocks(GLOBAL const uint *values, uint count, uint block_size, GLOBAL uint *sums) {
+__kernel void sum_blocks(GLOBAL const uint *values, uint count, uint block_size,
+                         GLOBAL uint *sums) {
     const uint block = (uint)get_global_id(0);
     const uint begin = block * block_size;
     if (begin >= count) {
@@ -18,7 +20,8 @@ __kernel void sum_blocks(GLOBAL const uint *values, uint count, uint block_size,
 }
 
 /// In place; `sums` are the sums before each block, and are read where there is more than one.
-__kernel void scan_blocks(GLOBAL uint *values, uint count, uint block_size, GLOBAL const uint *sums) {
+__kernel void scan_blocks(GLOBAL uint *values, uint count, uint block_size,
+                          GLOBAL const uint *sums) {
     const uint block = (uint)get_global_id(0);
     const uint begin = block * block_size;
     if (begin >= count) {

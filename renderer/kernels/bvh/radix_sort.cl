@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One digit of a stable radix sort: count_digits and move_by_digit, a work-item per chunk of keys, with the prefix sums of the
-// counts in between (N. Satish, M. Harris, M. Garland, "Designing Efficient Sorting Algorithms for Manycore GPUs", IPDPS 2009,
-// with work-items in place of thread blocks). Counts lie digit by digit, chunk by chunk: their sums are where each
-// chunk's keys go. Stable, hence the same order whatever the size of a chunk. RADIX_BITS: of a digit.
+// One digit of a stable radix sort: count_digits and move_by_digit, a work-item per chunk of keys,
+// with the prefix sums of the counts in between (N. Satish, M. Harris, M. Garland, "Designing
+// Efficient Sorting Algorithms for Manycore GPUs", IPDPS 2009, with work-items in place of thread
+// blocks). Counts lie digit by digit, chunk by chunk: their sums are where each chunk's keys go.
+// Stable, hence the same order whatever the size of a chunk. RADIX_BITS: of a digit.
 #include "renderer/shared/compat.h"
 
 #define RADIX_DIGITS (1u << RADIX_BITS)
@@ -11,8 +12,8 @@ static uint digit_of(ulong key, uint shift) {
     return (uint)(key >> shift) & (RADIX_DIGITS - 1u);
 }
 
-__kernel void count_digits(GLOBAL const ulong *keys, uint count, uint shift, uint chunk_size, uint chunk_count,
-                           GLOBAL uint *counts) {
+__kernel void count_digits(GLOBAL const ulong *keys, uint count, uint shift, uint chunk_size,
+                           uint chunk_count, GLOBAL uint *counts) {
     const uint chunk = (uint)get_global_id(0);
     if (chunk >= chunk_count) {
         return;
@@ -30,8 +31,9 @@ __kernel void count_digits(GLOBAL const ulong *keys, uint count, uint shift, uin
     }
 }
 
-__kernel void move_by_digit(GLOBAL const ulong *keys, GLOBAL const uint *values, uint count, uint shift, uint chunk_size,
-                            uint chunk_count, GLOBAL const uint *places, GLOBAL ulong *sorted_keys,
+__kernel void move_by_digit(GLOBAL const ulong *keys, GLOBAL const uint *values, uint count,
+                            uint shift, uint chunk_size, uint chunk_count,
+                            GLOBAL const uint *places, GLOBAL ulong *sorted_keys,
                             GLOBAL uint *sorted_values) {
     const uint chunk = (uint)get_global_id(0);
     if (chunk >= chunk_count) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bounds of ranges of primitives. Minimum and maximum are exact and associative: whatever the order of
-// reduction, the bits are the same.
+// Bounds of ranges of primitives. Minimum and maximum are exact and associative: whatever the order
+// of reduction, the bits are the same.
 #pragma once
 
 #include "renderer/kernels/bvh/build_records.h"
@@ -24,16 +24,17 @@ DEVICE float greater(float a, float b) {
     return b > a ? b : a;
 }
 
-/// The smaller of both, lane by lane: with the upper bounds' signs changed, what encloses two boxes.
+/// The smaller of both, lane by lane: with the upper bounds' signs changed, what encloses two
+/// boxes.
 DEVICE float8 enclosing(float8 a, float8 b) {
     return b < a ? b : a;
 }
 
 CONSTANT float box_signs[8] = {1.0f, 1.0f, 1.0f, 0.0f, -1.0f, -1.0f, -1.0f, 0.0f};
 
-/// The box of a record in one load: lower x, y, z, 0, upper x, y, z with the sign changed, 0. Lanes of integers become 0
-/// before any arithmetic: the index of a triangle, read as a float, is subnormal, and processors take a hundred times as
-/// long to multiply those.
+/// The box of a record in one load: lower x, y, z, 0, upper x, y, z with the sign changed, 0. Lanes
+/// of integers become 0 before any arithmetic: the index of a triangle, read as a float, is
+/// subnormal, and processors take a hundred times as long to multiply those.
 DEVICE float8 signed_box(PRIVATE const PrimitiveRef *ref) {
     const float8 signs = vload8(0, box_signs);
     return (signs != splat_float8(0.0f) ? vload8(0, ref->lower) : signs) * signs;
@@ -79,8 +80,8 @@ DEVICE void merge_bounds(PRIVATE RangeBounds *bounds, GLOBAL const RangeBounds *
     }
 }
 
-/// 1 / the largest side of the box, by which areas are scaled before they are formed, so that none overflows;
-/// 1 for an empty box or a point.
+/// 1 / the largest side of the box, by which areas are scaled before they are formed, so that none
+/// overflows; 1 for an empty box or a point.
 DEVICE float inverse_extent(PRIVATE const RangeBounds *bounds) {
     float extent = 0.0f;
     for (uint axis = 0; axis < 3; ++axis) {
@@ -104,8 +105,8 @@ DEVICE float half_area_of(PRIVATE const RangeBounds *bounds, float scale) {
 }
 
 /// Child `side` of a node: the box and the size of its range, and its link (bvh_node.h).
-DEVICE void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds, uint count,
-                        uint link) {
+DEVICE void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds,
+                        uint count, uint link) {
     for (uint axis = 0; axis < 3; ++axis) {
         node->bounds[side][0][axis] = bounds->box[0][axis];
         node->bounds[side][1][axis] = bounds->box[1][axis];

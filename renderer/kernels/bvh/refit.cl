@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// New bounds for a tree whose triangles have moved, of the layout BVH_LAYOUT. Once for a tree: link_parents -> find_depths (a
-// work-item per node), nodes sorted by depth (radix_sort.cl), find_levels (a work-item per level). For each move:
-// count_faults and refit_triangles (per triangle, or block of them), then refit_nodes level by level upwards (per node).
-// Bounds are exact: minimum and maximum of coordinates. Triangles that are not finite become such that nothing hits them, and
-// count for no bounds.
+// New bounds for a tree whose triangles have moved, of the layout BVH_LAYOUT. Once for a tree:
+// link_parents -> find_depths (a work-item per node), nodes sorted by depth (radix_sort.cl),
+// find_levels (a work-item per level). For each move: count_faults and refit_triangles (per
+// triangle, or block of them), then refit_nodes level by level upwards (per node). Bounds are
+// exact: minimum and maximum of coordinates. Triangles that are not finite become such that nothing
+// hits them, and count for no bounds.
 #include "renderer/kernels/bvh/input_triangle.h"
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/bvh_layout.h"
@@ -35,7 +36,8 @@ __kernel void link_parents(GLOBAL const BVH_NODE *nodes, uint node_count, GLOBAL
     }
 }
 
-__kernel void find_depths(GLOBAL const uint *parents, uint node_count, GLOBAL ulong *depths, GLOBAL uint *order) {
+__kernel void find_depths(GLOBAL const uint *parents, uint node_count, GLOBAL ulong *depths,
+                          GLOBAL uint *order) {
     const uint index = (uint)get_global_id(0);
     if (index >= node_count) {
         return;
@@ -49,7 +51,8 @@ __kernel void find_depths(GLOBAL const uint *parents, uint node_count, GLOBAL ul
 }
 
 /// The first of the sorted depths that is not below each.
-__kernel void find_levels(GLOBAL const ulong *depths, uint node_count, uint level_count, GLOBAL uint *levels) {
+__kernel void find_levels(GLOBAL const ulong *depths, uint node_count, uint level_count,
+                          GLOBAL uint *levels) {
     const uint depth = (uint)get_global_id(0);
     if (depth >= level_count) {
         return;
@@ -68,8 +71,8 @@ __kernel void find_levels(GLOBAL const ulong *depths, uint node_count, uint leve
 }
 
 /// Adds up the triangles of the input that cannot be hit: `faults` by kind (TriangleFault).
-__kernel void count_faults(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle_count,
-                           GLOBAL uint *faults) {
+__kernel void count_faults(GLOBAL const float *positions, uint vertex_count,
+                           GLOBAL const uint *indices, uint triangle_count, GLOBAL uint *faults) {
     const uint triangle = (uint)get_global_id(0);
     if (triangle >= triangle_count) {
         return;
@@ -82,8 +85,9 @@ __kernel void count_faults(GLOBAL const float *positions, uint vertex_count, GLO
 }
 
 /// Fetches a triangle of the tree anew, as [axis][vertex]; counts those that cannot be hit.
-static void fetch_triangle(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint triangle,
-                           bool is_counted, GLOBAL uint *faults, PRIVATE float (*coordinate)[3]) {
+static void fetch_triangle(GLOBAL const float *positions, uint vertex_count,
+                           GLOBAL const uint *indices, uint triangle, bool is_counted,
+                           GLOBAL uint *faults, PRIVATE float (*coordinate)[3]) {
     PrimitiveRef ref;
     const TriangleFault fault = load_primitive(positions, vertex_count, indices, triangle, &ref);
     if (fault != TRIANGLE_GOOD && is_counted) {
@@ -92,12 +96,14 @@ static void fetch_triangle(GLOBAL const float *positions, uint vertex_count, GLO
     for (uint corner = 0; corner < 3; ++corner) {
         const uint vertex = indices[3 * triangle + corner];
         for (uint axis = 0; axis < 3; ++axis) {
-            coordinate[axis][corner] = fault == TRIANGLE_NOT_FINITE ? NAN : positions[3 * vertex + axis];
+            coordinate[axis][corner] =
+                fault == TRIANGLE_NOT_FINITE ? NAN : positions[3 * vertex + axis];
         }
     }
 }
 
-__kernel void refit_triangles(GLOBAL const float *positions, uint vertex_count, GLOBAL const uint *indices, uint count,
+__kernel void refit_triangles(GLOBAL const float *positions, uint vertex_count,
+                              GLOBAL const uint *indices, uint count,
                               GLOBAL BVH_TRIANGLES *triangles, GLOBAL uint *faults) {
     const uint index = (uint)get_global_id(0);
     if (index >= count) {
@@ -108,7 +114,8 @@ __kernel void refit_triangles(GLOBAL const float *positions, uint vertex_count, 
     GLOBAL TriangleBlock *block = triangles + index;
     for (uint lane = 0; lane < WIDE_LANES; ++lane) {
         const bool is_repeated = lane > 0 && block->id[lane] == block->id[0];
-        fetch_triangle(positions, vertex_count, indices, block->id[lane], !is_repeated, faults, coordinate);
+        fetch_triangle(positions, vertex_count, indices, block->id[lane], !is_repeated, faults,
+                       coordinate);
         for (uint axis = 0; axis < 3; ++axis) {
             for (uint vertex = 0; vertex < 3; ++vertex) {
                 block->coordinate[axis][vertex][lane] = coordinate[axis][vertex];
@@ -136,7 +143,8 @@ static void extend(PRIVATE Interval *interval, float lower, float upper) {
 }
 
 /// Of all below a link, which is not an empty one.
-static Interval bounds_below(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles, uint link, uint axis) {
+static Interval bounds_below(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles,
+                             uint link, uint axis) {
     Interval all;
     all.lower = INFINITY;
     all.upper = -INFINITY;
@@ -175,8 +183,8 @@ static Interval bounds_below(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIA
     return all;
 }
 
-__kernel void refit_nodes(GLOBAL const uint *order, uint level_begin, uint level_end, GLOBAL BVH_NODE *nodes,
-                          GLOBAL const BVH_TRIANGLES *triangles) {
+__kernel void refit_nodes(GLOBAL const uint *order, uint level_begin, uint level_end,
+                          GLOBAL BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles) {
     const uint place = level_begin + (uint)get_global_id(0);
     if (place >= level_end) {
         return;
@@ -187,7 +195,8 @@ __kernel void refit_nodes(GLOBAL const uint *order, uint level_begin, uint level
 #if BVH_LAYOUT == BVH_LAYOUT_STACKLESS
         Interval all = bounds_below(nodes, triangles, node->link, axis);
         if ((node->link & BVH_LEAF_BIT) == 0) {
-            extend(&all, nodes[node->link + 1u].bounds[0][axis], nodes[node->link + 1u].bounds[1][axis]);
+            extend(&all, nodes[node->link + 1u].bounds[0][axis],
+                   nodes[node->link + 1u].bounds[1][axis]);
         }
         node->bounds[0][axis] = all.lower;
         node->bounds[1][axis] = all.upper;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Primitives in the order of a space-filling curve: encode_centroids writes a Morton code for each (G. M. Morton, 1966; J.
-// Pantaleoni, D. Luebke, "HLBVH", HPG 2010), radix_sort.cl sorts them, gather_clusters moves the primitives.
+// Primitives in the order of a space-filling curve: encode_centroids writes a Morton code for each
+// (G. M. Morton, 1966; J. Pantaleoni, D. Luebke, "HLBVH", HPG 2010), radix_sort.cl sorts them,
+// gather_clusters moves the primitives.
 #include "renderer/kernels/bvh/hploc.h"
 
 /// Bits of a coordinate: cells are cubes of 2^-21 of the largest extent of the centroids.
@@ -18,8 +19,9 @@ static ulong spread_bits(uint x) {
 }
 
 /// `all` is the one range of all primitives, with its bounds.
-__kernel void encode_centroids(GLOBAL const PrimitiveRef *primitives, uint count, GLOBAL const BuildSubtree *all,
-                               GLOBAL ulong *codes, GLOBAL uint *order) {
+__kernel void encode_centroids(GLOBAL const PrimitiveRef *primitives, uint count,
+                               GLOBAL const BuildSubtree *all, GLOBAL ulong *codes,
+                               GLOBAL uint *order) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) {
         return;
@@ -41,10 +43,10 @@ __kernel void encode_centroids(GLOBAL const PrimitiveRef *primitives, uint count
     order[i] = i;
 }
 
-/// Every primitive, in order, as a cluster: `triangle` becomes its link, a leaf of the one triangle, and `padding` its
-/// place.
-__kernel void gather_clusters(GLOBAL const PrimitiveRef *primitives, GLOBAL const uint *order, uint count,
-                              GLOBAL PrimitiveRef *clusters) {
+/// Every primitive, in order, as a cluster: `triangle` becomes its link, a leaf of the one
+/// triangle, and `padding` its place.
+__kernel void gather_clusters(GLOBAL const PrimitiveRef *primitives, GLOBAL const uint *order,
+                              uint count, GLOBAL PrimitiveRef *clusters) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) {
         return;

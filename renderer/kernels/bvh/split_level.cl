@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// One level of the large phase: every node above the subtree size, whatever its size, is split by all
-// work-items together (thesis 3.1). bin_primitives (a work-item per chunk) -> merge_bins (several per task) ->
-// choose_splits (per task) -> partition_primitives (per chunk, from one primitive buffer to the other) ->
-// merge_children (per child) -> emit_children (one work-group).
-// Departure from the thesis: offsets are prefix sums over chunks instead of atomic counters, so that the
-// partition is stable and the tree the same whatever the order of execution.
+// One level of the large phase: every node above the subtree size, whatever its size, is split by
+// all work-items together (thesis 3.1). bin_primitives (a work-item per chunk) -> merge_bins
+// (several per task) -> choose_splits (per task) -> partition_primitives (per chunk, from one
+// primitive buffer to the other) -> merge_children (per child) -> emit_children (one work-group).
+// Departure from the thesis: offsets are prefix sums over chunks instead of atomic counters, so
+// that the partition is stable and the tree the same whatever the order of execution.
 #include "renderer/kernels/bvh/binned_sah.h"
 #include "renderer/kernels/bvh/one_group.h"
 #include "renderer/kernels/bvh/tasks.h"
 
-__kernel void bin_primitives(GLOBAL const BuildTask *tasks, GLOBAL const BuildChunk *chunks, uint chunk_count,
-                             GLOBAL const PrimitiveRef *primitives, GLOBAL BinSet *chunk_bins) {
+__kernel void bin_primitives(GLOBAL const BuildTask *tasks, GLOBAL const BuildChunk *chunks,
+                             uint chunk_count, GLOBAL const PrimitiveRef *primitives,
+                             GLOBAL BinSet *chunk_bins) {
     const uint chunk = (uint)get_global_id(0);
     if (chunk >= chunk_count) {
         return;
@@ -27,10 +28,10 @@ __kernel void bin_primitives(GLOBAL const BuildTask *tasks, GLOBAL const BuildCh
     chunk_bins[chunk] = bins;
 }
 
-/// Sums each bin over a task's chunks, whose counts become those of the chunks before them. `parts` work-items
-/// share the bins of a task.
-__kernel void merge_bins(GLOBAL const BuildTask *tasks, uint task_count, uint parts, GLOBAL BinSet *chunk_bins,
-                         GLOBAL BinSet *task_bins) {
+/// Sums each bin over a task's chunks, whose counts become those of the chunks before them. `parts`
+/// work-items share the bins of a task.
+__kernel void merge_bins(GLOBAL const BuildTask *tasks, uint task_count, uint parts,
+                         GLOBAL BinSet *chunk_bins, GLOBAL BinSet *task_bins) {
     const uint index = (uint)get_global_id(0) / parts;
     const uint part = (uint)get_global_id(0) % parts;
     if (index >= task_count) {
@@ -55,7 +56,8 @@ __kernel void merge_bins(GLOBAL const BuildTask *tasks, uint task_count, uint pa
     }
 }
 
-__kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL const BinSet *task_bins) {
+__kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count,
+                            GLOBAL const BinSet *task_bins) {
     const uint index = (uint)get_global_id(0);
     if (index >= task_count) {
         return;
@@ -64,7 +66,8 @@ __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count, GLOBAL con
     const RangeBounds bounds = task->bounds;
     const Binning binning = make_binning(&bounds);
     const BinSet bins = task_bins[index];
-    task->split = choose_split(&bins, &binning, task->end - task->begin, task->depth, inverse_extent(&bounds));
+    task->split = choose_split(&bins, &binning, task->end - task->begin, task->depth,
+                               inverse_extent(&bounds));
 }
 
 /// Primitives of the task's earlier chunks that go left.
@@ -79,9 +82,9 @@ DEVICE uint left_before(PRIVATE const Split *split, uint before, GLOBAL const Bi
     return left;
 }
 
-__kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildChunk *chunks, uint chunk_count,
-                                   GLOBAL const BinSet *chunk_bins, GLOBAL const PrimitiveRef *source,
-                                   GLOBAL PrimitiveRef *target) {
+__kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildChunk *chunks,
+                                   uint chunk_count, GLOBAL const BinSet *chunk_bins,
+                                   GLOBAL const PrimitiveRef *source, GLOBAL PrimitiveRef *target) {
     const uint index = (uint)get_global_id(0);
     if (index >= chunk_count) {
         return;
@@ -112,7 +115,8 @@ __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildCh
     chunk->bounds[1] = range_bounds(&bounds[1]);
 }
 
-__kernel void merge_children(GLOBAL BuildTask *tasks, uint task_count, GLOBAL const BuildChunk *chunks) {
+__kernel void merge_children(GLOBAL BuildTask *tasks, uint task_count,
+                             GLOBAL const BuildChunk *chunks) {
     const uint child = (uint)get_global_id(0);
     if (child >= 2u * task_count) {
         return;
@@ -126,12 +130,12 @@ __kernel void merge_children(GLOBAL BuildTask *tasks, uint task_count, GLOBAL co
     task->children[child % 2u] = bounds;
 }
 
-/// One work-group: writes this level's nodes and books their children for the next level or the small phase.
-/// `buffer` is the index of the buffer that partition_primitives wrote.
-__kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *tasks, uint task_count, uint chunk_size,
-                            uint subtree_size, uint buffer, GLOBAL BvhNode *nodes,
-                            GLOBAL BuildTask *next_tasks, GLOBAL BuildChunk *next_chunks,
-                            GLOBAL BuildSubtree *subtrees) {
+/// One work-group: writes this level's nodes and books their children for the next level or the
+/// small phase. `buffer` is the index of the buffer that partition_primitives wrote.
+__kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *tasks,
+                            uint task_count, uint chunk_size, uint subtree_size, uint buffer,
+                            GLOBAL BvhNode *nodes, GLOBAL BuildTask *next_tasks,
+                            GLOBAL BuildChunk *next_chunks, GLOBAL BuildSubtree *subtrees) {
     __local uint shared[ONE_GROUP];
     BuildState next = *state;
     next.task_count = 0;
@@ -154,12 +158,14 @@ __kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *ta
         numbers.node = next.top_node_count + tasks_before;
         numbers.chunk = next.chunk_count + sum_before(shared, chunks, &new_chunks);
         // Both sides of a split hold something.
-        numbers.subtree = next.subtree_count + sum_before(shared, chunks == 0u && end > begin ? 1u : 0u, &new_subtrees);
+        numbers.subtree = next.subtree_count +
+                          sum_before(shared, chunks == 0u && end > begin ? 1u : 0u, &new_subtrees);
         if (end > begin) {
             GLOBAL const BuildTask *task = tasks + child / 2u;
             const RangeBounds bounds = task->children[side];
-            const uint link = emit_range(&numbers, next_tasks, next_chunks, subtrees, chunk_size, subtree_size, begin, end,
-                                         task->depth + 1u, task->node, side, buffer, &bounds);
+            const uint link =
+                emit_range(&numbers, next_tasks, next_chunks, subtrees, chunk_size, subtree_size,
+                           begin, end, task->depth + 1u, task->node, side, buffer, &bounds);
             write_child(nodes + task->node, side, &bounds, end - begin, link);
         }
         next.task_count += new_tasks;

@@ -18,13 +18,14 @@ DEVICE uint chunks_of(uint count, uint chunk_size, uint subtree_size) {
     return count <= subtree_size ? 0u : (count - 1u) / chunk_length(count, chunk_size) + 1u;
 }
 
-/// Books the range [begin, end), child `side` of top node `parent`, as the next level's task or, when it is
-/// small enough for one work-item, as a subtree, under these numbers, which the caller gives out in a fixed order.
-/// Returns the index of the task's node, or BVH_EMPTY_LEAF for a subtree (place_subtrees links it).
-DEVICE uint emit_range(PRIVATE const Numbers *numbers, GLOBAL BuildTask *tasks, GLOBAL BuildChunk *chunks,
-                       GLOBAL BuildSubtree *subtrees, uint chunk_size, uint subtree_size, uint begin,
-                       uint end, uint depth, uint parent, uint side, uint buffer,
-                       PRIVATE const RangeBounds *bounds) {
+/// Books the range [begin, end), child `side` of top node `parent`, as the next level's task or,
+/// when it is small enough for one work-item, as a subtree, under these numbers, which the caller
+/// gives out in a fixed order. Returns the index of the task's node, or BVH_EMPTY_LEAF for a
+/// subtree (place_subtrees links it).
+DEVICE uint emit_range(PRIVATE const Numbers *numbers, GLOBAL BuildTask *tasks,
+                       GLOBAL BuildChunk *chunks, GLOBAL BuildSubtree *subtrees, uint chunk_size,
+                       uint subtree_size, uint begin, uint end, uint depth, uint parent, uint side,
+                       uint buffer, PRIVATE const RangeBounds *bounds) {
     const uint chunk_count = chunks_of(end - begin, chunk_size, subtree_size);
     if (chunk_count == 0u) {
         GLOBAL BuildSubtree *subtree = subtrees + numbers->subtree;

@@ -22,11 +22,12 @@ DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
 
 #endif
 
-/// The ray through film position (x, y), in pixels from the top left corner, and the point of the lens that
-/// (u, v) stands for. A uniform position in a pixel has density p_v = 1 / pixel_area per area at unit
-/// distance, a uniform point of the lens p_l = 1 / (pi r^2) per area (thesis 2.46); with the box filter of
-/// one pixel the measured radiance has weight 1. Through a thin lens all rays of a film position meet where
-/// the one through the lens' centre, which is not bent, crosses the plane in focus.
+/// The ray through film position (x, y), in pixels from the top left corner, and the point of the
+/// lens that (u, v) stands for. A uniform position in a pixel has density p_v = 1 / pixel_area per
+/// area at unit distance, a uniform point of the lens p_l = 1 / (pi r^2) per area (thesis 2.46);
+/// with the box filter of one pixel the measured radiance has weight 1. Through a thin lens all
+/// rays of a film position meet where the one through the lens' centre, which is not bent, crosses
+/// the plane in focus.
 DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, float v) {
     float3 way = make_float3(camera.corner[0] + x * camera.step_x[0] + y * camera.step_y[0],
                              camera.corner[1] + x * camera.step_x[1] + y * camera.step_y[1],
@@ -50,10 +51,11 @@ DEVICE float3 camera_forward(CameraRecord camera) {
 }
 
 /// The density per solid angle at the lens point with which a sample of one pixel makes this ray of
-/// `camera_ray`, times the pixels of the film over the samples: that of one sample per pixel. Per area of the
-/// plane at unit distance it is 1 / pixel_area, wherever on the lens and whatever plane is in focus, and dw =
-/// cos^3 dA there. With the box filter of one pixel it is also the importance times the cosine at the lens
-/// over the density of the lens point (Veach 1997, 8.2), so that the measured radiance has weight 1.
+/// `camera_ray`, times the pixels of the film over the samples: that of one sample per pixel. Per
+/// area of the plane at unit distance it is 1 / pixel_area, wherever on the lens and whatever plane
+/// is in focus, and dw = cos^3 dA there. With the box filter of one pixel it is also the importance
+/// times the cosine at the lens over the density of the lens point (Veach 1997, 8.2), so that the
+/// measured radiance has weight 1.
 DEVICE float camera_pdf_w(CameraRecord camera, float3 direction) {
     const float cosine = dot(direction, camera_forward(camera));
     return 1.0f / (camera.pixel_area * cosine * cosine * cosine);
@@ -63,13 +65,14 @@ DEVICE float camera_pdf_w(CameraRecord camera, float3 direction) {
 typedef struct CameraJoin {
     float3 lens_point;
     float2 raster;  ///< film position, pixels from the top left corner; set where pdf_w is not 0
-    float pdf_w;    ///< `camera_pdf_w` of the ray from there; 0: behind the lens or outside the film
+    float pdf_w;  ///< `camera_pdf_w` of the ray from there; 0: behind the lens or outside the film
 } CameraJoin;
 
-/// Joins a point to the point of the lens that (u, v) stands for: the inverse of `camera_ray`. What arrives
-/// from the point with radiance L over an area dA facing the lens point under `cos`, distance d, adds L cos
-/// pdf_w / d^2 dA to the mean radiance of the pixel at `raster`.
-DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED float u, MAYBE_UNUSED float v) {
+/// Joins a point to the point of the lens that (u, v) stands for: the inverse of `camera_ray`. What
+/// arrives from the point with radiance L over an area dA facing the lens point under `cos`,
+/// distance d, adds L cos pdf_w / d^2 dA to the mean radiance of the pixel at `raster`.
+DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED float u,
+                              MAYBE_UNUSED float v) {
     CameraJoin join;
     join.lens_point = make_float3(camera.position[0], camera.position[1], camera.position[2]);
     join.raster = make_float2(0.0f, 0.0f);
@@ -83,10 +86,10 @@ DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED fl
     if (!(depth > 0.0f)) {
         return join;
     }
-    // Where the ray, and that through the lens' centre to the point in focus, meet the plane at unit
-    // distance. All that could overflow or be NaN is compared so that it counts as outside the film, and
-    // nothing is squared before: inside, |slope|^2 is at most 1 / cos^2 of the field of view, plus that of
-    // the lens over the focus.
+    // Where the ray, and that through the lens' centre to the point in focus, meet the plane at
+    // unit distance. All that could overflow or be NaN is compared so that it counts as outside the
+    // film, and nothing is squared before: inside, |slope|^2 is at most 1 / cos^2 of the field of
+    // view, plus that of the lens over the focus.
     const float3 slope = way / depth;
     float3 seen = slope;
 #if FEATURE_lens

@@ -7,7 +7,8 @@
 #include "renderer/shared/stream_counters.h"
 
 /// Asks for the words of a pixel that adding a sample will change, by its largest channel.
-DEVICE void prefetch_pixel(MAYBE_UNUSED GLOBAL const long *film, MAYBE_UNUSED uint pixel, MAYBE_UNUSED float3 sample) {
+DEVICE void prefetch_pixel(MAYBE_UNUSED GLOBAL const long *film, MAYBE_UNUSED uint pixel,
+                           MAYBE_UNUSED float3 sample) {
 #if PREFETCHES
     GLOBAL const long *words = film + (ulong)pixel * FILM_PIXEL_WORDS(FEATURE_variance);
     const float largest = max(sample.x, max(sample.y, sample.z));
@@ -15,15 +16,18 @@ DEVICE void prefetch_pixel(MAYBE_UNUSED GLOBAL const long *film, MAYBE_UNUSED ui
     PREFETCH(words + word * PIXEL_SUMS);
     PREFETCH(words + word * PIXEL_SUMS + 2);
 #if FEATURE_variance
-    const uint square = min(film_word(largest * largest, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP), FILM_WORDS - 1u);
+    const uint square =
+        min(film_word(largest * largest, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP), FILM_WORDS - 1u);
     PREFETCH(words + square * PIXEL_SUMS + 3);
 #endif
 #endif
 }
 
 /// Adds to a pixel; what the film refuses is counted. Returns whether it took the sample.
-DEVICE bool add_to_pixel(GLOBAL long *film, uint pixel, float3 sample, GLOBAL StreamCounters *counters) {
-    const uint error = film_add_sample(film + (ulong)pixel * FILM_PIXEL_WORDS(FEATURE_variance), sample);
+DEVICE bool add_to_pixel(GLOBAL long *film, uint pixel, float3 sample,
+                         GLOBAL StreamCounters *counters) {
+    const uint error =
+        film_add_sample(film + (ulong)pixel * FILM_PIXEL_WORDS(FEATURE_variance), sample);
     if (error != 0u) {
         atomic_inc(error == FILM_NON_FINITE ? &counters->non_finite : &counters->out_of_range);
     }
@@ -33,17 +37,19 @@ DEVICE bool add_to_pixel(GLOBAL long *film, uint pixel, float3 sample, GLOBAL St
 #if FEATURE_from_camera
 
 /// Adds what a camera path gathered, which ends here.
-DEVICE bool add_path(PathStates paths, uint slot, GLOBAL long *film, GLOBAL StreamCounters *counters) {
+DEVICE bool add_path(PathStates paths, uint slot, GLOBAL long *film,
+                     GLOBAL StreamCounters *counters) {
     return add_to_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot), counters);
 }
 
 #if FEATURE_convergence
 
 /// Adds what the film took of a camera path to the half film, if it is a sample of even number.
-DEVICE void add_path_to_half(PathStates paths, uint slot, GLOBAL long *half_film, ulong first_sample,
-                             GLOBAL StreamCounters *counters) {
+DEVICE void add_path_to_half(PathStates paths, uint slot, GLOBAL long *half_film,
+                             ulong first_sample, GLOBAL StreamCounters *counters) {
     const float3 radiance = get_radiance(paths, slot);
-    if (half_film_add_sample(half_film, get_pixel(paths, slot), first_sample + get_sample(paths, slot), radiance) != 0u) {
+    if (half_film_add_sample(half_film, get_pixel(paths, slot),
+                             first_sample + get_sample(paths, slot), radiance) != 0u) {
         atomic_inc(&counters->out_of_range);
     }
 }

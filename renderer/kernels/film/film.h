@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Adding samples to the film's exact sums (shared/film_layout.h): the order of additions does not matter.
+// Adding samples to the film's exact sums (shared/film_layout.h): the order of additions does not
+// matter.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -9,14 +10,16 @@
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 #endif
 
-/// Adds to a 64-bit word. Without 64-bit atomics the halves are added one after the other: the sum of all additions
-/// is right once they are done, which is all the film needs. Returns whether the word is half full: 2^18 additions before
-/// it could overflow. Carries come before that, so it is the top word, and with it the sum, that nears its limit.
+/// Adds to a 64-bit word. Without 64-bit atomics the halves are added one after the other: the sum
+/// of all additions is right once they are done, which is all the film needs. Returns whether the
+/// word is half full: 2^18 additions before it could overflow. Carries come before that, so it is
+/// the top word, and with it the sum, that nears its limit.
 DEVICE bool film_add_word(volatile GLOBAL long *word, long value) {
 #if FEATURE_int64_atomics
     const int high = (int)(atom_add(word, value) >> 32);
 #else
-    volatile GLOBAL uint *half_word = (volatile GLOBAL uint *)word;  // little-endian, as all OpenCL devices met so far
+    volatile GLOBAL uint *half_word =
+        (volatile GLOBAL uint *)word;  // little-endian, as all OpenCL devices met so far
     const uint low = (uint)value;
     const uint before = atomic_add(half_word, low);
     const uint carry = before + low < before ? 1u : 0u;
@@ -35,14 +38,17 @@ DEVICE uint film_word(float value, int lowest, int step) {
     return above <= 0 ? 0u : (uint)((above + step - 1) / step);
 }
 
-/// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`, in pixels of `sums` sums.
-/// `value` must be finite and below the largest limit, 2^(lowest + 5 step + 44), in magnitude.
-DEVICE bool film_add_value(volatile GLOBAL long *words, uint sums, float value, int lowest, int step) {
+/// Adds `value` whole to the word of its magnitude in the sum whose word 0 is at `words`, in pixels
+/// of `sums` sums. `value` must be finite and below the largest limit, 2^(lowest + 5 step + 44), in
+/// magnitude.
+DEVICE bool film_add_value(volatile GLOBAL long *words, uint sums, float value, int lowest,
+                           int step) {
     const uint word = film_word(value, lowest, step);
     // The factor 2^-unit is a normal float: |unit| <= 104.
     const float units = value * as_float((uint)(127 - (lowest + (int)word * step)) << 23);
     // Below 2^23 a float may hold a fraction: round to nearest, else it is an integer already.
-    return film_add_word(words + word * sums, (long)(fabs(units) < 8388608.0f ? rint(units) : units));
+    return film_add_word(words + word * sums,
+                         (long)(fabs(units) < 8388608.0f ? rint(units) : units));
 }
 
 /// Adds a colour within the film's range to the first three sums of a pixel.
@@ -53,8 +59,9 @@ DEVICE bool film_add_colour(volatile GLOBAL long *pixel_words, uint sums, float3
     return full;
 }
 
-/// Adds one sample of a pixel, and its squares where the film keeps them. Returns 0, or FILM_NON_FINITE or
-/// FILM_OUT_OF_RANGE when the sample was not added or sums are about to leave their range.
+/// Adds one sample of a pixel, and its squares where the film keeps them. Returns 0, or
+/// FILM_NON_FINITE or FILM_OUT_OF_RANGE when the sample was not added or sums are about to leave
+/// their range.
 #define FILM_NON_FINITE 1u
 #define FILM_OUT_OF_RANGE 2u
 
@@ -69,9 +76,12 @@ DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
     bool full = film_add_colour(pixel_words, PIXEL_SUMS, sample);
 #if FEATURE_variance
     // Squares stay below 2^80, the limit of their top word.
-    full |= film_add_value(pixel_words + 3, PIXEL_SUMS, sample.x * sample.x, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    full |= film_add_value(pixel_words + 4, PIXEL_SUMS, sample.y * sample.y, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
-    full |= film_add_value(pixel_words + 5, PIXEL_SUMS, sample.z * sample.z, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 3, PIXEL_SUMS, sample.x * sample.x, FILM_SQUARE_LOWEST,
+                           FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 4, PIXEL_SUMS, sample.y * sample.y, FILM_SQUARE_LOWEST,
+                           FILM_SQUARE_STEP);
+    full |= film_add_value(pixel_words + 5, PIXEL_SUMS, sample.z * sample.z, FILM_SQUARE_LOWEST,
+                           FILM_SQUARE_STEP);
 #endif
     return full ? FILM_OUT_OF_RANGE : 0u;
 }

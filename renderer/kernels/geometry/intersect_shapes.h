@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays against the shapes of a scene: all of them, those whose balls they meet one after the other. Scenes have few.
+// Rays against the shapes of a scene: all of them, those whose balls they meet one after the other.
+// Scenes have few.
 #pragma once
 
 #include "renderer/kernels/geometry/julia.h"
@@ -13,12 +14,13 @@
 typedef struct ShapeHit {
     float t;              ///< in lengths of the direction
     uint shape;           ///< NO_HIT for none
-    float3 object_point;  ///< in the shape's object space, on its surface to within a few ulps of its size
+    float3 object_point;  ///< in the shape's object space, on its surface to within a few ulps of
+                          ///< its size
 } ShapeHit;
 
 /// The nearest hit with one shape at 0 < t < t_max.
-DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction, float t_max,
-                            PRIVATE float *t, PRIVATE float3 *object_point) {
+DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction,
+                            float t_max, PRIVATE float *t, PRIVATE float3 *object_point) {
     ShapeRay ray;
     if (!make_shape_ray(shape, origin, direction, &ray)) {
         return false;
@@ -33,16 +35,18 @@ DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, floa
 #endif
 }
 
-/// The nearest hit at 0 < t < t_max (which may be INFINITY). Directions may have any length; rays that are
-/// not finite hit nothing.
-DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const ShapeBounds *shape_bounds, uint shape_count,
+/// The nearest hit at 0 < t < t_max (which may be INFINITY). Directions may have any length; rays
+/// that are not finite hit nothing.
+DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes,
+                              GLOBAL const ShapeBounds *shape_bounds, uint shape_count,
                               float3 origin, float3 direction, float t_max) {
     ShapeHit hit;
     hit.t = t_max;
     hit.shape = NO_HIT;
     hit.object_point = make_float3(0.0f, 0.0f, 0.0f);
     for (uint first = 0; first < shape_count; first += SHAPE_LANES) {
-        uint near = shapes_in_reach(shape_bounds + first / SHAPE_LANES, shape_count - first, origin, direction, hit.t);
+        uint near = shapes_in_reach(shape_bounds + first / SHAPE_LANES, shape_count - first, origin,
+                                    direction, hit.t);
         for (; near != 0u; near &= near - 1u) {
             const uint i = first + lowest_bit(near);
             float t;
@@ -57,16 +61,18 @@ DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const Sha
     return hit;
 }
 
-/// Whether a shape is hit at 0 < t < t_max: true exactly when `nearest_shape` finds a hit, as both test the
-/// same shapes in the same order with the same bound up to the first that is hit.
-DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const ShapeBounds *shape_bounds, uint shape_count,
-                      float3 origin, float3 direction, float t_max) {
+/// Whether a shape is hit at 0 < t < t_max: true exactly when `nearest_shape` finds a hit, as both
+/// test the same shapes in the same order with the same bound up to the first that is hit.
+DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const ShapeBounds *shape_bounds,
+                      uint shape_count, float3 origin, float3 direction, float t_max) {
     for (uint first = 0; first < shape_count; first += SHAPE_LANES) {
-        uint near = shapes_in_reach(shape_bounds + first / SHAPE_LANES, shape_count - first, origin, direction, t_max);
+        uint near = shapes_in_reach(shape_bounds + first / SHAPE_LANES, shape_count - first, origin,
+                                    direction, t_max);
         for (; near != 0u; near &= near - 1u) {
             float t;
             float3 p;
-            if (intersect_shape(shapes + first + lowest_bit(near), origin, direction, t_max, &t, &p)) {
+            if (intersect_shape(shapes + first + lowest_bit(near), origin, direction, t_max, &t,
+                                &p)) {
                 return true;
             }
         }

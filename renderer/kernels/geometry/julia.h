@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Quaternion Julia sets: the surface |z_n| = 4 of z <- z^2 + c, z_0 = (x, y, z, slice), in object space.
+// Quaternion Julia sets: the surface |z_n| = 4 of z <- z^2 + c, z_0 = (x, y, z, slice), in object
+// space.
 //
-// J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH 1989 march by
-// an estimate of the distance. Departure: the estimate (|z_n| log |z_n| / (2 |z_n'|)) is that to the limit
-// set, not to this surface, and holds in the limit only. Here a step is taken when a bound proves that it
-// does not pass the surface. Along a step w the iterates are z_k(s) = z_k + s w_k + e_k(s), 0 <= s <= 1, with
+// J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH 1989
+// march by an estimate of the distance. Departure: the estimate (|z_n| log |z_n| / (2 |z_n'|)) is
+// that to the limit set, not to this surface, and holds in the limit only. Here a step is taken
+// when a bound proves that it does not pass the surface. Along a step w the iterates are z_k(s) =
+// z_k + s w_k + e_k(s), 0 <= s <= 1, with
 //   w_k+1 = z_k w_k + w_k z_k,   |e_k+1| <= |w_k|^2 + 2 (|z_k| + |w_k|) |e_k| + |e_k|^2,   e_0 = 0,
-// as follows by squaring, |s| <= 1 and |pq| = |p| |q|. So the segment [z_n, z_n + w_n] widened by the bound
-// m_n of |e_n| holds all z_n(s), and the step is free of the surface when that stays outside 4, or inside.
-// Since the model is of first order in the direction of the ray, steps towards the surface converge like
-// Newton's, and steps along it are of the order of the square root of the distance.
+// as follows by squaring, |s| <= 1 and |pq| = |p| |q|. So the segment [z_n, z_n + w_n] widened by
+// the bound m_n of |e_n| holds all z_n(s), and the step is free of the surface when that stays
+// outside 4, or inside. Since the model is of first order in the direction of the ray, steps
+// towards the surface converge like Newton's, and steps along it are of the order of the square
+// root of the distance.
 //
-// Once |z_k| exceeds a modulus R >= 4 with R^2 - |c| >= R, it grows: the point is outside, and later iterates
-// are not needed. A segment that stays beyond R at that k is outside as well.
+// Once |z_k| exceeds a modulus R >= 4 with R^2 - |c| >= R, it grows: the point is outside, and
+// later iterates are not needed. A segment that stays beyond R at that k is outside as well.
 //
-// Rounding: with u = 2^-24, an iterate is computed from its predecessor to within 6 u (|z_k|^2 + |c|) (five
-// roundings at most per component), w_k+1 to within 6 u |z_k| |w_k| of its size, and the points of a ray lie
-// within 8 u r of it, r the radius of the sphere around the set. All three are added to m_k, so that a free
-// step is free of the true surface.
+// Rounding: with u = 2^-24, an iterate is computed from its predecessor to within 6 u (|z_k|^2 +
+// |c|) (five roundings at most per component), w_k+1 to within 6 u |z_k| |w_k| of its size, and the
+// points of a ray lie within 8 u r of it, r the radius of the sphere around the set. All three are
+// added to m_k, so that a free step is free of the true surface.
 //
-// Error: below steps of 2^-16 r nothing can be proven this close to rounding; such a step is taken unproven,
-// and the sides of its ends are compared. A ray may thus miss the surface where it enters and leaves it again
-// within 2^-16 r, or stays nearer to it than rounding can tell, and nowhere else. (After 512 probes steps are
-// 1 / 500 of the way, so that the march ends. With n <= 12, rays take 50 probes on average and 350 at most.)
-// A crossing is bisected until the ends are neighbouring floats: its distance is within 4 u r, and the side
-// of a point is in doubt where the surface is nearer than the accumulated rounding of z_n, divided by the
-// gradient.
+// Error: below steps of 2^-16 r nothing can be proven this close to rounding; such a step is taken
+// unproven, and the sides of its ends are compared. A ray may thus miss the surface where it enters
+// and leaves it again within 2^-16 r, or stays nearer to it than rounding can tell, and nowhere
+// else. (After 512 probes steps are 1 / 500 of the way, so that the march ends. With n <= 12, rays
+// take 50 probes on average and 350 at most.) A crossing is bisected until the ends are
+// neighbouring floats: its distance is within 4 u r, and the side of a point is in doubt where the
+// surface is nearer than the accumulated rounding of z_n, divided by the gradient.
 #pragma once
 
 #include "renderer/kernels/geometry/shape_space.h"
@@ -69,7 +72,8 @@ DEVICE Quaternion julia_next(GLOBAL const ShapeRecord *julia, Quaternion z) {
 }
 
 DEVICE float julia_modulus(GLOBAL const ShapeRecord *julia) {
-    return sqrt(julia->a * julia->a + julia->b * julia->b + julia->c * julia->c + julia->d * julia->d);
+    return sqrt(julia->a * julia->a + julia->b * julia->b + julia->c * julia->c +
+                julia->d * julia->d);
 }
 
 DEVICE bool julia_outside(GLOBAL const ShapeRecord *julia, float3 p) {
@@ -88,8 +92,8 @@ DEVICE bool julia_outside(GLOBAL const ShapeRecord *julia, float3 p) {
 typedef struct JuliaProbe {
     bool outside;  ///< the point is
     bool clear;    ///< no point of the step is on the other side
-    float ratio;   ///< the step's multiple that would about be clear next: from its end if it is clear, else
-                   ///< from p
+    float ratio;   ///< the step's multiple that would about be clear next: from its end if it is
+                   ///< clear, else from p
 } JuliaProbe;
 
 /// Probes the step from p to p + step; r is the radius of the sphere around the set.
@@ -142,18 +146,20 @@ DEVICE JuliaProbe probe_julia(GLOBAL const ShapeRecord *julia, float3 p, float3 
     }
     // gap = approach * ratio + curvature * ratio^2, where m > 0.
     const float gap = fabs((probe.clear ? end_length : z_length) - level);
-    probe.ratio = 2.0f * gap / (approach + sqrt(approach * approach + 4.0f * curvature * gap) + 1e-30f);
+    probe.ratio =
+        2.0f * gap / (approach + sqrt(approach * approach + 4.0f * curvature * gap) + 1e-30f);
     return probe;
 }
 
 /// The first hit at 0 < t < t_max. The march is the same for every t_max.
-DEVICE bool intersect_julia(GLOBAL const ShapeRecord *julia, ShapeRay ray, float t_max, PRIVATE float *t,
-                            PRIVATE float3 *p) {
+DEVICE bool intersect_julia(GLOBAL const ShapeRecord *julia, ShapeRay ray, float t_max,
+                            PRIVATE float *t, PRIVATE float3 *p) {
     const float3 o = ray.origin;
     const float3 d = ray.direction;
     // The chord of the sphere around the set, about the point of the ray nearest to its centre.
     const float middle = -dot(o, d);
-    const float3 nearest = make_float3(fma(middle, d.x, o.x), fma(middle, d.y, o.y), fma(middle, d.z, o.z));
+    const float3 nearest =
+        make_float3(fma(middle, d.x, o.x), fma(middle, d.y, o.y), fma(middle, d.z, o.z));
     const float half_chord2 = julia->bound2 - dot(nearest, nearest);
     if (!(half_chord2 > 0.0f)) {
         return false;
@@ -217,10 +223,10 @@ DEVICE bool intersect_julia(GLOBAL const ShapeRecord *julia, ShapeRay ray, float
     return *t > 0.0f && *t < t_max;
 }
 
-/// A multiple of the gradient of |z_n| at a point of the surface: outwards. `residual` is, in the same units,
-/// how far |z_n| may be from 4 there: what is seen, and twice the accumulated rounding of z_n (here, and
-/// where a ray starts nearby). After each iteration everything is scaled by 1 / (2 |z_k|), at most 2, the
-/// largest growth of a derivative: nothing overflows.
+/// A multiple of the gradient of |z_n| at a point of the surface: outwards. `residual` is, in the
+/// same units, how far |z_n| may be from 4 there: what is seen, and twice the accumulated rounding
+/// of z_n (here, and where a ray starts nearby). After each iteration everything is scaled by 1 /
+/// (2 |z_k|), at most 2, the largest growth of a derivative: nothing overflows.
 DEVICE float3 julia_gradient(GLOBAL const ShapeRecord *julia, float3 p, PRIVATE float *residual) {
     const float escape = julia->z_upper;
     const float modulus = julia_modulus(julia);
@@ -255,7 +261,8 @@ DEVICE float3 julia_gradient(GLOBAL const ShapeRecord *julia, float3 p, PRIVATE 
     }
     const float z_length = sqrt(z2);
     *residual = scale * fabs(z_length - 4.0f) + 2.0f * rounding;
-    return make_float3(quaternion_dot(dx, z), quaternion_dot(dy, z), quaternion_dot(dz, z)) / z_length;
+    return make_float3(quaternion_dot(dx, z), quaternion_dot(dy, z), quaternion_dot(dz, z)) /
+           z_length;
 }
 
 #endif

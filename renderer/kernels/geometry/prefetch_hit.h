@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Queue entries of the stages that shade hits. Hits lie anywhere in the scene: a CPU, which takes the entries of a chunk one
-// after the other, is asked for what the next ones will read. path_at asks for the path three entries on; one entry later its
-// triangle is known, and another one later its texels.
+// Queue entries of the stages that shade hits. Hits lie anywhere in the scene: a CPU, which takes
+// the entries of a chunk one after the other, is asked for what the next ones will read. path_at
+// asks for the path three entries on; one entry later its triangle is known, and another one later
+// its texels.
 #pragma once
 
 #include "renderer/kernels/geometry/surface_hit.h"
@@ -11,8 +12,8 @@
 #if PREFETCHES && FEATURE_triangles
 
 /// A record may begin on one cache line and end on the next.
-#define PREFETCH_RECORD(record)                           \
-    PREFETCH(record);                                     \
+#define PREFETCH_RECORD(record) \
+    PREFETCH(record);           \
     PREFETCH((GLOBAL const uint *)((record) + 1) - 1)
 
 /// Asks for what triangle_hit reads.
@@ -28,8 +29,10 @@ DEVICE void prefetch_triangle(SURFACE_PARAMETERS uint triangle) {
 
 #if FEATURE_textures && FEATURE_scattering
 
-/// Asks for the texels of a lookup: of each row the first, next to which the second most often lies.
-DEVICE void prefetch_texture(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels, float2 uv) {
+/// Asks for the texels of a lookup: of each row the first, next to which the second most often
+/// lies.
+DEVICE void prefetch_texture(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
+                             float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;
     const uint words = (texture->flags & TEXTURE_FLOAT) != 0u ? 3u : 1u;
     const float2 at = texture_position(texture, uv);
@@ -55,7 +58,8 @@ DEVICE void prefetch_texels(MATERIAL_PARAMETERS uint material, float2 uv) {
 #endif
 
 /// path_at, for a stage that reads what was hit.
-DEVICE uint hit_path_at(SURFACE_PARAMETERS PathStates paths, GLOBAL const uint *queue, uint i, uint end) {
+DEVICE uint hit_path_at(SURFACE_PARAMETERS PathStates paths, GLOBAL const uint *queue, uint i,
+                        uint end) {
 #if PREFETCHES && FEATURE_triangles
     const uint triangle = get_hit_primitive(paths, queue[min(i + 2u, end - 1u)]);
     if ((triangle & SHAPE_BIT) == 0u) {
@@ -66,13 +70,14 @@ DEVICE uint hit_path_at(SURFACE_PARAMETERS PathStates paths, GLOBAL const uint *
 }
 
 /// path_at, for a stage that evaluates the material of what was hit.
-DEVICE uint shaded_path_at(SURFACE_PARAMETERS MATERIAL_PARAMETERS PathStates paths, GLOBAL const uint *queue, uint i,
-                           uint end) {
+DEVICE uint shaded_path_at(SURFACE_PARAMETERS MATERIAL_PARAMETERS PathStates paths,
+                           GLOBAL const uint *queue, uint i, uint end) {
 #if PREFETCHES && FEATURE_triangles && FEATURE_textures && FEATURE_scattering
     const uint next = queue[min(i + 1u, end - 1u)];
     const uint triangle = get_hit_primitive(paths, next);
     if ((triangle & SHAPE_BIT) == 0u) {
-        const SurfaceHit hit = triangle_hit(SURFACE_ARGUMENTS triangle, get_hit_u(paths, next), get_hit_v(paths, next));
+        const SurfaceHit hit = triangle_hit(SURFACE_ARGUMENTS triangle, get_hit_u(paths, next),
+                                            get_hit_v(paths, next));
         prefetch_texels(MATERIAL_ARGUMENTS hit.material, hit.uv);
     }
 #endif

@@ -1,29 +1,34 @@
 // SPDX-License-Identifier: MIT
-// The point of a shape that a ray hit: position, front-side normal, error, texture coordinates, tangent.
+// The point of a shape that a ray hit: position, front-side normal, error, texture coordinates,
+// tangent.
 //
-// The error bound is such that a ray leaving by offset_ray_origin starts on the side it is meant for, as the
-// next test of the same shape sees it. With u, gamma, M and A as in shape_space.h, let p be the hit in object
-// space, c the centre, q the quadric, g its gradient at p, n = A^T g / |A^T g| the world normal.
+// The error bound is such that a ray leaving by offset_ray_origin starts on the side it is meant
+// for, as the next test of the same shape sees it. With u, gamma, M and A as in shape_space.h, let
+// p be the hit in object space, c the centre, q the quadric, g its gradient at p, n = A^T g / |A^T
+// g| the world normal.
 //
-// offset_ray_origin starts the ray at O = P + h n or beyond, where P = fl(M p + c), |P - (M p + c)| <=
-// gamma(4) (|M| |p| + |c|), and h = |n|.error. The next test sees o = fl(A fl(O - c)), which adds u |M| |p|
-// in world space and gamma(4) |A| |M| |p| in object space, and evaluates q there to within e = gamma(5) of
-// the sum of its terms' magnitudes. So the value it sees is, to first order,
+// offset_ray_origin starts the ray at O = P + h n or beyond, where P = fl(M p + c), |P - (M p + c)|
+// <= gamma(4) (|M| |p| + |c|), and h = |n|.error. The next test sees o = fl(A fl(O - c)), which
+// adds u |M| |p| in world space and gamma(4) |A| |M| |p| in object space, and evaluates q there to
+// within e = gamma(5) of the sum of its terms' magnitudes. So the value it sees is, to first order,
 //   q(o) >= |A^T g| (h - gamma(5) |n|.(|M| |p| + |c|)) - gamma(4) |g|.(|A| |M| |p|) - |q(p)| - e,
 // and with error = gamma(5) (|M| |p| + |c|) + h3 it has the sign of the side as soon as
 //   h3 |A^T g| > |q(p)| + e + gamma(4) |g|.(|A| |M| |p|).
-// h3 is chosen so that its left side is 2 (|q(p)| + e) + 36 u |g|.(|A| |M| |p|). What is left over serves two
-// ends:
-// - Second order: the displacement in object space is A n h, and a concave side loses up to |A n|^2 h^2. Near
-//   the rim of a flattened ellipsoid |A n| h reaches half the ratio of its axes times h3 |A^T g|; the reserve
-//   covers ratios to about 100. Beyond that, the rim is too thin to be told apart in float world coordinates;
-//   so is the apex of a cone within some h of it.
-// - Directions: whether a ray leaves is decided by the sign of n.d in world space, and the slope g.(A d) that
-//   the next test sees may differ from it by gamma(12) |g|.(|A| |d|). That takes the ray back down by at most
-//   24 u |g|.(|A| |M| |p|) over a way of 2 |p|: rulings of cylinders and cones are not hit again before that.
-//   Disc and plane pass through the object's origin; there |x| + 1 and |y| + 1 stand for |x| and |y|.
-// On a convex surface seen from outside B < 0 is such a rounding error, B^2 is of order u^2, A C of order u,
-// and the discriminant B^2 - A C is negative.
+// h3 is chosen so that its left side is 2 (|q(p)| + e) + 36 u |g|.(|A| |M| |p|). What is left over
+// serves two ends:
+// - Second order: the displacement in object space is A n h, and a concave side loses up to |A n|^2
+// h^2. Near
+//   the rim of a flattened ellipsoid |A n| h reaches half the ratio of its axes times h3 |A^T g|;
+//   the reserve covers ratios to about 100. Beyond that, the rim is too thin to be told apart in
+//   float world coordinates; so is the apex of a cone within some h of it.
+// - Directions: whether a ray leaves is decided by the sign of n.d in world space, and the slope
+// g.(A d) that
+//   the next test sees may differ from it by gamma(12) |g|.(|A| |d|). That takes the ray back down
+//   by at most 24 u |g|.(|A| |M| |p|) over a way of 2 |p|: rulings of cylinders and cones are not
+//   hit again before that. Disc and plane pass through the object's origin; there |x| + 1 and |y| +
+//   1 stand for |x| and |y|.
+// On a convex surface seen from outside B < 0 is such a rounding error, B^2 is of order u^2, A C of
+// order u, and the discriminant B^2 - A C is negative.
 #pragma once
 
 #include "renderer/kernels/geometry/julia.h"
@@ -33,10 +38,11 @@
 
 #if FEATURE_shapes
 
-/// The point of a hit. `object_point` is that of ShapeHit, or any point of the surface to within a few ulps.
+/// The point of a hit. `object_point` is that of ShapeHit, or any point of the surface to within a
+/// few ulps.
 DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_point) {
-    // The gradient in object space, and how far the function that vanishes on the surface may be from 0:
-    // |q(p)| + e.
+    // The gradient in object space, and how far the function that vanishes on the surface may be
+    // from 0: |q(p)| + e.
     float3 g;
     float residual;
 #if FEATURE_julia && FEATURE_quadrics
@@ -81,7 +87,8 @@ DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_p
                            : fabs(object_point);
     const float3 world_magnitude = magnitude_to_world(shape, way);
     const float rounding = dot(fabs(g), magnitude_to_object(shape, world_magnitude));
-    const float normal_error = (2.0f * residual + 36.0f * HALF_ULP * rounding) / (size * scaled_length);
+    const float normal_error =
+        (2.0f * residual + 36.0f * HALF_ULP * rounding) / (size * scaled_length);
     point.error = (world_magnitude + fabs(centre)) * (6.0f * HALF_ULP) +
                   make_float3(normal_error, normal_error, normal_error);
     return point;
@@ -102,13 +109,14 @@ DEVICE float2 shape_uv(GLOBAL const ShapeRecord *shape, float3 object_point) {
     const float turn = 0.5f * INV_PI * atan2(p.y, p.x);
     const float u = turn < 0.0f ? min(turn + 1.0f, 1.0f - HALF_ULP) : turn;
     if (shape->uv_kind == SHAPE_UV_SPHERE) {
-        return make_float2(
-            u, 1.0f - INV_PI * atan2(sqrt(p.x * p.x + p.y * p.y), p.z));  // acos z, also near the poles
+        return make_float2(u, 1.0f - INV_PI * atan2(sqrt(p.x * p.x + p.y * p.y),
+                                                    p.z));  // acos z, also near the poles
     }
     const float v = shape->uv_kind == SHAPE_UV_HEIGHT  ? p.z
                     : shape->uv_kind == SHAPE_UV_DEPTH ? p.z + 1.0f
                                                        : 0.5f * (p.z + 1.0f);
-    return make_float2(u, max(v, 0.0f));  // the apex of a paraboloid may come out below 0 by a rounding error
+    return make_float2(
+        u, max(v, 0.0f));  // the apex of a paraboloid may come out below 0 by a rounding error
 }
 
 /// dp/du in world space: along the surface where u grows; zero on the axis and on a Julia set.

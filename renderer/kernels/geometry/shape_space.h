@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The object space of a shape, and rays in it.
 //
-// Let u = 2^-24 and gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1). M is the linear part of a shape's
-// world_from_object, A = object_from_world its inverse, rounded from double.
+// Let u = 2^-24 and gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1). M is the linear part of a
+// shape's world_from_object, A = object_from_world its inverse, rounded from double.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -10,8 +10,8 @@
 
 #define HALF_ULP 5.9604645e-8f  ///< u
 
-/// A ray in object space: the point at s is origin + s * direction, at t = t_origin + s * t_scale of the
-/// world ray.
+/// A ray in object space: the point at s is origin + s * direction, at t = t_origin + s * t_scale
+/// of the world ray.
 typedef struct ShapeRay {
     float3 origin;
     float3 direction;  ///< unit
@@ -76,13 +76,15 @@ DEVICE float3 gradient_to_world(GLOBAL const ShapeRecord *shape, float3 g) {
                            shape->object_from_world[2][2] * g.z);
 }
 
-/// Whether a line of object space certainly misses the sphere around the shape, far from which `p` is; `d` has a length in
-/// [0.5, 1]. Its distance to the centre is |p x d| / |d|. With k as of ShapeRecord, p and d, which were transformed, are
-/// within 5 u k of themselves (|A| |v| <= k |A v|), and the products within 4 u of |p| |d|: the cross product is within
-/// e = 16 u k |p| |d|, as k >= 3. (r |d| + e)^2 is at most 1.05 r^2 |d|^2 + 21 e^2. NaN is no miss.
+/// Whether a line of object space certainly misses the sphere around the shape, far from which `p`
+/// is; `d` has a length in [0.5, 1]. Its distance to the centre is |p x d| / |d|. With k as of
+/// ShapeRecord, p and d, which were transformed, are within 5 u k of themselves (|A| |v| <= k |A
+/// v|), and the products within 4 u of |p| |d|: the cross product is within e = 16 u k |p| |d|, as
+/// k >= 3. (r |d| + e)^2 is at most 1.05 r^2 |d|^2 + 21 e^2. NaN is no miss.
 DEVICE bool misses_bound(GLOBAL const ShapeRecord *shape, float3 p, float3 d) {
     const float3 moment = cross(p, d);
-    return dot(moment, moment) > (1.05f * shape->bound2 + 21.0f * shape->error2 * dot(p, p)) * dot(d, d);
+    return dot(moment, moment) >
+           (1.05f * shape->bound2 + 21.0f * shape->error2 * dot(p, p)) * dot(d, d);
 }
 
 /// x - y - (x - y rounded): exact (Knuth's two-sum).
@@ -91,16 +93,16 @@ DEVICE float difference_error(float x, float y, float difference) {
     return (x - (difference - minus_y)) - (y + minus_y);
 }
 
-/// Moves a world ray into object space. False when it cannot hit the shape: it misses the sphere around it,
-/// leads away from it, or is not finite. Scales of the shape and lengths of the direction should lie in
-/// [1e-12, 1e12].
+/// Moves a world ray into object space. False when it cannot hit the shape: it misses the sphere
+/// around it, leads away from it, or is not finite. Scales of the shape and lengths of the
+/// direction should lie in [1e-12, 1e12].
 ///
-/// A ray from within twice that sphere keeps its origin, so that s = 0 is the origin exactly and the sign of
-/// s that of t. From farther away everything would be lost in the size of the origin (at 1e5 radii its ulp is
-/// 0.006 radii); there the ray is moved in world space to where it passes the object. Only t0 is rounded:
-/// origin - centre is kept in two floats and t0 * direction is added by fma, so the moved origin is a point
-/// of the ray to within u of itself, whatever the distance. The second step makes good for the rounding of
-/// the first t0 beyond 1e6 radii.
+/// A ray from within twice that sphere keeps its origin, so that s = 0 is the origin exactly and
+/// the sign of s that of t. From farther away everything would be lost in the size of the origin
+/// (at 1e5 radii its ulp is 0.006 radii); there the ray is moved in world space to where it passes
+/// the object. Only t0 is rounded: origin - centre is kept in two floats and t0 * direction is
+/// added by fma, so the moved origin is a point of the ray to within u of itself, whatever the
+/// distance. The second step makes good for the rounding of the first t0 beyond 1e6 radii.
 DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction,
                            PRIVATE ShapeRay *ray) {
     const float3 d = vector_to_object(shape, direction);
@@ -112,7 +114,8 @@ DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float
         return false;
     }
     const float3 scaled = d / size;  // its length is in [0.57, 1]
-    const bool is_far = dot(p, p) > 4.0f * shape->bound2;  // never for a plane; infinite squares count as far
+    const bool is_far =
+        dot(p, p) > 4.0f * shape->bound2;  // never for a plane; infinite squares count as far
     if (is_far && (!(dot(p, scaled) < 0.0f) || misses_bound(shape, p, scaled))) {
         return false;
     }
@@ -129,8 +132,9 @@ DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float
                                         difference_error(origin.z, centre.z, from_centre.z));
     for (uint i = 0; i < 2u; ++i) {
         const float t = -dot(p, ray->direction) * ray->t_scale;
-        from_centre = make_float3(fma(t, direction.x, from_centre.x), fma(t, direction.y, from_centre.y),
-                                  fma(t, direction.z, from_centre.z));
+        from_centre =
+            make_float3(fma(t, direction.x, from_centre.x), fma(t, direction.y, from_centre.y),
+                        fma(t, direction.z, from_centre.z));
         if (i == 0u) {
             from_centre = from_centre + residual;
         }

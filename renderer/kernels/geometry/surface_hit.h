@@ -14,7 +14,8 @@ typedef struct SurfaceHit {
     float3 tangent;      ///< dp/du, any length; zero where it is not defined or not needed
     float2 uv;
     uint material;
-    uint emitter;        ///< of a triangle: index into the emitter triangles; of a shape: its light; NO_EMITTER
+    uint emitter;  ///< of a triangle: index into the emitter triangles; of a shape: its light;
+                   ///< NO_EMITTER
 } SurfaceHit;
 
 #if FEATURE_triangles
@@ -33,11 +34,12 @@ DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float 
 #if FEATURE_smooth_normals
     GLOBAL const TriangleNormals *corners = triangle_normals + triangle;
     if (corners->is_smooth != 0u) {
-        const float3 n =
-            make_float3(w * corners->normal[0][0] + u * corners->normal[1][0] + v * corners->normal[2][0],
-                        w * corners->normal[0][1] + u * corners->normal[1][1] + v * corners->normal[2][1],
-                        w * corners->normal[0][2] + u * corners->normal[1][2] + v * corners->normal[2][2]);
-        // Unit normals that point opposite ways may cancel; the geometric normal stands in for what is left of them.
+        const float3 n = make_float3(
+            w * corners->normal[0][0] + u * corners->normal[1][0] + v * corners->normal[2][0],
+            w * corners->normal[0][1] + u * corners->normal[1][1] + v * corners->normal[2][1],
+            w * corners->normal[0][2] + u * corners->normal[1][2] + v * corners->normal[2][2]);
+        // Unit normals that point opposite ways may cancel; the geometric normal stands in for what
+        // is left of them.
         const float squared = dot(n, n);
         hit.normal = squared > 1e-12f ? n / sqrt(squared) : hit.point.normal;
     }
@@ -48,8 +50,8 @@ DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float 
                          w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
 #endif
 #if FEATURE_tangents
-    // The first edge, unless the coordinates span the plane: then dp/du up to a positive factor, which is
-    // (dv2 e1 - dv1 e2) times the sign of the Jacobian.
+    // The first edge, unless the coordinates span the plane: then dp/du up to a positive factor,
+    // which is (dv2 e1 - dv1 e2) times the sign of the Jacobian.
     const float3 p0 = make_float3(surface->p0[0], surface->p0[1], surface->p0[2]);
     const float3 e1 = make_float3(surface->p1[0], surface->p1[1], surface->p1[2]) - p0;
     const float3 e2 = make_float3(surface->p2[0], surface->p2[1], surface->p2[2]) - p0;

@@ -19,9 +19,11 @@ typedef struct LightPoint {
 
 /// Samples a point of a mesh light from the last three words.
 DEVICE LightPoint sample_mesh_light(GLOBAL const EmitterTriangle *emitter_triangles,
-                                    GLOBAL const SurfaceTriangle *surface_triangles, LightRecord light, uint4 words) {
+                                    GLOBAL const SurfaceTriangle *surface_triangles,
+                                    LightRecord light, uint4 words) {
 #if FEATURE_light_triangles
-    SELECT_BY_WORD(emitter_triangles, .selection_end, light.first_triangle, light.triangle_count, words.y, picked)
+    SELECT_BY_WORD(emitter_triangles, .selection_end, light.first_triangle, light.triangle_count,
+                   words.y, picked)
 #else
     const uint picked = light.first_triangle;
 #endif

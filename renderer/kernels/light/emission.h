@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start: rays away from the lights, sampled, with their densities (thesis 3.3.4; Veach
-// 1997, 8.2). The densities that MIS weights need of paths made otherwise are in light.h.
+// Where light paths start: rays away from the lights, sampled, with their densities (thesis 3.3.4;
+// Veach 1997, 8.2). The densities that MIS weights need of paths made otherwise are in light.h.
 //
-// Surfaces emit from points uniform in area into directions in proportion to the cosine, so the weight is pi
-// L over the density of the point. From infinity the direction is chosen first, then a point on a disc across
-// it as wide as the sphere around the scene's bounded surfaces; the weight is pi R^2 L over the density of
-// the direction. Of a plane such paths light only what lies in the shadow of that sphere: the rest is left to
-// the other techniques (`disc_pdf_a`), and remains dark where there are none.
+// Surfaces emit from points uniform in area into directions in proportion to the cosine, so the
+// weight is pi L over the density of the point. From infinity the direction is chosen first, then a
+// point on a disc across it as wide as the sphere around the scene's bounded surfaces; the weight
+// is pi R^2 L over the density of the direction. Of a plane such paths light only what lies in the
+// shadow of that sphere: the rest is left to the other techniques (`disc_pdf_a`), and remains dark
+// where there are none.
 #pragma once
 
 #include "renderer/kernels/light/light.h"
@@ -16,15 +17,17 @@
 
 /// The start of a light path.
 typedef struct EmissionSample {
-    SurfacePoint point;  ///< on the light, `normal` on the side that emits. Of lights without a surface: the
-                         ///< origin of the ray, `normal` the direction
-    float3 origin;     ///< of the ray: off the light's own surface
-    float3 direction;  ///< unit, away from the light
-    float3 weight;  ///< power carried: L cos / (pdf_origin pdf_direction), W. Of a surface: pi L / pdf_origin
-    float pdf_origin;  ///< selection included: per area on surfaces; of point and spot the probability alone;
-                       ///< at infinity per solid angle of the direction; of directional the probability alone
-    float pdf_direction;  ///< surfaces, point, spot: per solid angle; infinity, directional: per area of the
-                          ///< disc
+    SurfacePoint point;  ///< on the light, `normal` on the side that emits. Of lights without a
+                         ///< surface: the origin of the ray, `normal` the direction
+    float3 origin;       ///< of the ray: off the light's own surface
+    float3 direction;    ///< unit, away from the light
+    float3 weight;  ///< power carried: L cos / (pdf_origin pdf_direction), W. Of a surface: pi L /
+                    ///< pdf_origin
+    float pdf_origin;     ///< selection included: per area on surfaces; of point and spot the
+                          ///< probability alone; at infinity per solid angle of the direction; of
+                          ///< directional the probability alone
+    float pdf_direction;  ///< surfaces, point, spot: per solid angle; infinity, directional: per
+                          ///< area of the disc
     uint light;           ///< index
     uint is_delta;        ///< point, spot, directional: cannot be hit
     uint at_infinity;     ///< dome, environment, directional
@@ -32,23 +35,24 @@ typedef struct EmissionSample {
 
 #if FEATURE_infinite_lights || FEATURE_directional_lights
 
-/// A uniform point on the disc that rays of direction `d` (unit) from infinity cross before they meet the
-/// scene.
-DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, float3 d, float u, float v) {
+/// A uniform point on the disc that rays of direction `d` (unit) from infinity cross before they
+/// meet the scene.
+DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, float3 d, float u,
+                                 float v) {
     const Frame frame = frame_from_z(d);
     const float2 disc = sample_disc(u, v);
     float3 origin =
         make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]) +
         (frame.x * disc.x + frame.y * disc.y - d) * lighting.scene_radius;
 #if FEATURE_quadrics
-    // Planes reach beyond the sphere: the ray starts before the first that it meets. Beyond the horizon of
-    // shadow rays they end here too.
+    // Planes reach beyond the sphere: the ray starts before the first that it meets. Beyond the
+    // horizon of shadow rays they end here too.
     float back = 0.0f;
     for (uint i = 0; i < lighting.plane_end; ++i) {
         GLOBAL const ShapeRecord *shape = shapes + i;
         if (shape->uv_kind == SHAPE_UV_PLANE) {
-            const float way =
-                vector_to_object(shape, origin - shape_centre(shape)).z / vector_to_object(shape, d).z;
+            const float way = vector_to_object(shape, origin - shape_centre(shape)).z /
+                              vector_to_object(shape, d).z;
             back = way < lighting.far_distance ? max(back, way) : back;
         }
     }
@@ -78,7 +82,8 @@ DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a
 #endif
 
 /// Samples the start of a light path from the words of `a` and the first two of `b`.
-DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 a, MAYBE_UNUSED uint4 b) {
+DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 a,
+                                      MAYBE_UNUSED uint4 b) {
     EmissionSample sample;
 #if FEATURE_many_lights || FEATURE_independent_lights
     SELECT_BY_WORD(lights, .selection_end, 0u, lighting.light_count, a.x, selected)
@@ -111,8 +116,8 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
         case LIGHT_SPHERE_BY_AREA: {
             LightRecord by_area = light;
             by_area.kind = light.kind == LIGHT_DISC ? LIGHT_DISC : LIGHT_SPHERE_BY_AREA;
-            const ShapeLightSample on =
-                sample_shape_light(by_area, shapes, shape_centre(shapes + light.first_triangle), u, v);
+            const ShapeLightSample on = sample_shape_light(
+                by_area, shapes, shape_centre(shapes + light.first_triangle), u, v);
             emit_from_surface(light, on.point, on.pdf_a, b, &sample);
             return sample;
         }
@@ -162,8 +167,8 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
             const EnvironmentSample towards = sample_environment(environment_ends, lighting, a);
             sample.direction = -from_light_space(light, towards.direction);
             sample.pdf_origin *= towards.pdf_w;
-            sample.weight *=
-                environment_radiance(environment_texels, lighting, towards.direction) / towards.pdf_w;
+            sample.weight *= environment_radiance(environment_texels, lighting, towards.direction) /
+                             towards.pdf_w;
             sample.at_infinity = 1u;
             break;
         }
@@ -173,8 +178,8 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
     }
 #if FEATURE_infinite_lights || FEATURE_directional_lights
     if (sample.at_infinity != 0u) {
-        sample.origin = sample_disc_origin(SURFACE_ARGUMENTS lighting, sample.direction, uniform_float(b.x),
-                                           uniform_float(b.y));
+        sample.origin = sample_disc_origin(SURFACE_ARGUMENTS lighting, sample.direction,
+                                           uniform_float(b.x), uniform_float(b.y));
         sample.pdf_direction = disc_pdf_a_inside(lighting);
         sample.weight = sample.weight / sample.pdf_direction;
     }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Radiance from infinity by a latitude-longitude image, and its sampling.
 //
-// The image is bilinear between texel centres, so the directions are cut into cells whose corners are texel centres:
-// `width` columns, and `height` + 1 rows, of which the first and the last are half cells at the poles (rows beyond the
-// image repeat the nearest). A cell is chosen in proportion to the mean of its corners times its solid angle, first
-// its row, then its column; within it directions are uniform per solid angle. A cell has probability 0 only where the
+// The image is bilinear between texel centres, so the directions are cut into cells whose corners
+// are texel centres: `width` columns, and `height` + 1 rows, of which the first and the last are
+// half cells at the poles (rows beyond the image repeat the nearest). A cell is chosen in
+// proportion to the mean of its corners times its solid angle, first its row, then its column;
+// within it directions are uniform per solid angle. A cell has probability 0 only where the
 // radiance in it is 0.
 #pragma once
 
@@ -16,7 +17,8 @@
 
 #if FEATURE_environment
 
-/// Where a direction (light space, unit) lies: the cell, and the position in it from its left and upper edge.
+/// Where a direction (light space, unit) lies: the cell, and the position in it from its left and
+/// upper edge.
 typedef struct EnvironmentPosition {
     uint column, row;
     float x, y;
@@ -38,9 +40,10 @@ DEVICE EnvironmentPosition environment_position(LightingRecord lighting, float3 
     return position;
 }
 
-DEVICE float3 environment_texel(GLOBAL const float *texels, LightingRecord lighting, uint column, uint row) {
-    GLOBAL const float *texel =
-        texels + 3u * ((row - min(row, 1u)) * lighting.environment_width + column);  // row r of cells lies below texel r - 1
+DEVICE float3 environment_texel(GLOBAL const float *texels, LightingRecord lighting, uint column,
+                                uint row) {
+    GLOBAL const float *texel = texels + 3u * ((row - min(row, 1u)) * lighting.environment_width +
+                                               column);  // row r of cells lies below texel r - 1
     return make_float3(texel[0], texel[1], texel[2]);
 }
 
@@ -61,14 +64,18 @@ DEVICE float row_edge(LightingRecord lighting, uint row) {
     if (row == 0u) {
         return 0.0f;
     }
-    return row > lighting.environment_height ? 1.0f : ((float)row - 0.5f) / (float)lighting.environment_height;
+    return row > lighting.environment_height
+               ? 1.0f
+               : ((float)row - 0.5f) / (float)lighting.environment_height;
 }
 
-/// Solid angle of a cell of a row: 2 pi / width (cos(pi v0) - cos(pi v1)), as a product of sines without cancellation.
+/// Solid angle of a cell of a row: 2 pi / width (cos(pi v0) - cos(pi v1)), as a product of sines
+/// without cancellation.
 DEVICE float cell_solid_angle(LightingRecord lighting, uint row) {
     const float v0 = row_edge(lighting, row);
     const float v1 = row_edge(lighting, row + 1u);
-    return 4.0f * PI / (float)lighting.environment_width * sinpi(0.5f * (v0 + v1)) * sinpi(0.5f * (v1 - v0));
+    return 4.0f * PI / (float)lighting.environment_width * sinpi(0.5f * (v0 + v1)) *
+           sinpi(0.5f * (v1 - v0));
 }
 
 /// Density per solid angle of `sample_environment` in a cell.
@@ -76,7 +83,8 @@ DEVICE float cell_pdf_w(GLOBAL const uint *ends, LightingRecord lighting, uint c
     const uint rows = lighting.environment_height + 1u;
     const uint width = lighting.environment_width;
     const float row_words = selection_range(ends, 0u, rows, row).count;
-    const float column_words = selection_range(ends, rows + row * width, width, rows + row * width + column).count;
+    const float column_words =
+        selection_range(ends, rows + row * width, width, rows + row * width + column).count;
     return (row_words * 0x1p-32f) * (column_words * 0x1p-32f) / cell_solid_angle(lighting, row);
 }
 
@@ -90,7 +98,8 @@ typedef struct EnvironmentSample {
     float pdf_w;
 } EnvironmentSample;
 
-DEVICE EnvironmentSample sample_environment(GLOBAL const uint *ends, LightingRecord lighting, uint4 words) {
+DEVICE EnvironmentSample sample_environment(GLOBAL const uint *ends, LightingRecord lighting,
+                                            uint4 words) {
     const uint rows = lighting.environment_height + 1u;
     const uint width = lighting.environment_width;
     SELECT_BY_WORD(ends, , 0u, rows, words.y, row)
@@ -101,18 +110,22 @@ DEVICE EnvironmentSample sample_environment(GLOBAL const uint *ends, LightingRec
     const WordRange range = selection_range(ends, first, width, entry);
     const float x = min((float)(words.z - range.begin) / range.count, 0x1.fffffep-1f);
     const float u = ((float)column + 0.5f + x) / (float)width;
-    // Uniform in cos(theta) = cos(pi v) between the edges; near a pole 1 - cos(theta) = 2 sin^2(theta / 2) is what
-    // float can hold, so the polar distance is interpolated in sin^2.
+    // Uniform in cos(theta) = cos(pi v) between the edges; near a pole 1 - cos(theta) = 2
+    // sin^2(theta / 2) is what float can hold, so the polar distance is interpolated in sin^2.
     const float v0 = row_edge(lighting, row), v1 = row_edge(lighting, row + 1u);
     const float south = v0 + v1 > 1.0f ? 1.0f : 0.0f;
-    const float s0 = sinpi(0.5f * (south > 0.0f ? 1.0f - v0 : v0)), s1 = sinpi(0.5f * (south > 0.0f ? 1.0f - v1 : v1));
+    const float s0 = sinpi(0.5f * (south > 0.0f ? 1.0f - v0 : v0)),
+                s1 = sinpi(0.5f * (south > 0.0f ? 1.0f - v1 : v1));
     const float y = uniform_float(words.w);
-    const float square = s0 * s0 + y * (s1 * s1 - s0 * s0);  // sin^2(theta / 2) from the nearer pole, at most about 1/2
+    const float square =
+        s0 * s0 +
+        y * (s1 * s1 - s0 * s0);  // sin^2(theta / 2) from the nearer pole, at most about 1/2
     const float sin_theta = 2.0f * sqrt(square * (1.0f - square));
     const float cos_theta = 1.0f - 2.0f * square;
     EnvironmentSample sample;
     const float2 around = point_on_circle(u);
-    sample.direction = make_float3(sin_theta * around.y, south > 0.0f ? -cos_theta : cos_theta, -sin_theta * around.x);
+    sample.direction = make_float3(sin_theta * around.y, south > 0.0f ? -cos_theta : cos_theta,
+                                   -sin_theta * around.x);
     sample.pdf_w = cell_pdf_w(ends, lighting, column, row);
     return sample;
 }

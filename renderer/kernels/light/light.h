@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights as paths meet them: sampled from a point (explicit paths), or hit (implicit paths). One density serves both.
+// Lights as paths meet them: sampled from a point (explicit paths), or hit (implicit paths). One
+// density serves both.
 #pragma once
 
 #include "renderer/kernels/geometry/surface_hit.h"
@@ -20,46 +21,53 @@
 typedef struct LightSample {
     float3 wi;        ///< unit, from the receiving point
     float3 target;    ///< end of the shadow ray, off the light's own surface
-    float3 radiance;  ///< W / (sr m^2) from there when nothing blocks it; of a delta light: W / m^2 facing it
-    float pdf_w;      ///< per solid angle at the receiving point, selection included; of a delta light: its probability.
-                      ///< 0: nothing there
-    uint is_delta;    ///< point, spot, directional: cannot be hit
+    float3 radiance;  ///< W / (sr m^2) from there when nothing blocks it; of a delta light: W / m^2
+                      ///< facing it
+    float pdf_w;  ///< per solid angle at the receiving point, selection included; of a delta light:
+                  ///< its probability. 0: nothing there
+    uint is_delta;  ///< point, spot, directional: cannot be hit
 #if FEATURE_light_strategy
     // What light paths would have needed to come this way (EmissionSample).
     float sampling_over_emission;  ///< density of this sample's origin, over that of theirs
-    float arrival_pdf_a;           ///< with which they then arrive here, per area across their way; at infinity 0 where
-                                   ///< the disc does not reach
+    float arrival_pdf_a;  ///< with which they then arrive here, per area across their way; at
+                          ///< infinity 0 where the disc does not reach
 #endif
 } LightSample;
 
 DEVICE float3 light_radiance(LightRecord light) {
     return make_float3(light.radiance[0], light.radiance[1], light.radiance[2]);
 }
-DEVICE float3 light_axis_z(LightRecord light) { return make_float3(light.axis_z[0], light.axis_z[1], light.axis_z[2]); }
+DEVICE float3 light_axis_z(LightRecord light) {
+    return make_float3(light.axis_z[0], light.axis_z[1], light.axis_z[2]);
+}
 
-/// d^2 / cos: area densities times this are densities per solid angle (Veach 1997, 8.10). `way` leads to a point with
-/// that normal; 0 from behind, and where both coincide.
+/// d^2 / cos: area densities times this are densities per solid angle (Veach 1997, 8.10). `way`
+/// leads to a point with that normal; 0 from behind, and where both coincide.
 DEVICE float solid_angle_per_area(float3 way, float3 normal) {
     const float squared = dot(way, way);
     const float projected = -dot(normal, way);  // cos times distance
     return projected > 0.0f ? squared * (sqrt(squared) / projected) : 0.0f;
 }
 
-#if (FEATURE_infinite_lights || FEATURE_directional_lights) && (FEATURE_from_light || FEATURE_light_strategy)
+#if (FEATURE_infinite_lights || FEATURE_directional_lights) && \
+    (FEATURE_from_light || FEATURE_light_strategy)
 
-/// Density per area of the origins of light paths from infinity, on the disc that they cross: all of the sphere around
-/// the scene's bounded surfaces.
+/// Density per area of the origins of light paths from infinity, on the disc that they cross: all
+/// of the sphere around the scene's bounded surfaces.
 DEVICE float disc_pdf_a_inside(LightingRecord lighting) {
     return INV_PI / (lighting.scene_radius * lighting.scene_radius);
 }
 
-/// The same for the light path that comes to `point` from direction d (unit): 0 on the parts of planes that lie beyond.
+/// The same for the light path that comes to `point` from direction d (unit): 0 on the parts of
+/// planes that lie beyond.
 DEVICE float disc_pdf_a(LightingRecord lighting, float3 point, float3 d) {
-    const float3 way =
-        point - make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]);
+    const float3 way = point - make_float3(lighting.scene_centre[0], lighting.scene_centre[1],
+                                           lighting.scene_centre[2]);
     const float3 across = way - d * dot(way, d);
     // The radius has a margin for bounded surfaces that exceeds the rounding of both.
-    return dot(across, across) < lighting.scene_radius * lighting.scene_radius ? disc_pdf_a_inside(lighting) : 0.0f;
+    return dot(across, across) < lighting.scene_radius * lighting.scene_radius
+               ? disc_pdf_a_inside(lighting)
+               : 0.0f;
 }
 
 #endif
@@ -89,7 +97,8 @@ DEVICE float3 infinite_radiance(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
     if (light.kind == LIGHT_ENVIRONMENT)
 #endif
     {
-        return light_radiance(light) * environment_radiance(environment_texels, lighting, to_light_space(light, d));
+        return light_radiance(light) *
+               environment_radiance(environment_texels, lighting, to_light_space(light, d));
     }
 #endif
 #if FEATURE_dome
@@ -114,12 +123,13 @@ DEVICE float infinite_pdf_w(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
 
 #endif
 
-/// Turns a point on an area light into a sample. Both densities per area, the light given, `uniform_pdf_a` that of
-/// emission.
-DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a, MAYBE_UNUSED float uniform_pdf_a,
-                          PRIVATE LightSample *sample) {
+/// Turns a point on an area light into a sample. Both densities per area, the light given,
+/// `uniform_pdf_a` that of emission.
+DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a,
+                          MAYBE_UNUSED float uniform_pdf_a, PRIVATE LightSample *sample) {
     const float3 way = point.position - from;
-    // From behind the density is 0: the sides are decided without dividing by the distance, which may be 0.
+    // From behind the density is 0: the sides are decided without dividing by the distance, which
+    // may be 0.
     sample->pdf_w = pdf_a * solid_angle_per_area(way, point.normal);
     sample->wi = way / sqrt(dot(way, way));
     sample->target = offset_ray_origin(point, -way);
@@ -131,7 +141,8 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
 #endif
 }
 
-DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, float3 from, MAYBE_UNUSED uint4 words) {
+DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
+                                    float3 from, MAYBE_UNUSED uint4 words) {
     LightSample sample;
     sample.pdf_w = 0.0f;
     sample.is_delta = 0u;
@@ -141,76 +152,80 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
 #endif
     switch (light.kind) {
 #if FEATURE_area_lights
-    case LIGHT_MESH: {
-        const LightPoint on = sample_mesh_light(emitter_triangles, surface_triangles, light, words);
-        look_at_point(from, light, on.point, on.pdf_a, on.pdf_a, &sample);
-        break;
-    }
-#endif
-#if FEATURE_shape_lights
-    case LIGHT_DISC:
-    case LIGHT_SPHERE:
-    case LIGHT_SPHERE_BY_AREA: {
-        const ShapeLightSample on = sample_shape_light(light, shapes, from, uniform_float(words.z), uniform_float(words.w));
-        look_at_point(from, light, on.point, on.pdf_a, 1.0f / light.area, &sample);
-        break;
-    }
-#endif
-#if FEATURE_point_lights || FEATURE_spot_lights
-    case LIGHT_POINT:
-    case LIGHT_SPOT: {
-        sample.target = make_float3(light.position[0], light.position[1], light.position[2]);
-        const float3 way = sample.target - from;
-        const float squared = dot(way, way);
-        float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
-        sample.wi = way / sqrt(squared);
-#if FEATURE_light_strategy
-        sample.arrival_pdf_a = 0.25f * INV_PI / squared;
-#endif
-#if FEATURE_spot_lights
-        if (light.kind == LIGHT_SPOT) {
-            const SpotDirection spot = spot_direction(light, -sample.wi);
-            intensity *= intensity > 0.0f ? spot_share(light, spot) : 0.0f;  // in the light itself wi is NaN
-#if FEATURE_light_strategy
-            sample.arrival_pdf_a = spot_pdf_w(light, spot) / squared;
-#endif
+        case LIGHT_MESH: {
+            const LightPoint on =
+                sample_mesh_light(emitter_triangles, surface_triangles, light, words);
+            look_at_point(from, light, on.point, on.pdf_a, on.pdf_a, &sample);
+            break;
         }
 #endif
-        sample.radiance = light_radiance(light) * intensity;
-        sample.is_delta = 1u;
-        sample.pdf_w = intensity > 0.0f ? 1.0f : 0.0f;
-        break;
-    }
+#if FEATURE_shape_lights
+        case LIGHT_DISC:
+        case LIGHT_SPHERE:
+        case LIGHT_SPHERE_BY_AREA: {
+            const ShapeLightSample on = sample_shape_light(
+                light, shapes, from, uniform_float(words.z), uniform_float(words.w));
+            look_at_point(from, light, on.point, on.pdf_a, 1.0f / light.area, &sample);
+            break;
+        }
+#endif
+#if FEATURE_point_lights || FEATURE_spot_lights
+        case LIGHT_POINT:
+        case LIGHT_SPOT: {
+            sample.target = make_float3(light.position[0], light.position[1], light.position[2]);
+            const float3 way = sample.target - from;
+            const float squared = dot(way, way);
+            float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
+            sample.wi = way / sqrt(squared);
+#if FEATURE_light_strategy
+            sample.arrival_pdf_a = 0.25f * INV_PI / squared;
+#endif
+#if FEATURE_spot_lights
+            if (light.kind == LIGHT_SPOT) {
+                const SpotDirection spot = spot_direction(light, -sample.wi);
+                intensity *= intensity > 0.0f ? spot_share(light, spot)
+                                              : 0.0f;  // in the light itself wi is NaN
+#if FEATURE_light_strategy
+                sample.arrival_pdf_a = spot_pdf_w(light, spot) / squared;
+#endif
+            }
+#endif
+            sample.radiance = light_radiance(light) * intensity;
+            sample.is_delta = 1u;
+            sample.pdf_w = intensity > 0.0f ? 1.0f : 0.0f;
+            break;
+        }
 #endif
 #if FEATURE_directional_lights
-    case LIGHT_DIRECTIONAL:
-        sample.wi = light_axis_z(light);
-        sample.target = from + sample.wi * lighting.far_distance;
-        sample.radiance = light_radiance(light);
-        sample.is_delta = 1u;
-        sample.pdf_w = 1.0f;
-        break;
+        case LIGHT_DIRECTIONAL:
+            sample.wi = light_axis_z(light);
+            sample.target = from + sample.wi * lighting.far_distance;
+            sample.radiance = light_radiance(light);
+            sample.is_delta = 1u;
+            sample.pdf_w = 1.0f;
+            break;
 #endif
 #if FEATURE_dome
-    case LIGHT_DOME:
-        sample.wi = sample_uniform_sphere(uniform_float(words.z), uniform_float(words.w));
-        sample.target = from + sample.wi * lighting.far_distance;
-        sample.radiance = light_radiance(light);
-        sample.pdf_w = 0.25f * INV_PI;
-        break;
+        case LIGHT_DOME:
+            sample.wi = sample_uniform_sphere(uniform_float(words.z), uniform_float(words.w));
+            sample.target = from + sample.wi * lighting.far_distance;
+            sample.radiance = light_radiance(light);
+            sample.pdf_w = 0.25f * INV_PI;
+            break;
 #endif
 #if FEATURE_environment
-    case LIGHT_ENVIRONMENT: {
-        const EnvironmentSample towards = sample_environment(environment_ends, lighting, words);
-        sample.wi = from_light_space(light, towards.direction);
-        sample.target = from + sample.wi * lighting.far_distance;
-        sample.radiance = light_radiance(light) * environment_radiance(environment_texels, lighting, towards.direction);
-        sample.pdf_w = towards.pdf_w;
-        break;
-    }
+        case LIGHT_ENVIRONMENT: {
+            const EnvironmentSample towards = sample_environment(environment_ends, lighting, words);
+            sample.wi = from_light_space(light, towards.direction);
+            sample.target = from + sample.wi * lighting.far_distance;
+            sample.radiance = light_radiance(light) *
+                              environment_radiance(environment_texels, lighting, towards.direction);
+            sample.pdf_w = towards.pdf_w;
+            break;
+        }
 #endif
-    default:
-        break;
+        default:
+            break;
     }
 #if FEATURE_light_strategy && (FEATURE_infinite_lights || FEATURE_directional_lights)
     if (light.kind >= LIGHT_DIRECTIONAL) {
@@ -222,7 +237,8 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
 }
 
 /// Samples the light `chosen`, or one selected at random for SELECT_LIGHT, as seen from a point.
-DEVICE LightSample sample_lights(SURFACE_PARAMETERS LIGHT_PARAMETERS uint chosen, float3 from, uint4 words) {
+DEVICE LightSample sample_lights(SURFACE_PARAMETERS LIGHT_PARAMETERS uint chosen, float3 from,
+                                 uint4 words) {
     uint index = chosen;
     if (chosen == SELECT_LIGHT) {
 #if FEATURE_many_lights
@@ -250,8 +266,10 @@ DEVICE uint light_of_hit(LIGHT_PARAMETERS MAYBE_UNUSED uint primitive, uint emit
 #endif
 }
 
-/// Density per area, selection included, with which `sample_lights` makes this point seen from `from`.
-DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter,
+/// Density per area, selection included, with which `sample_lights` makes this point seen from
+/// `from`.
+DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
+                         MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter,
                          MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint point) {
 #if FEATURE_shape_lights
     if ((primitive & SHAPE_BIT) != 0u) {
@@ -273,9 +291,11 @@ DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light, 
 
 #if FEATURE_area_lights || FEATURE_shape_lights
 
-/// Density per area, selection included, with which a light path starts at a point of this emitter (as in SurfaceHit).
-/// Times 1 / pi, the cosine-weighted density per projected solid angle, it is that of the line from there.
-DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter) {
+/// Density per area, selection included, with which a light path starts at a point of this emitter
+/// (as in SurfaceHit). Times 1 / pi, the cosine-weighted density per projected solid angle, it is
+/// that of the line from there.
+DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uint primitive,
+                            MAYBE_UNUSED uint emitter) {
 #if FEATURE_shape_lights
     if ((primitive & SHAPE_BIT) != 0u) {
         return light.emission_selection / light.area;
@@ -288,8 +308,8 @@ DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uin
 #endif
 }
 
-/// Density per area and projected solid angle, selection included, of a light path along a ray that hits this emitter:
-/// pdf_origin pdf_direction / cos.
+/// Density per area and projected solid angle, selection included, of a light path along a ray that
+/// hits this emitter: pdf_origin pdf_direction / cos.
 DEVICE float emission_line_pdf(LIGHT_PARAMETERS LightRecord light, uint primitive, uint emitter) {
     return INV_PI * emission_pdf_a(LIGHT_ARGUMENTS light, primitive, emitter);
 }
@@ -298,8 +318,8 @@ DEVICE float emission_line_pdf(LIGHT_PARAMETERS LightRecord light, uint primitiv
 
 #if FEATURE_infinite_lights
 
-/// The same of a light path that comes to `point` from infinity, from direction d: pdf_origin pdf_direction, per solid
-/// angle and area of the disc.
+/// The same of a light path that comes to `point` from infinity, from direction d: pdf_origin
+/// pdf_direction, per solid angle and area of the disc.
 DEVICE float infinite_line_pdf(LIGHT_PARAMETERS float3 point, float3 d) {
     return lights[lighting.infinite_light].emission_selection * infinite_pdf_w(LIGHT_ARGUMENTS d) *
            disc_pdf_a(lighting, point, d);
@@ -307,9 +327,10 @@ DEVICE float infinite_line_pdf(LIGHT_PARAMETERS float3 point, float3 d) {
 
 #endif
 
-/// Density with which `sample_lights`, from `from`, makes this point or direction of a light, over that with which light
-/// paths start there; finite. The two differ by selection, where every light is sampled in turn, and on spheres that are
-/// sampled by their cones. `on` is read there alone: position and normal.
+/// Density with which `sample_lights`, from `from`, makes this point or direction of a light, over
+/// that with which light paths start there; finite. The two differ by selection, where every light
+/// is sampled in turn, and on spheres that are sampled by their cones. `on` is read there alone:
+/// position and normal.
 DEVICE float sampling_over_emission(SURFACE_PARAMETERS LightRecord light, MAYBE_UNUSED float3 from,
                                     MAYBE_UNUSED SurfacePoint on) {
     float ratio = light.selection / light.emission_selection;

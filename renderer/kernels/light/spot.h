@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Spots: full intensity inside the inner cone, from there a linear fall with the angle to 0 at the outer one
-// (Mitsuba 3's spot).
+// Spots: full intensity inside the inner cone, from there a linear fall with the angle to 0 at the
+// outer one (Mitsuba 3's spot).
 //
-// Light paths leave with a density that is constant inside the inner cone and falls linearly with the cosine
-// outside: between the cones intensity over density lies within [tan(o / 2) / o, 1] of its value on the axis,
-// o the outer angle, so weights vary by less than 2. Angles are held as versines, 1 - cos, which keep their
-// digits in narrow cones.
+// Light paths leave with a density that is constant inside the inner cone and falls linearly with
+// the cosine outside: between the cones intensity over density lies within [tan(o / 2) / o, 1] of
+// its value on the axis, o the outer angle, so weights vary by less than 2. Angles are held as
+// versines, 1 - cos, which keep their digits in narrow cones.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -16,7 +16,8 @@
 /// A direction out of a spot.
 typedef struct SpotDirection {
     float versine;  ///< of the angle from the axis
-    float profile;  ///< 1 inside the inner cone, from there to the outer one linear in the versine, 0 outside
+    float profile;  ///< 1 inside the inner cone, from there to the outer one linear in the versine,
+                    ///< 0 outside
 } SpotDirection;
 
 /// `direction` is unit, away from the light.
@@ -36,8 +37,8 @@ DEVICE float spot_share(LightRecord light, SpotDirection spot) {
     if (!(spot.profile > 0.0f)) {
         return 0.0f;
     }
-    // (outer - angle) / (outer - inner). The difference of the angles without cancellation, from that of the
-    // versines: cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2).
+    // (outer - angle) / (outer - inner). The difference of the angles without cancellation, from
+    // that of the versines: cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2).
     const float angle = 2.0f * asin(sqrt(0.5f * spot.versine));
     const float half_difference =
         asin(spot.profile * light.versine_range / (2.0f * sin(0.5f * (light.outer_angle + angle))));
@@ -46,8 +47,8 @@ DEVICE float spot_share(LightRecord light, SpotDirection spot) {
 
 #if FEATURE_from_light || FEATURE_light_strategy
 
-/// Density per solid angle of `sample_spot`: its integral over the inner cone is 2 pi inner versine, over the
-/// rest pi times the versines between the cones.
+/// Density per solid angle of `sample_spot`: its integral over the inner cone is 2 pi inner
+/// versine, over the rest pi times the versines between the cones.
 DEVICE float spot_pdf_w(LightRecord light, SpotDirection spot) {
     return spot.profile * (INV_PI / (2.0f * light.versine_outer - light.versine_range));
 }
@@ -60,7 +61,8 @@ DEVICE SpotDirection sample_spot(LightRecord light, float u) {
     spot.versine = 0.5f * mass;
     spot.profile = 1.0f;
     if (mass >= 2.0f * versine_inner) {
-        // The profile has density twice itself. Rounding must not bring it to 0, where there is no light.
+        // The profile has density twice itself. Rounding must not bring it to 0, where there is no
+        // light.
         const float below = (mass - 2.0f * versine_inner) / light.versine_range;
         spot.profile = sqrt(max(1.0f - below, 0x1p-24f));
         spot.versine = light.versine_outer - spot.profile * light.versine_range;

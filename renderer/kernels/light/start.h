@@ -7,9 +7,9 @@
 #include "renderer/shared/scene_buffers.h"
 
 /// Where light path number `path` of a sample starts: the same whenever it is asked for.
-DEVICE EmissionSample path_start(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings, uint path,
-                                 ulong sample) {
-    return sample_emission(SURFACE_ARGUMENTS LIGHT_ARGUMENTS
-                           path_sample(settings, path, sample, BLOCK_EMISSION(0u)),
-                           path_sample(settings, path, sample, BLOCK_EMISSION(1u)));
+DEVICE EmissionSample path_start(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+                                 uint path, ulong sample) {
+    return sample_emission(
+        SURFACE_ARGUMENTS LIGHT_ARGUMENTS path_sample(settings, path, sample, BLOCK_EMISSION(0u)),
+        path_sample(settings, path, sample, BLOCK_EMISSION(1u)));
 }

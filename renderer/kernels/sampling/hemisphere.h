@@ -9,7 +9,8 @@ typedef struct Frame {
     float3 x, y, z;
 } Frame;
 
-/// Duff et al. 2017, "Building an orthonormal basis, revisited": |z.z + sign| >= 1, so the division is safe.
+/// Duff et al. 2017, "Building an orthonormal basis, revisited": |z.z + sign| >= 1, so the division
+/// is safe.
 DEVICE Frame frame_from_z(float3 z) {
     const float sign = z.z < 0.0f ? -1.0f : 1.0f;
     const float a = -1.0f / (sign + z.z);
@@ -21,10 +22,12 @@ DEVICE Frame frame_from_z(float3 z) {
     return frame;
 }
 
-DEVICE float3 to_world(Frame frame, float3 v) { return frame.x * v.x + frame.y * v.y + frame.z * v.z; }
+DEVICE float3 to_world(Frame frame, float3 v) {
+    return frame.x * v.x + frame.y * v.y + frame.z * v.z;
+}
 
-/// Cosine-weighted direction about +z. Density per solid angle: z / pi. With u in [0, 1) in steps of 2^-24, z is
-/// at least 2^-12: the density is never zero.
+/// Cosine-weighted direction about +z. Density per solid angle: z / pi. With u in [0, 1) in steps
+/// of 2^-24, z is at least 2^-12: the density is never zero.
 DEVICE float3 sample_cosine_hemisphere(float u, float v) {
     const float radius = sqrt(u);
     const float2 around = point_on_circle(v);
@@ -52,8 +55,9 @@ DEVICE float2 sample_triangle(float u, float v) {
     return make_float2(1.0f - root, v * root);
 }
 
-/// x with 1 + erf(x) = w, w in (0, 2): relative error below 1e-6 of 1 + |x|. M. Giles, "Approximating the erfinv
-/// function", 2010, in terms of w, which keeps its digits where erf(x) rounds to -1.
+/// x with 1 + erf(x) = w, w in (0, 2): relative error below 1e-6 of 1 + |x|. M. Giles,
+/// "Approximating the erfinv function", 2010, in terms of w, which keeps its digits where erf(x)
+/// rounds to -1.
 DEVICE float inverse_erf_plus_one(float w) {
     const float y = w - 1.0f;
     float t = -log(w * (2.0f - w));

@@ -9,10 +9,11 @@
 #include "renderer/kernels/sampling/sobol.h"
 #endif
 
-/// Four words of block `block`: uniform each, and independent of those of all other blocks, pixels and streams. From
-/// sample to sample they are independent, or those of a stratified sequence. Regular samples are not random: the same in
-/// all pixels, whatever the seed.
-DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, ulong sample, uint block) {
+/// Four words of block `block`: uniform each, and independent of those of all other blocks, pixels
+/// and streams. From sample to sample they are independent, or those of a stratified sequence.
+/// Regular samples are not random: the same in all pixels, whatever the seed.
+DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, ulong sample,
+                          uint block) {
 #if FEATURE_sobol
     if (settings.sampler == SAMPLER_SOBOL) {
         // A sequence has 2^32 points; then comes another.
@@ -31,11 +32,12 @@ DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, 
     return random_words(settings.seed, stream, pixel, sample, block);
 }
 
-/// Of camera paths, where this pass traces those; of light paths `pixel` numbers the path within its sample, and all paths
-/// of all samples share one sequence.
+/// Of camera paths, where this pass traces those; of light paths `pixel` numbers the path within
+/// its sample, and all paths of all samples share one sequence.
 DEVICE uint4 path_sample(IntegratorSettings settings, uint pixel, ulong sample, uint block) {
 #if FEATURE_from_light
-    return sample_words(settings, STREAM_LIGHT_PATHS, 0u, sample * settings.light_paths + pixel, block);
+    return sample_words(settings, STREAM_LIGHT_PATHS, 0u, sample * settings.light_paths + pixel,
+                        block);
 #else
     return sample_words(settings, STREAM_CAMERA, pixel, sample, block);
 #endif

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Discrete choices by 32-bit random words. Tables hold ends: entry i is taken by the words from end i - 1 up to, not
-// including, end i. Ends never decrease; the last one is 2^32 - 1, which stands for 2^32. Entries of probability 0
-// share their predecessor's end and are never taken. Probabilities are those of the words exactly: what is sampled is
-// what the densities say.
+// Discrete choices by 32-bit random words. Tables hold ends: entry i is taken by the words from end
+// i - 1 up to, not including, end i. Ends never decrease; the last one is 2^32 - 1, which stands
+// for 2^32. Entries of probability 0 share their predecessor's end and are never taken.
+// Probabilities are those of the words exactly: what is sampled is what the densities say.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-/// Declares `selected`, the index of the first entry of `table` from `first` on whose `selection_end` exceeds `word`.
-#define SELECT_BY_WORD(table, member, first, count, word, selected)         \
-    uint selected = (first);                                                \
-    {                                                                       \
-        uint remaining = (count) - 1u;                                      \
-        while (remaining > 0u) {                                            \
-            const uint half_ = (remaining + 1u) / 2u;                       \
-            if ((table)[selected + half_ - 1u] member <= (word)) {          \
-                selected += half_;                                          \
-                remaining -= half_;                                         \
-            } else {                                                        \
-                remaining = half_ - 1u;                                     \
-            }                                                               \
-        }                                                                   \
+/// Declares `selected`, the index of the first entry of `table` from `first` on whose
+/// `selection_end` exceeds `word`.
+#define SELECT_BY_WORD(table, member, first, count, word, selected) \
+    uint selected = (first);                                        \
+    {                                                               \
+        uint remaining = (count)-1u;                                \
+        while (remaining > 0u) {                                    \
+            const uint half_ = (remaining + 1u) / 2u;               \
+            if ((table)[selected + half_ - 1u] member <= (word)) {  \
+                selected += half_;                                  \
+                remaining -= half_;                                 \
+            } else {                                                \
+                remaining = half_ - 1u;                             \
+            }                                                       \
+        }                                                           \
     }
 
 /// The words that take entry `i` of a table whose first entry is `first`: [begin, begin + count).
@@ -33,6 +34,7 @@ DEVICE WordRange selection_range(GLOBAL const uint *ends, uint first, uint count
     WordRange range;
     range.begin = i == first ? 0u : ends[i - 1u];
     // The difference of two words is exact; its rounding to float is relative.
-    range.count = i + 1u == first + count ? 4294967296.0f - (float)range.begin : (float)(ends[i] - range.begin);
+    range.count = i + 1u == first + count ? 4294967296.0f - (float)range.begin
+                                          : (float)(ends[i] - range.begin);
     return range;
 }

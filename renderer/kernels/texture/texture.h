@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texture lookups. (0, 0) is the lower left corner of the image, (1, 1) its upper right one; rows are stored
-// from the top; texel centres are at half-integer texel coordinates.
+// Texture lookups. (0, 0) is the lower left corner of the image, (1, 1) its upper right one; rows
+// are stored from the top; texel centres are at half-integer texel coordinates.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -11,7 +11,8 @@
 #include "renderer/kernels/texture/srgb_table.h"
 
 /// The linear colour of texel `index`, counted row by row.
-DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels, uint index) {
+DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
+                            uint index) {
     if ((texture->flags & TEXTURE_FLOAT) != 0u) {
         GLOBAL const uint *words = texels + texture->first_word + 3u * index;
         return make_float3(as_float(words[0]), as_float(words[1]), as_float(words[2]));
@@ -24,8 +25,8 @@ DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const ui
     return make_float3((float)r, (float)g, (float)b) / 255.0f;
 }
 
-/// The coordinate in [0, 1] where the image is looked up. A repeated coordinate whose fraction rounds to 1 is
-/// 0, as is one beyond float's range, whose fraction is not a number.
+/// The coordinate in [0, 1] where the image is looked up. A repeated coordinate whose fraction
+/// rounds to 1 is 0, as is one beyond float's range, whose fraction is not a number.
 DEVICE float texture_wrap(float x, uint clamped) {
     if (clamped != 0u) {
         return x > 0.0f ? min(x, 1.0f) : 0.0f;
@@ -56,12 +57,14 @@ DEVICE TexelPair texel_pair(float x, uint size, uint clamped) {
 /// Where `uv` lies in the image: (0, 0) is its upper left corner, (1, 1) its lower right one.
 DEVICE float2 texture_position(GLOBAL const TextureRecord *texture, float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;
-    return make_float2(texture_wrap(texture->uv_scale[0] * uv.x + texture->uv_offset[0], clamped),
-                       1.0f - texture_wrap(texture->uv_scale[1] * uv.y + texture->uv_offset[1], clamped));
+    return make_float2(
+        texture_wrap(texture->uv_scale[0] * uv.x + texture->uv_offset[0], clamped),
+        1.0f - texture_wrap(texture->uv_scale[1] * uv.y + texture->uv_offset[1], clamped));
 }
 
 /// The colour at `uv`, linear.
-DEVICE float3 texture_lookup(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels, float2 uv) {
+DEVICE float3 texture_lookup(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
+                             float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;
     const uint width = texture->width, height = texture->height;
     const float2 at = texture_position(texture, uv);

@@ -3,10 +3,12 @@
 
 #include "renderer/kernels/traversal/traversal_ray.h"
 
-/// Distance at which the ray enters the box [lower, upper][x, y, z], or INFINITY when it misses the box within [0, t_max].
-/// Conservative (traversal_ray.h). Where 0 x infinity makes a slab distance NaN, the origin lies on a plane
-/// the ray runs along: the comparison is false, the other operand is kept, and the box counts as hit.
-DEVICE float intersect_box(GLOBAL const float (*bounds)[3], PRIVATE const TraversalRay *ray, float t_max) {
+/// Distance at which the ray enters the box [lower, upper][x, y, z], or INFINITY when it misses the
+/// box within [0, t_max]. Conservative (traversal_ray.h). Where 0 x infinity makes a slab distance
+/// NaN, the origin lies on a plane the ray runs along: the comparison is false, the other operand
+/// is kept, and the box counts as hit.
+DEVICE float intersect_box(GLOBAL const float (*bounds)[3], PRIVATE const TraversalRay *ray,
+                           float t_max) {
     float entry = 0.0f;
     float exit = t_max;
     for (uint axis = 0; axis < 3; ++axis) {

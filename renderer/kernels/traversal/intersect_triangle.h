@@ -6,8 +6,8 @@
 #include "renderer/shared/bvh_node.h"
 #include "renderer/shared/triangle.h"
 
-/// Programs that define this as 1 count what traversal does (trace_rays.cl); for the others counting is
-/// nothing.
+/// Programs that define this as 1 count what traversal does (trace_rays.cl); for the others
+/// counting is nothing.
 #ifndef TRAVERSAL_COUNTS
 #define TRAVERSAL_COUNTS 0
 #endif
@@ -58,7 +58,8 @@ DEVICE Hit no_hit(float t_max) {
 #undef MASK
 #undef OF_LANES
 
-/// True when the ray meets the triangle, from either side, at 0 < t < t_max; then sets t, u and v of `hit`.
+/// True when the ray meets the triangle, from either side, at 0 < t < t_max; then sets t, u and v
+/// of `hit`.
 DEVICE bool intersect_triangle(GLOBAL const LeafTriangle *triangle, PRIVATE const TraversalRay *ray,
                                float t_max, PRIVATE Hit *hit) {
     GLOBAL const float *xs = triangle->coordinate[ray->kx];
@@ -79,9 +80,10 @@ DEVICE bool intersect_triangle(GLOBAL const LeafTriangle *triangle, PRIVATE cons
     return true;
 }
 
-/// The nearest hit at 0 < t < hit->t with the triangles of a leaf (bvh_node.h), if there is one, becomes the hit.
-DEVICE void intersect_leaf(GLOBAL const LeafTriangle *triangles, uint link, PRIVATE const TraversalRay *ray,
-                           PRIVATE Hit *hit) {
+/// The nearest hit at 0 < t < hit->t with the triangles of a leaf (bvh_node.h), if there is one,
+/// becomes the hit.
+DEVICE void intersect_leaf(GLOBAL const LeafTriangle *triangles, uint link,
+                           PRIVATE const TraversalRay *ray, PRIVATE Hit *hit) {
     const uint first = bvh_leaf_first(link);
     const uint end = first + bvh_leaf_count(link);
     COUNT(*hit, triangles, end - first);

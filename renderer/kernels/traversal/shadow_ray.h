@@ -6,8 +6,9 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-/// The end of a shadow ray, in lengths of the way: short of the light by more than the rounding of the way itself, which
-/// may exceed the distance that keeps the light's surface from blocking itself where that is small and far away.
+/// The end of a shadow ray, in lengths of the way: short of the light by more than the rounding of
+/// the way itself, which may exceed the distance that keeps the light's surface from blocking
+/// itself where that is small and far away.
 #define SHADOW_END (1.0f - 0x1p-20f)
 
 /// Whether anything lies on the way from `origin` to `origin + way`.

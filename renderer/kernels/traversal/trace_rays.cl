@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Traces an array of rays: the tests' and benchmarks' view of the traversal functions on a device.
-// Reads nodes, triangles, rays; writes hits (trace_nearest_rays) or flags (trace_any_rays). With TRAVERSAL_COUNTS also
-// count_nearest_rays and count_any_rays, which write what that took.
+// Reads nodes, triangles, rays; writes hits (trace_nearest_rays) or flags (trace_any_rays). With
+// TRAVERSAL_COUNTS also count_nearest_rays and count_any_rays, which write what that took.
 #include "renderer/kernels/traversal/intersect_bvh.h"
 #include "renderer/kernels/traversal/ray_record.h"
 
-__kernel void trace_nearest_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles,
+__kernel void trace_nearest_rays(GLOBAL const BVH_NODE *nodes,
+                                 GLOBAL const BVH_TRIANGLES *triangles,
                                  GLOBAL const RayRecord *rays, uint ray_count, GLOBAL Hit *hits) {
     const uint i = (uint)get_global_id(0);
     if (i >= ray_count) {
         return;
     }
     const RayRecord ray = rays[i];
-    hits[i] = trace_nearest(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max);
+    hits[i] =
+        trace_nearest(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max);
 }
 
 __kernel void trace_any_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles,
@@ -22,18 +24,21 @@ __kernel void trace_any_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIA
         return;
     }
     const RayRecord ray = rays[i];
-    const bool hit = trace_any(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max);
+    const bool hit =
+        trace_any(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max);
     occluded[i] = hit ? 1u : 0u;
 }
 
 #if TRAVERSAL_COUNTS
-__kernel void count_nearest_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles,
-                                 GLOBAL const RayRecord *rays, uint ray_count, GLOBAL RayWork *work) {
+__kernel void count_nearest_rays(GLOBAL const BVH_NODE *nodes,
+                                 GLOBAL const BVH_TRIANGLES *triangles,
+                                 GLOBAL const RayRecord *rays, uint ray_count,
+                                 GLOBAL RayWork *work) {
     const uint i = (uint)get_global_id(0);
     if (i < ray_count) {
         const RayRecord ray = rays[i];
-        const Hit hit =
-            TRAVERSE_BVH(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max, false);
+        const Hit hit = TRAVERSE_BVH(nodes, triangles, vload3(0, ray.origin),
+                                     vload3(0, ray.direction), ray.t_max, false);
         work[i].nodes = hit.nodes;
         work[i].triangles = hit.triangles;
     }
@@ -44,8 +49,8 @@ __kernel void count_any_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIA
     const uint i = (uint)get_global_id(0);
     if (i < ray_count) {
         const RayRecord ray = rays[i];
-        const Hit hit =
-            TRAVERSE_BVH(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max, true);
+        const Hit hit = TRAVERSE_BVH(nodes, triangles, vload3(0, ray.origin),
+                                     vload3(0, ray.direction), ray.t_max, true);
         work[i].nodes = hit.nodes;
         work[i].triangles = hit.triangles;
     }

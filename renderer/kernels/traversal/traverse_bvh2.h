@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the two-wide hierarchy with a stack: T. Aila, S. Laine, "Understanding the Efficiency of Ray
-// Traversal on GPUs", HPG 2009; thesis 3.1. Both children of a node are tested, the nearer is entered, the
-// farther postponed with its distance of entry, so that a hit found in between discards it unseen.
+// Traversal of the two-wide hierarchy with a stack: T. Aila, S. Laine, "Understanding the
+// Efficiency of Ray Traversal on GPUs", HPG 2009; thesis 3.1. Both children of a node are tested,
+// the nearer is entered, the farther postponed with its distance of entry, so that a hit found in
+// between discards it unseen.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_box.h"
@@ -10,8 +11,8 @@
 #include "renderer/shared/triangle.h"
 
 /// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
-DEVICE Hit traverse_bvh2(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles, float3 origin,
-                         float3 direction, float t_max, bool any) {
+DEVICE Hit traverse_bvh2(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles,
+                         float3 origin, float3 direction, float t_max, bool any) {
     Hit hit = no_hit(t_max);
     const float3 scene_lower = make_float3(min(nodes->bounds[0][0][0], nodes->bounds[1][0][0]),
                                            min(nodes->bounds[0][0][1], nodes->bounds[1][0][1]),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the two-wide hierarchy without a stack (thesis 3.1): from each node the way goes on to the nearer of its
-// children or, where the ray misses its box, past all below it. Departures from the thesis: boxes beyond the nearest hit so
-// far count as missed, and the order of children depends on the octant of the ray's direction.
+// Traversal of the two-wide hierarchy without a stack (thesis 3.1): from each node the way goes on
+// to the nearer of its children or, where the ray misses its box, past all below it. Departures
+// from the thesis: boxes beyond the nearest hit so far count as missed, and the order of children
+// depends on the octant of the ray's direction.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_box.h"
@@ -9,12 +10,13 @@
 #include "renderer/shared/stackless_node.h"
 
 /// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
-DEVICE Hit traverse_stackless(GLOBAL const StacklessNode *nodes, GLOBAL const LeafTriangle *triangles,
-                              float3 origin, float3 direction, float t_max, bool any) {
+DEVICE Hit traverse_stackless(GLOBAL const StacklessNode *nodes,
+                              GLOBAL const LeafTriangle *triangles, float3 origin, float3 direction,
+                              float t_max, bool any) {
     Hit hit = no_hit(t_max);
     TraversalRay ray;
-    if (!make_traversal_ray(origin, direction, vload3(0, nodes->bounds[0]), vload3(0, nodes->bounds[1]),
-                            &ray)) {
+    if (!make_traversal_ray(origin, direction, vload3(0, nodes->bounds[0]),
+                            vload3(0, nodes->bounds[1]), &ray)) {
         return hit;
     }
     const uint octant = ray.entry_side[0] | ray.entry_side[1] << 1 | ray.entry_side[2] << 2;

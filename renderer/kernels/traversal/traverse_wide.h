@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the eight-wide hierarchy: a work-item tests the eight boxes of a node, or the eight triangles
-// of a leaf, by vector operations. The children that are hit go to the stack in order, the nearest on top.
+// Traversal of the eight-wide hierarchy: a work-item tests the eight boxes of a node, or the eight
+// triangles of a leaf, by vector operations. The children that are hit go to the stack in order,
+// the nearest on top.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -14,18 +15,18 @@
 #undef MASK
 #undef OF_LANES
 
-/// Distances at which the ray enters the children's boxes, and the bits of those it meets within [0, t_max].
-/// Conservative and safe with NaN as the test of one box is (intersect_box.h).
-DEVICE uint intersect_wide_boxes(GLOBAL const WideNode *node, PRIVATE const TraversalRay *ray, float t_max,
-                                 PRIVATE float8 *entries) {
+/// Distances at which the ray enters the children's boxes, and the bits of those it meets within
+/// [0, t_max]. Conservative and safe with NaN as the test of one box is (intersect_box.h).
+DEVICE uint intersect_wide_boxes(GLOBAL const WideNode *node, PRIVATE const TraversalRay *ray,
+                                 float t_max, PRIVATE float8 *entries) {
     float8 entry = splat_float8(0.0f);
     float8 exit = splat_float8(t_max);
     for (uint axis = 0; axis < 3; ++axis) {
         const uint side = ray->entry_side[axis];
         const float8 in =
             (vload8(0, node->bounds[side][axis]) - ray->entry_origin[axis]) * ray->inverse[axis];
-        const float8 out =
-            (vload8(0, node->bounds[1u - side][axis]) - ray->exit_origin[axis]) * ray->inverse[axis];
+        const float8 out = (vload8(0, node->bounds[1u - side][axis]) - ray->exit_origin[axis]) *
+                           ray->inverse[axis];
         entry = in > entry ? in : entry;
         exit = out < exit ? out : exit;
     }
@@ -34,14 +35,14 @@ DEVICE uint intersect_wide_boxes(GLOBAL const WideNode *node, PRIVATE const Trav
 }
 
 /// The nearest hit of a block at 0 < t < hit->t, if there is one, becomes the hit.
-DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block, PRIVATE const TraversalRay *ray,
-                            PRIVATE Hit *hit) {
+DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block,
+                            PRIVATE const TraversalRay *ray, PRIVATE Hit *hit) {
     GLOBAL const float(*xs)[WIDE_LANES] = blocks[block].coordinate[ray->kx];
     GLOBAL const float(*ys)[WIDE_LANES] = blocks[block].coordinate[ray->ky];
     GLOBAL const float(*zs)[WIDE_LANES] = blocks[block].coordinate[ray->kz];
-    const EdgeFunctions_8 edges = edge_functions_8(ray, vload8(0, xs[0]), vload8(0, ys[0]), vload8(0, zs[0]),
-                                                   vload8(0, xs[1]), vload8(0, ys[1]), vload8(0, zs[1]),
-                                                   vload8(0, xs[2]), vload8(0, ys[2]), vload8(0, zs[2]));
+    const EdgeFunctions_8 edges = edge_functions_8(
+        ray, vload8(0, xs[0]), vload8(0, ys[0]), vload8(0, zs[0]), vload8(0, xs[1]),
+        vload8(0, ys[1]), vload8(0, zs[1]), vload8(0, xs[2]), vload8(0, ys[2]), vload8(0, zs[2]));
     const int8 passed = line_meets_8(&edges);
     if (lane_bits(passed) == 0u) {
         return;
@@ -67,23 +68,26 @@ DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block, PRIV
 }
 
 /// Asks for a node or a block that is put on the stack: in large scenes it is in no cache nearby.
-DEVICE void prefetch_link(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks, uint link) {
-    GLOBAL const char *bytes = (link & BVH_LEAF_BIT) == 0 ? (GLOBAL const char *)(nodes + link)
-                                                          : (GLOBAL const char *)(blocks + wide_leaf_block(link));
+DEVICE void prefetch_link(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks,
+                          uint link) {
+    GLOBAL const char *bytes = (link & BVH_LEAF_BIT) == 0
+                                   ? (GLOBAL const char *)(nodes + link)
+                                   : (GLOBAL const char *)(blocks + wide_leaf_block(link));
     for (uint i = 0; i < sizeof(WideNode); i += CACHE_LINE) {  // of a block the most part
         PREFETCH(bytes + i);
     }
 }
 
 /// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
-DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks, float3 origin,
-                         float3 direction, float t_max, bool any) {
+DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks,
+                         float3 origin, float3 direction, float t_max, bool any) {
     Hit hit = no_hit(t_max);
     TraversalRay ray;
     if (!make_traversal_ray(
             origin, direction,
             make_float3(nodes->bounds[0][0][0], nodes->bounds[0][1][0], nodes->bounds[0][2][0]),
-            make_float3(nodes->bounds[1][0][0], nodes->bounds[1][1][0], nodes->bounds[1][2][0]), &ray)) {
+            make_float3(nodes->bounds[1][0][0], nodes->bounds[1][1][0], nodes->bounds[1][2][0]),
+            &ray)) {
         return hit;
     }
     uint links[WIDE_STACK_SIZE];

@@ -31,34 +31,37 @@ Error keyframe_error(size_t index, const std::string &what) {
 
 AnimatedTransform::AnimatedTransform(std::string name, const std::vector<Keyframe> &keyframes)
     : TransformCore(std::move(name), first_matrix(keyframes)) {
-    // Quaternions of rotations half a turn apart are orthogonal; nearer than this the arc is a matter of
-    // rounding.
+    // Quaternions of rotations half a turn apart are orthogonal; nearer than this the arc is a
+    // matter of rounding.
     constexpr double half_turn = 1e-9;
     for (size_t i = 0; i < keyframes.size(); ++i) {
         const TransformCore checked("", keyframes[i].parent_from_object);
         const Eigen::Matrix3d linear = checked.matrix().topLeftCorner<3, 3>();
-        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        // M = (U V^T) (V S V^T); where M mirrors, both factors change sign, so that the first is a rotation.
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear,
+                                                    Eigen::ComputeFullU | Eigen::ComputeFullV);
+        // M = (U V^T) (V S V^T); where M mirrors, both factors change sign, so that the first is a
+        // rotation.
         const double sign = linear.determinant() < 0 ? -1 : 1;
         const Eigen::Matrix3d rotation = sign * svd.matrixU() * svd.matrixV().transpose();
         const Eigen::Matrix3d stretch =
             sign * svd.matrixV() * svd.singularValues().asDiagonal() * svd.matrixV().transpose();
-        const Key key{keyframes[i].time, checked.matrix(), Eigen::Quaterniond(rotation).normalized(),
-                      stretch};
+        const Key key{keyframes[i].time, checked.matrix(),
+                      Eigen::Quaterniond(rotation).normalized(), stretch};
         if (!std::isfinite(key.time)) {
             throw keyframe_error(i, "has no finite time");
         }
         if (i > 0) {
             const Key &before = keys_.back();
             if (!(key.time > before.time)) {
-                throw keyframe_error(i, fmt::format("is at {} s, not after the one before it, at {} s",
-                                                    key.time, before.time));
+                throw keyframe_error(
+                    i, fmt::format("is at {} s, not after the one before it, at {} s", key.time,
+                                   before.time));
             }
             if ((key.stretch.trace() < 0) != (before.stretch.trace() < 0)) {
-                throw keyframe_error(
-                    i,
-                    "mirrors and the one before it does not, or the other way round: on the way the "
-                    "object would vanish");
+                throw keyframe_error(i,
+                                     "mirrors and the one before it does not, or the other way "
+                                     "round: on the way the "
+                                     "object would vanish");
             }
             if (std::abs(key.rotation.dot(before.rotation)) < half_turn) {
                 throw keyframe_error(
@@ -84,8 +87,8 @@ Eigen::Matrix4d AnimatedTransform::matrix_at(double time) const {
     }
     const double s = (time - from.time) / (after->time - from.time);
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-    // The stretches are both positive or both negative definite, and so is what lies between them: it can be
-    // inverted.
+    // The stretches are both positive or both negative definite, and so is what lies between them:
+    // it can be inverted.
     matrix.topLeftCorner<3, 3>() = from.rotation.slerp(s, after->rotation).toRotationMatrix() *
                                    ((1 - s) * from.stretch + s * after->stretch);
     matrix.topRightCorner<3, 1>() =

@@ -8,11 +8,13 @@ namespace rtrays::rows {
 
 using Need = Parameter::Need;
 
-/// Neither so smooth that the half vector's rounding in float matters (1e-7 / 1e-4), nor beyond the models.
+/// Neither so smooth that the half vector's rounding in float matters (1e-7 / 1e-4), nor beyond the
+/// models.
 inline constexpr Range roughness{1e-4, 1, true, true};
 inline constexpr Range index_of_refraction{0.01, 100, true, true};
 
-inline Parameter colour(const std::string &name, const std::string &help, Need need = Need::required) {
+inline Parameter colour(const std::string &name, const std::string &help,
+                        Need need = Need::required) {
     return {name, help + ", within [0, 1]", Eigen::Vector3d(1, 1, 1), need, ranges::unit, {}, true};
 }
 
@@ -30,7 +32,8 @@ inline Parameter exponent(const std::string &name, Need need = Need::required) {
 
 /// Of a surface that is rough for certain.
 inline Parameter alpha(const std::string &name, Need need = Need::required) {
-    return {name, "roughness along the tangent and across it", Eigen::Vector2d(1, 1), need, roughness};
+    return {name, "roughness along the tangent and across it", Eigen::Vector2d(1, 1), need,
+            roughness};
 }
 
 inline Parameter distribution(const std::string &name) {
@@ -48,11 +51,16 @@ inline Parameter dielectric_eta(const std::string &name, Need need = Need::requi
 }
 
 inline Parameter conductor_eta(const std::string &name, Need need = Need::required) {
-    return {name, "index of refraction per channel", Eigen::Vector3d(1, 1, 1), need, index_of_refraction};
+    return {name, "index of refraction per channel", Eigen::Vector3d(1, 1, 1), need,
+            index_of_refraction};
 }
 
 inline Parameter conductor_k(const std::string &name, Need need = Need::required) {
-    return {name, "extinction coefficient per channel", Eigen::Vector3d(0, 0, 0), need, {0, 100, true, true}};
+    return {name,
+            "extinction coefficient per channel",
+            Eigen::Vector3d(0, 0, 0),
+            need,
+            {0, 100, true, true}};
 }
 
 }  // namespace rtrays::rows

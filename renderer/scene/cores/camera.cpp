@@ -8,7 +8,11 @@ namespace rtrays {
 const std::vector<CoreType> &camera_types() {
     using Need = Parameter::Need;
     static const ParameterTable pinhole = {
-        {"fov", "full angle of view along fov_axis, degrees", 0.0, Need::required, {0, 180, false, false}},
+        {"fov",
+         "full angle of view along fov_axis, degrees",
+         0.0,
+         Need::required,
+         {0, 180, false, false}},
         {"fov_axis",
          "image axis of the angle of view",
          std::string(),
@@ -18,17 +22,19 @@ const std::vector<CoreType> &camera_types() {
     };
     static const ParameterTable thin_lens = [] {
         ParameterTable table = pinhole;
-        table.push_back({"aperture_radius", "of the lens, scene units; 0 for a pinhole", 0.0, Need::required,
-                         ranges::not_negative});
+        table.push_back({"aperture_radius", "of the lens, scene units; 0 for a pinhole", 0.0,
+                         Need::required, ranges::not_negative});
         table.push_back({"focus_distance", "of the plane in focus from the lens, scene units", 0.0,
                          Need::required, ranges::positive});
         return table;
     }();
-    static const std::vector<CoreType> types = {{"pinhole", pinhole, {}}, {"thin_lens", thin_lens, {}}};
+    static const std::vector<CoreType> types = {{"pinhole", pinhole, {}},
+                                                {"thin_lens", thin_lens, {}}};
     return types;
 }
 
 CameraCore::CameraCore(std::string name, const std::string &type, const ParameterValues &values)
-    : ParameterCore(std::move(name), static_type(find_type(camera_types(), type, "camera")), values) {}
+    : ParameterCore(std::move(name), static_type(find_type(camera_types(), type, "camera")),
+                    values) {}
 
 }  // namespace rtrays

@@ -22,7 +22,8 @@ using rows::Need;
 size_t index_in(const std::vector<std::string> &names, const std::string &name, const char *what) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-        throw input_error(fmt::format("{} '{}' is not one of: {}", what, name, fmt::join(names, ", ")));
+        throw input_error(
+            fmt::format("{} '{}' is not one of: {}", what, name, fmt::join(names, ", ")));
     }
     return static_cast<size_t>(found - names.begin());
 }
@@ -33,12 +34,16 @@ struct Part {
     std::string prefix;
 
     std::string fresnel_prefix() const { return prefix + "fresnel_"; }
-    bool refracts() const { return kind == Kind::ideal_refraction || kind == Kind::microfacet_refraction; }
+    bool refracts() const {
+        return kind == Kind::ideal_refraction || kind == Kind::microfacet_refraction;
+    }
     bool is_diffuse() const { return kind == Kind::lambert || kind == Kind::oren_nayar; }
     bool is_conductor() const {
         return fresnel == Fresnel::conductor || fresnel == Fresnel::conductor_approximate;
     }
-    bool has_alpha() const { return kind == Kind::ward || kind == Kind::ward_original || has_distribution(); }
+    bool has_alpha() const {
+        return kind == Kind::ward || kind == Kind::ward_original || has_distribution();
+    }
     bool has_distribution() const {
         return kind == Kind::microfacet_reflection || kind == Kind::microfacet_refraction;
     }
@@ -70,8 +75,8 @@ void add_fresnel_rows(const Part &part, ParameterTable &table) {
     }
     if (part.fresnel == Fresnel::dielectric) {
         // A refracting component has one index: its own.
-        table.push_back(
-            rows::dielectric_eta(prefix + "eta", part.refracts() ? Need::optional : Need::required));
+        table.push_back(rows::dielectric_eta(prefix + "eta",
+                                             part.refracts() ? Need::optional : Need::required));
     } else if (part.is_conductor()) {
         table.push_back(rows::conductor_eta(prefix + "eta"));
         table.push_back(rows::conductor_k(prefix + "k"));
@@ -95,14 +100,14 @@ void check_part(const Part &part, const ParameterSet &p) {
     const double eta = p.number(part.prefix + "eta");
     const std::string fresnel_eta = part.fresnel_prefix() + "eta";
     if (part.fresnel == Fresnel::dielectric && p.has(fresnel_eta) && p.number(fresnel_eta) != eta) {
-        throw input_error(fmt::format("{}: {} is not the component's eta, {}; leave it out", fresnel_eta,
-                                      p.number(fresnel_eta), eta));
+        throw input_error(fmt::format("{}: {} is not the component's eta, {}; leave it out",
+                                      fresnel_eta, p.number(fresnel_eta), eta));
     }
     if (part.kind == Kind::microfacet_refraction && std::abs(eta - 1) < nearest) {
-        throw input_error(
-            fmt::format("{}eta: {} does not refract, so it cannot be rough; use ideal_refraction, or an "
-                        "eta that differs from 1 by {}",
-                        part.prefix, eta, nearest));
+        throw input_error(fmt::format(
+            "{}eta: {} does not refract, so it cannot be rough; use ideal_refraction, or an "
+            "eta that differs from 1 by {}",
+            part.prefix, eta, nearest));
     }
 }
 
@@ -138,7 +143,8 @@ MaterialComponent expand_part(const Part &part, const ParameterSet &p) {
         bxdf.eta = p.vector3(prefix + "reflectance");
     }
     bxdf.complement = part.fresnel != Fresnel::ideal && p.get<bool>(prefix + "complement");
-    bxdf.fresnel_of_wo = part.fresnel != Fresnel::ideal && part.is_diffuse() && p.get<bool>(prefix + "of_wo");
+    bxdf.fresnel_of_wo =
+        part.fresnel != Fresnel::ideal && part.is_diffuse() && p.get<bool>(prefix + "of_wo");
     return made;
 }
 
@@ -147,9 +153,10 @@ Part make_part(const CompositePart &names, size_t index) {
                     static_cast<Fresnel>(index_in(fresnel_names(), names.fresnel, "fresnel")),
                     part_prefix(index)};
     if (part.refracts() && part.fresnel != Fresnel::ideal && part.fresnel != Fresnel::dielectric) {
-        throw input_error(fmt::format(
-            "component {}: what refracts goes with the Fresnel terms ideal and dielectric, not with {}",
-            index, names.fresnel));
+        throw input_error(
+            fmt::format("component {}: what refracts goes with the Fresnel terms ideal and "
+                        "dielectric, not with {}",
+                        index, names.fresnel));
     }
     return part;
 }

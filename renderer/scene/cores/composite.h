@@ -19,12 +19,12 @@ struct CompositePart {
 const std::vector<std::string> &bxdf_names();
 const std::vector<std::string> &fresnel_names();
 
-/// Beginning of the parameters' names of one component: "component_0_" and so on. Those of its Fresnel term
-/// begin with "component_0_fresnel_".
+/// Beginning of the parameters' names of one component: "component_0_" and so on. Those of its
+/// Fresnel term begin with "component_0_fresnel_".
 std::string part_prefix(size_t index);
 
-/// The type of a composite of these components. Throws `Error` (bad input) listing the names when a kind is
-/// unknown, when there is no component, and where a kind does not go with a Fresnel term.
+/// The type of a composite of these components. Throws `Error` (bad input) listing the names when a
+/// kind is unknown, when there is no component, and where a kind does not go with a Fresnel term.
 std::shared_ptr<const MaterialType> composite_type(const std::vector<CompositePart> &parts);
 
 }  // namespace rtrays

@@ -19,9 +19,10 @@ void check_cones(const ParameterSet &spot) {
     const double inner = spot.number("inner_degrees");
     const double outer = spot.number("outer_degrees");
     if (!(inner < outer)) {
-        throw input_error(fmt::format(
-            "inner_degrees: {} is not below outer_degrees, {}: between them the light falls to zero", inner,
-            outer));
+        throw input_error(
+            fmt::format("inner_degrees: {} is not below outer_degrees, {}: between them the light "
+                        "falls to zero",
+                        inner, outer));
     }
 }
 
@@ -31,7 +32,9 @@ const std::vector<LightType> &light_types() {
     constexpr Range half{0, 90, true, true};
     constexpr auto required = Parameter::Need::required;
     static const std::vector<LightType> types = {
-        {{"diffuse_area", {colour("radiance", "leaving the front, W / (sr m^2), linear Rec. 709")}, {}},
+        {{"diffuse_area",
+          {colour("radiance", "leaving the front, W / (sr m^2), linear Rec. 709")},
+          {}},
          Kind::diffuse_area,
          "radiance"},
         {{"point", {colour("intensity", "radiant intensity, W / sr, linear Rec. 709")}, {}},
@@ -39,13 +42,16 @@ const std::vector<LightType> &light_types() {
          "intensity"},
         {{"spot",
           {colour("intensity", "radiant intensity on the axis, W / sr, linear Rec. 709"),
-           {"inner_degrees", "angle from the axis within which the intensity is full, degrees", 0.0, required,
-            half},
-           {"outer_degrees", "angle from the axis beyond which there is none, degrees", 0.0, required, half}},
+           {"inner_degrees", "angle from the axis within which the intensity is full, degrees", 0.0,
+            required, half},
+           {"outer_degrees", "angle from the axis beyond which there is none, degrees", 0.0,
+            required, half}},
           check_cones},
          Kind::spot,
          "intensity"},
-        {{"directional", {colour("irradiance", "of a plane facing the light, W / m^2, linear Rec. 709")}, {}},
+        {{"directional",
+          {colour("irradiance", "of a plane facing the light, W / m^2, linear Rec. 709")},
+          {}},
          Kind::directional,
          "irradiance"},
         {{"dome", {colour("radiance", "from everywhere, W / (sr m^2), linear Rec. 709")}, {}},
@@ -62,7 +68,8 @@ const std::vector<LightType> &light_types() {
 }
 
 LightCore::LightCore(std::string name, const std::string &type, const ParameterValues &values)
-    : ParameterCore(std::move(name), static_type<CoreType>(find_type(light_types(), type, "light")), values) {
+    : ParameterCore(std::move(name), static_type<CoreType>(find_type(light_types(), type, "light")),
+                    values) {
     if (kind() == Kind::environment) {
         throw input_error("an environment light needs an image");
     }
@@ -70,11 +77,13 @@ LightCore::LightCore(std::string name, const std::string &type, const ParameterV
 
 LightCore::LightCore(std::string name, std::shared_ptr<const TextureImage> image,
                      const ParameterValues &values)
-    : ParameterCore(std::move(name), static_type<CoreType>(find_type(light_types(), "environment", "light")),
+    : ParameterCore(std::move(name),
+                    static_type<CoreType>(find_type(light_types(), "environment", "light")),
                     values),
       image_(std::move(image)) {
     if (image_ == nullptr || image_->floats.empty()) {
-        throw input_error("file: an environment needs an image of floats (.hdr, .exr), not of 8 bits");
+        throw input_error(
+            "file: an environment needs an image of floats (.hdr, .exr), not of 8 bits");
     }
 }
 

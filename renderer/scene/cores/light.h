@@ -18,15 +18,17 @@ struct LightType : CoreType {
 /// All types, in the order of `LightArrays::Kind`.
 const std::vector<LightType> &light_types();
 
-/// A light at its node: an area light on the geometry of the same node, or one placed by its transform. What
-/// the parameters mean is said in stores.h.
+/// A light at its node: an area light on the geometry of the same node, or one placed by its
+/// transform. What the parameters mean is said in stores.h.
 class LightCore : public ParameterCore {
   public:
-    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of them.
+    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of
+    /// them.
     LightCore(std::string name, const std::string &type, const ParameterValues &values);
 
     /// An environment light; `image` holds floats.
-    LightCore(std::string name, std::shared_ptr<const TextureImage> image, const ParameterValues &values);
+    LightCore(std::string name, std::shared_ptr<const TextureImage> image,
+              const ParameterValues &values);
 
     CoreRole role() const override { return CoreRole::light; }
 

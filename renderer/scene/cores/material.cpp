@@ -9,16 +9,16 @@ namespace rtrays {
 const ParameterTable &common_material_parameters() {
     static const ParameterTable table = {
         {"two_sided", "false: what does not refract is black from behind", true},
-        {"emission", "radiance leaving the front, W / (sr m^2), linear Rec. 709", Eigen::Vector3d(0, 0, 0),
-         Parameter::Need::defaulted, ranges::not_negative},
+        {"emission", "radiance leaving the front, W / (sr m^2), linear Rec. 709",
+         Eigen::Vector3d(0, 0, 0), Parameter::Need::defaulted, ranges::not_negative},
     };
     return table;
 }
 
 MaterialCore::MaterialCore(std::string name, const std::string &type, const ParameterValues &values,
                            const ParameterTextures &textures)
-    : MaterialCore(std::move(name), static_type(find_type(material_types(), type, "material")), values,
-                   textures) {}
+    : MaterialCore(std::move(name), static_type(find_type(material_types(), type, "material")),
+                   values, textures) {}
 
 MaterialCore::MaterialCore(std::string name, std::shared_ptr<const MaterialType> type,
                            const ParameterValues &values, const ParameterTextures &textures)

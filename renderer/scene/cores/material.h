@@ -37,15 +37,16 @@ struct MaterialType : CoreType {
 /// The types by name, all but "composite" (see composite.h).
 const std::vector<MaterialType> &material_types();
 
-/// How a surface scatters light, and what it emits: a sum of atomic BxDFs (thesis 3.3.6). All types share the
-/// parameters two_sided and emission.
+/// How a surface scatters light, and what it emits: a sum of atomic BxDFs (thesis 3.3.6). All types
+/// share the parameters two_sided and emission.
 class MaterialCore : public ParameterCore {
   public:
-    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of them.
+    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of
+    /// them.
     MaterialCore(std::string name, const std::string &type, const ParameterValues &values,
                  const ParameterTextures &textures = {});
-    MaterialCore(std::string name, std::shared_ptr<const MaterialType> type, const ParameterValues &values,
-                 const ParameterTextures &textures = {});
+    MaterialCore(std::string name, std::shared_ptr<const MaterialType> type,
+                 const ParameterValues &values, const ParameterTextures &textures = {});
     ~MaterialCore() override;
 
     CoreRole role() const override { return CoreRole::material; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fresnel equations: thesis (3.26-3.30); the exact conductor as in Born and Wolf, "Principles of Optics", 7th
-// ed., 14.2, with the medium in front of index 1.
+// Fresnel equations: thesis (3.26-3.30); the exact conductor as in Born and Wolf, "Principles of
+// Optics", 7th ed., 14.2, with the medium in front of index 1.
 #include "renderer/scene/cores/material_energy.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,8 @@ double conductor(double cosine, double eta, double k) {
     const double t = eta * eta - k * k - sin2;
     const double a2_plus_b2 = std::sqrt(t * t + 4 * squared(eta * k));
     const double a = std::sqrt(std::max(0.0, 0.5 * (a2_plus_b2 + t)));
-    // Both denominators are positive: cos2 is, a is not negative, and sin2 = 0 leaves eta * eta + k * k > 0.
+    // Both denominators are positive: cos2 is, a is not negative, and sin2 = 0 leaves eta * eta + k
+    // * k > 0.
     const double s = (a2_plus_b2 + cos2 - 2 * a * cosine) / (a2_plus_b2 + cos2 + 2 * a * cosine);
     const double p = (cos2 * a2_plus_b2 + sin2 * sin2 - 2 * a * cosine * sin2) /
                      (cos2 * a2_plus_b2 + sin2 * sin2 + 2 * a * cosine * sin2);
@@ -85,7 +86,8 @@ struct Excess {
 };
 
 double contribution(const MaterialComponent &component, const Excess &at) {
-    const double texel = component.texture != nullptr ? component.texture->largest_texel()[at.channel] : 1;
+    const double texel =
+        component.texture != nullptr ? component.texture->largest_texel()[at.channel] : 1;
     return component.bxdf.weight[at.channel] * texel *
            fresnel(component.bxdf, at.channel, at.cosine, at.behind);
 }
@@ -97,7 +99,8 @@ void check_energy(const std::vector<MaterialComponent> &components) {
     constexpr double tolerance = 1e-6;  // weights are floats
     const bool is_boundary =
         std::any_of(components.begin(), components.end(), [](const MaterialComponent &c) {
-            return c.bxdf.kind == Kind::ideal_refraction || c.bxdf.kind == Kind::microfacet_refraction;
+            return c.bxdf.kind == Kind::ideal_refraction ||
+                   c.bxdf.kind == Kind::microfacet_refraction;
         });
     Excess worst;
     for (int i = 0; i < (is_boundary ? 2 : 1) * 3 * (steps + 1); ++i) {
@@ -113,20 +116,21 @@ void check_energy(const std::vector<MaterialComponent> &components) {
     if (worst.sum <= 1 + tolerance) {
         return;
     }
-    const auto largest = std::max_element(components.begin(), components.end(),
-                                          [&](const MaterialComponent &a, const MaterialComponent &b) {
-                                              return contribution(a, worst) < contribution(b, worst);
-                                          });
+    const auto largest =
+        std::max_element(components.begin(), components.end(),
+                         [&](const MaterialComponent &a, const MaterialComponent &b) {
+                             return contribution(a, worst) < contribution(b, worst);
+                         });
     constexpr const char *channels[] = {"red", "green", "blue"};
-    throw input_error(
-        fmt::format("returns more light than arrives: its weights * textures * Fresnel terms add up to "
-                    "{:.6g} in {}, seen from {} "
-                    "at an angle of {:.3g} degrees; the largest part, {:.6g}, is that of component {} ({}), "
-                    "by its {}: lower that",
-                    worst.sum, channels[worst.channel], worst.behind ? "behind" : "the front",
-                    std::acos(worst.cosine) * 180 / 3.14159265358979323846, contribution(*largest, worst),
-                    largest - components.begin(), bxdf_names()[static_cast<size_t>(largest->bxdf.kind)],
-                    largest->parameter));
+    throw input_error(fmt::format(
+        "returns more light than arrives: its weights * textures * Fresnel terms add up to "
+        "{:.6g} in {}, seen from {} "
+        "at an angle of {:.3g} degrees; the largest part, {:.6g}, is that of component {} ({}), "
+        "by its {}: lower that",
+        worst.sum, channels[worst.channel], worst.behind ? "behind" : "the front",
+        std::acos(worst.cosine) * 180 / 3.14159265358979323846, contribution(*largest, worst),
+        largest - components.begin(), bxdf_names()[static_cast<size_t>(largest->bxdf.kind)],
+        largest->parameter));
 }
 
 }  // namespace rtrays

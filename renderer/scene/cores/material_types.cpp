@@ -56,8 +56,8 @@ void check_roughness(const ParameterSet &p) {
     const Vector2d &alpha = p.get<Vector2d>("roughness");
     if (alpha.maxCoeff() > 0 && alpha.minCoeff() < rows::roughness.min) {
         throw input_error(fmt::format(
-            "roughness: [{}, {}] must be 0 along both axes, which is ideally smooth, or within {}", alpha[0],
-            alpha[1], rows::roughness.text()));
+            "roughness: [{}, {}] must be 0 along both axes, which is ideally smooth, or within {}",
+            alpha[0], alpha[1], rows::roughness.text()));
     }
 }
 
@@ -67,9 +67,10 @@ void check_rough_refraction(const ParameterSet &p) {
     check_roughness(p);
     const double eta = p.number("eta");
     if (p.get<Vector2d>("roughness").maxCoeff() > 0 && std::abs(eta - 1) < nearest) {
-        throw input_error(fmt::format(
-            "eta: {} does not refract, so it cannot be rough; make roughness 0 or eta differ from 1 by {}",
-            eta, nearest));
+        throw input_error(
+            fmt::format("eta: {} does not refract, so it cannot be rough; make roughness 0 or eta "
+                        "differ from 1 by {}",
+                        eta, nearest));
     }
 }
 
@@ -90,7 +91,8 @@ Components expand_refraction(const ParameterSet &p) {
     return {made};
 }
 
-/// The microfacet models of metals; "ideal" has no microfacets. `parameter` is what the model needs.
+/// The microfacet models of metals; "ideal" has no microfacets. `parameter` is what the model
+/// needs.
 struct MetalModel {
     const char *name;
     Kind kind;
@@ -121,7 +123,8 @@ ParameterTable metal_parameters() {
         rows::conductor_eta("eta", Need::optional),
         rows::conductor_k("k", Need::optional),
         rows::colour("reflectance", "factor", Need::defaulted),
-        {"model", "of the surface", std::string("ideal"), Need::defaulted, ranges::any, names(metal_models)},
+        {"model", "of the surface", std::string("ideal"), Need::defaulted, ranges::any,
+         names(metal_models)},
         rows::alpha("roughness", Need::optional),
         rows::exponent("exponent", Need::optional),
         {"fresnel",
@@ -146,14 +149,15 @@ void check_metal(const ParameterSet &p) {
     for (const char *name : {"roughness", "exponent"}) {
         const bool needed = model.parameter != nullptr && std::string(model.parameter) == name;
         if (needed != p.has(name)) {
-            throw input_error(
-                fmt::format("a metal of model '{}' {} '{}'", model.name, needed ? "needs" : "has no", name));
+            throw input_error(fmt::format("a metal of model '{}' {} '{}'", model.name,
+                                          needed ? "needs" : "has no", name));
         }
     }
 }
 
 Components expand_metal(const ParameterSet &p) {
-    constexpr Fresnel terms[] = {Fresnel::conductor, Fresnel::conductor_approximate, Fresnel::ideal};
+    constexpr Fresnel terms[] = {Fresnel::conductor, Fresnel::conductor_approximate,
+                                 Fresnel::ideal};
     const MetalModel &model = metal_models[p.choice<size_t>("model")];
     MaterialComponent made = component(model.kind, p, "reflectance");
     made.bxdf.distribution = model.distribution;
@@ -203,7 +207,8 @@ Components expand_oren_nayar(const ParameterSet &p) {
     return {made};
 }
 
-MaterialType material(const char *name, ParameterTable parameters, Components (*expand)(const ParameterSet &),
+MaterialType material(const char *name, ParameterTable parameters,
+                      Components (*expand)(const ParameterSet &),
                       void (*check)(const ParameterSet &) = nullptr) {
     const ParameterTable &common = common_material_parameters();
     parameters.insert(parameters.end(), common.begin(), common.end());
@@ -225,21 +230,24 @@ MaterialType material(const char *name, ParameterTable parameters, Components (*
 const std::vector<MaterialType> &material_types() {
     using namespace rows;
     static const std::vector<MaterialType> types = {
-        material(
-            "lambert", {colour("reflectance", "albedo")},
-            [](const ParameterSet &p) -> Components { return {component(Kind::lambert, p, "reflectance")}; }),
-        material("oren_nayar", {colour("reflectance", "albedo"), sigma("sigma")}, expand_oren_nayar),
+        material("lambert", {colour("reflectance", "albedo")},
+                 [](const ParameterSet &p) -> Components {
+                     return {component(Kind::lambert, p, "reflectance")};
+                 }),
+        material("oren_nayar", {colour("reflectance", "albedo"), sigma("sigma")},
+                 expand_oren_nayar),
         material("mirror", {colour("reflectance", "factor")},
                  [](const ParameterSet &p) -> Components {
                      return {component(Kind::ideal_reflection, p, "reflectance")};
                  }),
-        material(
-            "glass",
-            {dielectric_eta("eta"), colour("reflectance", "factor of what is reflected", Need::defaulted),
-             colour("transmittance", "factor of what is refracted", Need::defaulted), smooth_or_rough(),
-             distribution("distribution")},
-            expand_glass, check_rough_refraction),
-        material("refraction", {dielectric_eta("eta"), colour("transmittance", "factor")}, expand_refraction),
+        material("glass",
+                 {dielectric_eta("eta"),
+                  colour("reflectance", "factor of what is reflected", Need::defaulted),
+                  colour("transmittance", "factor of what is refracted", Need::defaulted),
+                  smooth_or_rough(), distribution("distribution")},
+                 expand_glass, check_rough_refraction),
+        material("refraction", {dielectric_eta("eta"), colour("transmittance", "factor")},
+                 expand_refraction),
         material("metal", metal_parameters(), expand_metal, check_metal),
         material("plastic",
                  {colour("reflectance", "albedo of the base"),

@@ -21,17 +21,17 @@ void check_each(const std::vector<Vector> &vectors, const Legal &legal, const st
                 const char *what, const char *wrong) {
     for (size_t i = 0; i < vectors.size(); ++i) {
         if (!legal(vectors[i])) {
-            throw input_error(
-                fmt::format("mesh '{}': {} {} {}: [{}]", mesh, what, i, wrong,
-                            fmt::join(vectors[i].data(), vectors[i].data() + vectors[i].size(), ", ")));
+            throw input_error(fmt::format(
+                "mesh '{}': {} {} {}: [{}]", mesh, what, i, wrong,
+                fmt::join(vectors[i].data(), vectors[i].data() + vectors[i].size(), ", ")));
         }
     }
 }
 
 void check_count(size_t count, size_t vertices, const std::string &mesh, const char *what) {
     if (count != 0 && count != vertices) {
-        throw input_error(fmt::format("mesh '{}' has {} {} for {} vertices: one each, or none", mesh, count,
-                                      what, vertices));
+        throw input_error(fmt::format("mesh '{}' has {} {} for {} vertices: one each, or none",
+                                      mesh, count, what, vertices));
     }
 }
 
@@ -41,7 +41,8 @@ MeshCore::MeshCore(std::string name, Geometry geometry) : Core(std::move(name)) 
     set_geometry(std::move(geometry));
 }
 
-MeshCore::MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles)
+MeshCore::MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices,
+                   std::vector<Triangle> triangles)
     : MeshCore(std::move(name), Geometry{std::move(vertices), std::move(triangles)}) {}
 
 void MeshCore::set_geometry(Geometry geometry) {
@@ -54,20 +55,23 @@ void MeshCore::set_geometry(Geometry geometry) {
     for (size_t i = 0; i < geometry.triangles.size(); ++i) {
         for (const uint32_t index : geometry.triangles[i]) {
             if (index >= vertices) {
-                throw input_error(
-                    fmt::format("mesh '{}': triangle {} has vertex {}, but there are only {} vertices",
-                                name(), i, index, vertices));
+                throw input_error(fmt::format(
+                    "mesh '{}': triangle {} has vertex {}, but there are only {} vertices", name(),
+                    i, index, vertices));
             }
         }
     }
     check_count(geometry.normals.size(), vertices, name(), "normals");
     check_count(geometry.uvs.size(), vertices, name(), "texture coordinates");
     check_each(
-        geometry.normals, [](const Eigen::Vector3d &n) { return n.allFinite() && n.stableNorm() > 0; },
-        name(), "normal", "has no direction");
+        geometry.normals,
+        [](const Eigen::Vector3d &n) { return n.allFinite() && n.stableNorm() > 0; }, name(),
+        "normal", "has no direction");
     check_each(
         geometry.uvs,
-        [](const Eigen::Vector2d &uv) { return uv.cwiseAbs().maxCoeff() <= largest_uv && uv.allFinite(); },
+        [](const Eigen::Vector2d &uv) {
+            return uv.cwiseAbs().maxCoeff() <= largest_uv && uv.allFinite();
+        },
         name(), "texture coordinate", "is not within +-1e6");
     for (Eigen::Vector3d &normal : geometry.normals) {
         normal.stableNormalize();
@@ -76,7 +80,8 @@ void MeshCore::set_geometry(Geometry geometry) {
     changed(Dirty::object);
 }
 
-void MeshCore::set_vertices(std::vector<Eigen::Vector3d> vertices, std::vector<Eigen::Vector3d> normals) {
+void MeshCore::set_vertices(std::vector<Eigen::Vector3d> vertices,
+                            std::vector<Eigen::Vector3d> normals) {
     geometry_.vertices = std::move(vertices);
     geometry_.normals = std::move(normals);
     changed(Dirty::object);
@@ -101,8 +106,8 @@ MeshCore::Geometry box() {
     const MeshCore::Geometry side = rectangle();
     for (int axis = 0; axis < 3; ++axis) {
         for (const double sign : {1.0, -1.0}) {
-            // The side z = 1 of the rectangle's frame, its axes renamed in a cycle; the opposite side is the
-            // same turned by half a turn about the axis next to it.
+            // The side z = 1 of the rectangle's frame, its axes renamed in a cycle; the opposite
+            // side is the same turned by half a turn about the axis next to it.
             const auto first = static_cast<uint32_t>(geometry.vertices.size());
             for (const Eigen::Vector3d &corner : side.vertices) {
                 Eigen::Vector3d vertex;

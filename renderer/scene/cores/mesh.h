@@ -9,8 +9,9 @@
 
 namespace rtrays {
 
-/// Triangles in object space, double precision. The front of a triangle is where its vertices appear
-/// counter-clockwise. Shared by several nodes it is instanced: each has its own, transformed, records.
+/// Triangles in object space, double precision. The front of a triangle is where its vertices
+/// appear counter-clockwise. Shared by several nodes it is instanced: each has its own,
+/// transformed, records.
 class MeshCore : public Core {
   public:
     struct Geometry {
@@ -20,11 +21,12 @@ class MeshCore : public Core {
         std::vector<Eigen::Vector2d> uvs{};      ///< per vertex; or empty
     };
 
-    /// Throws `Error` (bad input) naming the mesh and the vertex or triangle when there is no triangle, a
-    /// coordinate is not finite, a normal has no direction, a texture coordinate is beyond a million or an
-    /// index or a length does not fit. Zero-area triangles are legal.
+    /// Throws `Error` (bad input) naming the mesh and the vertex or triangle when there is no
+    /// triangle, a coordinate is not finite, a normal has no direction, a texture coordinate is
+    /// beyond a million or an index or a length does not fit. Zero-area triangles are legal.
     MeshCore(std::string name, Geometry geometry);
-    MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles);
+    MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices,
+             std::vector<Triangle> triangles);
 
     CoreRole role() const override { return CoreRole::geometry; }
     const char *type_name() const override { return "mesh"; }

@@ -21,8 +21,8 @@ MeshCore::Geometry first_mesh(const std::string &name, const std::vector<Morphed
     return keys.front().geometry;
 }
 
-std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d> &a, const std::vector<Eigen::Vector3d> &b,
-                                         double weight) {
+std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d> &a,
+                                         const std::vector<Eigen::Vector3d> &b, double weight) {
     std::vector<Eigen::Vector3d> between(a.size());
     std::transform(a.begin(), a.end(), b.begin(), between.begin(),
                    [&](const Eigen::Vector3d &x, const Eigen::Vector3d &y) {
@@ -33,18 +33,23 @@ std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d> &a, 
 
 /// The same of unit vectors; where two are opposite, that of the nearer keyframe.
 std::vector<Eigen::Vector3d> interpolate_normals(const std::vector<Eigen::Vector3d> &a,
-                                                 const std::vector<Eigen::Vector3d> &b, double weight) {
+                                                 const std::vector<Eigen::Vector3d> &b,
+                                                 double weight) {
     std::vector<Eigen::Vector3d> between = interpolate(a, b, weight);
     for (size_t i = 0; i < between.size(); ++i) {
-        constexpr double opposite = 1e-9;  // shorter than this the direction is a matter of rounding
-        between[i] = between[i].norm() > opposite ? between[i].normalized() : weight < 0.5 ? a[i] : b[i];
+        constexpr double opposite =
+            1e-9;  // shorter than this the direction is a matter of rounding
+        between[i] = between[i].norm() > opposite ? between[i].normalized()
+                     : weight < 0.5               ? a[i]
+                                                  : b[i];
     }
     return between;
 }
 
 }  // namespace
 
-MorphedMesh::MorphedMesh(std::string name, std::vector<Key> keys) : MeshCore(name, first_mesh(name, keys)) {
+MorphedMesh::MorphedMesh(std::string name, std::vector<Key> keys)
+    : MeshCore(name, first_mesh(name, keys)) {
     const auto fail = [&](size_t index, const std::string &what) {
         throw input_error(fmt::format("mesh '{}': keyframe {} {}", name, index, what));
     };
@@ -53,12 +58,15 @@ MorphedMesh::MorphedMesh(std::string name, std::vector<Key> keys) : MeshCore(nam
             fail(i, "has no finite time");
         }
         if (i > 0 && !(keys[i].time > keys[i - 1].time)) {
-            fail(i, fmt::format("is at {} s, not after the one before it, at {} s", keys[i].time, keys[i - 1].time));
+            fail(i, fmt::format("is at {} s, not after the one before it, at {} s", keys[i].time,
+                                keys[i - 1].time));
         }
         MeshCore checked(fmt::format("{}, keyframe {}", name, i), std::move(keys[i].geometry));
-        if (checked.vertices().size() != vertices().size() || checked.normals().size() != normals().size()) {
-            fail(i, fmt::format("has {} vertices and {} normals, the first one {} and {}", checked.vertices().size(),
-                                checked.normals().size(), vertices().size(), normals().size()));
+        if (checked.vertices().size() != vertices().size() ||
+            checked.normals().size() != normals().size()) {
+            fail(i, fmt::format("has {} vertices and {} normals, the first one {} and {}",
+                                checked.vertices().size(), checked.normals().size(),
+                                vertices().size(), normals().size()));
         }
         if (checked.triangles() != triangles()) {
             fail(i, "has other triangles than the first one");
@@ -82,7 +90,8 @@ void MorphedMesh::update(double time) {
     if (weight == 0 || weight == 1) {
         set_vertices(weight == 0 ? a.positions : b.positions, weight == 0 ? a.normals : b.normals);
     } else {
-        set_vertices(interpolate(a.positions, b.positions, weight), interpolate_normals(a.normals, b.normals, weight));
+        set_vertices(interpolate(a.positions, b.positions, weight),
+                     interpolate_normals(a.normals, b.normals, weight));
     }
 }
 

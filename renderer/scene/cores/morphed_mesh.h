@@ -8,9 +8,10 @@
 
 namespace rtrays {
 
-/// A mesh whose vertices follow keyframes. Between two of them positions are interpolated linearly, and so are normals, to
-/// be unit again; at a keyframe the mesh is that of the keyframe to the bit; before the first and after the last it
-/// stays as it is there. Triangles and texture coordinates are those of the first keyframe.
+/// A mesh whose vertices follow keyframes. Between two of them positions are interpolated linearly,
+/// and so are normals, to be unit again; at a keyframe the mesh is that of the keyframe to the bit;
+/// before the first and after the last it stays as it is there. Triangles and texture coordinates
+/// are those of the first keyframe.
 class MorphedMesh : public MeshCore {
   public:
     /// What the mesh is at one time.
@@ -19,8 +20,9 @@ class MorphedMesh : public MeshCore {
         Geometry geometry;
     };
 
-    /// Throws `Error` (bad input) naming mesh and keyframe when there is none, times are not finite and ascending, a mesh
-    /// is one that `MeshCore` refuses, or vertices, normals or triangles do not answer to those of the first keyframe.
+    /// Throws `Error` (bad input) naming mesh and keyframe when there is none, times are not finite
+    /// and ascending, a mesh is one that `MeshCore` refuses, or vertices, normals or triangles do
+    /// not answer to those of the first keyframe.
     MorphedMesh(std::string name, std::vector<Key> keys);
 
     bool is_animated() const override { return true; }

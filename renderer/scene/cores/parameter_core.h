@@ -20,7 +20,8 @@ struct CoreType {
     std::function<void(const ParameterSet &)> check;
 };
 
-/// The type of that name; throws `Error` (bad input) listing those there are. `what` is "light", "shape", ...
+/// The type of that name; throws `Error` (bad input) listing those there are. `what` is "light",
+/// "shape", ...
 template <typename Type>
 const Type &find_type(const std::vector<Type> &types, const std::string &name, const char *what) {
     std::string names;
@@ -41,14 +42,14 @@ class ParameterCore : public Core {
 
     const ParameterSet &parameters() const { return parameters_; }
 
-    /// Throws `Error` (bad input), and changes nothing, when the value is illegal by itself or beside the
-    /// others.
+    /// Throws `Error` (bad input), and changes nothing, when the value is illegal by itself or
+    /// beside the others.
     void set(const std::string &name, const PropertyValue &value);
 
   protected:
     /// Throws `Error` (bad input) naming the parameter that is unknown, missing or illegal.
-    ParameterCore(std::string name, std::shared_ptr<const CoreType> type, const ParameterValues &values,
-                  const ParameterTextures &textures = {});
+    ParameterCore(std::string name, std::shared_ptr<const CoreType> type,
+                  const ParameterValues &values, const ParameterTextures &textures = {});
 
     const CoreType &type() const { return *type_; }
 

@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 using Kind = ShapeArrays::Kind;
 using Need = Parameter::Need;
 
-/// |z| > 4 gives |z^2 + c| >= 16 - |c| > 4 while |c| < 12, so that the level sets |z_n| = 4 are nested. Every
-/// Julia set worth a picture has |c| < 2.
+/// |z| > 4 gives |z^2 + c| >= 16 - |c| > 4 while |c| < 12, so that the level sets |z_n| = 4 are
+/// nested. Every Julia set worth a picture has |c| < 2.
 constexpr double largest_julia_constant = 4;
 
 Parameter length(const char *name, const char *help, Need need = Need::required) {
@@ -55,9 +55,12 @@ const std::vector<ShapeType> &shape_types() {
     static const ParameterTable round_and_high = {length("radius", "at z = 0, scene units"),
                                                   length("height", "along z from 0, scene units")};
     static const std::vector<ShapeType> types = {
-        {{"sphere", {length("radius", "scene units", Need::defaulted)}, {}}, Kind::sphere, radius_all},
+        {{"sphere", {length("radius", "scene units", Need::defaulted)}, {}},
+         Kind::sphere,
+         radius_all},
         {{"ellipsoid",
-          {{"radii", "along x, y and z, scene units", Vector3d(1, 1, 1), Need::required, ranges::positive}},
+          {{"radii", "along x, y and z, scene units", Vector3d(1, 1, 1), Need::required,
+            ranges::positive}},
           {}},
          Kind::sphere,
          [](const ParameterSet &p) { return p.vector3("radii"); }},
@@ -83,13 +86,18 @@ const std::vector<ShapeType> &shape_types() {
         {{"disc", {length("radius", "scene units", Need::defaulted)}, {}}, Kind::disc, radius_all},
         {{"plane", {}, {}}, Kind::plane, unscaled},
         {{"julia",
-          {{"constant", "c of z <- z^2 + c as (real, i, j, k)", Eigen::Vector4d(0, 0, 0, 0), Need::required},
+          {{"constant", "c of z <- z^2 + c as (real, i, j, k)", Eigen::Vector4d(0, 0, 0, 0),
+            Need::required},
            {"slice",
             "fourth coordinate of the slice that is seen",
             0.0,
             Need::defaulted,
             {-4, 4, true, true}},
-           {"iterations", "n of the level set |z_n| = 4", 10.0, Need::defaulted, {1, 100, true, true}}},
+           {"iterations",
+            "n of the level set |z_n| = 4",
+            10.0,
+            Need::defaulted,
+            {1, 100, true, true}}},
           check_julia},
          Kind::julia,
          unscaled},
@@ -98,8 +106,8 @@ const std::vector<ShapeType> &shape_types() {
 }
 
 ShapeCore::ShapeCore(std::string name, const std::string &type, const ParameterValues &values)
-    : ParameterCore(std::move(name), static_type<CoreType>(find_type(shape_types(), type, "geometry")),
-                    values) {}
+    : ParameterCore(std::move(name),
+                    static_type<CoreType>(find_type(shape_types(), type, "geometry")), values) {}
 
 Kind ShapeCore::kind() const {
     return static_cast<const ShapeType &>(type()).kind;

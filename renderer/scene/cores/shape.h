@@ -22,7 +22,8 @@ const std::vector<ShapeType> &shape_types();
 /// Geometry that is not made of triangles.
 class ShapeCore : public ParameterCore {
   public:
-    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of them.
+    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of
+    /// them.
     ShapeCore(std::string name, const std::string &type, const ParameterValues &values);
 
     CoreRole role() const override { return CoreRole::geometry; }

@@ -53,14 +53,16 @@ const ParameterTable &Texture::parameter_table() {
          Need::defaulted,
          ranges::any,
          {"repeat", "clamp"}},
-        {"uv_scale", "factors of the texture coordinates", Eigen::Vector2d(1, 1), Need::defaulted, modest},
-        {"uv_offset", "added to the scaled texture coordinates", Eigen::Vector2d(0, 0), Need::defaulted,
+        {"uv_scale", "factors of the texture coordinates", Eigen::Vector2d(1, 1), Need::defaulted,
          modest},
+        {"uv_offset", "added to the scaled texture coordinates", Eigen::Vector2d(0, 0),
+         Need::defaulted, modest},
     };
     return table;
 }
 
-Texture::Texture(std::string name, std::shared_ptr<const TextureImage> image, const ParameterValues &values)
+Texture::Texture(std::string name, std::shared_ptr<const TextureImage> image,
+                 const ParameterValues &values)
     : PropertyHolder(std::move(name)),
       image_(std::move(image)),
       largest_texel_(find_largest_texel(*image_)),

@@ -14,12 +14,13 @@ namespace rtrays {
 
 class MaterialCore;
 
-/// A colour over the (u, v) plane, shared by any number of materials. The image never changes; how it is laid
-/// over the plane and filtered does.
+/// A colour over the (u, v) plane, shared by any number of materials. The image never changes; how
+/// it is laid over the plane and filtered does.
 class Texture : public PropertyHolder {
   public:
     /// Parameters: filter, wrap, uv_scale, uv_offset. Throws `Error` (bad input) as `ParameterSet`.
-    Texture(std::string name, std::shared_ptr<const TextureImage> image, const ParameterValues &values = {});
+    Texture(std::string name, std::shared_ptr<const TextureImage> image,
+            const ParameterValues &values = {});
 
     static const ParameterTable &parameter_table();
 

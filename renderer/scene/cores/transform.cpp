@@ -11,8 +11,8 @@ namespace rtrays {
 
 namespace {
 
-/// Determinant of the linear part with its columns normalised: 1 for orthogonal axes whatever their scale,
-/// 0 when they lie in a plane.
+/// Determinant of the linear part with its columns normalised: 1 for orthogonal axes whatever their
+/// scale, 0 when they lie in a plane.
 double normalised_determinant(const Eigen::Matrix4d &matrix) {
     Eigen::Matrix3d axes = matrix.topLeftCorner<3, 3>();
     for (int i = 0; i < 3; ++i) {
@@ -55,13 +55,13 @@ void TransformCore::set_translation(const Eigen::Vector3d &offset) {
 }
 
 std::vector<Property> TransformCore::properties() {
-    return {
-        make_property<Eigen::Matrix4d>(
-            "transform", "parent-from-object matrix, row by row", [this] { return matrix(); },
-            [this](const Eigen::Matrix4d &value) { set_matrix(value); }),
-        make_property<Eigen::Vector3d>(
-            "translation", "last column of the transform", [this] { return matrix().topRightCorner<3, 1>(); },
-            [this](const Eigen::Vector3d &value) { set_translation(value); })};
+    return {make_property<Eigen::Matrix4d>(
+                "transform", "parent-from-object matrix, row by row", [this] { return matrix(); },
+                [this](const Eigen::Matrix4d &value) { set_matrix(value); }),
+            make_property<Eigen::Vector3d>(
+                "translation", "last column of the transform",
+                [this] { return matrix().topRightCorner<3, 1>(); },
+                [this](const Eigen::Vector3d &value) { set_translation(value); })};
 }
 
 Eigen::Matrix4d translation(const Eigen::Vector3d &offset) {

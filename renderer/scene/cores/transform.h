@@ -39,8 +39,8 @@ Eigen::Matrix4d scaling(const Eigen::Vector3d &factors);
 /// Counter-clockwise about `axis` (any length but zero) when it points at the viewer.
 Eigen::Matrix4d rotation(const Eigen::Vector3d &axis, double radians);
 
-/// The rigid pose at `origin` whose -z axis points at `target` and whose +y axis is as near to `up` as can
-/// be. Throws `Error` (bad input) when these do not define one.
+/// The rigid pose at `origin` whose -z axis points at `target` and whose +y axis is as near to `up`
+/// as can be. Throws `Error` (bad input) when these do not define one.
 Eigen::Matrix4d look_at(const Eigen::Vector3d &origin, const Eigen::Vector3d &target,
                         const Eigen::Vector3d &up);
 

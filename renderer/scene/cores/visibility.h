@@ -17,7 +17,9 @@ struct VisibilityAttribute : AttributeOf<VisibilityAttribute> {
 /// Shows or hides a node and everything below it. Cameras cannot be hidden.
 class VisibilityCore : public Core {
   public:
-    VisibilityCore(std::string name, bool visible) : Core(std::move(name)) { attribute_.visible = visible; }
+    VisibilityCore(std::string name, bool visible) : Core(std::move(name)) {
+        attribute_.visible = visible;
+    }
 
     CoreRole role() const override { return CoreRole::visibility; }
     const char *type_name() const override { return "visibility"; }

@@ -23,7 +23,8 @@ void CameraStore::append(const Node &node) {
 }
 
 void CameraStore::write(uint32_t slot, const Node &node, const AttributeSet &attributes) {
-    const ParameterSet &camera = static_cast<const CameraCore &>(*node.core(CoreRole::camera)).parameters();
+    const ParameterSet &camera =
+        static_cast<const CameraCore &>(*node.core(CoreRole::camera)).parameters();
     Pose pose = pose_of(attributes.get<TransformAttribute>().world_from_object,
                         fmt::format("camera '{}'", node.name()));
     pose.rigid.topRightCorner<3, 1>() -= origin;

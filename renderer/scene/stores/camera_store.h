@@ -13,8 +13,12 @@ class CameraStore : public Store {
     explicit CameraStore(CameraArrays &written) : arrays(written) {}
     const char *type_name() const override { return "cameras"; }
     bool holds(const Core &core) const override { return core.role() == CoreRole::camera; }
-    bool concerns(const Node &node) const override { return node.core(CoreRole::camera) != nullptr; }
-    bool wants_record(const Node &, const AttributeSet &) const override { return true; }  // cannot be hidden
+    bool concerns(const Node &node) const override {
+        return node.core(CoreRole::camera) != nullptr;
+    }
+    bool wants_record(const Node &, const AttributeSet &) const override {
+        return true;
+    }  // cannot be hidden
 
     CameraArrays &arrays;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world

@@ -11,14 +11,14 @@
 
 namespace rtrays {
 
-/// The record of the material that has accumulated at geometry; throws `Error` (bad input) when there is
-/// none.
+/// The record of the material that has accumulated at geometry; throws `Error` (bad input) when
+/// there is none.
 inline uint32_t material_slot(const MaterialStore &materials, const AttributeSet &attributes,
                               const char *what, const std::string &name) {
     const uint32_t slot = materials.slot_of_material(attributes.get<MaterialAttribute>().material);
     if (slot == no_index) {
-        throw input_error(
-            fmt::format("{} '{}' has no material: give one to its node or to a node above", what, name));
+        throw input_error(fmt::format(
+            "{} '{}' has no material: give one to its node or to a node above", what, name));
     }
     return slot;
 }

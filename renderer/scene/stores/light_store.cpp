@@ -29,7 +29,8 @@ const LightCore *light_of(const Node &node) {
 /// The emissive material of the geometry at the node, or nullptr.
 const MaterialCore *emission_of(const Node &node, const AttributeSet &attributes) {
     const MaterialCore *material = attributes.get<MaterialAttribute>().material;
-    const bool emits = node.core(CoreRole::geometry) != nullptr && material != nullptr && material->emits();
+    const bool emits =
+        node.core(CoreRole::geometry) != nullptr && material != nullptr && material->emits();
     return emits ? material : nullptr;
 }
 
@@ -50,8 +51,8 @@ bool LightStore::wants_record(const Node &node, const AttributeSet &attributes) 
 
 uint32_t LightStore::area_light_slot(const Node &node, const AttributeSet &attributes) const {
     const LightCore *light = light_of(node);
-    const bool is_area =
-        light != nullptr ? light->kind() == Kind::diffuse_area : emission_of(node, attributes) != nullptr;
+    const bool is_area = light != nullptr ? light->kind() == Kind::diffuse_area
+                                          : emission_of(node, attributes) != nullptr;
     return is_area ? slot(node) : no_index;
 }
 
@@ -72,15 +73,16 @@ void LightStore::write(uint32_t slot, const Node &node, const AttributeSet &attr
     const LightCore *light = light_of(node);
     const MaterialCore *emission = emission_of(node, attributes);
     if (light != nullptr && emission != nullptr) {
-        throw input_error(
-            fmt::format("light '{}': its geometry is a light already, by the emission of material '{}'; "
-                        "remove one of them, or "
-                        "give the light a node of its own",
-                        node.name(), emission->name()));
+        throw input_error(fmt::format(
+            "light '{}': its geometry is a light already, by the emission of material '{}'; "
+            "remove one of them, or "
+            "give the light a node of its own",
+            node.name(), emission->name()));
     }
     const Eigen::Matrix4d &world = attributes.get<TransformAttribute>().world_from_object;
     arrays.kind[slot] = light != nullptr ? light->kind() : Kind::diffuse_area;
-    arrays.radiance[slot] = (light != nullptr ? light->radiance() : emission->emission()).cast<float>();
+    arrays.radiance[slot] =
+        (light != nullptr ? light->radiance() : emission->emission()).cast<float>();
     arrays.image[slot] = light != nullptr ? light->image() : nullptr;
     arrays.mesh[slot] = arrays.shape[slot] = no_index;
     arrays.area[slot] = arrays.inner_angle[slot] = arrays.outer_angle[slot] = 0;
@@ -110,7 +112,8 @@ void LightStore::write(uint32_t slot, const Node &node, const AttributeSet &attr
             break;
     }
     if (!pose.cast<float>().allFinite()) {
-        throw input_error(fmt::format("light '{}' is beyond the range of float in world space", node.name()));
+        throw input_error(
+            fmt::format("light '{}' is beyond the range of float in world space", node.name()));
     }
 }
 
@@ -122,7 +125,8 @@ void LightStore::write_area(uint32_t slot, const Node &node) {
             fmt::format("light '{}': an area light needs geometry at the same node", node.name()));
     }
     const bool is_mesh = arrays.mesh[slot] != no_index;
-    arrays.area[slot] = is_mesh ? mesh_area(arrays.mesh[slot]) : shape_area(arrays.shape[slot], node.name());
+    arrays.area[slot] =
+        is_mesh ? mesh_area(arrays.mesh[slot]) : shape_area(arrays.shape[slot], node.name());
     if (!(arrays.area[slot] > 0)) {
         throw input_error(
             fmt::format("light '{}': its {} has no area", node.name(), is_mesh ? "mesh" : "shape"));
@@ -151,14 +155,15 @@ double LightStore::shape_area(uint32_t shape, const std::string &name) const {
             if (const double radius = similarity_scale(world); radius > 0) {
                 return 4 * pi * radius * radius;
             }
-            throw input_error(
-                fmt::format("light '{}': a sphere that emits must stay one: its transform or radii stretch "
-                            "it; use a mesh",
-                            name));
-        default:
             throw input_error(fmt::format(
-                "light '{}': of the shapes only spheres and discs can emit; use one of them or a mesh",
+                "light '{}': a sphere that emits must stay one: its transform or radii stretch "
+                "it; use a mesh",
                 name));
+        default:
+            throw input_error(
+                fmt::format("light '{}': of the shapes only spheres and discs can emit; use one of "
+                            "them or a mesh",
+                            name));
     }
 }
 

@@ -11,8 +11,8 @@ namespace rtrays {
 class MeshStore;
 class ShapeStore;
 
-/// Lights of nodes, and those that emissive materials make of geometry. To be written after the geometry:
-/// areas are those of what was baked.
+/// Lights of nodes, and those that emissive materials make of geometry. To be written after the
+/// geometry: areas are those of what was baked.
 class LightStore : public Store {
   public:
     LightStore(LightArrays &written, const MeshStore &meshes, const ShapeStore &shapes)

@@ -9,7 +9,8 @@ uint32_t TextureStore::record(const std::shared_ptr<Texture> &texture) {
     if (texture == nullptr) {
         return no_index;
     }
-    const auto [found, is_new] = slots_.try_emplace(texture.get(), static_cast<uint32_t>(owners_.size()));
+    const auto [found, is_new] =
+        slots_.try_emplace(texture.get(), static_cast<uint32_t>(owners_.size()));
     const uint32_t slot = found->second;
     if (is_new) {
         owners_.push_back(texture);
@@ -84,7 +85,8 @@ void MaterialStore::append(const Node &node) {
 void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &) {
     const auto &material = static_cast<const MaterialCore &>(*node.core(CoreRole::material));
     uint32_t at = arrays.first_component[slot];
-    for (const MaterialComponent &component : material.components()) {  // as many as when it was appended
+    for (const MaterialComponent &component :
+         material.components()) {  // as many as when it was appended
         arrays.component[at] = component.bxdf;
         arrays.component[at].texture = textures_.record(component.texture);
         ++at;

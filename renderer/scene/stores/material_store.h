@@ -34,10 +34,13 @@ class TextureStore {
 /// One record per material, however many nodes share it.
 class MaterialStore : public Store {
   public:
-    MaterialStore(MaterialArrays &written, TextureArrays &textures) : arrays(written), textures_(textures) {}
+    MaterialStore(MaterialArrays &written, TextureArrays &textures)
+        : arrays(written), textures_(textures) {}
     const char *type_name() const override { return "materials"; }
     bool holds(const Core &core) const override { return core.role() == CoreRole::material; }
-    bool concerns(const Node &node) const override { return node.core(CoreRole::material) != nullptr; }
+    bool concerns(const Node &node) const override {
+        return node.core(CoreRole::material) != nullptr;
+    }
     bool wants_record(const Node &, const AttributeSet &) const override { return true; }
 
     uint32_t slot_of_material(const MaterialCore *material) const;

@@ -21,8 +21,9 @@ const MeshCore &mesh_at(const Node &node) {
     return static_cast<const MeshCore &>(*node.core(CoreRole::geometry));
 }
 
-/// The inverse transpose of a linear transform, up to a positive factor: of the transform with its columns
-/// scaled to at most 1, so that neither it nor the normals it is applied to leave the range of double.
+/// The inverse transpose of a linear transform, up to a positive factor: of the transform with its
+/// columns scaled to at most 1, so that neither it nor the normals it is applied to leave the range
+/// of double.
 Eigen::Matrix3d normal_transform(const Eigen::Matrix3d &linear) {
     Eigen::Vector3d lengths;
     for (int i = 0; i < 3; ++i) {
@@ -78,8 +79,8 @@ void MeshStore::append(const Node &node) {
     const size_t first_triangle = arrays.triangle.size();
     if (first_vertex + mesh.vertices().size() >= no_index ||
         first_triangle + mesh.triangles().size() >= no_index) {
-        throw input_error(
-            fmt::format("mesh '{}': the scene has more than 2^32 vertices or triangles", node.name()));
+        throw input_error(fmt::format(
+            "mesh '{}': the scene has more than 2^32 vertices or triangles", node.name()));
     }
     arrays.name.push_back(node.name());
     arrays.first_triangle.push_back(static_cast<uint32_t>(first_triangle));
@@ -99,7 +100,8 @@ void MeshStore::append(const Node &node) {
         arrays.uv.resize(vertices, Eigen::Vector2f::Zero());
     }
     arrays.triangle.resize(first_triangle + mesh.triangles().size());
-    arrays.triangle_mesh.resize(arrays.triangle.size(), static_cast<uint32_t>(arrays.name.size() - 1));
+    arrays.triangle_mesh.resize(arrays.triangle.size(),
+                                static_cast<uint32_t>(arrays.name.size() - 1));
 }
 
 void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attributes) {
@@ -107,7 +109,8 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
     arrays.material[slot] = material_slot(materials_, attributes, "mesh", node.name());
     arrays.light[slot] = lights_.area_light_slot(node, attributes);
 
-    const Eigen::Matrix4d &world_from_object = attributes.get<TransformAttribute>().world_from_object;
+    const Eigen::Matrix4d &world_from_object =
+        attributes.get<TransformAttribute>().world_from_object;
     const Eigen::Matrix3d linear = world_from_object.topLeftCorner<3, 3>();
     const Eigen::Vector3d offset = world_from_object.topRightCorner<3, 1>() - origin;
     const uint32_t first_vertex = arrays.first_vertex[slot];
@@ -115,9 +118,9 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
         const Eigen::Vector3f baked = (linear * mesh.vertices()[i] + offset).cast<float>();
         if (!baked.allFinite()) {
             const Eigen::Vector3d &v = mesh.vertices()[i];
-            throw input_error(
-                fmt::format("mesh '{}': vertex {}, [{}, {}, {}], is beyond the range of float in world space",
-                            node.name(), i, v[0], v[1], v[2]));
+            throw input_error(fmt::format(
+                "mesh '{}': vertex {}, [{}, {}, {}], is beyond the range of float in world space",
+                node.name(), i, v[0], v[1], v[2]));
         }
         arrays.position[first_vertex + i] = baked;
     }
@@ -128,10 +131,11 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
         const auto first = arrays.normal.begin() + first_vertex;
         std::fill(first, first + arrays.vertex_count[slot], Eigen::Vector3f::Zero());
         const Eigen::Matrix3d transform = normal_transform(linear);
-        std::transform(mesh.normals().begin(), mesh.normals().end(), first,
-                       [&](const Eigen::Vector3d &normal) {
-                           return Eigen::Vector3f((transform * normal).stableNormalized().cast<float>());
-                       });
+        std::transform(
+            mesh.normals().begin(), mesh.normals().end(), first,
+            [&](const Eigen::Vector3d &normal) {
+                return Eigen::Vector3f((transform * normal).stableNormalized().cast<float>());
+            });
     }
     set_flag(arrays.has_uv[slot], !mesh.uvs().empty(), with_uv_);
     if (with_uv_ > 0) {
@@ -145,8 +149,9 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
     const bool mirrors = linear.determinant() < 0;
     for (size_t i = 0; i < mesh.triangles().size(); ++i) {
         const Triangle &t = mesh.triangles()[i];
-        arrays.triangle[arrays.first_triangle[slot] + i] = {
-            first_vertex + t[0], first_vertex + t[mirrors ? 2 : 1], first_vertex + t[mirrors ? 1 : 2]};
+        arrays.triangle[arrays.first_triangle[slot] + i] = {first_vertex + t[0],
+                                                            first_vertex + t[mirrors ? 2 : 1],
+                                                            first_vertex + t[mirrors ? 1 : 2]};
     }
 }
 
@@ -192,7 +197,8 @@ void MeshStore::keep(const std::vector<uint32_t> &slots) {
     keep_elements(arrays.light, slots);
     keep_elements(arrays.has_normals, slots);
     keep_elements(arrays.has_uv, slots);
-    with_normals_ = static_cast<size_t>(std::count(arrays.has_normals.begin(), arrays.has_normals.end(), 1));
+    with_normals_ =
+        static_cast<size_t>(std::count(arrays.has_normals.begin(), arrays.has_normals.end(), 1));
     with_uv_ = static_cast<size_t>(std::count(arrays.has_uv.begin(), arrays.has_uv.end(), 1));
 }
 
