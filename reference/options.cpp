@@ -15,7 +15,7 @@ namespace rtrays::reference {
 
 namespace {
 
-/// Two numbers around a separator, or nothing.
+/// Parses two numbers around a separator. Returns nothing if the text has another form.
 template <class Number>
 std::optional<std::pair<Number, Number>> parse_pair(const std::string &text, char separator) {
     const size_t middle = text.find(separator);
@@ -41,7 +41,7 @@ void apply_size(const std::string &text, ReferenceSettings &settings) {
     if (!size || size->first < 1 || size->second < 1 || size->first > largest ||
         size->second > largest) {
         throw input_error(
-            fmt::format("--size '{}': must be WIDTHxHEIGHT in pixels, 1 to {} each, as in 256x256",
+            fmt::format("--size '{}': expected WIDTHxHEIGHT in pixels, 1 to {} each, as in 256x256",
                         text, largest));
     }
     settings.width = size->first;
@@ -52,7 +52,7 @@ void apply_range(const std::string &text, Options &options) {
     const auto range = parse_pair<uint64_t>(text, ':');
     if (!range || range->first >= range->second) {
         throw input_error(
-            fmt::format("--samples '{}': must be BEGIN:END with BEGIN < END, as in 0:1024", text));
+            fmt::format("--samples '{}': expected BEGIN:END with BEGIN < END, as in 0:1024", text));
     }
     options.begin = range->first;
     options.end = range->second;
@@ -64,45 +64,47 @@ std::optional<Options> parse_options(int argc, char **argv) {
     Options options;
     std::string size, range, strategies = name_of(options.settings.strategies);
     CLI::App app{
-        "Renders a scene with the independent Embree path tracer, or with Mitsuba 3 or Blender's "
-        "Cycles.\n"
-        "A state file beside the output keeps what is done; --resume continues it."};
-    app.set_version_flag("--version", "rtrays-reference " + version());
+        "Renders a scene with the independent Embree path tracer, Mitsuba 3 or Blender's Cycles.\n"
+        "A state file beside the output stores the progress; --resume continues from it."};
+    app.set_version_flag("--version", program_version("rtrays-reference"));
     app.add_option("SCENE", options.scene, "scene file")->required();
-    app.add_option("-o,--output", options.output, "image to write (OpenEXR)")->required();
-    auto *spp = app.add_option("--spp", options.end, "samples per pixel; the same as --samples 0:N")
-                    ->check(CLI::PositiveNumber);
+    app.add_option("-o,--output", options.output, "output image (OpenEXR)")->required();
+    auto *spp =
+        app.add_option("--spp", options.end, "samples per pixel; equivalent to --samples 0:N")
+            ->check(CLI::PositiveNumber);
     auto *samples = app.add_option("--samples", range, "sample range BEGIN:END")->excludes(spp);
-    app.add_option("--seed", options.settings.seed, "seed of the random numbers")
-        ->capture_default_str();
+    app.add_option("--seed", options.settings.seed, "random seed")->capture_default_str();
     app.add_option("--engine", options.engine,
-                   "embree, or mitsuba or cycles where they are installed (else exit code 77)")
+                   "renderer: embree, mitsuba or cycles; exit code 77 if it is not installed")
         ->check(CLI::IsMember({"embree", "mitsuba", "cycles"}))
         ->capture_default_str();
-    app.add_option("--size", size, "film size WxH; the scene's by default");
-    app.add_option("--strategies", strategies, "direct light: implicit, explicit or mis")
+    app.add_option("--size", size, "film size WIDTHxHEIGHT; default: the scene's");
+    app.add_option("--strategies", strategies,
+                   "estimators of direct light: implicit, explicit or mis")
         ->capture_default_str();
     app.add_option("--max-depth", options.settings.max_depth,
-                   "scattering events, 1 is direct light; 0: no limit")
+                   "maximum number of scattering events; 1 is direct light, 0 means no limit")
         ->capture_default_str();
-    app.add_option("--threads", options.settings.threads, "threads, 0: all; no effect on the image")
+    app.add_option("--threads", options.settings.threads,
+                   "number of threads, 0 means all; no effect on the image")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    app.add_flag("--resume", options.resume, "continue the state file if there is one");
-    app.add_option("--state", options.state, "state file; OUTPUT.state by default");
+    app.add_flag("--resume", options.resume, "continue from the state file if it exists");
+    app.add_option("--state", options.state, "state file; default: OUTPUT.state");
     app.add_option("--checkpoint-interval", options.checkpoint_interval,
-                   "seconds between state files, at most 600")
+                   "seconds between writes of the state file, at most 600")
         ->check(CLI::Range(0.0, 600.0))
         ->capture_default_str();
-    app.add_option("--stats", options.stats, "write counts and times as JSON");
+    app.add_option("--stats", options.stats, "JSON file to write counts and times to");
     auto *manifest = app.add_option(
         "--manifest", options.manifest,
-        "add the image to this manifest; it must be named SCENE.ENGINE.HALF.exr and lie beside it");
+        "add the image to this manifest; the image must be named SCENE.ENGINE.HALF.exr and be in "
+        "the folder of the manifest");
     app.add_flag("--skip-if-listed", options.skip_if_listed,
-                 "do nothing when the manifest lists the image with these settings and at least as "
+                 "do nothing if the manifest lists the image with these settings and at least as "
                  "many samples")
         ->needs(manifest);
-    app.add_flag("--quiet", options.quiet, "no progress");
+    app.add_flag("--quiet", options.quiet, "do not print progress");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success &help) {
@@ -123,8 +125,8 @@ std::optional<Options> parse_options(int argc, char **argv) {
     options.settings.strategies = strategies_from_name(strategies);
     if (options.engine != "embree" &&
         (samples->count() > 0 || options.settings.strategies != Strategies::mis)) {
-        throw input_error(
-            fmt::format("--engine {}: --samples and --strategies are of embree", options.engine));
+        throw input_error(fmt::format(
+            "--engine {}: --samples and --strategies require --engine embree", options.engine));
     }
     if (options.state.empty()) {
         options.state = options.output + ".state";

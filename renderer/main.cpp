@@ -15,6 +15,7 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
+#include "renderer/export/display_image.h"
 #include "renderer/export/export_scene.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
@@ -25,7 +26,8 @@ namespace {
 
 struct Options {
     std::string scene;
-    std::string output;
+    std::vector<std::string> outputs;
+    double exposure = 0;
     std::string exported;
     std::string size;
     std::string samples;
@@ -44,7 +46,7 @@ struct Options {
     RenderSettings settings;
 };
 
-/// "AxB" or "A:B" as two numbers; throws `Error` (bad usage).
+/// Parses "AxB" or "A:B" as two numbers; throws `Error` (bad usage).
 std::pair<uint64_t, uint64_t> parse_pair(const std::string &text, char separator,
                                          const char *option) {
     uint64_t first = 0, second = 0;
@@ -68,28 +70,58 @@ void print_devices() {
     }
 }
 
-bool wanted(const std::vector<std::string> &layers, const std::string &name) {
+bool requested(const std::vector<std::string> &layers, const std::string &name) {
     return std::find(layers.begin(), layers.end(), name) != layers.end();
 }
 
-/// Removes the layers that were not asked for.
+/// Returns the colours and the requested layers.
 Image select_layers(const Image &image, const std::vector<std::string> &layers) {
     Image selected(image.width(), image.height());
     selected.attributes() = image.attributes();
     for (const Image::Channel &channel : image.channels()) {
         const std::string layer = channel.name.substr(0, channel.name.find('.'));
         const bool colour = channel.name == "R" || channel.name == "G" || channel.name == "B";
-        const bool own =
-            layer == "variance" || layer == "samples";  // all others are images of passes
-        if (colour || (own ? wanted(layers, layer)
-                           : wanted(layers, "passes") || wanted(layers, "strategies"))) {
+        // All layers but these two are images of passes or strategies.
+        const bool statistics = layer == "variance" || layer == "samples";
+        if (colour ||
+            (statistics ? requested(layers, layer)
+                        : requested(layers, "passes") || requested(layers, "strategies"))) {
             selected.add_channel(channel.name) = channel.values;
         }
     }
     return selected;
 }
 
-/// Renders as far as the options say; returns false when interrupted before.
+/// Throws `Error` (bad usage) unless every output can be written; `suggestion` is the name of an
+/// image without its ending.
+void require_outputs(const std::vector<std::string> &outputs, const std::string &suggestion) {
+    if (outputs.empty()) {
+        throw input_error(fmt::format(
+            "no output; add -o {0}.png (for display) or -o {0}.exr (linear, with layers), or both",
+            suggestion));
+    }
+    for (const std::string &path : outputs) {
+        require_image_output(path);
+    }
+}
+
+void write_images(const Image &image, const std::vector<std::string> &outputs, double exposure,
+                  bool quiet) {
+    for (const std::string &path : outputs) {
+        write_image(image, path, exposure);
+        if (!quiet) {
+            fmt::print(stderr, "wrote {} ({} x {})\n", path, image.width(), image.height());
+        }
+    }
+}
+
+/// Name for an image of a scene: the folder of a scene.json, else the file's name.
+std::string image_name(const std::filesystem::path &scene) {
+    const std::string folder = scene.parent_path().filename().string();
+    return scene.filename() == "scene.json" && !folder.empty() ? folder : scene.stem().string();
+}
+
+/// Renders until the options are satisfied; returns false if interrupted before.
 bool render(RenderSession &session, const Options &options, SampleRange range) {
     using Clock = std::chrono::steady_clock;
     const auto save = [&] {
@@ -111,7 +143,7 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
             }
             const double before = session.stats().wall_seconds;
             range.begin = session.render(range.begin, range.begin + step);
-            // Steps of about a tenth of the time left, by what the last one took, keep the
+            // A step of about a tenth of the time left, predicted from the last one, keeps the
             // overshoot small.
             const double rate =
                 static_cast<double>(step) / std::max(session.stats().wall_seconds - before, 1e-9);
@@ -150,16 +182,17 @@ ExitCode run(Options &options) {
     if (!options.exported.empty()) {
         require_export_name(options.exported);
     }
-    if (!options.output.empty()) {
-        require_exr_output(options.output);
+    const bool renders = options.exported.empty() && !options.print_scene && !options.dry_run;
+    if (renders || !options.outputs.empty()) {
+        require_outputs(options.outputs, image_name(options.scene));
     }
     for (const std::string &path : {options.state, options.stats, options.exported}) {
         if (!path.empty()) {
             require_writable(path);
         }
     }
-    options.settings.variance = wanted(options.layers, "variance");
-    options.settings.strategies_apart = wanted(options.layers, "strategies");
+    options.settings.variance = requested(options.layers, "variance");
+    options.settings.strategies_apart = requested(options.layers, "strategies");
 
     Scene scene = load_scene(options.scene, options.quiet);
     for (const std::string &assignment : options.assignments) {
@@ -197,9 +230,6 @@ ExitCode run(Options &options) {
         export_scene(scene, options.exported,
                      {options.spp.value_or(64), options.settings.max_depth});
         return ExitCode::ok;
-    }
-    if (options.output.empty() && !options.dry_run) {
-        throw input_error("-o OUT.exr is missing");
     }
     SampleRange range{0, options.spp.value_or(64)};
     if (!options.samples.empty()) {
@@ -247,13 +277,14 @@ ExitCode run(Options &options) {
                                          : "; continue with --resume --state " + options.state);
         return ExitCode::run_failed;
     }
-    write_exr(select_layers(session.develop(), options.layers), options.output);
+    write_images(select_layers(session.develop(), options.layers), options.outputs,
+                 options.exposure, options.quiet);
     return ExitCode::ok;
 }
 
-ExitCode merge(const std::vector<std::string> &inputs, const std::string &output,
-               const std::string &state) {
-    require_exr_output(output);
+ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::string> &outputs,
+               const std::string &state, double exposure) {
+    require_outputs(outputs, "merged");
     FilmState film = load_film(inputs.front());
     for (size_t i = 1; i < inputs.size(); ++i) {
         try {
@@ -265,21 +296,41 @@ ExitCode merge(const std::vector<std::string> &inputs, const std::string &output
     require_valid(film);
     Image image = develop_film(film);
     describe_image(image, film);
-    write_exr(image, output);
+    write_images(image, outputs, exposure, true);
     if (!state.empty()) {
         save_film(film, state);
     }
     return ExitCode::ok;
 }
 
+ExitCode develop(const std::string &input, const std::vector<std::string> &outputs,
+                 double exposure) {
+    require_outputs(outputs, std::filesystem::path(input).stem().string());
+    write_images(read_exr(input), outputs, exposure, true);
+    return ExitCode::ok;
+}
+
+void add_output_options(CLI::App &app, std::vector<std::string> &outputs, double &exposure) {
+    app.add_option("-o,--output", outputs,
+                   "image to write: .exr (linear, with layers), .png or .jpg (for display); may be "
+                   "repeated")
+        ->allow_extra_args(false);
+    app.add_option("--exposure", exposure,
+                   "of .png and .jpg, in stops: radiance is multiplied by 2^EXPOSURE")
+        ->check(CLI::Range(-100.0, 100.0))
+        ->capture_default_str();
+}
+
 ExitCode parse_and_run(int argc, char **argv) {
     install_interrupt_handler();
     Options options;
     CLI::App app(
-        "Renders a scene on an OpenCL device.\n\nOther uses: rtrays-render merge FILM... -o "
-        "OUT.exr",
+        "Renders a scene on an OpenCL device.\n\n"
+        "Other uses:\n"
+        "  rtrays-render merge FILM... -o OUT      adds films of one scene\n"
+        "  rtrays-render develop IN.exr -o OUT     converts an image for display",
         "rtrays-render");
-    app.set_version_flag("--version", "rtrays-render 0.1.0 (" + commit() + ")");
+    app.set_version_flag("--version", program_version("rtrays-render"));
     app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings() +
                "  scene.NODE.PROPERTY = ...  any property that --print-scene lists");
     bool devices = false, algorithms = false;
@@ -287,60 +338,73 @@ ExitCode parse_and_run(int argc, char **argv) {
     app.add_flag("--list-algorithms", algorithms, "list the algorithms and stop");
     app.add_option("SCENE", options.scene,
                    "scene (.json, Mitsuba 3 .xml) or model file (.ply, .obj, .gltf, ...)");
-    app.add_option("-o,--output", options.output, "image to write (.exr)");
+    add_output_options(app, options.outputs, options.exposure);
     app.add_option(
         "--export", options.exported,
         "write the scene for Mitsuba 3 (.xml) or Blender's Cycles (.blender.json) and stop");
     app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")
         ->capture_default_str();
     app.add_option("--passes", options.settings.passes,
-                   "of an algorithm with two, to be merged later: all, camera or light")
+                   "passes to render: all, camera or light; truncated_bdpt has both, for merge")
         ->check(CLI::IsMember({"all", "camera", "light"}))
         ->capture_default_str();
     app.add_option("--spp", options.spp, "samples per pixel (default 64)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--time", options.seconds, "render for that many seconds instead")
+    app.add_option("--time", options.seconds,
+                   "render for this many seconds instead of a number of samples")
         ->check(CLI::PositiveNumber);
-    app.add_option("--samples", options.samples, "only the samples BEGIN:END of every pixel");
-    app.add_option("--seed", options.settings.seed, "of the random numbers")->capture_default_str();
-    app.add_option("--size", options.size, "WxH in pixels (default: the scene's film)");
+    app.add_option("--samples", options.samples,
+                   "render only the samples BEGIN:END of every pixel");
+    app.add_option("--seed", options.settings.seed, "seed of the random numbers")
+        ->capture_default_str();
+    app.add_option("--size", options.size, "image size WxH in pixels (default: the scene's film)");
     app.add_option("--at", options.scene_time, "scene time in seconds")->capture_default_str();
     app.add_option("--device", options.device,
                    "gpu, cpu, PLATFORM:DEVICE or part of a name (default: a GPU, else a CPU)");
-    app.add_option("--state", options.state, "film state file to keep, for --resume and merge");
-    app.add_flag("--resume", options.resume, "continue from --state if it exists");
-    app.add_option("--set", options.assignments, "NAME=VALUE, may be repeated")
+    app.add_option("--state", options.state, "film file to write, for --resume and merge");
+    app.add_flag("--resume", options.resume, "continue from the film of --state if it exists");
+    app.add_option("--set", options.assignments, "change a setting: NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--stats", options.stats,
-                   "write features, kernels, bytes, launches, seconds (.json)");
-    app.add_option("--layers", options.layers, "layers besides R,G,B")
+                   "write a .json with features, kernels, bytes, launches and seconds");
+    app.add_option("--layers", options.layers, "layers of the EXR besides R,G,B")
         ->delimiter(',')
         ->check(CLI::IsMember({"variance", "samples", "passes", "strategies", "none"}))
         ->capture_default_str();
     app.add_flag("--print-scene", options.print_scene, "print nodes and properties and stop");
     app.add_flag("--dry-run", options.dry_run,
-                 "compile everything, print the stats document, render nothing");
-    app.add_flag("-q,--quiet", options.quiet, "no progress");
+                 "compile everything and print the statistics; render nothing");
+    app.add_flag("-q,--quiet", options.quiet, "print no progress");
 
     CLI::App merge_app(
-        "Adds film states of one scene and one seed with disjoint sample ranges: the same bits as "
-        "one render.",
+        "Adds films of one scene and one seed with disjoint sample ranges. The image has the same "
+        "bits as that of one render.",
         "rtrays-render merge");
     std::vector<std::string> films;
-    std::string merge_output, merge_state;
-    merge_app.add_option("FILM", films, "film states")->required();
-    merge_app.add_option("-o,--output", merge_output, "image to write (.exr)")->required();
-    merge_app.add_option("--state", merge_state, "merged film state to write");
+    std::string merged_state;
+    merge_app.add_option("FILM", films, "film files")->required();
+    add_output_options(merge_app, options.outputs, options.exposure);
+    merge_app.add_option("--state", merged_state, "merged film file to write");
 
-    const bool merging = argc > 1 && std::string(argv[1]) == "merge";
-    CLI::App &chosen = merging ? merge_app : app;
+    CLI::App develop_app("Converts an EXR image for display.", "rtrays-render develop");
+    std::string developed;
+    develop_app.add_option("IN.exr", developed, "image to convert")->required();
+    add_output_options(develop_app, options.outputs, options.exposure);
+
+    const std::string command = argc > 1 ? argv[1] : "";
+    const bool merging = command == "merge", developing = command == "develop";
+    CLI::App &chosen = merging ? merge_app : developing ? develop_app : app;
+    const int skipped = merging || developing ? 1 : 0;
     try {
-        chosen.parse(merging ? argc - 1 : argc, merging ? argv + 1 : argv);
+        chosen.parse(argc - skipped, argv + skipped);
     } catch (const CLI::ParseError &error) {
         return chosen.exit(error) == 0 ? ExitCode::ok : ExitCode::bad_input;
     }
     if (merging) {
-        return merge(films, merge_output, merge_state);
+        return merge(films, options.outputs, merged_state, options.exposure);
+    }
+    if (developing) {
+        return develop(developed, options.outputs, options.exposure);
     }
     if (devices) {
         print_devices();

@@ -8,8 +8,8 @@ namespace rtrays {
 
 namespace {
 
-// Volatile: the optimizer may not cut the text up into instructions, where program_hash() would not
-// find it.
+// Volatile, so that the optimizer cannot split the text into instructions, where program_hash()
+// would not find it.
 const char *volatile const stamp = RTRAYS_COMMIT;
 
 }  // namespace
@@ -24,6 +24,10 @@ bool built_from_changed_sources() {
 
 std::string version() {
     return RTRAYS_DIRTY ? commit() + "-dirty" : commit();
+}
+
+std::string program_version(const std::string &program) {
+    return program + " " + RTRAYS_VERSION + " (" + version() + ")";
 }
 
 std::string program_hash() {

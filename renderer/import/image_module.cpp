@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The image module: reads texture images and writes PNG files through OpenImageIO.
 #include "renderer/import/image_module.h"
 
 #include <OpenImageIO/imageio.h>
@@ -16,15 +17,15 @@ namespace rtrays {
 
 namespace {
 
-/// Texels of an image: beyond this a header is damaged or the image is no texture. 1.6 GB of
-/// floats.
+/// Maximum number of texels of an RGB image (1.6 GB of floats). A larger size in a header means a
+/// damaged file.
 constexpr int64_t most_texels = int64_t(1) << 27;
 
 Error file_error(const std::filesystem::path &path, const std::string &what) {
     return input_error(fmt::format("{}: {}", path.string(), what));
 }
 
-/// What OpenImageIO has to say, on one line.
+/// Returns an error message of OpenImageIO on one line.
 std::string in_one_line(std::string message) {
     while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back()))) {
         message.pop_back();
@@ -32,10 +33,10 @@ std::string in_one_line(std::string message) {
     for (size_t at = message.find('\n'); at != std::string::npos; at = message.find('\n', at)) {
         message.replace(at, 1, "; ");
     }
-    return message.empty() ? "it ends too early" : message;
+    return message.empty() ? "unexpected end of file" : message;
 }
 
-/// The channels that become red, green and blue.
+/// Returns the indices of the channels to use as red, green and blue.
 std::vector<int> colour_channels(const OIIO::ImageSpec &spec, const std::filesystem::path &path) {
     const auto find = [&](const char *name) {
         const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
@@ -55,7 +56,7 @@ std::vector<int> colour_channels(const OIIO::ImageSpec &spec, const std::filesys
     }
     throw file_error(
         path,
-        fmt::format("has the channels {}; a texture needs R, G, B or one grey channel", names));
+        fmt::format("unsupported channels {}; expected R, G and B, or one grey channel", names));
 }
 
 void check_header(const OIIO::ImageSpec &spec, const std::filesystem::path &path) {
@@ -63,16 +64,18 @@ void check_header(const OIIO::ImageSpec &spec, const std::filesystem::path &path
         static_cast<int64_t>(spec.width) * spec.height > most_texels / spec.nchannels * 3) {
         throw file_error(
             path,
-            fmt::format("an image of {} x {} x {}{} with {} channels is no texture", spec.width,
-                        spec.height, spec.depth, spec.deep ? " deep samples" : "", spec.nchannels));
+            fmt::format("unsupported image of {} x {} x {}{} with {} channels; expected a flat "
+                        "image of at most 2^27 RGB texels",
+                        spec.width, spec.height, spec.depth, spec.deep ? " deep samples" : "",
+                        spec.nchannels));
     }
     if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
         spec.height != spec.full_height) {
-        throw file_error(path, "its data window is not its display window; crop or fill it");
+        throw file_error(path, "data window and display window differ; crop or pad the image");
     }
 }
 
-/// The colour channels of all texels, as `T`.
+/// Reads the colour channels of all texels as `T`.
 template <typename T>
 std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
                            const std::vector<int> &colours, OIIO::TypeDesc format,
@@ -80,9 +83,9 @@ std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
     const auto texels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
     const auto channels = static_cast<size_t>(spec.nchannels);
     std::vector<T> all(texels * channels);
-    // A reader may get to the end of a damaged file and only then complain.
+    // Some readers report a damaged file only after they have reached its end.
     if (!input.read_image(0, 0, 0, spec.nchannels, format, all.data()) || input.has_error()) {
-        throw file_error(path, "is damaged: " + in_one_line(input.geterror()));
+        throw file_error(path, "damaged image: " + in_one_line(input.geterror()));
     }
     std::vector<T> rgb(texels * 3);
     for (size_t i = 0; i < texels; ++i) {
@@ -95,11 +98,11 @@ std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
 
 void read_image(const std::filesystem::path &path, RawImage &image) {
     OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] =
-        1;  // colours as stored, not multiplied by the alpha that is dropped
+    // Alpha is dropped, so colours must not be multiplied by it.
+    config["oiio:UnassociatedAlpha"] = 1;
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
     if (input == nullptr) {
-        throw file_error(path, "is no image that can be read: " + in_one_line(OIIO::geterror()));
+        throw file_error(path, "cannot read as an image: " + in_one_line(OIIO::geterror()));
     }
     const OIIO::ImageSpec spec = input->spec();
     check_header(spec, path);
@@ -114,12 +117,14 @@ void read_image(const std::filesystem::path &path, RawImage &image) {
     }
 }
 
-void write_image(const std::filesystem::path &path, int width, int height, const uint8_t *rgb) {
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    if (output == nullptr ||
-        !output->open(path.string(), OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::UINT8)) ||
+void write_image(const std::filesystem::path &path, const char *format, int width, int height,
+                 const uint8_t *rgb) {
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    spec["CompressionQuality"] = 95;  // used by JPEG only
+    if (output == nullptr || !output->open(path.string(), spec) ||
         !output->write_image(OIIO::TypeDesc::UINT8, rgb) || !output->close()) {
-        throw run_error(fmt::format("{}: cannot be written: {}", path.string(),
+        throw run_error(fmt::format("{}: cannot write image: {}", path.string(),
                                     output == nullptr ? OIIO::geterror() : output->geterror()));
     }
 }
@@ -128,19 +133,19 @@ void write_image(const std::filesystem::path &path, int width, int height, const
 
 }  // namespace rtrays
 
-// The symbols of the module, `rtrays::ReadImageFile` and `rtrays::WriteImageFile`.
+// Exported symbols of the module, of types `rtrays::ReadImageFile` and `rtrays::WriteImageFile`.
 extern "C" void rtrays_read_image_file(const std::filesystem::path &path, rtrays::RawImage &image) {
     try {
         rtrays::read_image(path, image);
     } catch (const rtrays::Error &) {
         throw;
-    } catch (
-        const std::exception &error) {  // a damaged header may ask for more memory than there is
-        throw rtrays::file_error(path, std::string("cannot be read: ") + error.what());
+    } catch (const std::exception &error) {
+        // A damaged header may request more memory than is available.
+        throw rtrays::file_error(path, std::string("cannot read image: ") + error.what());
     }
 }
 
-extern "C" void rtrays_write_image_file(const std::filesystem::path &path, int width, int height,
-                                        const uint8_t *rgb) {
-    rtrays::write_image(path, width, height, rgb);
+extern "C" void rtrays_write_image_file(const std::filesystem::path &path, const char *format,
+                                        int width, int height, const uint8_t *rgb) {
+    rtrays::write_image(path, format, width, height, rgb);
 }

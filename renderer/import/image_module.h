@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// OpenImageIO brings more than two hundred shared libraries with it: 0.2 s and 130 MB for every
-// start of a program that links it. So it lives in a module beside the programs that is opened when
-// the first image is read.
+// Interface of the image module, a shared library that is loaded when the first image is read.
+// OpenImageIO pulls in more than two hundred shared libraries, which cost every program that links
+// it 0.2 s and 130 MB at start. Only the module links it.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace rtrays {
 
-/// The colour channels of an image file as read: three each, rows from the top.
+/// The colour channels of an image file as stored: three channels per texel, top row first.
 struct RawImage {
     int width = 0;
     int height = 0;
-    bool is_floating = false;    ///< the file holds floating-point numbers
-    std::vector<uint8_t> bytes;  ///< of a file of 8 bits; or empty
-    std::vector<float> floats;   ///< of any other; integers are scaled to [0, 1]
+    bool is_floating = false;    ///< the file stores floating-point numbers
+    std::vector<uint8_t> bytes;  ///< texels of an 8-bit file, otherwise empty
+    std::vector<float> floats;   ///< texels of any other file, integers scaled to [0, 1]
 };
 
-/// The functions of the module: see `load_texture_file` and `write_texture_file` for what they
-/// throw.
+/// Signatures of the functions that the module exports. `load_texture_file` and
+/// `write_texture_file` document the errors they throw.
 using ReadImageFile = void(const std::filesystem::path &path, RawImage &image);
-using WriteImageFile = void(const std::filesystem::path &path, int width, int height,
-                            const uint8_t *rgb);
+using WriteImageFile = void(const std::filesystem::path &path, const char *format, int width,
+                            int height, const uint8_t *rgb);
 constexpr const char *image_module_name = "librtrays_images.so";
 constexpr const char *read_image_file_name = "rtrays_read_image_file";
 constexpr const char *write_image_file_name = "rtrays_write_image_file";

@@ -21,7 +21,7 @@ Error file_error(const std::filesystem::path &path, const std::string &what) {
     return input_error(fmt::format("{}: {}", path.string(), what));
 }
 
-/// A function of the module that reads and writes images, which is opened once.
+/// Returns a function of the image module, which is loaded by the first call.
 template <typename Function>
 Function *image_function(const char *name, const std::filesystem::path &path) {
     static void *const module = [] {
@@ -30,10 +30,9 @@ Function *image_function(const char *name, const std::filesystem::path &path) {
     }();
     if (module == nullptr) {
         throw file_error(
-            path,
-            fmt::format("this build knows no images: there is no {} beside the program; configure "
-                        "with -DRTRAYS_TEXTURES=ON (needs OpenImageIO)",
-                        image_module_name));
+            path, fmt::format("image files are unsupported by this build, {} is missing beside the "
+                              "program; configure with -DRTRAYS_TEXTURES=ON (requires OpenImageIO)",
+                              image_module_name));
     }
     return reinterpret_cast<Function *>(dlsym(module, name));
 }
@@ -47,7 +46,7 @@ void check_texels(const TextureImage &image, const std::filesystem::path &path) 
             throw file_error(
                 path,
                 fmt::format(
-                    "texel ({}, {}) has the {} value {}: texels must be finite and not negative",
+                    "texel ({}, {}) has the {} value {}; texels must be finite and not negative",
                     i / 3 % width, i / 3 / width, channels[i % 3], value));
         }
     }
@@ -64,7 +63,7 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
     image_function<ReadImageFile>(read_image_file_name, path)(path, raw);
     const bool is_srgb = encoding == TextureEncoding::srgb;
     if (is_srgb && raw.is_floating) {
-        throw file_error(path, "holds floats, which are linear: \"encoding\" must be \"linear\"");
+        throw file_error(path, "floating-point images are linear; set \"encoding\" to \"linear\"");
     }
     auto image = std::make_shared<TextureImage>();
     image->width = raw.width;
@@ -73,7 +72,7 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
     image->bytes = std::move(raw.bytes);
     image->floats = std::move(raw.floats);
     check_texels(*image, path);
-    if (is_srgb) {  // 16 bits have no curve of their own in `TextureImage`
+    if (is_srgb) {  // `TextureImage` supports sRGB texels of 8 bits only
         for (float &value : image->floats) {
             value = static_cast<float>(srgb_decoded(value));
         }
@@ -81,12 +80,21 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
     return image;
 }
 
+void require_image_module(const std::filesystem::path &path) {
+    image_function<WriteImageFile>(write_image_file_name, path);
+}
+
+void write_image_bytes(const std::filesystem::path &path, const char *format, int width, int height,
+                       const std::vector<uint8_t> &rgb) {
+    const auto write = image_function<WriteImageFile>(write_image_file_name, path);
+    write_atomically(path, [&](const std::filesystem::path &temporary) {
+        write(temporary, format, width, height, rgb.data());
+    });
+}
+
 void write_texture_file(const TextureImage &image, const std::filesystem::path &path) {
     if (image.floats.empty()) {
-        const auto write = image_function<WriteImageFile>(write_image_file_name, path);
-        write_atomically(path, [&](const std::filesystem::path &temporary) {
-            write(temporary, image.width, image.height, image.bytes.data());
-        });
+        write_image_bytes(path, "png", image.width, image.height, image.bytes);
         return;
     }
     Image floats = Image::rgb(image.width, image.height);

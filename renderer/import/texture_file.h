@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Reading and writing of texture image files.
 #pragma once
 
 #include <filesystem>
@@ -10,24 +11,33 @@
 
 namespace rtrays {
 
-/// How the numbers of an image file stand for linear values.
+/// Encoding of the values of an image file. sRGB values are decoded to linear ones.
 enum class TextureEncoding { srgb, linear };
 
-/// Reads an image (PNG, JPEG, TIFF, EXR, HDR, ... as OpenImageIO does): the channels R, G and B, or
-/// one grey one for all three; alpha is dropped. 8 bits stay 8 bits, everything else becomes linear
-/// floats. Throws `Error` (bad input) naming the file when it is missing, damaged or empty, has
-/// other channels, values that are negative or not finite, or is of floats and said to be sRGB.
+/// Reads an image in any format of OpenImageIO (PNG, JPEG, TIFF, EXR, HDR, ...). Uses the channels
+/// R, G and B, or one grey channel for all three. Alpha is dropped. 8-bit images keep 8 bits, all
+/// others become linear floats. Throws `Error` (bad input) naming the file if it is missing,
+/// damaged or empty, or has other channels. Also throws if a value is negative or not finite, or if
+/// a floating-point image is declared as sRGB.
 std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::path &path,
                                                       TextureEncoding encoding);
 
-/// Writes an image that reads back the same: one of 8 bits as PNG, one of floats as
-/// EXR. Throws `Error` (run failed) naming the file.
+/// Loads the image module. Throws `Error` (bad input) naming `path` if this build has none.
+void require_image_module(const std::filesystem::path &path);
+
+/// Writes 8-bit RGB (3 * width * height values, rows from the top) as "png" or "jpeg". The file is
+/// complete or absent. Throws `Error` (run failed) naming the file.
+void write_image_bytes(const std::filesystem::path &path, const char *format, int width, int height,
+                       const std::vector<uint8_t> &rgb);
+
+/// Writes an image losslessly: 8-bit texels as PNG, floats as EXR. Throws `Error` (run failed)
+/// naming the file.
 void write_texture_file(const TextureImage &image, const std::filesystem::path &path);
 
-/// Loads each file once, however many textures use it.
+/// Cache of image files. Loads each file once, however many textures use it.
 class TextureFiles {
   public:
-    /// As `load_texture_file`.
+    /// Returns the cached image, or reads it by `load_texture_file`.
     std::shared_ptr<const TextureImage> load(const std::filesystem::path &path,
                                              TextureEncoding encoding);
 

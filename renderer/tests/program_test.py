@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""rtrays-render as a user meets it: bad input, interrupted runs, resumed and merged films.
+"""Tests the program rtrays-render: bad input, interrupted runs, resumed and merged films.
 
 Usage: program_test.py PROGRAM SCENES
 """
@@ -29,10 +29,11 @@ class Program(unittest.TestCase):
         self.folder.cleanup()
 
     def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                              timeout=300, **options)
 
     def expect_error(self, code, fragments, *arguments, **options):
-        """One clear message on stderr, that exit code, and nothing left in the folder that was not there."""
+        """Expects one clear message on stderr, that exit code, and no new file in the folder."""
         before = sorted(self.path.iterdir())
         result = self.run_program(*arguments, **options)
         self.assertEqual(result.returncode, code, result.stderr)
@@ -43,7 +44,7 @@ class Program(unittest.TestCase):
         self.assertEqual(sorted(self.path.iterdir()), before)
 
     def scene(self, change):
-        """The Cornell box after `change(text) -> text`."""
+        """Writes the Cornell box after `change(text) -> text` and returns its path."""
         path = self.path / "scene.json"
         path.write_text(change(CORNELL.read_text()))
         return path
@@ -66,41 +67,65 @@ class Program(unittest.TestCase):
         self.expect_error(2, ["flim", "film", "scene.json:"], scene, "-o", self.output())
 
     def test_duplicate_key(self):
-        scene = self.scene(lambda text: text.replace('"version": 1,', '"version": 1, "version": 1,', 1))
+        scene = self.scene(
+            lambda text: text.replace('"version": 1,', '"version": 1, "version": 1,', 1))
         self.expect_error(2, ["version", "scene.json:2"], scene, "-o", self.output())
 
     def test_vertex_that_is_no_number(self):
         for bad in ("1e999", "null", "NaN"):
-            scene = self.scene(lambda text, bad=bad: text.replace("[343, 548.3, 227]", f"[{bad}, 548.3, 227]", 1))
+            scene = self.scene(lambda text, bad=bad: text.replace(
+                "[343, 548.3, 227]", f"[{bad}, 548.3, 227]", 1))
             self.expect_error(2, ["scene.json:"], scene, "-o", self.output())
 
     def test_unwritable_output(self):
-        self.expect_error(2, ["no/such/folder"], CORNELL, "-o", self.path / "no/such/folder/out.exr")
+        self.expect_error(2, ["no/such/folder"],
+                          CORNELL, "-o", self.path / "no/such/folder/out.exr")
 
     def test_output_that_is_a_directory(self):
         self.expect_error(2, ["directory"], CORNELL, "-o", self.path)
 
     def test_output_of_another_format(self):
-        self.expect_error(2, ["images are OpenEXR", "out.exr"], CORNELL, "-o", self.path / "out.png")
-        self.assertFalse((self.path / "out.png").exists())
+        self.expect_error(2, ["unknown image format", ".exr", ".png"],
+                          CORNELL, "-o", self.path / "out.tga")
+
+    def test_missing_output_names_what_it_could_be(self):
+        self.expect_error(2, ["cornell_box.png", "cornell_box.exr"], CORNELL)
+        self.expect_error(2, ["furnace_050.png"], SCENES / "analytic" / "furnace_050.json")
+
+    def test_display_images_beside_the_exr(self):
+        image, again, exposed = (self.path / name for name in ("out.png", "again.png", "out.jpg"))
+        result = self.run_program(CORNELL, "-o", self.output(), "-o", image, "--spp", 2, *SMALL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"wrote {image}", result.stderr)
+        self.assertEqual(image.read_bytes()[:4], b"\x89PNG")
+        result = self.run_program("develop", self.output(), "-o", again, "-o", exposed)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(again.read_bytes(), image.read_bytes())
+        self.assertEqual(exposed.read_bytes()[:2], b"\xff\xd8")
+        self.run_program("develop", self.output(), "-o", again, "--exposure", 2)
+        self.assertNotEqual(again.read_bytes(), image.read_bytes())
+        self.expect_error(2, ["nowhere.exr"],
+                          "develop", self.path / "nowhere.exr", "-o", self.path / "none.png")
 
     def test_full_disk(self):
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 
-        # Once without the limit: the driver's compiler needs to write.
+        # The first run has no limit, because the driver's compiler must write files.
         self.run_program(CORNELL, "-o", self.output(), "--spp", 1, "-q", *SMALL)
         self.output().unlink()
-        self.expect_error(1, ["out.exr", "cannot be written"], CORNELL, "-o", self.output(), "--spp", 1, "-q", *SMALL,
-                          preexec_fn=limit)
+        self.expect_error(1, ["out.exr", "cannot be written"], CORNELL, "-o", self.output(),
+                          "--spp", 1, "-q", *SMALL, preexec_fn=limit)
 
     def test_no_device(self):
         environment = dict(os.environ, OCL_ICD_VENDORS=str(self.path))
-        self.expect_error(2, ["pocl-opencl-icd"], CORNELL, "-o", self.output(), *SMALL, env=environment)
+        self.expect_error(2, ["pocl-opencl-icd"], CORNELL, "-o", self.output(), *SMALL,
+                          env=environment)
 
     def test_unknown_device(self):
-        self.expect_error(2, ["'toaster'", "0:0"], CORNELL, "-o", self.output(), "--device", "toaster", *SMALL)
+        self.expect_error(2, ["'toaster'", "0:0"],
+                          CORNELL, "-o", self.output(), "--device", "toaster", *SMALL)
 
     def test_bad_settings(self):
         for assignment, fragment in (("integrator.strategies=all", "implicit, explicit, mis"),
@@ -113,15 +138,19 @@ class Program(unittest.TestCase):
             self.expect_error(2, [fragment], CORNELL, "-o", self.output(), "--set", assignment)
 
     def test_bad_numbers(self):
-        for message, arguments in (("from 1 to 65536", ["--size", "0x5"]), ("separated by 'x'", ["--size", "5"]),
-                                   ("below END", ["--samples", "5:5"]), ("separated by ':'", ["--samples", "a:b"]),
+        for message, arguments in (("from 1 to 65536", ["--size", "0x5"]),
+                                   ("separated by 'x'", ["--size", "5"]),
+                                   ("below END", ["--samples", "5:5"]),
+                                   ("separated by ':'", ["--samples", "a:b"]),
                                    ("--spp excludes --samples", ["--samples", "0:4", "--spp", "4"]),
                                    ("--time excludes --spp", ["--time", "1", "--spp", "4"]),
-                                   ("--state", ["--resume"]), ("path_tracing", ["--algorithm", "magic"])):
+                                   ("--state", ["--resume"]),
+                                   ("path_tracing", ["--algorithm", "magic"])):
             self.expect_error(2, [message], CORNELL, "-o", self.output(), *arguments)
 
     def test_usage_errors_exit_with_2(self):
-        for arguments in (["--no-such-option"], [], [CORNELL], [CORNELL, "-o", self.output(), "--spp", "0"]):
+        for arguments in (["--no-such-option"], [], [CORNELL],
+                          [CORNELL, "-o", self.output(), "--spp", "0"]):
             self.assertEqual(self.run_program(*arguments).returncode, 2)
 
     def test_help_and_version(self):
@@ -132,7 +161,8 @@ class Program(unittest.TestCase):
 
     def test_stats_name_what_the_scene_needed(self):
         stats = self.path / "stats.json"
-        result = self.run_program(CORNELL, "-o", self.output(), "--spp", 2, "-q", "--stats", stats, *SMALL)
+        result = self.run_program(CORNELL, "-o", self.output(), "--spp", 2, "-q",
+                                  "--stats", stats, *SMALL)
         self.assertEqual(result.returncode, 0, result.stderr)
         document = json.loads(stats.read_text())
         self.assertIn("explicit_light", document["features"])
@@ -143,9 +173,11 @@ class Program(unittest.TestCase):
 
     def test_convergence_control_says_what_it_did(self):
         stats = self.path / "stats.json"
-        control = ["--set", "integrator.convergence.error=0.5", "--set", "integrator.convergence.start=8",
+        control = ["--set", "integrator.convergence.error=0.5",
+                   "--set", "integrator.convergence.start=8",
                    "--set", "integrator.convergence.interval=4"]
-        result = self.run_program(CORNELL, "-o", self.output(), "--spp", 16, "-q", "--stats", stats, *SMALL, *control)
+        result = self.run_program(CORNELL, "-o", self.output(), "--spp", 16, "-q",
+                                  "--stats", stats, *SMALL, *control)
         self.assertEqual(result.returncode, 0, result.stderr)
         document = json.loads(stats.read_text())
         checks = document["convergence"]["checks"]
@@ -158,14 +190,17 @@ class Program(unittest.TestCase):
         self.assertEqual(document["samples"], spent)
         self.output().unlink()
         stats.unlink()
-        self.expect_error(2, ["from 0 on"], CORNELL, "-o", self.output(), "--samples", "8:16", *SMALL, *control)
-        self.expect_error(2, ["bdpt does not stop"], CORNELL, "-o", self.output(), "--algorithm", "bdpt", *SMALL, *control)
+        self.expect_error(2, ["from 0 on"], CORNELL, "-o", self.output(), "--samples", "8:16",
+                          *SMALL, *control)
+        self.expect_error(2, ["bdpt does not support"], CORNELL, "-o", self.output(),
+                          "--algorithm", "bdpt", *SMALL, *control)
 
     def test_a_converged_image_ends_before_its_time(self):
         stats = self.path / "stats.json"
-        furnace = SCENES / "analytic" / "furnace_050.json"  # no pixel of which is black
+        furnace = SCENES / "analytic" / "furnace_050.json"  # without black pixels
         start = time.monotonic()
-        result = self.run_program(furnace, "-o", self.output(), "--time", 200, "-q", "--stats", stats, *SMALL,
+        result = self.run_program(furnace, "-o", self.output(), "--time", 200, "-q",
+                                  "--stats", stats, *SMALL,
                                   "--set", "integrator.convergence.error=0.5")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLess(time.monotonic() - start, 150)
@@ -175,19 +210,20 @@ class Program(unittest.TestCase):
 
     def film(self, name, *arguments, **options):
         state = self.path / name
-        result = self.run_program(CORNELL, "-o", self.path / (name + ".exr"), "-q", "--state", state, *SMALL, *arguments,
-                                  **options)
+        result = self.run_program(CORNELL, "-o", self.path / (name + ".exr"), "-q",
+                                  "--state", state, *SMALL, *arguments, **options)
         self.assertEqual(result.returncode, 0, result.stderr)
         return state
 
     @staticmethod
     def words(path):
-        """The sums of a film, without the header, which holds times."""
+        """Returns the sums of a film without the header, which contains times."""
         return path.read_bytes().split(b"\n", 2)[2]
 
     def test_both_ways_of_pocl_to_run_work_groups_give_the_same_bits(self):
         films = []
-        for method in ("loops", "loopvec"):  # compiled apart: the method is no part of PoCL's cache key
+        # The methods need separate caches, because PoCL's cache key does not include the method.
+        for method in ("loops", "loopvec"):
             cache = self.path / ("cache_" + method)
             cache.mkdir()
             environment = dict(os.environ, POCL_WORK_GROUP_METHOD=method, POCL_CACHE_DIR=str(cache),
@@ -201,7 +237,8 @@ class Program(unittest.TestCase):
         first = self.film("first", "--samples", "0:2")
         second = self.film("second", "--samples", "2:6")
         merged = self.path / "merged"
-        result = self.run_program("merge", second, first, "-o", self.path / "merged.exr", "--state", merged)
+        result = self.run_program("merge", second, first, "-o", self.path / "merged.exr",
+                                  "--state", merged)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.film("first", "--spp", "6", "--resume")
 
@@ -212,14 +249,18 @@ class Program(unittest.TestCase):
     def test_passes_of_two_devices_have_the_bits_of_one(self):
         environment = dict(os.environ, POCL_DEVICES="basic pthread")
         devices = self.run_program("--list-devices", env=environment).stdout.splitlines()
-        if len(devices) < 2 or not devices[0].startswith("basic") or not devices[1].startswith("pthread"):
+        if (len(devices) < 2 or not devices[0].startswith("basic")
+                or not devices[1].startswith("pthread")):
             self.skipTest("PoCL with two devices is not the first platform")
         settings = ("--spp", "2", "--algorithm", "truncated_bdpt")
         whole = self.film("whole", *settings, "--device", "0:1", env=environment)
-        camera = self.film("camera", *settings, "--passes", "camera", "--device", "0:0", env=environment)
-        light = self.film("light", *settings, "--passes", "light", "--device", "0:1", env=environment)
+        camera = self.film("camera", *settings, "--passes", "camera", "--device", "0:0",
+                           env=environment)
+        light = self.film("light", *settings, "--passes", "light", "--device", "0:1",
+                          env=environment)
         merged = self.path / "merged"
-        result = self.run_program("merge", light, camera, "-o", self.path / "merged.exr", "--state", merged)
+        result = self.run_program("merge", light, camera, "-o", self.path / "merged.exr",
+                                  "--state", merged)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotEqual(self.words(camera), self.words(whole))
         self.assertEqual(self.words(merged), self.words(whole))
@@ -229,13 +270,15 @@ class Program(unittest.TestCase):
         content = bytearray(state.read_bytes())
         content[-1] ^= 1
         state.write_bytes(content)
-        self.expect_error(2, ["film", "damaged"], CORNELL, "-o", self.output(), "--resume", "--state", state, *SMALL)
+        self.expect_error(2, ["film", "damaged"], CORNELL, "-o", self.output(), "--resume",
+                          "--state", state, *SMALL)
 
     def test_an_interrupted_render_can_be_resumed(self):
         state = self.path / "state"
-        command = [PROGRAM, str(CORNELL), "-o", str(self.output()), "--spp", "1000000", "--state", str(state)]
+        command = [PROGRAM, str(CORNELL), "-o", str(self.output()), "--spp", "1000000",
+                   "--state", str(state)]
         process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-        self.assertIn("rendering: ", process.stderr.readline())  # it is under way
+        self.assertIn("rendering: ", process.stderr.readline())  # rendering has started
         process.send_signal(signal.SIGTERM)
         _, errors = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 1, errors)

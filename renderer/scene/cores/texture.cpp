@@ -12,7 +12,7 @@ namespace rtrays {
 
 namespace {
 
-/// The largest value of each channel, decoded.
+/// Returns the largest value of each channel, decoded.
 Rgb find_largest_texel(const TextureImage &image) {
     const auto largest = [](const auto &values) {
         std::array<typename std::decay_t<decltype(values)>::value_type, 3> most{};
@@ -37,25 +37,26 @@ Rgb find_largest_texel(const TextureImage &image) {
 }  // namespace
 
 const ParameterTable &Texture::parameter_table() {
-    // Texture coordinates are limited likewise: their products stay far within float.
+    // Texture coordinates have the same limit, so that the products are far within the range of
+    // float.
     constexpr Range modest{-1e6, 1e6, true, true};
     using Need = Parameter::Need;
     static const ParameterTable table = {
         {"filter",
-         "how texels are joined",
+         "interpolation between texels",
          std::string("bilinear"),
          Need::defaulted,
          ranges::any,
          {"nearest", "bilinear"}},
         {"wrap",
-         "what lies beyond the image",
+         "continuation beyond the edges of the image",
          std::string("repeat"),
          Need::defaulted,
          ranges::any,
          {"repeat", "clamp"}},
-        {"uv_scale", "factors of the texture coordinates", Eigen::Vector2d(1, 1), Need::defaulted,
+        {"uv_scale", "scale of the texture coordinates", Eigen::Vector2d(1, 1), Need::defaulted,
          modest},
-        {"uv_offset", "added to the scaled texture coordinates", Eigen::Vector2d(0, 0),
+        {"uv_offset", "offset added to the scaled texture coordinates", Eigen::Vector2d(0, 0),
          Need::defaulted, modest},
     };
     return table;
@@ -79,13 +80,19 @@ void Texture::set(const std::string &name, const PropertyValue &value) {
 std::vector<Property> Texture::properties() {
     std::vector<Property> all = parameters_.properties(
         [this](const std::string &name, const PropertyValue &value) { set(name, value); });
-    all.push_back(make_property<double>("width", "texels", [this] { return image_->width; }));
-    all.push_back(make_property<double>("height", "texels", [this] { return image_->height; }));
+    all.push_back(make_property<double>("width", "width of the image, texels",
+                                        [this] { return image_->width; }));
+    all.push_back(make_property<double>("height", "height of the image, texels",
+                                        [this] { return image_->height; }));
     return all;
 }
 
 double srgb_decoded(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+double srgb_encoded(double value) {
+    return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
 }  // namespace rtrays

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Textures of materials, and the sRGB curve.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +15,12 @@ namespace rtrays {
 
 class MaterialCore;
 
-/// A colour over the (u, v) plane, shared by any number of materials. The image never changes; how
-/// it is laid over the plane and filtered does.
+/// A colour over the (u, v) plane, shared by any number of materials. The image never changes, but
+/// its placement on the plane and its filter can be edited.
 class Texture : public PropertyHolder {
   public:
-    /// Parameters: filter, wrap, uv_scale, uv_offset. Throws `Error` (bad input) as `ParameterSet`.
+    /// Parameters: filter, wrap, uv_scale, uv_offset. Throws `Error` (bad input) like
+    /// `ParameterSet`.
     Texture(std::string name, std::shared_ptr<const TextureImage> image,
             const ParameterValues &values = {});
 
@@ -28,11 +30,12 @@ class Texture : public PropertyHolder {
     std::vector<Property> properties() override;
 
     const std::shared_ptr<const TextureImage> &image() const { return image_; }
-    const Rgb &largest_texel() const { return largest_texel_; }  ///< of each channel, decoded
+    /// Largest value of each channel, decoded.
+    const Rgb &largest_texel() const { return largest_texel_; }
     const ParameterSet &parameters() const { return parameters_; }
     void set(const std::string &name, const PropertyValue &value);
 
-    /// Grows with every change.
+    /// Counter that grows with every change.
     uint64_t version() const { return version_; }
 
   private:
@@ -45,7 +48,10 @@ class Texture : public PropertyHolder {
     uint64_t version_ = 1;
 };
 
-/// The sRGB curve (IEC 61966-2-1) from an encoded value in [0, 1] to a linear one.
+/// Decodes a value in [0, 1] by the sRGB curve (IEC 61966-2-1) to a linear value.
 double srgb_decoded(double value);
+
+/// Encodes a linear value in [0, 1] by the inverse of the sRGB curve.
+double srgb_encoded(double value);
 
 }  // namespace rtrays
