@@ -21,7 +21,7 @@ namespace rtrays {
 
 namespace {
 
-/// Sums of a channel over the pixels of every block, the whole image last.
+/// Sums a channel over the pixels of every block. The last sum is that of the full image.
 std::vector<double> block_sums(const Image &image, const std::string &channel, int size) {
     const int columns = (image.width() + size - 1) / size,
               rows = (image.height() + size - 1) / size;
@@ -32,7 +32,8 @@ std::vector<double> block_sums(const Image &image, const std::string &channel, i
         const auto value = static_cast<double>(values[i]);
         if (!std::isfinite(value) || (value < 0 && channel.rfind("variance", 0) == 0)) {
             throw input_error(fmt::format(
-                "pixel ({}, {}), channel {}: value {}; all must be finite, variances not negative",
+                "pixel ({}, {}), channel {}: value {}; values must be finite, and variances must "
+                "not be negative",
                 x, y, channel, value));
         }
         sums[static_cast<size_t>(y / size * columns + x / size)] += value;
@@ -41,14 +42,14 @@ std::vector<double> block_sums(const Image &image, const std::string &channel, i
     return sums;
 }
 
-/// Pixels of every block and of the image.
+/// Counts the pixels of every block and, last, of the full image.
 std::vector<double> block_pixels(const Image &image, int size) {
     Image ones(image.width(), image.height());
     std::fill_n(ones.add_channel("R").begin(), image.pixel_count(), 1.0f);
     return block_sums(ones, "R", size);
 }
 
-/// "(16, 0)", its corner, or "whole image".
+/// Names a block by its corner, "(16, 0)", or the last one "whole image".
 std::string name_of(size_t block, const Image &image, int size) {
     const int columns = (image.width() + size - 1) / size,
               rows = (image.height() + size - 1) / size;
@@ -57,8 +58,8 @@ std::string name_of(size_t block, const Image &image, int size) {
                                : fmt::format("({}, {})", i % columns * size, i / columns * size);
 }
 
-/// An estimate of a sum with its variance, which is known from so many degrees of freedom, and the
-/// skewness of what it was made of.
+/// Estimate of a sum, its variance with the degrees of freedom of that variance, and the skewness
+/// of the batches it was computed from.
 struct NoisySum {
     double value = 0;
     double variance = 0;
@@ -66,8 +67,8 @@ struct NoisySum {
     double skewness = 0;
 };
 
-/// Of every block and the whole; variances from the layer, which stands for as many samples as
-/// there are.
+/// Sums every block and the full image. The variances come from the variance layer, which is
+/// treated as exactly known (infinite degrees of freedom).
 std::vector<NoisySum> sums_by_layer(const Image &image, size_t channel, int size) {
     const std::vector<double> values = block_sums(image, rgb_names()[channel], size);
     const std::vector<double> variances = block_sums(image, rgb_names("variance")[channel], size);
@@ -79,7 +80,7 @@ std::vector<NoisySum> sums_by_layer(const Image &image, size_t channel, int size
     return sums;
 }
 
-/// Variances from how the batches scatter.
+/// Sums every block and the full image. The variances come from the scatter of the batches.
 std::vector<NoisySum> sums_by_batch(const std::vector<Image> &batches, size_t channel, int size) {
     std::vector<std::vector<double>> values;
     for (const Image &batch : batches) {
@@ -103,18 +104,18 @@ std::vector<NoisySum> sums_by_batch(const std::vector<Image> &batches, size_t ch
     return sums;
 }
 
-/// The difference of one channel's means.
+/// Test of the difference of one channel's means over a block.
 struct BlockTest {
-    double difference = 0;      ///< mean of image less mean of reference
+    double difference = 0;      ///< mean of the image minus mean of the reference
     double standard_error = 0;  ///< of `difference`
-    double reference = 0;       ///< its mean
-    double skewness = 0;        ///< the larger one of both, absolute
+    double reference = 0;       ///< mean of the reference
+    double skewness = 0;        ///< larger absolute skewness of image and reference
     double p_value = 1;
     double adjusted_p = 1;
-    double z = 0;  ///< of a normal variable with the p-value
+    double z = 0;  ///< value of a normal variable that has the same p-value
 };
 
-/// Degrees of freedom of Welch's test; infinity where both variances are known.
+/// Degrees of freedom of Welch's test; infinite if both variances are known.
 double welch_freedom(const NoisySum &a, const NoisySum &b) {
     const auto share = [](const NoisySum &sum) {
         return sum.variance * sum.variance / sum.freedom;
@@ -123,17 +124,17 @@ double welch_freedom(const NoisySum &a, const NoisySum &b) {
     return shares > 0 ? variance * variance / shares : std::numeric_limits<double>::infinity();
 }
 
-/// The third cumulant of a mean of as many batches as there are degrees of freedom, and one.
+/// Third cumulant of the mean of `freedom` + 1 batches; 0 if the variance is known.
 double third_cumulant(const NoisySum &sum) {
     return std::isfinite(sum.freedom)
                ? sum.skewness * std::pow(sum.variance, 1.5) / std::sqrt(sum.freedom + 1)
                : 0;
 }
 
-/// Student's t of skewed data without the first-order effect of the skewness `q` of the mean: where
-/// bright batches are rare, both mean and scatter are low without them, and large negative t are
-/// common. Rises with t. P. Hall, On the removal of skewness by transformation, J. R. Statist. Soc.
-/// B 54 (1992), 221-228, equation (2.4) with a = 1/3, b = 1/6.
+/// Removes the first-order effect of the skewness `q` of the mean from Student's t. If bright
+/// batches are rare, a sample without them has a low mean and a low scatter, so that large negative
+/// t are common. The result increases with t. P. Hall, On the removal of skewness by
+/// transformation, J. R. Statist. Soc. B 54 (1992), 221-228, equation (2.4) with a = 1/3, b = 1/6.
 double without_skewness(double t, double q) {
     return t + q * t * t / 3 + q * q * t * t * t / 27 + q / 6;
 }
@@ -143,17 +144,17 @@ BlockTest test_block(const NoisySum &image, const NoisySum &reference, double pi
     test.reference = reference.value / pixels;
     test.skewness = std::max(std::abs(image.skewness), std::abs(reference.skewness));
     test.difference = (image.value - reference.value) / pixels;
-    // Pixels are rounded to float32: half an ulp each, in the worst case all the same way.
+    // Rounding of the pixels to float32: half an ulp each, in the worst case all in one direction.
     const double rounding = std::numeric_limits<float>::epsilon() *
                             std::max(std::abs(image.value), std::abs(reference.value)) / pixels;
     const double variance = image.variance + reference.variance;
     test.standard_error = std::sqrt(variance) / pixels + rounding;
-    // Black in both images: no difference and nothing to divide by.
+    // A block that is black in both images has no difference and no standard error.
     test.z = test.standard_error > 0 ? test.difference / test.standard_error : 0;
     test.p_value = normal_p_value(test.z);
     const double freedom = welch_freedom(image, reference);
     if (std::isfinite(freedom)) {
-        // Below the rounding of float32 pixels there is no telling what is skewed.
+        // Without any scatter the skewness is undefined.
         const double q = variance > 0 ? (third_cumulant(image) - third_cumulant(reference)) /
                                             std::pow(variance, 1.5)
                                       : 0;
@@ -184,10 +185,10 @@ const char *to_string(Equivalence equivalence) {
 
 namespace {
 
-/// Of a channel.
+/// Computes the sums of a channel.
 using Sums = std::function<std::vector<NoisySum>(size_t)>;
 
-/// Channel by channel the blocks and, last, the whole image.
+/// Tests every block and, last, the full image, channel by channel.
 std::vector<BlockTest> block_tests(const Sums &image_sums, const Sums &reference_sums,
                                    const std::vector<double> &pixels) {
     std::vector<BlockTest> tests;
@@ -200,7 +201,7 @@ std::vector<BlockTest> block_tests(const Sums &image_sums, const Sums &reference
     return tests;
 }
 
-/// Holm's adjustment over `asked`, which are taken as one family.
+/// Applies Holm's adjustment to the tests `asked`, as one family.
 void adjust(std::vector<BlockTest> &tests, const std::vector<size_t> &asked) {
     std::vector<double> p_values;
     for (const size_t i : asked) {
@@ -219,10 +220,10 @@ std::vector<size_t> chosen(const std::vector<size_t> &among, const Predicate &pr
     return result;
 }
 
-/// The same tests by other samples, given the pixels of every block.
+/// Repeats all tests with other samples, given the pixels of every block.
 using TestsAgain = std::function<std::vector<BlockTest>(const std::vector<double> &)>;
 
-/// `again` is asked where there is something to confirm.
+/// Runs the tests. `again` is called only if a test rejects.
 Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Image &shape,
                     const AgreementPolicy &policy, const TestsAgain &again = {}) {
     const std::vector<double> pixels = block_pixels(shape, policy.block_size);
@@ -239,7 +240,7 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
     }
     if (!(mean_reference > 0)) {
         throw input_error(
-            "the reference is black: a relative difference of the mean is not defined");
+            "the reference is black, so the relative difference of the mean is undefined");
     }
 
     std::vector<size_t> decided(tests.size());
@@ -282,7 +283,8 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
     return result;
 }
 
-/// Of two tests of the same, what both say.
+/// Combines two tests of one block: returns the less significant one, and p = 1 if their signs
+/// differ.
 BlockTest weaker(const BlockTest &a, const BlockTest &b) {
     BlockTest result = std::abs(a.z) < std::abs(b.z) ? a : b;
     if (a.z * b.z < 0) {
@@ -296,7 +298,7 @@ void require_testable(const Image &image, const Image &other) {
     require_same_size(image, other);
     if (!has_variance(image)) {
         throw input_error(
-            "both images need the layers variance.* (variance of the mean) to be tested");
+            "an agreement test needs the layers variance.* (variance of the mean) in both images");
     }
 }
 
@@ -321,8 +323,8 @@ Agreement test_agreement(const std::vector<Image> &batches, const Image &referen
                          const AgreementPolicy &policy, const FreshBatches &fresh) {
     if (batches.size() < 2 || !has_variance(reference)) {
         throw input_error(
-            "two batches at least, and a reference with the layers variance.*, are needed for a "
-            "test");
+            "an agreement test needs at least two batches and a reference with the layers "
+            "variance.*");
     }
     for (const Image &batch : batches) {
         require_same_size(batch, reference);
@@ -357,7 +359,7 @@ Agreement test_agreement(const Halves &image, const Halves &reference,
 Agreement test_agreement(const std::vector<Image> &batches, const std::vector<Image> &others,
                          const AgreementPolicy &policy) {
     if (batches.size() < 2 || others.size() < 2) {
-        throw input_error("two batches of either side at least are needed for a test");
+        throw input_error("an agreement test needs at least two batches of each image");
     }
     for (const std::vector<Image> &side : {batches, others}) {
         for (const Image &batch : side) {

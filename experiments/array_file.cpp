@@ -14,8 +14,8 @@ void write_array(const Image &image, const std::filesystem::path &path, const st
     std::string header =
         fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}",
                     image.height(), image.width());
-    // Magic (6), version (2), length (2) and header end on a multiple of 64 bytes, the last a
-    // newline.
+    // Magic (6), version (2), length (2) and header end at a multiple of 64 bytes. The last byte is
+    // a newline.
     header.append(63 - (10 + header.size()) % 64, ' ');
     header += '\n';
 

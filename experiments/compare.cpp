@@ -42,12 +42,12 @@ std::string comparison_text(const nlohmann::json &comparison) {
         text += fmt::format("{:8} {:.6g}\n", key, comparison.at(key).get<double>());
     }
     if (!comparison.contains("agreement")) {
-        return text + "no agreement test: it needs the variance.* layers in both images\n";
+        return text + "no agreement test: an image lacks the layers variance.*\n";
     }
     const auto &agreement = comparison.at("agreement");
     const auto &difference = agreement.at("relative_difference");
     text +=
-        fmt::format("blocks   {} of {} tests rejected at {} (Holm), largest |z| {:.2f} at {}\n",
+        fmt::format("blocks   {} of {} tests reject at {} (Holm), largest |z| {:.2f} at {}\n",
                     agreement.at("rejected").get<int>(), agreement.at("tests").get<int>(),
                     agreement.at("alpha").get<double>(), agreement.at("largest_z").get<double>(),
                     agreement.at("largest_z_at").get<std::string>());

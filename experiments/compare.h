@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compares two image files: errors and agreement.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +8,13 @@
 
 namespace rtrays {
 
-/// The error of `image` against `reference` with the key names of run.json, and the agreement tests
-/// when both carry their variance. "mean_ratio" holds the means of R, G and B over those of the
-/// reference: null where that is black.
+/// Computes the error of `image` against `reference` with the key names of run.json. Adds the
+/// agreement tests if both have variance layers. "mean_ratio" is the means of R, G and B divided by
+/// those of the reference; null if a channel of the reference is black.
 nlohmann::json compare_images(const std::filesystem::path &image,
                               const std::filesystem::path &reference);
 
-/// The same for reading.
+/// Formats a comparison as text for the terminal.
 std::string comparison_text(const nlohmann::json &comparison);
 
 }  // namespace rtrays

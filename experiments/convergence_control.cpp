@@ -75,7 +75,7 @@ double sum_of(const Image &image) {
     return sum;
 }
 
-/// The mean of the images, as one that is known exactly.
+/// Returns the mean of the images with zero variances, so that tests treat it as exact.
 Image mean_of(const std::vector<ControlledRender> &renders) {
     Image mean = Image::rgb(renders.front().image.width(), renders.front().image.height());
     for (const std::string &name : rgb_names("variance")) {
@@ -94,7 +94,7 @@ Image mean_of(const std::vector<ControlledRender> &renders) {
     return mean;
 }
 
-/// `base` + with - without.
+/// Returns base + (with - without).
 Image shifted(const Image &base, const Image &with, const Image &without) {
     Image image = Image::rgb(base.width(), base.height());
     for (const std::string &name : rgb_names()) {
@@ -122,7 +122,7 @@ ControlledRender render(RenderSession &session, uint32_t seed, uint64_t spp) {
     return result;
 }
 
-/// The rows of one scene and curve, one for each error.
+/// Measures one scene with one curve: one row for each error limit.
 Json measure(const Description &description, const Scene &scene, const RenderSettings &curve,
              const Image &reference, DeviceContext &device, const std::function<void()> &advance) {
     std::vector<RenderSettings> settings = {curve};
@@ -135,7 +135,7 @@ Json measure(const Description &description, const Scene &scene, const RenderSet
     }
     std::vector<std::vector<ControlledRender>> renders(sessions.size());
     for (uint32_t seed = 1; seed <= description.seeds; ++seed) {
-        // There and back, so that what else the machine does falls on all alike.
+        // The order alternates, so that other load on the machine affects all settings equally.
         for (size_t turn = 0; turn < sessions.size(); ++turn) {
             const size_t i = seed % 2 == 0 ? sessions.size() - 1 - turn : turn;
             renders[i].push_back(render(sessions[i], seed, description.spp));
@@ -156,31 +156,19 @@ Json measure(const Description &description, const Scene &scene, const RenderSet
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
-        "# Convergence control (thesis 3.3.7)\n\nAgainst the same renders without it, {0} x {0} "
-        "pixels, at most "
-        "{1} "
-        "samples each, {2} seeds.\n\n"
-        "*live*: pixels that went on to the end, %. *paths*, *rays*, *time*: camera paths, all "
-        "rays, device "
-        "seconds, "
-        "with over without, %. *gain*: how many times fewer rays than samples spread evenly need "
-        "for the "
-        "RMSE that "
-        "is reached, with its 99 % interval; below 1 is a loss. A pixel that stops by its own "
-        "estimate is "
-        "biased: "
-        "*bias* is the difference of the mean, %, with its 99 % interval; *blocks*: how many of "
-        "the tests by "
-        "blocks of "
-        "16 x 16 pixels and channel see it (Holm, 0.01), and how many are too skewed to tell.\n\n"
+        "# Convergence control (thesis 3.3.7)\n\nRenders with control against equal renders "
+        "without it: {0} x {0} pixels, at most {1} samples each, {2} seeds.\n\n"
+        "*live*: pixels that control did not stop, %. *paths*, *rays*, *time*: camera paths, all "
+        "rays and device seconds, with control over without, %. *gain*: the rays that evenly "
+        "spread samples need for the RMSE reached, divided by those of control, with its 99 % "
+        "interval; below 1 is a loss. A pixel that stops by its own error estimate is biased. "
+        "*bias*: difference of the mean, %, with its 99 % interval. *blocks*: tests over blocks of "
+        "16 x 16 pixels and channels that detect the bias (Holm, 0.01), all tests, and tests that "
+        "are undecided because of skewness.\n\n"
         "| scene | algorithm | error | live | paths | rays | time | RMSE | without | gain | from | "
-        "to | bias "
-        "| from "
-        "| to | blocks |\n"
+        "to | bias | from | to | blocks |\n"
         "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: "
-        "| ---: | "
-        "---: | --- "
-        "|\n",
+        "| ---: | ---: | --- |\n",
         document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
         document.at("seeds").get<uint32_t>());
     const auto number = [](const Json &json, const char *key) {
@@ -211,7 +199,7 @@ nlohmann::json compare_control(const std::vector<ControlledRender> &with,
                                const Image &reference) {
     if (with.size() != without.size() || with.size() < 8) {
         throw run_error(
-            fmt::format("a bias is told from at least 8 pairs of renders; there are {} and {}",
+            fmt::format("a bias estimate needs at least 8 pairs of renders, got {} and {}",
                         with.size(), without.size()));
     }
     const auto n = static_cast<double>(with.size());
@@ -239,7 +227,7 @@ nlohmann::json compare_control(const std::vector<ControlledRender> &with,
     }
     const Agreement blocks = test_agreement(batches, base);
     const Interval change =
-        paired_error_ratio(cost_without, cost_with, 0.995);  // both ends together: 99 %
+        paired_error_ratio(cost_without, cost_with, 0.995);  // two one-sided bounds: 99 % together
     return {{"paths", paths / paths_without},
             {"rays", rays / rays_without},
             {"live", live},

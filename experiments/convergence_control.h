@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Convergence control (thesis 3.3.7) against the same renders without it: what it saves, and how it
-// biases.
+// Measures convergence control (thesis 3.3.7) against equal renders without it: savings and bias.
 #pragma once
 
 #include <filesystem>
@@ -12,28 +11,31 @@
 
 namespace rtrays {
 
-/// What one render cost and came to.
+/// Cost and image of one render.
 struct ControlledRender {
     Image image;
-    double paths = 0;    ///< camera paths
-    double rays = 0;     ///< of camera and light paths
-    double seconds = 0;  ///< of the device
+    double paths = 0;    ///< number of camera paths
+    double rays = 0;     ///< number of rays of camera and light paths
+    double seconds = 0;  ///< device time
     double live = 1;     ///< share of the pixels that were not stopped
 };
 
-/// {"paths", "seconds", "live", "rmse", "rmse_without", "efficiency", "bias"}: means over the seeds
-/// or intervals. `with[i]` and `without[i]` have the same seed, and so the same samples as far as
-/// `with[i]` goes: their differences hold the bias and little noise.
+/// Compares renders with and without control, and returns {"paths", "rays", "seconds", "live",
+/// "rmse", "rmse_without", "efficiency", "bias"}. `with[i]` and `without[i]` have the same seed, so
+/// they share samples until control stops a pixel. Their difference therefore has the bias and
+/// little noise.
 ///
-/// "paths", "rays" and "seconds" are ratios with over without, the last a median with its 95 %
-/// interval. "efficiency" is how many times fewer rays control needs for the error it ends with
-/// than samples spread evenly, whose mean squared error falls as 1 / rays: (MSE x rays) without
-/// over with, geometric mean with its 99 % interval. "bias": "mean", the mean over pixels and
-/// channels of with - without, over that of `without`, with its 99 % interval (Student's t over the
-/// seeds); and of the blocks of 16 x 16 pixels and the whole, by channel, "tests", "rejected"
-/// (Holm, 0.01), "undecided" (too skewed to be tested), "largest_z", "largest_z_at".
+/// * "paths", "rays" and "seconds" are ratios, with control over without. "seconds" is a median
+///   with its 95 % interval.
+/// * "efficiency" compares control with evenly spread samples, whose mean squared error falls as
+///   1 / rays. It is the ratio of the rays that both need for the error that control reaches:
+///   (MSE x rays) without over with, as a geometric mean with its 99 % interval.
+/// * "bias" has "mean", the mean difference over pixels and channels relative to the mean of
+///   `without`, with its 99 % interval (Student's t over the seeds). It also has the agreement test
+///   over blocks of 16 x 16 pixels and the full image, by channel: "tests", "rejected" (Holm,
+///   0.01), "undecided" (too skewed to be tested), "largest_z" and "largest_z_at".
 ///
-/// Throws `Error` (run failed) for less than 8 seeds.
+/// Throws `Error` (run failed) for fewer than 8 seeds.
 nlohmann::json compare_control(const std::vector<ControlledRender> &with,
                                const std::vector<ControlledRender> &without,
                                const Image &reference);
@@ -46,10 +48,10 @@ struct ControlOptions {
     bool quiet = false;
 };
 
-/// Renders every scene of the profile by every curve, without control and with each error, and
-/// writes OUT/NAME.json and OUT/NAME.md; returns OUT/NAME.md. Scenes and curves that an earlier,
-/// stopped call finished are not rendered again. Throws `Error` as the renderer, references and
-/// files do.
+/// Renders every scene of the profile with every curve, without control and with each error limit.
+/// Writes OUT/NAME.json and OUT/NAME.md and returns OUT/NAME.md. Scenes and curves that an
+/// interrupted call finished are not rendered again. Throws the errors of the renderer, the
+/// references and the files.
 std::filesystem::path run_control(const ControlOptions &options);
 
 }  // namespace rtrays

@@ -26,7 +26,7 @@ const Json &DescriptionFile::profile(const std::string &name) const {
         for (const auto &[known, value] : profiles.items()) {
             names.push_back(known);
         }
-        throw input_error(fmt::format("{}: there is no profile '{}'; there are: {}", path.string(),
+        throw input_error(fmt::format("{}: unknown profile '{}'; profiles are: {}", path.string(),
                                       name, fmt::join(names, ", ")));
     }
     return profiles.at(name);
@@ -57,7 +57,8 @@ void read_measured_scene(const DescriptionFile &file, const Json &size, Measured
         scene.curves.push_back({parse_render_settings(curve)});
         if (const std::string id = scene.curves.back().id(); !ids.insert(id).second) {
             throw input_error(
-                fmt::format("{}: two curves are both {}; algorithm or settings must differ",
+                fmt::format("{}: two curves have the id '{}'; change the algorithm or the settings "
+                            "of one",
                             file.location("/curves"), id));
         }
     }
@@ -66,28 +67,28 @@ void read_measured_scene(const DescriptionFile &file, const Json &size, Measured
 void require_increasing(const std::vector<uint64_t> &spp, const std::string &location) {
     for (size_t i = 1; i < spp.size(); ++i) {
         if (spp[i] <= spp[i - 1]) {
-            throw input_error(
-                fmt::format("{}: must increase; {} follows {}", location, spp[i], spp[i - 1]));
+            throw input_error(fmt::format("{}: values must increase, got {} after {}", location,
+                                          spp[i], spp[i - 1]));
         }
     }
 }
 
 namespace {
 
-/// The rungs up to one of them. Throws `Error` (bad input) when it is none, or fewer than three are
-/// left.
+/// Returns the sample counts up to `last`. Throws `Error` (bad input) if `last` is not among them
+/// or if fewer than three remain.
 std::vector<uint64_t> rungs_up_to(const std::vector<uint64_t> &spp, uint64_t last,
                                   const std::string &location) {
     const auto found = std::find(spp.begin(), spp.end(), last);
     if (found == spp.end() || found - spp.begin() < 2) {
-        throw input_error(
-            fmt::format("{}: {} is none of \"spp\" from the third on", location, last));
+        throw input_error(fmt::format("{}: expected the third or a later value of \"spp\", got {}",
+                                      location, last));
     }
     return {spp.begin(), found + 1};
 }
 
-/// What `key` of a profile says of single curves, by id. Throws `Error` (bad input) for an id that
-/// is none of theirs.
+/// Reads the values that `key` of a profile sets for single curves, by id. Throws `Error` (bad
+/// input) for an unknown id.
 std::map<std::string, uint64_t> read_by_curve(const DescriptionFile &file,
                                               const std::string &pointer, const Json &profile,
                                               const std::string &key,
@@ -97,13 +98,13 @@ std::map<std::string, uint64_t> read_by_curve(const DescriptionFile &file,
         if (std::none_of(curves.begin(), curves.end(),
                          [&, &id = id](const auto &curve) { return curve.id() == id; })) {
             throw input_error(
-                fmt::format("{}: there is no curve '{}'", file.location(pointer + "/" + key), id));
+                fmt::format("{}: unknown curve '{}'", file.location(pointer + "/" + key), id));
         }
     }
     return counts;
 }
 
-/// Fills in what a profile says of sample counts and seeds.
+/// Fills in the sample counts and seeds of a profile.
 void read_ladders(const DescriptionFile &file, const std::string &pointer, const Json &profile,
                   std::vector<CurveDescription> &curves) {
     const auto spp = profile.at("spp").get<std::vector<uint64_t>>();
@@ -111,7 +112,7 @@ void read_ladders(const DescriptionFile &file, const std::string &pointer, const
     const auto early = profile.value("early_images", std::vector<uint64_t>());
     for (const uint64_t wanted : early) {
         if (std::find(spp.begin(), spp.end(), wanted) == spp.end()) {
-            throw input_error(fmt::format("{}: {} is none of \"spp\"",
+            throw input_error(fmt::format("{}: expected a value of \"spp\", got {}",
                                           file.location(pointer + "/early_images"), wanted));
         }
     }
@@ -127,8 +128,8 @@ void read_ladders(const DescriptionFile &file, const std::string &pointer, const
                         : rungs_up_to(spp, limit->second, file.location(pointer + "/most_spp"));
         if (curve.spp.back() % batches_per_seed != 0) {
             throw input_error(
-                fmt::format("{}: {} is no multiple of {}: so many batches of each seed are tested "
-                            "for agreement",
+                fmt::format("{}: expected a last value divisible into batches, got {}; make it a "
+                            "multiple of {}",
                             file.location(pointer + "/spp"), curve.spp.back(), batches_per_seed));
         }
         std::copy_if(early.begin(), early.end(), std::back_inserter(curve.early_images),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an experiment file asks for (schema/experiment.schema.json).
+// Reads experiment files (schema/experiment.schema.json) and the parts that other description
+// files share with them.
 #pragma once
 
 #include <cstdint>
@@ -13,50 +14,52 @@
 
 namespace rtrays {
 
-/// A seed's samples are cut into so many batches: eight seeds make the 32 images that a variance
-/// takes.
+/// Number of batches into which the samples of a seed are divided. Eight seeds give the 32 batches
+/// that a variance estimate needs.
 constexpr uint64_t batches_per_seed = 4;
 
-/// One curve: an algorithm with its settings.
+/// A curve: an algorithm with its settings. `spp`, `early_images` and `seeds` are set for
+/// experiments only.
 struct CurveDescription {
     RenderSettings settings;         ///< size and seed are set by the runner
-    std::vector<uint64_t> spp = {};  ///< strictly increasing; of experiments
-    std::vector<uint64_t> early_images =
-        {};              ///< rungs at which the first seed's image is kept; of experiments
-    uint32_t seeds = 0;  ///< seeds 1 .. seeds; of experiments
+    std::vector<uint64_t> spp = {};  ///< strictly increasing
+    /// Sample counts at which the first seed's image is kept.
+    std::vector<uint64_t> early_images = {};
+    uint32_t seeds = 0;  ///< seeds are 1 .. seeds
 
-    /// "path_tracing.mis", "truncated_bdpt.mis,light_paths=auto": names the curve's files.
+    /// Returns the identifier that names the curve's files: "path_tracing.mis" or
+    /// "truncated_bdpt.mis,light_paths=auto".
     std::string id() const;
 };
 
 struct ThroughputDescription {
     int repetitions = 0;
-    uint64_t spp = 0;  ///< of one repetition
+    uint64_t spp = 0;  ///< samples per pixel of one repetition
 };
 
-/// What experiments and gates have in common; paths are resolved against the file.
+/// Common part of experiments and gates. Paths are resolved against the description file.
 struct MeasuredScene {
     std::filesystem::path scene;
     std::filesystem::path reference_folder;
     std::string reference_engine;
-    std::vector<CurveDescription> curves;  ///< no two of the same id
-    int width = 0, height = 0;             ///< of the film, pixels
+    std::vector<CurveDescription> curves;  ///< with distinct ids
+    int width = 0, height = 0;             ///< film size, pixels
 };
 
 struct ExperimentDescription : MeasuredScene {
     std::string name, title, thesis, claim;
     double expected_slope = 0, slope_tolerance = 0;
-    Json expected_gain;  ///< {"algorithm", "samples", "time"} over path tracing, as the thesis
-                         ///< states it, or null
-    // of the chosen profile
+    /// Gain over path tracing that the thesis states, {"algorithm", "samples", "time"}, or null.
+    Json expected_gain;
+    // The remaining members belong to the chosen profile.
     std::string profile;
     ThroughputDescription throughput;
-    Json settings;       ///< {"integrator.beta": 2, ...} of all curves, besides their own
-    std::string source;  ///< the file as written, of the chosen profile
+    Json settings;       ///< {"integrator.beta": 2, ...}: applied to all curves
+    std::string source;  ///< text of the file with the chosen profile alone
 };
 
-/// Reads and checks an experiment; `profile` is "quick", "full", "ci" or "gpu". Throws `Error` (bad
-/// input) naming file, key and alternatives.
+/// Reads and checks an experiment. `profile` is "quick", "full", "ci" or "gpu". Throws `Error` (bad
+/// input) naming the file, the key and the alternatives.
 ExperimentDescription load_experiment(const std::filesystem::path &path,
                                       const std::string &profile);
 
@@ -66,39 +69,39 @@ struct DescriptionFile {
     std::string text;
     Json json;
 
-    /// The head of a message about the value at a JSON pointer.
+    /// Returns the beginning of a message about the value at a JSON pointer.
     std::string location(const std::string &pointer) const {
         return json_location(path.string(), text, pointer);
     }
 
-    /// Throws `Error` (bad input) listing the profiles when there is none of that name.
+    /// Returns a profile. Throws `Error` (bad input) listing the profiles if the name is unknown.
     const Json &profile(const std::string &name) const;
 
-    /// All that the file says of one profile: a run of it does not depend on the others.
+    /// Returns the file's text with one profile alone. A run does not depend on other profiles.
     std::string of_profile(const std::string &name) const;
 
-    /// A path that the file gives relative to itself.
+    /// Resolves a path that is given relative to the file.
     std::filesystem::path resolve(const Json &relative) const;
 };
 
 /// Reads a file and checks it against `schema` ("gate.schema.json"). Throws `Error` (bad input)
-/// naming file, key and alternatives.
+/// naming the file, the key and the alternatives.
 DescriptionFile load_description(const std::filesystem::path &path, const std::string &schema);
 
-/// Fills in "scene", "reference" and "curves" of a file and the film's size. Throws `Error` (bad
-/// input) for two curves of one id.
+/// Fills `scene` from a file's "scene", "reference" and "curves" and from the film size. Throws
+/// `Error` (bad input) if two curves have the same id.
 void read_measured_scene(const DescriptionFile &file, const Json &size, MeasuredScene &scene);
 
-/// Throws `Error` (bad input), its message beginning with `location`, unless the sample counts
-/// increase.
+/// Throws `Error` (bad input) with a message that begins with `location` unless the sample counts
+/// increase strictly.
 void require_increasing(const std::vector<uint64_t> &spp, const std::string &location);
 
-/// Applies {"integrator.beta": 2, ...}. Throws as `parse_render_settings` does.
+/// Applies settings by name: {"integrator.beta": 2, ...}. Throws as `parse_render_settings` does.
 void apply_settings(RenderSettings &settings, const Json &named);
 
-/// Render settings from {"algorithm", "settings": {"integrator.beta": 2, ...}} with the names of
-/// `--set`. What is not named keeps the renderer's default. Throws `Error` (bad usage) naming the
-/// alternatives.
+/// Reads render settings from {"algorithm", "settings": {"integrator.beta": 2, ...}} with the names
+/// of `--set`. Settings that are not named keep the renderer's defaults. Throws `Error` (bad input)
+/// naming the alternatives.
 RenderSettings parse_render_settings(const Json &curve);
 
 }  // namespace rtrays

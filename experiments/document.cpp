@@ -18,7 +18,7 @@ namespace {
 
 constexpr double slope_confidence = 0.95;
 
-/// Errors and times, `spp` apart.
+/// Writes errors and times without `spp`.
 json to_json(const Measurement &measurement) {
     json numbers = to_json(measurement.error);
     numbers["seconds_device"] = measurement.seconds_device;
@@ -26,7 +26,7 @@ json to_json(const Measurement &measurement) {
     return numbers;
 }
 
-/// Every number of one rung as its median over seeds, beside the raw repetitions.
+/// Summarises one sample count: the median of each value over the seeds, and the raw repetitions.
 json summarise_point(const std::vector<Repetition> &repetitions, size_t point, double noise_mse) {
     json raw = json::array();
     std::map<std::string, std::vector<double>> values;
@@ -48,7 +48,8 @@ json summarise_point(const std::vector<Repetition> &repetitions, size_t point, d
     return summary;
 }
 
-/// The slope over the first `count` rungs, of the RMSE or of the RMSE less the reference's noise.
+/// Computes the slope over the first `count` sample counts. `noise_mse` is subtracted from the MSE;
+/// 0 keeps it as measured.
 json slope_of(const std::vector<Repetition> &repetitions, size_t count, double noise_mse) {
     std::vector<double> spp;
     std::vector<std::vector<double>> errors;
@@ -137,8 +138,9 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
     const auto usable = static_cast<size_t>(first_noisy - points.begin());
     if (usable < 3) {
         throw run_error(fmt::format(
-            "the reference (RMSE of its own noise {:.3g}) is too noisy: only {} of {} points lie "
-            "above its floor; make a reference with more samples per pixel (make references)",
+            "the reference is too noisy (its own RMSE is {:.3g}): only {} of {} points have errors "
+            "well above its noise; render a reference with more samples per pixel (make "
+            "references)",
             std::sqrt(noise_mse), usable, points.size()));
     }
     return {{"points", points},

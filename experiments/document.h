@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of run.json (schema/run.schema.json): what was measured, and what follows from it.
+// Writes and reads the parts of run.json (schema/run.schema.json): measurements and the results
+// computed from them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace rtrays {
 
 constexpr int run_schema_version = 2;
 
-/// One rung of one seed's ladder; times are cumulative from the seed's first sample.
+/// Measurement of one seed at one sample count. Times are cumulative from the seed's first sample.
 struct Measurement {
     uint64_t spp = 0;
     double seconds_device = 0;
@@ -24,7 +25,7 @@ struct Measurement {
     ErrorMetrics error;
 };
 
-/// The ladder of one seed.
+/// Measurements of one seed at increasing sample counts.
 struct Repetition {
     uint32_t seed = 0;
     std::vector<Measurement> points;
@@ -34,18 +35,20 @@ nlohmann::json to_json(const Interval &interval);
 nlohmann::json to_json(const ErrorMetrics &metrics);
 nlohmann::json to_json(const Agreement &agreement, const AgreementPolicy &policy);
 
-/// One seed's ladder in full, and back: how a stopped run keeps what is done.
+/// Writes and reads the measurements of one seed in full. An interrupted run stores finished seeds
+/// in this form.
 nlohmann::json to_json(const Repetition &repetition);
 Repetition parse_repetition(const nlohmann::json &json);
 
-/// "points" (medians over seeds, raw repetitions, MSE less the reference's noise, whether that
-/// noise dominates), "slope" over the points before it dominates, and "slope_unbiased", the slope
-/// with the noise taken off. Throws `Error` (run failed) when fewer than three points are left,
-/// naming the remedy.
+/// Summarises a curve. "points" has, for each sample count, the medians over seeds, the raw
+/// repetitions, the MSE minus the reference's noise, and whether that noise dominates. "slope" is
+/// the convergence slope over the points before the noise dominates. "slope_unbiased" is the slope
+/// after the noise is subtracted. Throws `Error` (run failed) naming the remedy if fewer than three
+/// points remain.
 nlohmann::json summarise_curve(const std::vector<Repetition> &repetitions, double noise_mse);
 
-/// The run.json of `text`. Throws `Error` (bad input) naming `source`, line and key when it does
-/// not match run.schema.json; a number that is not finite was written as null and does not.
+/// Parses the text of a run.json. Throws `Error` (bad input) naming `source`, line and key if it
+/// does not match run.schema.json. JSON writes a non-finite number as null, which does not match.
 nlohmann::json parse_run(const std::string &text, const std::string &source);
 
 }  // namespace rtrays

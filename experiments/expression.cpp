@@ -16,7 +16,7 @@ namespace rtrays {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int deepest = 64;  ///< parentheses and signs within each other
+constexpr int deepest = 64;  ///< maximum nesting of parentheses and signs
 
 struct Function {
     const char *name;
@@ -43,7 +43,7 @@ const std::array<Function, 16> functions = {{
     {"atan2", 2, [](double y, double x) { return std::atan2(y, x); }},
 }};
 
-/// Recursive descent, a function per level of precedence.
+/// Recursive descent parser with one function per level of precedence.
 class Parser {
   public:
     Parser(const std::string &text, const Names &names) : text_(text), names_(names) {}
@@ -51,7 +51,7 @@ class Parser {
     double whole() {
         const double value = sum();
         if (peek() != '\0') {
-            fail("an operator was expected");
+            fail("expected an operator");
         }
         return value;
     }
@@ -85,7 +85,7 @@ class Parser {
 
     double signed_power() {
         if (++depth_ > deepest) {
-            fail("it is nested too deeply");
+            fail("nested too deeply");
         }
         double value = 0;
         if (accept('-')) {
@@ -111,7 +111,7 @@ class Parser {
         const auto [end, error] =
             std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
         if (error != std::errc()) {
-            fail("a number, a name or a parenthesis was expected");
+            fail("expected a number, a name or a parenthesis");
         }
         at_ = static_cast<size_t>(end - text_.data());
         return value;
@@ -128,7 +128,7 @@ class Parser {
             const auto *function = std::find_if(functions.begin(), functions.end(),
                                                 [&](const Function &f) { return word == f.name; });
             if (function == functions.end()) {
-                fail(fmt::format("there is no function '{}'", word));
+                fail(fmt::format("unknown function '{}'", word));
             }
             std::array<double, 2> arguments{};
             for (size_t i = 0; i < function->arguments; ++i) {
@@ -156,7 +156,7 @@ class Parser {
     }
     void require(char wanted) {
         if (!accept(wanted)) {
-            fail(fmt::format("'{}' was expected", wanted));
+            fail(fmt::format("expected '{}'", wanted));
         }
     }
     [[noreturn]] void fail(const std::string &what) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Formulas in descriptions: an expected value is computed from the parameters that the scene is set
-// to, not typed.
+// Evaluates formulas in description files. Expected values are computed from the parameters of the
+// scene instead of being typed.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,14 @@
 
 namespace rtrays {
 
-/// What a name stands for; throws `Error` for one it does not know.
+/// Returns the value of a name; throws `Error` for an unknown one.
 using Names = std::function<double(const std::string &)>;
 
-/// The value of a formula in double precision: numbers, names, + - * / ^ (right to left, before the
-/// sign), parentheses, `pi`, sqrt, exp, log, expm1, log1p, sin, cos, tan, asin, acos, atan, atan2,
-/// abs, min, max, and `float`, which rounds to float32 as the renderer does with its inputs. Angles
-/// are radians. Throws `Error` (bad input) that shows formula and place.
+/// Evaluates a formula in double precision. A formula has numbers, names, parentheses, `pi` and the
+/// operators + - * / ^. Functions are sqrt, exp, log, expm1, log1p, sin, cos, tan, asin, acos,
+/// atan, atan2, abs, min, max and `float`. `^` associates to the right and binds more tightly than
+/// the sign. `float` rounds to float32, as the renderer does with its inputs. Angles are radians.
+/// Throws `Error` (bad input) with the formula and the position.
 double evaluate(const std::string &formula, const Names &names);
 
 }  // namespace rtrays

@@ -32,8 +32,8 @@ StageErrors parse_stage(const Json &json) {
     return stage;
 }
 
-/// Whether a curve was measured with these settings. What the renderer could not yet be told then
-/// is at its default.
+/// Returns whether a curve was measured with these settings. Settings that did not exist when the
+/// baseline was measured count as their defaults.
 bool same_settings(const Json &stored, const RenderSettings &settings) {
     Json before = image_settings(RenderSettings());
     before.update(stored);
@@ -47,7 +47,7 @@ std::string update_command(const GateDescription &gate) {
 Json load_baseline(const GateDescription &gate, const Scene &scene) {
     if (!fs::exists(gate.baseline)) {
         throw Error(ExitCode::reference_missing,
-                    fmt::format("the baseline {} does not exist; make it with:\n  {}",
+                    fmt::format("the baseline {} does not exist; measure it with:\n  {}",
                                 gate.baseline.string(), update_command(gate)));
     }
     const std::string source = gate.baseline.string(), text = read_file(gate.baseline);
@@ -58,7 +58,8 @@ Json load_baseline(const GateDescription &gate, const Scene &scene) {
     if (baseline.at("scene_hash") != scene.hash() ||
         baseline.at("size") != Json{gate.width, gate.height}) {
         throw input_error(fmt::format(
-            "{} was measured on another version of the scene or another size; update it:\n  {}",
+            "{} was measured with another version of the scene or another size; update it with:\n  "
+            "{}",
             source, update_command(gate)));
     }
     return baseline;
@@ -69,15 +70,15 @@ std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredRefe
     std::vector<CheckLine> lines;
     for (const auto &curve : bench.gate.curves) {
         if (!baseline.at("curves").contains(curve.id())) {
-            throw input_error(fmt::format("{} has no curve {}; update it:\n  {}",
+            throw input_error(fmt::format("{} has no curve '{}'; update it with:\n  {}",
                                           bench.gate.baseline.string(), curve.id(),
                                           update_command(bench.gate)));
         }
         const Json &stored = baseline.at("curves").at(curve.id());
         if (!same_settings(stored.at("settings"), curve.settings)) {
-            throw input_error(
-                fmt::format("{}: {} was measured with other settings; update it:\n  {}",
-                            bench.gate.baseline.string(), curve.id(), update_command(bench.gate)));
+            throw input_error(fmt::format(
+                "{}: curve '{}' was measured with other settings; update it with:\n  {}",
+                bench.gate.baseline.string(), curve.id(), update_command(bench.gate)));
         }
         const CurveBaseline errors{parse_stage(stored.at("first_stage")),
                                    parse_stage(stored.at("second_stage"))};
@@ -88,7 +89,7 @@ std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredRefe
     return lines;
 }
 
-/// What an update does to one curve at one spp.
+/// Prints how an update changes the error of one curve at one sample count.
 void print_change(const std::string &id, const std::string &spp, const std::vector<double> &now,
                   const Json &previous) {
     const Json::json_pointer place("/curves/" + id + "/first_stage/" + spp);
@@ -101,7 +102,7 @@ void print_change(const std::string &id, const std::string &spp, const std::vect
                median(now), 100 * paired_error_ratio(now, before).value);
 }
 
-/// What a baseline held and the new one does not.
+/// Prints the entries of the previous baseline that the new one lacks.
 void print_dropped(const Json &baseline, const Json &previous) {
     const Json curves = previous.value("curves", Json::object());
     for (const auto &[id, curve] : curves.items()) {
@@ -154,7 +155,10 @@ ExitCode run_gate(const GateOptions &options) {
         reference = load_reference(gate, scene);  // before anything is rendered
     }
     if (options.check == "bitwise" && !gate.bitwise) {
-        throw input_error(fmt::format("{} has no \"bitwise\"", gate.source));
+        throw input_error(fmt::format("{} has no checks \"bitwise\"", gate.source));
+    }
+    if (!options.update_baseline && wants("planted_errors")) {
+        require_plantable(gate.planted.errors);  // before anything is rendered
     }
     DeviceContext device(options.device);
     const GateBench bench{gate, scene, device, options.quiet};
@@ -163,12 +167,13 @@ ExitCode run_gate(const GateOptions &options) {
         return ExitCode::ok;
     }
 
-    bool passed = true;
+    size_t checks = 0, failed = 0;
     const auto report = [&](const std::vector<CheckLine> &lines) {
         for (const auto &line : lines) {
             fmt::print("{} {}\n", line.passed ? "ok  " : "FAIL", line.text);
-            passed = passed && line.passed;
+            failed += line.passed ? 0 : 1;
         }
+        checks += lines.size();
     };
     if (gate.bitwise && wants("bitwise")) {
         report(check_bitwise(bench));
@@ -179,7 +184,8 @@ ExitCode run_gate(const GateOptions &options) {
     if (wants("planted_errors")) {
         report(check_planted_errors(bench, reference.reference));
     }
-    return passed ? ExitCode::ok : ExitCode::regression;
+    fmt::print("{}\n", gate_summary(checks, failed));
+    return failed == 0 ? ExitCode::ok : ExitCode::regression;
 }
 
 }  // namespace rtrays

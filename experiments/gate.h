@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The gate: bits that may not change with scheduling, errors that may not grow, planted errors that
-// must be found.
+// Regression gate: images that must not change with scheduling, errors that must not grow, and
+// planted errors that must be found.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,19 @@ struct GateOptions {
     bool quiet = false;
 };
 
-/// A wrong line in a kernel: an overlay of the include resolver, never in shipped code.
+/// A deliberate error in one line of a kernel. It is applied as an overlay of the include resolver
+/// and never appears in shipped code.
 struct PlantedError {
     std::string name;
     RenderSettings settings;
     std::string file, search, replacement;
-    bool by_slope = false;  ///< seen in how the error falls, not in the image
+    bool by_slope = false;  ///< found by the convergence slope, not by the image
 };
 
 /// A gate file (schema/gate.schema.json).
 struct GateDescription : MeasuredScene {
     std::string name;
-    std::string source;  ///< path of the file, for the remedy in messages
+    std::string source;  ///< path of the gate file, for the commands in messages
     std::filesystem::path baseline;
     struct Bitwise {
         uint64_t spp = 0, split = 0;
@@ -50,11 +51,12 @@ struct GateDescription : MeasuredScene {
     } planted;
 };
 
-/// Throws `Error` (bad input) naming file, key and alternatives.
+/// Reads and checks a gate file. Throws `Error` (bad input) naming file, key and alternatives.
 GateDescription load_gate(const std::filesystem::path &path);
 
-/// Runs the chosen checks, prints a line each on standard output; `regression` when one fails.
-/// Throws `Error` (reference missing) when reference or baseline is not there.
+/// Runs the chosen checks. Prints one line for each and a summary line on standard output. Returns
+/// `ExitCode::regression` if one fails. Throws `Error` (reference missing) if the reference or the
+/// baseline does not exist, and `Error` (bad input) before rendering if an error cannot be planted.
 ExitCode run_gate(const GateOptions &options);
 
 }  // namespace rtrays

@@ -49,17 +49,20 @@ class BitwiseCheck {
             settings.stream_capacity = capacity;
             compare(fmt::format("stream capacity {}", capacity), render(settings, spp_));
         }
-        compare(fmt::format("split at {}", bitwise.split), render(curve_.settings, bitwise.split));
+        compare(fmt::format("split at sample {}", bitwise.split),
+                render(curve_.settings, bitwise.split));
         compare_merges();
         RenderSettings other = curve_.settings;
         other.seed += 1;
-        lines_.push_back({curve_.id() + ": another seed gives another image",
-                          !same_bits(original_, render(other, spp_))});
+        const bool differs = !same_bits(original_, render(other, spp_));
+        lines_.push_back(
+            {fmt::format("{}, another seed: {} image", curve_.id(), differs ? "different" : "same"),
+             differs});
         return lines_;
     }
 
   private:
-    /// The samples [0, split) and, if any, [split, spp) one after the other.
+    /// Renders the samples [0, split) and then [split, spp), which may be empty.
     Image render(const RenderSettings &settings, uint64_t split) {
         RenderSession session = bench_.session(settings);
         render_whole(session, 0, split);
@@ -74,7 +77,9 @@ class BitwiseCheck {
     }
 
     void compare(const std::string &what, const Image &image) {
-        lines_.push_back({curve_.id() + ": same bits, " + what, same_bits(original_, image)});
+        const bool same = same_bits(original_, image);
+        lines_.push_back(
+            {fmt::format("{}, {}: {} bits", curve_.id(), what, same ? "same" : "different"), same});
     }
 
     void compare_merges() {
@@ -94,13 +99,14 @@ class BitwiseCheck {
     std::vector<CheckLine> lines_;
 };
 
+/// An undecided comparison of the second stage fails.
 CheckLine describe(const std::string &pair, const Interval &change, const char *stage,
                    GateDecision decision) {
-    return {
-        fmt::format("{}: error {:+.2f} % of the baseline, 99.9 % bounds [{:+.2f}, {:+.2f}], {}: {}",
-                    pair, 100 * change.value, 100 * change.low, 100 * change.high, stage,
-                    to_string(decision)),
-        decision == GateDecision::pass};
+    return {fmt::format("{}: RMSE {:+.2f} % from the baseline, 99.9 % bounds [{:+.2f}, {:+.2f}], "
+                        "{}: {}",
+                        pair, 100 * change.value, 100 * change.low, 100 * change.high, stage,
+                        to_string(decision)),
+            decision == GateDecision::pass};
 }
 
 const std::vector<double> &stored(const StageErrors &stage, uint64_t spp, int renders,
@@ -108,13 +114,13 @@ const std::vector<double> &stored(const StageErrors &stage, uint64_t spp, int re
     const auto found = stage.find(spp);
     if (found == stage.end() || found->second.size() != static_cast<size_t>(renders)) {
         throw input_error(fmt::format(
-            "the baseline does not hold {} errors for {}; update it (--update-baseline)", renders,
+            "the baseline does not have {} errors for {}; update it (--update-baseline)", renders,
             pair));
     }
     return found->second;
 }
 
-/// By seed and point, less the reference's noise.
+/// Returns the errors by seed and sample count, with the reference's noise subtracted.
 std::vector<std::vector<double>> unbiased_ladders(const StageErrors &stage,
                                                   const Reference &reference) {
     std::vector<std::vector<double>> ladders(stage.begin()->second.size());
@@ -145,12 +151,19 @@ CheckLine check_slope(const std::string &curve, const StageErrors &errors,
         ladder_spp(errors), unbiased_ladders(errors, reference), slope_confidence, slope_resamples);
     const bool judged = std::abs(bias) <= largest_slope_bias,
                passed = slope.low <= -0.5 && -0.5 <= slope.high;
-    std::string text = fmt::format("{}: slope {:.4f} [{:.4f}, {:.4f}], ", curve, slope.value,
-                                   slope.low, slope.high);
-    text += judged ? (passed ? "holds -1/2" : "misses -1/2")
+    std::string text = fmt::format("{}: slope {:.4f}, interval [{:.4f}, {:.4f}]", curve,
+                                   slope.value, slope.low, slope.high);
+    text += judged ? (passed ? " contains -1/2" : " does not contain -1/2")
                    : fmt::format(
-                         "not judged: the scatter of the baseline alone moves it by {:+.2f}", bias);
+                         ", not judged: scatter in the baseline alone shifts the slope by "
+                         "{:+.2f}",
+                         bias);
     return {text, passed || !judged};
+}
+
+std::string gate_summary(size_t checks, size_t failed) {
+    return failed == 0 ? fmt::format("gate: all {} checks passed", checks)
+                       : fmt::format("gate: {} of {} checks failed", failed, checks);
 }
 
 RenderSession GateBench::session(RenderSettings settings) const {
@@ -185,9 +198,9 @@ StageErrors measure_errors(const GateBench &bench, const CurveDescription &curve
             const ErrorMetrics error = compute_metrics(session.develop(), reference.image);
             if (noise_dominates(error.mse, reference.noise_mse)) {
                 throw run_error(
-                    fmt::format("{} at {} spp: the reference's own noise passes 10 % of the error; "
-                                "it needs more "
-                                "samples (make references)",
+                    fmt::format("{} at {} spp: the reference's own noise exceeds 10 % of the mean "
+                                "squared error; render a reference with more samples (make "
+                                "references)",
                                 curve.id(), spp));
             }
             errors[spp].push_back(error.rmse);
@@ -231,9 +244,9 @@ std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDesc
             lines.push_back(describe(pair, change, "second stage", decide_gate(change)));
         }
         if (!slope.passed) {
-            lines.push_back({slope.text + " in the first stage", true});
-            slope = check_slope(curve.id() + ", second stage", second, baseline.second_stage,
-                                reference);
+            const std::string first_stage = slope.text;
+            slope = check_slope("in the second stage", second, baseline.second_stage, reference);
+            slope.text = first_stage + "; " + slope.text;
         }
     }
     lines.push_back(slope);

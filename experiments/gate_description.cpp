@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Reads a gate file.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -22,7 +23,7 @@ GateDescription load_gate(const std::filesystem::path &path) {
         gate.bitwise = {bitwise.at("spp"), bitwise.at("split"), bitwise.at("group_sizes"),
                         bitwise.at("stream_capacities")};
         if (gate.bitwise->split >= gate.bitwise->spp) {
-            throw input_error(fmt::format("{}: {} is not below spp {}",
+            throw input_error(fmt::format("{}: {} must be less than spp {}",
                                           file.location("/bitwise/split"), gate.bitwise->split,
                                           gate.bitwise->spp));
         }

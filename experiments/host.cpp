@@ -49,7 +49,7 @@ Json describe_host() {
 Json load_average() {
     double load[3] = {};
     if (getloadavg(load, 3) != 3) {
-        throw run_error("the load average cannot be read: the load of the machine is unknown");
+        throw run_error("cannot read the load average; the load of the machine is unknown");
     }
     return {load[0], load[1], load[2]};
 }
@@ -72,7 +72,7 @@ CpuMeter::Ticks CpuMeter::read() {
     std::string label;
     double user = 0, nice = 0, system = 0, idle = 0, iowait = 0, irq = 0, softirq = 0, steal = 0;
     if (!(file >> label >> user >> nice >> system >> idle >> iowait >> irq >> softirq >> steal)) {
-        throw run_error("/proc/stat cannot be read: the load of the machine is unknown");
+        throw run_error("cannot read /proc/stat; the load of the machine is unknown");
     }
     const auto per_second = static_cast<double>(sysconf(_SC_CLK_TCK));
     rusage own{};
@@ -84,11 +84,11 @@ CpuMeter::Ticks CpuMeter::read() {
 
 CpuUse CpuMeter::use() const {
     const Ticks now = read();
-    // /proc/stat counts whole ticks: an interval below one tick has no total.
+    // /proc/stat counts full ticks, so an interval shorter than one tick has no total.
     const double total = std::max(now.total - start_.total, 0.01);
     const double own = now.own - start_.own;
-    // The process' own time is finer than ticks: of an idle machine a fraction of one may be left
-    // below zero.
+    // The process' own time is finer than ticks. On an idle machine the difference may therefore be
+    // slightly negative.
     return {own / total, std::max(0.0, now.busy - start_.busy - own) / total,
             (now.steal - start_.steal) / total};
 }

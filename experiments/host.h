@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the machine is, and how much of it others use while we measure.
+// Describes the machine and measures how much CPU time other processes use during a measurement.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,24 +10,24 @@
 
 namespace rtrays {
 
-/// {"cpu", "cores", "kernel", "compiler", "build_type"}.
+/// Returns {"cpu", "cores", "kernel", "compiler", "build_type"}.
 Json describe_host();
 
-/// One, five and fifteen minute load averages.
+/// Returns the load averages of one, five and fifteen minutes.
 Json load_average();
 
-/// "2026-01-31T12:00:00Z".
+/// Returns the time in UTC: "2026-01-31T12:00:00Z".
 std::string utc_now();
 
-/// Shares of all CPU time since the last `start`, in [0, 1] up to the granularity of ticks.
+/// Shares of the total CPU time, in [0, 1] up to the granularity of ticks.
 struct CpuUse {
-    double own = 0;      ///< this process, all threads
-    double foreign = 0;  ///< other processes
+    double own = 0;      ///< used by this process, all threads
+    double foreign = 0;  ///< used by other processes
     double steal = 0;    ///< taken by the hypervisor
 };
 
-/// Reads /proc/stat and this process' CPU time; throws `Error` (run failed) where there is no
-/// /proc/stat.
+/// Measures CPU use since the last `start`, from /proc/stat and this process' CPU time. Throws
+/// `Error` (run failed) if /proc/stat cannot be read.
 class CpuMeter {
   public:
     CpuMeter() { start(); }
@@ -36,21 +36,21 @@ class CpuMeter {
 
   private:
     struct Ticks {
-        double total = 0, busy = 0, steal = 0, own = 0;  ///< seconds of CPU
+        double total = 0, busy = 0, steal = 0, own = 0;  ///< CPU seconds
     };
     static Ticks read();
 
     Ticks start_;
 };
 
-/// Threads of what runs on the host beside a device: as many as a CPU has compute units, all beside
-/// a GPU.
+/// Number of host threads for contestants that run on the host: a CPU device's compute units, or
+/// all hardware threads if the device is a GPU.
 uint32_t host_threads(const DeviceInfo &device);
 
-/// {"name", "type", "platform", "driver", "c_version", "compute_units"}.
+/// Returns {"name", "type", "platform", "driver", "c_version", "compute_units"}.
 Json describe_device(const DeviceInfo &device);
 
-/// "context" of run.json: what ran where, when and beside what else, from construction to `finish`.
+/// Records "context" of run.json: program, machine, device, and times and CPU load up to `finish`.
 class RunContext {
   public:
     RunContext();

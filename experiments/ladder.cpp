@@ -27,7 +27,7 @@ fs::path early_file(const LadderTask &task, uint64_t spp) {
     return partial_file(task, first_seed, fmt::format("{}spp.exr", spp));
 }
 
-/// The session is made when the first seed needs it: a resumed run may need none.
+/// Creates the session when the first seed needs it. A resumed run may need none.
 class LazySession {
   public:
     explicit LazySession(const LadderTask &task) : task_(task) {}
@@ -48,7 +48,7 @@ fs::path batch_file(const LadderTask &task, uint32_t seed, uint64_t batch) {
     return partial_file(task, seed, fmt::format("batch{}.exr", batch));
 }
 
-/// The ladder of one seed; writes its batches and early images.
+/// Renders the ladder of one seed and writes its batches and early images.
 Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_t seed) {
     session.restart(seed);
     Repetition repetition;
@@ -93,7 +93,7 @@ LadderResult render_ladders(const LadderTask &task) {
     for (uint32_t seed = first_seed; seed < first_seed + task.seeds; ++seed) {
         const fs::path numbers = partial_file(task, seed, "json"),
                        picture = partial_file(task, seed, "exr");
-        // The numbers are written last: where they are, the pictures are.
+        // The measurements are written last, so the images exist if the measurements do.
         if (fs::exists(numbers)) {
             const Json stored = load_json(numbers);
             result.repetitions.push_back(parse_repetition(stored.at("repetition")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// rtrays-experiment: measures the renderer against references.
+// Main program of rtrays-experiment, which measures the renderer against references.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +28,7 @@ using namespace rtrays;
 
 namespace fs = std::filesystem;
 
-/// The subcommands' arguments.
+/// Arguments of all subcommands.
 struct Arguments {
     RunOptions run;
     GateOptions gate;
@@ -43,52 +43,54 @@ struct Arguments {
 
 void declare(CLI::App &app, Arguments &arguments) {
     app.require_subcommand(1);
-    app.set_version_flag("--version", "rtrays-experiment " + version());
+    app.set_version_flag("--version", program_version("rtrays-experiment"));
 
     auto *run = app.add_subcommand(
         "run",
-        "measure an experiment and write OUT/run.json; a stability suite: exit 3 if a case fails");
+        "run an experiment and write OUT/run.json; exit with code 3 if a check or a case fails");
     run->add_option("FILE", arguments.run.experiment, "experiment (JSON)")->required();
     run->add_option("--profile", arguments.run.profile,
-                    "quick, full, ci, or gpu, which not all have: what a GPU does in minutes")
+                    "quick, full, ci, or gpu (minutes on a GPU; not in all experiments)")
         ->check(CLI::IsMember({"quick", "full", "ci", "gpu"}))
         ->capture_default_str();
     run->add_option("--out", arguments.run.out, "output folder; NAME.PROFILE by default");
     run->add_option("--device", arguments.run.device, "OpenCL device, as for rtrays-render");
     run->add_flag("--dry-run", arguments.run.dry_run,
-                  "check everything, print the plan, render nothing");
+                  "check the inputs and print the plan without rendering");
     run->add_flag("--compile", arguments.run.compile,
-                  "compile the kernels, measure nothing (curves and stability suites)");
-    run->add_flag("--quiet", arguments.run.quiet, "no progress");
+                  "compile the kernels without measuring (curves and stability suites)");
+    run->add_flag("--quiet", arguments.run.quiet, "do not show progress");
 
-    auto *compare = app.add_subcommand("compare", "error of image A against reference B");
+    auto *compare = app.add_subcommand("compare", "print the error of image A against reference B");
     compare->add_option("A", arguments.image, "image (OpenEXR)")->required();
     compare->add_option("B", arguments.reference, "reference (OpenEXR)")->required();
     compare->add_flag("--json", arguments.json, "print JSON with the keys of run.json");
 
     auto *average = app.add_subcommand(
-        "average", "mean of renders that differ in their seed, with the variance of that mean");
+        "average", "average renders with different seeds and estimate the variance of the mean");
     average
-        ->add_option("IMAGE", arguments.runs, "at least two images (OpenEXR) of equal sample count")
+        ->add_option("IMAGE", arguments.runs,
+                     "at least two images (OpenEXR) with equal sample counts")
         ->required();
     average->add_option("-o,--output", arguments.average, "image to write (OpenEXR)")->required();
 
-    auto *report = app.add_subcommand("report", "tables, plots and report of finished runs");
+    auto *report =
+        app.add_subcommand("report", "make tables, plots and the report of finished runs");
     report->add_option("DIR", arguments.folders, "folders of finished runs")->required();
 
     auto *gate = app.add_subcommand(
-        "gate", "check the renderer against its stored baseline; exit 3 on a regression");
+        "gate", "check the renderer against its stored baseline; exit with code 3 on a regression");
     gate->add_option("FILE", arguments.gate.gate, "gate (JSON)")->required();
     gate->add_option("--check", arguments.gate.check, "bitwise, convergence, planted_errors or all")
         ->check(CLI::IsMember({"bitwise", "convergence", "planted_errors", "all"}))
         ->capture_default_str();
     gate->add_flag("--update-baseline", arguments.gate.update_baseline,
-                   "measure and replace the baseline, print what changed; checks nothing");
+                   "measure and replace the baseline and print the changes, without any check");
     gate->add_option("--device", arguments.gate.device, "OpenCL device, as for rtrays-render");
-    gate->add_flag("--quiet", arguments.gate.quiet, "no progress");
+    gate->add_flag("--quiet", arguments.gate.quiet, "do not show progress");
 
     auto *agree = app.add_subcommand(
-        "agree", "render scenes by renderer and reference; exit 3 if they differ");
+        "agree", "render scenes with renderer and reference; exit with code 3 if they disagree");
     agree->add_option("FILE", arguments.agree.description, "scenes and sample counts (JSON)")
         ->required();
     agree->add_option("--profile", arguments.agree.profile, "quick or full")
@@ -96,12 +98,13 @@ void declare(CLI::App &app, Arguments &arguments) {
         ->capture_default_str();
     agree->add_option("--out", arguments.agree.out, "output folder; NAME.PROFILE by default");
     agree->add_option("--device", arguments.agree.device, "OpenCL device, as for rtrays-render");
-    agree->add_flag("--quiet", arguments.agree.quiet, "no progress");
+    agree->add_flag("--quiet", arguments.agree.quiet, "do not show progress");
 
     auto *control = app.add_subcommand(
-        "control", "what convergence control saves and how it biases, against renders without it");
+        "control", "measure savings and bias of convergence control against renders without it");
     control
-        ->add_option("FILE", arguments.control.description, "scenes, algorithms and errors (JSON)")
+        ->add_option("FILE", arguments.control.description,
+                     "scenes, algorithms and error limits (JSON)")
         ->required();
     control->add_option("--profile", arguments.control.profile, "quick or full")
         ->check(CLI::IsMember({"quick", "full"}))
@@ -109,7 +112,7 @@ void declare(CLI::App &app, Arguments &arguments) {
     control->add_option("--out", arguments.control.out, "output folder; NAME.PROFILE by default");
     control->add_option("--device", arguments.control.device,
                         "OpenCL device, as for rtrays-render");
-    control->add_flag("--quiet", arguments.control.quiet, "no progress");
+    control->add_flag("--quiet", arguments.control.quiet, "do not show progress");
 }
 
 ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
@@ -149,9 +152,8 @@ ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
 
 ExitCode run(int argc, char **argv) {
     CLI::App app{
-        "Measures the renderer against independent references: error over samples and over time, "
-        "tables, "
-        "plots and the regression gate."};
+        "Measures the renderer against independent references: errors over samples and time, "
+        "speeds, reports and the regression gate."};
     Arguments arguments;
     declare(app, arguments);
     try {

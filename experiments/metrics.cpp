@@ -12,8 +12,8 @@ namespace rtrays {
 
 namespace {
 
-/// Makes a layer of a mean from the sums of `count` independent values: counts stay sums, and the
-/// variance of a mean falls with the square.
+/// Sets a layer of a mean image from the sums of `count` independent values. Sample counts remain
+/// sums. The variance of the mean is the sum of the variances divided by the square of `count`.
 void set_mean(Image &image, const std::string &name, const std::vector<double> &sum, double count) {
     const bool is_variance = name.rfind("variance.", 0) == 0;
     const double divisor = name == "samples" ? 1 : is_variance ? count * count : count;
@@ -52,7 +52,8 @@ ErrorMetrics compute_metrics(const Image &image, const Image &reference) {
             const double d = values[i] - r;
             if (!std::isfinite(d)) {
                 throw input_error(fmt::format(
-                    "channel {}, pixel ({}, {}): value is not finite (image {}, reference {})",
+                    "channel {}, pixel ({}, {}): values must be finite, got {} in the image and {} "
+                    "in the reference",
                     name, i % static_cast<size_t>(image.width()),
                     i / static_cast<size_t>(image.width()), values[i], expected[i]));
             }
@@ -99,7 +100,7 @@ Image average_images(const std::vector<Image> &images) {
 
 Image average_runs(const std::vector<Image> &images) {
     if (images.size() < 2) {
-        throw input_error("a spread needs at least two images");
+        throw input_error("an average with variance needs at least two images");
     }
     const Image &first = images.front();
     const auto count = static_cast<double>(images.size());
@@ -116,7 +117,7 @@ Image average_runs(const std::vector<Image> &images) {
             for (const Image &image : images) {
                 sum += static_cast<double>(image.channel(name)[i]);
             }
-            for (const Image &image : images) {  // about the mean: no cancellation
+            for (const Image &image : images) {  // a second pass avoids cancellation
                 const double d = static_cast<double>(image.channel(name)[i]) - sum / count;
                 squares += d * d;
             }
@@ -143,7 +144,7 @@ Image last_batch(const Image &before, const Image &all, uint64_t count) {
 
 Image downsample(const Image &image, int factor) {
     if (factor < 1 || image.width() % factor != 0 || image.height() % factor != 0) {
-        throw input_error(fmt::format("an image of {}x{} cannot be reduced by {}", image.width(),
+        throw input_error(fmt::format("image size {}x{} is not divisible by {}", image.width(),
                                       image.height(), factor));
     }
     Image result = Image::rgb(image.width() / factor, image.height() / factor);

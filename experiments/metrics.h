@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The error of an image against a reference that is itself noisy.
+// Error of an image against a reference that is itself noisy, and averages of images.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace rtrays {
 
-/// Error of an image over all pixels and colour channels, d = image - reference, r = reference, in
-/// the unit of the pixels (radiance) or its square.
+/// Error of an image over all pixels and colour channels. d = image - reference, r = reference. The
+/// unit is that of the pixels (radiance), or its square.
 struct ErrorMetrics {
     double l2 = 0;      ///< sqrt(sum d^2), the norm of the thesis (4.2)
     double rmse = 0;    ///< l2 / sqrt(3 W H)
@@ -21,8 +21,7 @@ struct ErrorMetrics {
     double mse = 0;     ///< rmse^2
 };
 
-/// The metrics by their keys: run.json is written and read, and comparisons are printed, by this
-/// table.
+/// The metrics with their keys. The table serves to read and write run.json and print comparisons.
 constexpr std::array<std::pair<const char *, double ErrorMetrics::*>, 5> metric_keys{{
     {"l2", &ErrorMetrics::l2},
     {"rmse", &ErrorMetrics::rmse},
@@ -31,54 +30,55 @@ constexpr std::array<std::pair<const char *, double ErrorMetrics::*>, 5> metric_
     {"mse", &ErrorMetrics::mse},
 }};
 
-/// Throws `Error` (bad input) when sizes differ or there are no pixels.
+/// Throws `Error` (bad input) if the sizes differ or an image has no pixels.
 void require_same_size(const Image &a, const Image &b);
 
-/// Whether the layers variance.R, .G and .B are there.
+/// Returns whether an image has the layers variance.R, .G and .B.
 bool has_variance(const Image &image);
 
-/// Sums in double. Throws `Error` (bad input) when sizes differ, a colour channel is missing or a
-/// value is not finite.
+/// Computes the metrics with sums in double precision. Throws `Error` (bad input) if the sizes
+/// differ, a colour channel is missing or a value is not finite.
 ErrorMetrics compute_metrics(const Image &image, const Image &reference);
 
-/// A reference made of two halves with disjoint seeds.
+/// Reference image averaged from two halves with different seeds.
 struct Reference {
-    Image image;           ///< (a + b) / 2, with its variance layers when both halves have them
+    Image image;           ///< (a + b) / 2, with variance layers if both halves have them
     double noise_mse = 0;  ///< expected MSE of `image` itself: mean(((a - b) / 2)^2)
 };
 
-/// For independent a and b of equal variance v, Var((a + b) / 2) = v / 2 = E[((a - b) / 2)^2].
+/// Averages two halves and estimates the noise of the average from their difference. For
+/// independent a and b of equal variance v, Var((a + b) / 2) = v / 2 = E[((a - b) / 2)^2].
 Reference combine_halves(const Image &a, const Image &b);
 
-/// MSE of an image that shares no samples with the reference, less the reference's own noise;
-/// negative when the image is better than the reference can tell.
+/// Subtracts the reference's noise from the MSE of an image that shares no samples with it. The
+/// result is negative if the image is better than the reference can resolve.
 inline double unbiased_mse(double mse, double noise_mse) {
     return mse - noise_mse;
 }
 
-/// Whether the reference is too noisy to judge an error: its noise passes 10 % of the MSE.
+/// Returns whether the reference is too noisy to judge an error: its noise exceeds 10 % of the MSE.
 inline bool noise_dominates(double mse, double noise_mse) {
     return !(noise_mse <= 0.1 * mse);
 }
 
-/// The mean of independent images of equal sample count; "variance.*" becomes the variance of that
-/// mean, "samples" the total, any other layer is left out. Attributes are those of the first.
+/// Averages independent images with equal sample counts. "variance.*" becomes the variance of the
+/// mean, and "samples" the total. Other layers are dropped. The first image gives the attributes.
 Image average_images(const std::vector<Image> &images);
 
-/// The mean of independent renders with equal settings but for the seed; "variance.*" is the
-/// variance of that mean as estimated from their spread (image count - 1 degrees of freedom per
-/// pixel). For renderers that state no variance. Throws `Error` (bad input) for less than two
-/// images and when sizes differ.
+/// Averages independent renders that differ only in their seeds. "variance.*" is the variance of
+/// the mean, estimated from the scatter of the renders (image count - 1 degrees of freedom per
+/// pixel). Use it for renderers that write no variance. Throws `Error` (bad input) for fewer than
+/// two images and if sizes differ.
 Image average_runs(const std::vector<Image> &images);
 
-/// R, G, B of the last of `count` batches of equal size: `all` is the mean of them, `before` that
-/// of the others (of none: any image). In double, as the difference of sums: what float32 rounds
-/// off is 1e-7 of those.
+/// Returns R, G, B of the last of `count` batches of equal size. `all` is the mean of all batches,
+/// and `before` the mean of the others (any image if `count` is 1). The difference of the sums is
+/// taken in double precision. The rounding of float32 pixels is 1e-7 of the sums.
 Image last_batch(const Image &before, const Image &all, uint64_t count);
 
-/// Averages squares of `factor` x `factor` pixels. With a box filter of one pixel this is exactly
-/// the image the same camera gives at the smaller film; variances follow as those of independent
-/// pixels. Throws `Error` (bad input) when the size is not divisible.
+/// Averages squares of `factor` x `factor` pixels. With a box filter of one pixel, the result is
+/// exactly the image that the camera gives on the smaller film. Variances are computed as those of
+/// independent pixels. Throws `Error` (bad input) if the size is not divisible by `factor`.
 Image downsample(const Image &image, int factor);
 
 }  // namespace rtrays

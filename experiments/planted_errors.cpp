@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Plants the gate's errors in the kernels and checks that they are found.
 #include <fmt/format.h>
 
 #include "experiments/agreement.h"
@@ -26,13 +27,20 @@ Agreement agreement_of(const GateBench &bench, const RenderSettings &settings,
 std::string describe(const Agreement &agreement) {
     const auto &[value, low, high] = agreement.relative_difference;
     return fmt::format(
-        "{} of {} tests reject, {} undecided, largest |z| {:.1f}, mean {:+.3f} % [{:+.3f}, "
-        "{:+.3f}]",
+        "{} of {} tests reject equality, {} undecided, largest |z| {:.1f}, mean differs by {:+.3f} "
+        "% [{:+.3f}, {:+.3f}]",
         agreement.rejected, agreement.tests, agreement.undecided, agreement.largest_z, 100 * value,
         100 * low, 100 * high);
 }
 
-/// Of the image or of the slope: the line passes if the error is found.
+CheckLine found_line(const PlantedError &error, bool found, const std::string &detail) {
+    return {fmt::format("planted error '{}' in {}: {}: {}", error.name, error.settings.algorithm,
+                        found ? "found" : "not found", detail),
+            found};
+}
+
+/// Renders with the planted error and compares the image, or the slope. The check passes if the
+/// error is found.
 CheckLine find_error(const GateBench &bench, const PlantedError &error,
                      const Reference &reference) {
     RenderSettings settings = error.settings;
@@ -42,12 +50,10 @@ CheckLine find_error(const GateBench &bench, const PlantedError &error,
         const StageErrors errors = measure_errors(bench, curve, reference, second_stage_seed,
                                                   bench.gate.convergence.second_stage_renders);
         const CheckLine slope = check_slope(curve.id(), errors, errors, reference);
-        return {fmt::format("planted '{}' is caught: {}", error.name, slope.text), !slope.passed};
+        return found_line(error, !slope.passed, slope.text);
     }
     const Agreement agreement = agreement_of(bench, settings, reference);
-    return {fmt::format("planted '{}' is caught in {}: {}", error.name, settings.algorithm,
-                        describe(agreement)),
-            !agreement.agrees()};
+    return found_line(error, !agreement.agrees(), describe(agreement));
 }
 
 }  // namespace
@@ -66,6 +72,12 @@ std::string plant(const PlantedError &error, const std::string &text) {
     return planted;
 }
 
+void require_plantable(const std::vector<PlantedError> &errors) {
+    for (const auto &error : errors) {
+        plant(error, device_source(error.file));
+    }
+}
+
 std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Reference &reference) {
     const auto &planted = bench.gate.planted;
     std::vector<CheckLine> lines;
@@ -74,9 +86,13 @@ std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Refere
     uint64_t done = 0;
     for (const auto &curve : bench.gate.curves) {
         const Agreement agreement = agreement_of(bench, curve.settings, reference);
-        lines.push_back(
-            {fmt::format("{}: agrees with the reference: {}", curve.id(), describe(agreement)),
-             agreement.agrees() && agreement.tests > agreement.undecided});
+        const bool tested = agreement.tests > agreement.undecided;
+        const char *finding = "differs from the reference";
+        if (agreement.agrees()) {
+            finding = tested ? "agrees with the reference" : "too few tests are decided";
+        }
+        lines.push_back({fmt::format("{}: {}: {}", curve.id(), finding, describe(agreement)),
+                         agreement.agrees() && tested});
         progress.update(++done);
     }
     for (const auto &error : planted.errors) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The references of other renderers, Embree's and our own image against each other, pair by pair;
-// and where they differ, scenes that show why.
+// Compares references of other renderers, the Embree reference and RTRays' own image pair by pair.
+// Probe scenes show why renderers differ.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -31,14 +31,16 @@ namespace fs = std::filesystem;
 
 constexpr const char *engines[] = {"embree", "mitsuba", "cycles"};
 
+/// An image with the renderer that made it.
 struct Contender {
-    Json description;  ///< {"name", "engine", "spp", "noise_rmse"}; of those rendered now "mean"
-                       ///< and its "standard_error" too
+    /// {"name", "engine", "spp", "noise_rmse"}, and "mean" and "standard_error" if it was rendered
+    /// by this measurement.
+    Json description;
     Halves halves;
 };
 
-/// What an image's layers of variance say, pixels being independent. The standard error of the mean
-/// over channels is bounded by the mean of theirs.
+/// Describes an image from its variance layers, assuming independent pixels. The standard error of
+/// the mean over channels is bounded by the mean of the channels' standard errors.
 Contender described(const char *name, const std::string &engine, uint64_t spp, Halves halves) {
     const Image image = average_images({halves[0], halves[1]});
     double mean = 0, variance = 0, standard_error = 0;
@@ -63,8 +65,8 @@ Contender described(const char *name, const std::string &engine, uint64_t spp, H
             std::move(halves)};
 }
 
-/// Half of the samples with each of two seeds, `render` being given a seed. Scenes of another
-/// `number`, from 0, share none.
+/// Renders two halves with different seeds by `render(seed)`. Scenes with different values of
+/// `number`, from 0, share no seed.
 template <class Render>
 Halves in_halves(uint32_t number, const Render &render) {
     return {render(2 * number + 1), render(2 * number + 2)};
@@ -84,12 +86,12 @@ Contender rendered(const Scene &scene, uint64_t spp, uint32_t number, DeviceCont
                      in_halves(number, render));
 }
 
-/// A scene's renderings, and who made none.
+/// Images of a scene, and the renderers without one.
 struct Contenders {
     std::vector<Contender> there;
     Json absent = Json::array();
 
-    /// All pairs, tested.
+    /// Tests all pairs and returns the row.
     Json row(const char *kind, const std::string &name) const {
         const AgreementPolicy policy;
         Json descriptions = Json::array(), pairs = Json::array();
@@ -150,7 +152,7 @@ Contender rendered_by_embree(const Scene &scene, ReferenceSettings settings, uin
     return described("embree", engine, spp / 2 * 2, std::move(halves));
 }
 
-/// The samples of a half are rounded up to whole steps.
+/// Renders with a peer. The samples of a half are rounded up to full steps.
 Contender rendered_by_peer(const Scene &scene, ReferenceSettings settings, const char *name,
                            uint64_t spp) {
     const fs::path folder = fs::temp_directory_path() / fmt::format("rtrays-probe-{}", getpid());
@@ -170,7 +172,7 @@ Contender rendered_by_peer(const Scene &scene, ReferenceSettings settings, const
     return described(name, engine, samples, std::move(halves));
 }
 
-/// A small scene that shows why renderers differ, rendered by all of them now.
+/// Renders a small scene that shows why renderers differ with all of them.
 Json row_of_probe(const std::string &name, uint64_t spp, DeviceContext &device) {
     const Scene scene = load_scene((root / "scenes/probes" / (name + ".json")).string());
     ReferenceSettings settings;
@@ -202,7 +204,7 @@ fs::path references_manifest() {
 MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings,
                                          DeviceContext &device) {
     MeasurementPlan plan;
-    uint32_t number = 0;  // with seeds of their own: the boxes would be lit by the same paths
+    uint32_t number = 0;  // own seeds: otherwise equal paths would light the Cornell boxes
     for (const std::string &name : settings.references) {
         plan.tasks.push_back(
             {name, [=, &device] { return row_of_scene(name, settings, number, device); }});

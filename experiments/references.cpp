@@ -26,10 +26,10 @@ Error missing(const ReferenceRequest &request, size_t half, const std::string &w
     const std::string manifest = (request.folder / "manifest.json").string();
     return {
         ExitCode::reference_missing,
-        // The scene's own film: smaller ones are averaged from it.
+        // The command renders the scene's own film size. Smaller films are averaged from it.
         fmt::format(
-            "{}; make it with:\n  rtrays-reference {} -o {} --spp 16384 --seed {} --manifest {}\n"
-            "or all of them with: make references",
+            "{}; render it with:\n  rtrays-reference {} -o {} --spp 16384 --seed {} --manifest {}\n"
+            "or render all references with: make references",
             what, request.scene_path, (request.folder / file_name(request, half)).string(),
             half + 1, manifest)};
 }
@@ -42,33 +42,32 @@ Json checked_entry(const ReferenceRequest &request, const Json &manifest, size_t
         throw missing(request, half, fmt::format("the reference {} does not exist", path.string()));
     }
     if (!manifest.at("references").contains(name)) {
-        throw missing(request, half,
-                      fmt::format("{}: the manifest has no entry for it", path.string()));
+        throw missing(request, half, fmt::format("{}: no entry in the manifest", path.string()));
     }
     const Json &entry = manifest.at("references").at(name);
     if (entry.at("scene_hash") != request.scene_hash) {
         throw input_error(fmt::format(
-            "{} was made of another version of the scene (hash {}, the scene now has {}); make "
-            "it anew (make references)",
+            "{} was rendered from another version of the scene (hash {}, the scene now has {}); "
+            "render it again (make references)",
             path.string(), entry.at("scene_hash").get<std::string>(), request.scene_hash));
     }
     if (entry.at("sha256") != reference::sha256_of(path)) {
         throw input_error(fmt::format(
-            "{}: its SHA-256 is not that of the manifest: the file was changed or damaged; "
-            "restore it or make it anew (make references)",
+            "{}: the SHA-256 differs from the manifest, so the file was changed or damaged; "
+            "restore it or render it again (make references)",
             path.string()));
     }
     return entry;
 }
 
-/// How many pixels of the stored film make one of the wanted film, along each side.
+/// Returns the number of stored pixels per requested pixel along each side.
 int reduction(const Image &stored, const ReferenceRequest &request) {
     const int factor = stored.width() / request.width;
     if (factor < 1 || stored.width() != factor * request.width ||
         stored.height() != factor * request.height) {
         throw input_error(fmt::format(
-            "the reference of {} is {}x{}; a film of {}x{} cannot be averaged from it: ask for one "
-            "that divides it, or render the reference with --size",
+            "the reference of {} is {}x{}, which is not a multiple of the film size {}x{}; choose "
+            "a size that divides it, or render the reference with --size",
             request.scene_name, stored.width(), stored.height(), request.width, request.height));
     }
     return factor;
@@ -86,15 +85,14 @@ StoredReference load_reference(const ReferenceRequest &request) {
                entry_b = checked_entry(request, manifest, 1);
     if (entry_a.at("seed") == entry_b.at("seed")) {
         throw input_error(
-            fmt::format("{}: both halves of {} have the seed {}: they are not independent; "
-                        "make one anew with another --seed",
+            fmt::format("{}: both halves of {} have the seed {}, so they are not independent; "
+                        "render one again with another --seed",
                         manifest_path.string(), request.scene_name, entry_a.at("seed").dump()));
     }
     if (entry_a.at("spp") != entry_b.at("spp")) {
         throw input_error(
-            fmt::format("{}: the halves of {} have {} and {} spp; their noise cannot be told from "
-                        "their difference; "
-                        "extend the shorter one (make references)",
+            fmt::format("{}: the halves of {} have {} and {} spp, so their difference does not "
+                        "give their noise; extend the shorter one (make references)",
                         manifest_path.string(), request.scene_name, entry_a.at("spp").dump(),
                         entry_b.at("spp").dump()));
     }

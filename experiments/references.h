@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finding and checking the stored reference of a scene.
+// Finds and checks the stored reference images of a scene.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace rtrays {
 
-/// Which reference is wanted.
+/// Description of the requested reference.
 struct ReferenceRequest {
     std::filesystem::path folder;  ///< results/references
     std::string scene_name;
     std::string scene_hash;  ///< `Scene::hash()` of the scene to be measured
     std::string engine;      ///< embree | mitsuba | cycles
     int width = 0, height = 0;
-    std::string scene_path;  ///< for the remedy in messages
+    std::string scene_path;  ///< for the commands in messages
 };
 
 struct StoredReference {
@@ -31,15 +31,15 @@ struct StoredReference {
     nlohmann::json description;
 };
 
-/// Reads FOLDER/SCENE.ENGINE.{a,b}.exr, checks them against FOLDER/manifest.json (scene hash,
-/// seeds, size) and averages them; a smaller film is made by averaging whole squares of pixels.
+/// Reads FOLDER/SCENE.ENGINE.{a,b}.exr, checks them against FOLDER/manifest.json and averages them.
+/// The checks cover scene hash, file hash, seeds, sample counts and size. If the requested film is
+/// smaller, squares of pixels are averaged.
 ///
-/// Throws `Error` (reference missing) with the command that makes it when a half or its manifest
-/// entry is not there, and `Error` (bad input) when it was made of another scene, when its halves
-/// share a seed or when its size does not fit.
+/// Throws `Error` (reference missing) with the command that renders it if a half or its manifest
+/// entry is missing. Throws `Error` (bad input) if a check fails.
 StoredReference load_reference(const ReferenceRequest &request);
 
-/// The same for the scene of an experiment or a gate.
+/// Loads the reference of an experiment's or a gate's scene.
 StoredReference load_reference(const MeasuredScene &wanted, const Scene &scene);
 
 }  // namespace rtrays

@@ -26,7 +26,7 @@ namespace {
 void export_images(const fs::path &folder) {
     if (!fs::exists(folder / "run.json")) {
         throw input_error(
-            fmt::format("{}: there is no run.json; rtrays-experiment run ... --out {} makes it",
+            fmt::format("{}: no run.json; make it with: rtrays-experiment run FILE --out {}",
                         folder.string(), folder.string()));
     }
     const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
@@ -38,9 +38,9 @@ void export_images(const fs::path &folder) {
         }
     };
     const std::string reference = run.at("reference").at("image");
-    if (!fs::exists(folder / reference) &&
-        fs::exists(folder / "index.html")) {  // a clone, which has the pages alone
-        fmt::print(stderr, "{}: has no images, its pages stay as they are\n", folder.string());
+    // A clone has the stored pages and plots without the images.
+    if (!fs::exists(folder / reference) && fs::exists(folder / "report.md")) {
+        fmt::print(stderr, "{}: no images; the stored plots are used\n", folder.string());
         return;
     }
     export_image(reference, Json::array());
@@ -62,9 +62,9 @@ int run_program(const std::vector<std::string> &command) {
     const int error =
         posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
     if (error != 0) {
-        throw run_error(fmt::format(
-            "{} cannot be started: {}; install python3, python3-numpy and python3-matplotlib",
-            command[0], std::strerror(error)));
+        throw run_error(
+            fmt::format("cannot start {}: {}; install Python and its packages with scripts/install",
+                        command[0], std::strerror(error)));
     }
     int status = 0;
     while (waitpid(child, &status, 0) < 0) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Makes the report of finished runs.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +7,10 @@
 
 namespace rtrays {
 
-/// Makes tables, plots and the report of finished runs: writes the arrays that the plots need
-/// beside the runs' images, then runs scripts/report. Returns its exit code; the path of the report
-/// is its standard output. Throws `Error` (bad input) for a folder without run.json, `Error` (run
-/// failed) naming the packages when Python cannot be started.
+/// Makes tables, plots and the report of finished runs. Writes the arrays that the plots read
+/// beside the images, then runs scripts/report, which prints the path of the report. Returns the
+/// exit code of scripts/report. Throws `Error` (bad input) for a folder without run.json, and
+/// `Error` (run failed) naming the remedy if Python cannot be started.
 int make_report(const std::vector<std::filesystem::path> &runs);
 
 }  // namespace rtrays

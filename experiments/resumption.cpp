@@ -22,8 +22,7 @@ Resumption::Resumption(fs::path out, std::string name, const std::string &inputs
     std::error_code error;
     fs::create_directories(parts_, error);
     if (error) {
-        throw input_error(
-            fmt::format("{}: cannot be created: {}", parts_.string(), error.message()));
+        throw input_error(fmt::format("cannot create {}: {}", parts_.string(), error.message()));
     }
     require_writable(result_);
 }
@@ -40,7 +39,7 @@ Json Resumption::finished(const std::function<bool(const Json &)> &is_whole) con
     fs::remove_all(out_ / ".partial");
     fmt::print(
         stderr,
-        "{}: finished already by the same code of the same inputs; delete it to measure anew\n",
+        "{}: finished already with the same code and the same inputs; delete it to measure again\n",
         result_.string());
     return result;
 }

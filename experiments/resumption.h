@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a run that was stopped goes on, and one that is finished stays as it is.
+// Continues interrupted runs and keeps finished ones.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +12,23 @@
 
 namespace rtrays {
 
-/// A run's result, OUT/NAME, and the parts of it that are done, in OUT/.partial/KEY. The key is a
-/// hash of all that the result depends on: the program's code (not its commit), device, driver and
-/// `inputs`. The result keeps it in "made_from".
+/// Stores the result of a run in OUT/NAME, and its finished parts in OUT/.partial/KEY. The key is a
+/// hash of everything that the result depends on: the program's code (not its commit), the device,
+/// the driver and `inputs`. The result has the key in "made_from".
 class Resumption {
   public:
-    /// Throws `Error` (bad usage) where OUT cannot be written.
+    /// Throws `Error` (bad input) if OUT cannot be written.
     Resumption(std::filesystem::path out, std::string name, const std::string &inputs,
                const DeviceInfo &device);
 
-    /// The result, where one is there of the same key and `is_whole` finds nothing missing that
-    /// belongs to it; says so on stderr and deletes the parts. Null otherwise.
+    /// Returns the stored result if it has the same key and `is_whole` accepts it as complete. Then
+    /// also prints a notice on stderr and deletes the parts. Returns null otherwise.
     Json finished(const std::function<bool(const Json &)> &is_whole = {}) const;
 
-    /// The folder of the parts.
+    /// Folder of the finished parts.
     const std::filesystem::path &parts() const { return parts_; }
 
-    /// Writes the result with its key, then deletes the parts. The text that is written.
+    /// Writes the result with its key, then deletes the parts.
     void finish(Json result) const;
 
   private:

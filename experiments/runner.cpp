@@ -71,7 +71,7 @@ RenderSettings settings_of(const ExperimentDescription &experiment, const CurveD
     return settings;
 }
 
-/// Renderer and reference in turns on the last curve's settings.
+/// Measures renderer and reference in interleaved repetitions with the last curve's settings.
 Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
                     DeviceContext &device, bool quiet) {
     const RenderSettings settings = settings_of(experiment, experiment.curves.back());
@@ -115,7 +115,7 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
     return json;
 }
 
-/// One entry of "curves"; writes the curve's image.
+/// Measures one entry of "curves" and writes the curve's images.
 Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description,
                LadderTask task, double noise_mse, const fs::path &out) {
     task.settings = settings_of(experiment, description);
@@ -135,8 +135,8 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     curve["algorithm"] = description.settings.algorithm;
     curve["strategies"] = description.settings.strategies;
     curve["settings"] = image_settings(task.settings);
-    // By batches also where pixels state their variance: with few samples that is as wrong as its
-    // rarest paths are missed, and a normal test too sure.
+    // Batches are tested even if the image has variance layers. With few samples a pixel's variance
+    // misses the rarest paths, and a normal test would be too certain.
     const Agreement agreement = test_agreement(ladder.batches, task.reference, policy,
                                                [&] { return render_fresh_batches(task); });
     curve["agreement"] = to_json(agreement, policy);
@@ -162,7 +162,7 @@ fs::path output_folder(const RunOptions &options, const ExperimentDescription &e
     return options.out.empty() ? fs::path(experiment.name + "." + experiment.profile) : options.out;
 }
 
-/// A run is never written with a value missing.
+/// Throws `Error` (run failed) if a value is missing, so that no incomplete run is written.
 void require_complete(const Json &run) {
     try {
         parse_run(run.dump(), "run.json");
@@ -171,7 +171,8 @@ void require_complete(const Json &run) {
     }
 }
 
-/// A repository keeps run.json without the images: such a run is measured anew.
+/// Returns whether the images of a run exist. The repository keeps run.json without its images; a
+/// run without images is measured again.
 bool has_images(const Json &run, const fs::path &out) {
     const auto is_there = [&](const Json &entry) {
         return fs::exists(out / entry.at("image").get<std::string>());

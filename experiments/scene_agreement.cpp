@@ -31,14 +31,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Numbers of the two renderers' own generators; they need not differ, but it costs nothing.
-constexpr uint32_t renderer_seed = 21;  // of the first algorithm; each has one of its own
+// Seeds of the generators of the two renderers. They need not differ.
+constexpr uint32_t renderer_seed = 21;  // of the first algorithm; the next ones use 22, 23, ...
 constexpr uint64_t reference_seed = 22;
 
 struct Description {
     std::string name;
     std::vector<fs::path> scenes;
-    int size = 0;  ///< pixels a side
+    int size = 0;  ///< pixels along a side
     uint64_t spp = 0;
     uint64_t reference_spp = 0;
     std::vector<std::string> algorithms = {"path_tracing"};
@@ -46,7 +46,7 @@ struct Description {
     AgreementPolicy policy;
 };
 
-constexpr uint64_t batches = 32;  ///< of either renderer, see `render_batches`
+constexpr uint64_t batches = 32;  ///< for each renderer, see `render_batches`
 
 Description load(const fs::path &path, const std::string &profile) {
     const DescriptionFile file = load_description(path, "agreement.schema.json");
@@ -73,15 +73,15 @@ Description load(const fs::path &path, const std::string &profile) {
     chosen.at("reference_spp").get_to(description.reference_spp);
     description.algorithms = file.json.value("algorithms", description.algorithms);
     description.features = chosen.value("features", description.features);
-    // Bonferroni over all rows: each algorithm against the reference, and any two.
+    // Bonferroni over all rows: each algorithm against the reference, and each pair of algorithms.
     const size_t algorithms = description.algorithms.size();
     description.policy.alpha /= static_cast<double>(
         description.scenes.size() * (algorithms + algorithms * (algorithms - 1) / 2));
     return description;
 }
 
-/// The narrowest lobe of any material: alpha^2 of its half vectors, that of two axes being their
-/// product; infinity without.
+/// Returns alpha^2 of the narrowest glossy lobe of all materials (the product of both axes if
+/// anisotropic), or infinity if there is none.
 double narrowest_lobe(const MaterialArrays &materials) {
     using Kind = BxdfComponent::Kind;
     double narrowest = std::numeric_limits<double>::infinity();
@@ -105,12 +105,12 @@ double narrowest_lobe(const MaterialArrays &materials) {
     return narrowest;
 }
 
-/// What an algorithm does not see of a scene's light.
+/// Light of a scene that an algorithm cannot see.
 struct BlindSpot {
-    std::string name;  ///< in words; empty: it sees all
-    std::optional<JoinableLight>
-        joinable;        ///< what remains, for the reference to leave out the same
-    bool judged = true;  ///< whether the rest can be told with these numbers of samples
+    std::string name;  ///< description, empty if the algorithm sees all light
+    /// The light that the algorithm sees, so that the reference can be restricted to it.
+    std::optional<JoinableLight> joinable;
+    bool judged = true;  ///< whether the sample counts suffice to test the rest
 };
 
 BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
@@ -118,8 +118,8 @@ BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
     if (algorithm != "light_tracing") {
         return {};
     }
-    // Its last vertex is joined to the camera, its first light from infinity falls on the scene's
-    // sphere.
+    // Light tracing connects its last vertex to the camera. Light from infinity starts on the
+    // scene's bounding sphere.
     const SceneArrays &arrays = scene.arrays();
     std::vector<std::string> names;
     const auto &components = arrays.materials.component;
@@ -135,7 +135,7 @@ BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
             return kind == LightArrays::Kind::dome || kind == LightArrays::Kind::environment;
         });
     if (seen_at_infinity) {
-        names.emplace_back("what is infinitely far");
+        names.emplace_back("infinitely distant light");
     }
     BlindSpot spot;
     const auto &shapes = arrays.shapes.kind;
@@ -145,7 +145,7 @@ BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
     JoinableLight joinable;
     if (parallel &&
         std::find(shapes.begin(), shapes.end(), ShapeArrays::Kind::plane) != shapes.end()) {
-        names.emplace_back("planes beyond the scene's sphere");
+        names.emplace_back("planes beyond the scene's bounding sphere");
         CompileSettings settings;
         settings.width = settings.height = description.size;
         const LightingRecord lighting = compile_scene(scene, settings).lighting;
@@ -155,13 +155,13 @@ BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
     if (!names.empty()) {
         spot.joinable = joinable;
     }
-    // A joined path cannot be drawn by the lobe: of the paths that come to a block about half of
-    // alpha^2 lie in it (the share of half vectors), and each counts for the inverse. Of fewer than
-    // 30 no t test knows the scatter.
+    // A connected path is not sampled from the lobe of its vertex. About alpha^2 / 2 of the paths
+    // that reach a block are in the lobe (the share of the half vectors), and each is weighted by
+    // the inverse. With fewer than 30 such paths, a t test cannot estimate the scatter.
     const double paths =
         static_cast<double>(description.spp) * std::pow(description.policy.block_size, 2);
     if (paths * narrowest_lobe(arrays.materials) / 2 < 30) {
-        names.emplace_back("nearly mirrors, too few paths");
+        names.emplace_back("nearly specular lobes, too few paths");
         spot.judged = false;
     }
     spot.name = fmt::format("{}", fmt::join(names, "; "));
@@ -178,15 +178,15 @@ const char *verdict_of(const Agreement &agreement, const BlindSpot &blind) {
     return agreement.tests > agreement.undecided ? "agrees" : "undecided";
 }
 
-/// Two algorithms whose difference is too noisy to tell may both agree with the reference; that,
-/// each must.
+/// Returns whether a row fails. A row against the reference must agree. A row of two algorithms may
+/// be undecided.
 bool fails(const Json &row) {
     const auto verdict = row.at("verdict").get<std::string>();
     return verdict == "disagrees" ||
            (verdict == "undecided" && row.at("against").get<std::string>() == "reference");
 }
 
-/// The image in batches.
+/// Renders the image in batches.
 std::vector<Image> render(const Scene &scene, const Description &description,
                           const std::string &algorithm, uint32_t seed, DeviceContext &device) {
     RenderSettings settings;
@@ -198,7 +198,7 @@ std::vector<Image> render(const Scene &scene, const Description &description,
     return render_batches(session, seed, description.spp, batches);
 }
 
-/// Their mean.
+/// Returns the mean of R, G, B over the batches.
 Image mean_of(const std::vector<Image> &images) {
     Image mean = Image::rgb(images.front().width(), images.front().height());
     for (const std::string &name : rgb_names()) {
@@ -232,9 +232,9 @@ std::vector<Image> render_reference(const Scene &scene, const Description &descr
     return images;
 }
 
-/// Renders and tests by every algorithm, a row each; the images are kept as arrays
-/// NAME.ALGORITHM.npy, NAME.reference.npy and NAME.reference.ALGORITHM.npy, without what that
-/// cannot see, in `folder`.
+/// Renders and tests a scene with every algorithm and returns the rows. Stores the images in
+/// `folder` as the arrays NAME.ALGORITHM.npy, NAME.reference.npy and NAME.reference.ALGORITHM.npy.
+/// The last one is the reference restricted to the light that the algorithm sees.
 Json measure(const Scene &scene, const Description &description, DeviceContext &device,
              const fs::path &folder) {
     const std::vector<Image> whole = render_reference(scene, description, {});
@@ -254,7 +254,7 @@ Json measure(const Scene &scene, const Description &description, DeviceContext &
                         {"relative_difference", to_json(agreement.relative_difference)},
                         {"equivalence", to_string(agreement.equivalence)}});
     };
-    std::map<std::string, std::vector<Image>> seeing;  // by algorithms that see all
+    std::map<std::string, std::vector<Image>> seeing;  // by algorithm, of those that see all light
     uint32_t seed = renderer_seed;
     for (const std::string &algorithm : description.algorithms) {
         const std::vector<Image> images = render(scene, description, algorithm, seed++, device);
@@ -279,7 +279,7 @@ Json measure(const Scene &scene, const Description &description, DeviceContext &
     return rows;
 }
 
-/// What a finished scene's result holds for.
+/// Returns the key of a finished scene: everything that its result depends on.
 std::string key_of(const Scene &scene, const Description &description) {
     return fmt::format("{} {} {} {} {} {} {}", scene.hash(), description.size, description.spp,
                        description.reference_spp, fmt::join(description.algorithms, " "),
@@ -290,35 +290,31 @@ std::string line_of(const Json &row) {
     const Json &difference = row.at("relative_difference");
     const std::string blind = row.at("blind").get<std::string>();
     return fmt::format(
-        "{}{} {}, {}: {}, {} of {} tests reject, {} undecided, largest |z| {:.1f}, mean {:+.3f} % "
-        "[{:+.3f}, {:+.3f}]{}\n",
+        "{}{}: {} against {}: {}, {} of {} tests reject, {} undecided, largest |z| {:.1f}, mean "
+        "{:+.3f} % [{:+.3f}, {:+.3f}]{}\n",
         fails(row) ? "FAIL " : "ok   ", row.at("scene").get<std::string>(),
         row.at("algorithm").get<std::string>(), row.at("against").get<std::string>(),
         row.at("verdict").get<std::string>(), row.at("rejected").get<size_t>(),
         row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(),
         row.at("largest_z").get<double>(), 100 * difference.at("value").get<double>(),
         100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
-        blind.empty() ? "" : "; without " + blind);
+        blind.empty() ? "" : "; not seen: " + blind);
 }
 
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
-        "Renderer against the Embree reference, and its algorithms against each other, {0} x {0} "
-        "pixels, {1} spp, {2} of "
-        "the reference. Blocks of 16 x 16 pixels and the mean, per channel, Holm's correction, "
-        "{3:.2g} over all rows; "
-        "variances from {4} batches; blocks whose batches are too skewed for a t test are "
-        "undecided, and a "
-        "row is when most of its are. The last columns: difference of the mean with its 99 % "
-        "interval, %; and what the "
-        "algorithm cannot see, which the reference then leaves out, too. \"Nearly mirrors\": a "
-        "joined path cannot be drawn "
-        "by the lobe of its vertex, and of all that come to a block fewer than 30 lie in the "
-        "narrowest one: such rows are "
-        "not judged.\n\n"
+        "Comparison of the renderer with the Embree reference, and of its algorithms with each "
+        "other: {0} x {0} pixels, {1} spp, {2} spp for the reference. Blocks of 16 x 16 pixels and "
+        "the full image are tested for each channel. The level is {3:.2g} over all rows, with "
+        "Holm's correction; the variances come from {4} batches. A block is undecided if its "
+        "batches are too skewed for a t test, and a row is undecided if most of its blocks are. "
+        "The last columns are the difference of the mean with its 99 % interval, in %, and the "
+        "light that the algorithm cannot see. The reference then excludes this light, too. "
+        "\"Nearly specular lobes\": a connected path is not sampled from the lobe of its vertex, "
+        "and fewer than 30 of the paths that reach a block are in the narrowest lobe. Such rows "
+        "are not judged.\n\n"
         "| scene | algorithm | against | verdict | tests | undecided | rejected | largest z | "
-        "difference | from | to | not "
-        "seen |\n"
+        "difference | from | to | not seen |\n"
         "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
         document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
         document.at("reference_spp").get<uint64_t>(), AgreementPolicy().alpha, batches);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many small scenes, each rendered by the renderer and by the reference: do they agree?
+// Tests on many small scenes whether the renderer agrees with the reference.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +17,12 @@ struct AgreeOptions {
     bool quiet = false;
 };
 
-/// Renders every scene of the profile by the reference and by each algorithm, tests the agreement
-/// of all with the reference and of any two that see the same (agreement.h; the level is shared by
-/// all rows), prints a line for each and writes OUT/agreement.json, OUT/agreement.md and the images
-/// as arrays in OUT/images. Scenes that an earlier, stopped call finished with the same scene,
-/// settings and commit are not rendered again. Returns `ExitCode::regression` when a scene does not
-/// agree. Throws `Error` as the renderers and files do.
+/// Renders every scene of the profile with the reference and with each algorithm. Tests the
+/// agreement (agreement.h) of each algorithm with the reference, and of any two algorithms that see
+/// all light; the level is divided among all rows. Prints one line for each test, and writes
+/// OUT/agreement.json, OUT/agreement.md and the images as arrays in OUT/images. Scenes that an
+/// interrupted call finished with equal scene, settings and commit are not rendered again. Returns
+/// `ExitCode::regression` if a test fails. Throws the errors of the renderers and the files.
 ExitCode run_agreement(const AgreeOptions &options);
 
 }  // namespace rtrays

@@ -30,12 +30,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uint64_t batches = 32;
-constexpr int block_size = 8;          // pixels a side
-constexpr double family_alpha = 0.01;  // of all tests of a profile together (Bonferroni)
+constexpr int block_size = 8;          // pixels along a side
+constexpr double family_alpha = 0.01;  // for all tests of a profile together (Bonferroni)
 constexpr uint32_t renderer_seed = 31;
 constexpr uint64_t reference_seed = 32;
 
-/// Means over the pixels of every block and, last, of the image; empty channel: of all pixels one.
+/// Returns the means of a channel over every block and, last, over the full image.
 std::vector<double> block_means(const Image &image, const std::string &channel) {
     const int columns = (image.width() + block_size - 1) / block_size,
               rows = (image.height() + block_size - 1) / block_size;
@@ -55,7 +55,7 @@ std::vector<double> block_means(const Image &image, const std::string &channel) 
     return sums;
 }
 
-/// Variances of those means, pixels being independent.
+/// Returns the variances of the block means, assuming independent pixels.
 std::vector<double> block_variances(const Image &image, const std::string &channel) {
     std::vector<double> variances = block_means(image, channel);
     for (size_t block = 0; block < variances.size(); ++block) {
@@ -67,7 +67,7 @@ std::vector<double> block_variances(const Image &image, const std::string &chann
     return variances;
 }
 
-/// Values of one block and channel by batch.
+/// Moments of the batches' values of one block and channel.
 struct Moments {
     double mean = 0, standard_error = 0, skewness = 0;
 };
@@ -88,7 +88,7 @@ Moments moments_of(const std::vector<double> &values) {
     return result;
 }
 
-/// The mean variance of the pixels of an expected image.
+/// Returns the mean variance of the pixels of an expected image.
 double expected_error(const ExpectedImage &expected) {
     double sum = 0;
     for (const std::string &channel : rgb_names()) {
@@ -100,8 +100,8 @@ double expected_error(const ExpectedImage &expected) {
     return sum;
 }
 
-/// The mean over batches of the squared error of pixels; that of the expected image, where it has
-/// one, is taken off: on average it adds its variance.
+/// Returns the mean squared error of the pixels, averaged over the batches. A noisy expected image
+/// adds its variance on average, so this variance is subtracted.
 double mean_squared_error(const std::vector<Image> &images, const ExpectedImage &expected) {
     double mse = -expected_error(expected);
     for (const Image &image : images) {
@@ -120,13 +120,13 @@ size_t tests_of(int size) {
 StabilityTest test_stability(const std::vector<Image> &images, const ExpectedImage &expected,
                              double bound, double within, double alpha) {
     if (images.size() < 2) {
-        throw run_error("an interval takes two batches at least");
+        throw run_error("an interval needs at least two batches");
     }
     StabilityTest result;
     const double freedom = static_cast<double>(images.size() - 1);
     const double far = student_quantile_two_sided(1 - alpha, freedom),
                  near = student_quantile_two_sided(0.99, freedom);
-    double error = 0;  // of the mean over channels, at most
+    double error = 0;  // upper bound of the standard error of the mean over channels
     for (const std::string &channel : rgb_names()) {
         std::vector<std::vector<double>> by_batch;
         for (const Image &image : images) {
@@ -161,7 +161,7 @@ StabilityTest test_stability(const std::vector<Image> &images, const ExpectedIma
         }
     }
     if (!(result.expected > 0)) {
-        throw input_error("a black image is expected: a relative difference is not defined");
+        throw input_error("the expected image is black, so a relative difference is undefined");
     }
     const double difference = (result.measured - result.expected) / result.expected,
                  reach = near * error / result.expected;
@@ -177,12 +177,12 @@ StabilityTest test_stability(const std::vector<Image> &images, const ExpectedIma
 
 namespace {
 
-/// A case by one algorithm in batches.
+/// Batches of a case rendered by one algorithm.
 struct Batches {
     std::vector<Image> images;
     uint64_t non_finite = 0;
     uint64_t out_of_range = 0;
-    double seconds = 0;  ///< of the device
+    double seconds = 0;  ///< device time
 };
 
 Batches render(const SceneVariant &variant, const StabilityCase &tested,
@@ -203,7 +203,7 @@ Batches render(const SceneVariant &variant, const StabilityCase &tested,
     return result;
 }
 
-/// `image` with its channels in another order.
+/// Returns `image` with its colour channels reordered.
 Image relabelled(const Image &image, const std::array<size_t, 3> &channels) {
     Image result = Image::rgb(image.width(), image.height());
     for (size_t c = 0; c < 3; ++c) {
@@ -234,7 +234,7 @@ Image render_reference(const StabilityCase &tested, const RenderSettings &settin
     return reference.develop();
 }
 
-/// By the difference of equal samples, which is small where the scenes are alike.
+/// Returns mean + (images - others). Equal samples differ little if the scenes are equivalent.
 std::vector<Image> paired(const std::vector<Image> &images, const std::vector<Image> &others,
                           const Image &mean) {
     std::vector<Image> shifted;
@@ -291,7 +291,7 @@ const char *name_of(Expectation expectation) {
     throw run_error("unknown expectation");
 }
 
-/// Rows of one case: an algorithm each, and those that do not see it.
+/// Measures one case: a row for each algorithm, and for each one that cannot render the case.
 Json measure(const StabilityCase &tested, double alpha, DeviceContext &device,
              const fs::path &images) {
     Image reference;
@@ -372,13 +372,13 @@ std::string cells_of(const Json &row) {
 std::string table_of(const Json &document) {
     std::string table = fmt::format(
         "# Stiff and extreme cases\n\nProfile {}, {} batches each, on {}.\n\n"
-        "*expected* and *measured*: mean radiance over pixels and channels; *from*, *to*: the "
-        "relative difference with its 99 % interval. "
-        "A case is *off* where a block of {} x {} pixels or the whole differs in a channel from "
-        "what is expected by more than its bound ({:.0e} where none is given) at a level of {:.2g} "
-        "over all tests, "
-        "*imprecise* where its interval is wider than it states, *undecided* where its batches are "
-        "too skewed.\n\n"
+        "*expected* and *measured*: mean radiance over pixels and channels. *from*, *to*: 99 % "
+        "interval of the relative difference. "
+        "A case is *off* if a block of {} x {} pixels or the full image differs from the expected "
+        "value in a channel by more than its bound ({:.0e} unless the case states one), at a level "
+        "of {:.2g} over all tests. "
+        "It is *imprecise* if its interval is wider than the case allows, and *undecided* if its "
+        "batches are too skewed.\n\n"
         "| case | algorithm | against | expected | measured | from | to | verdict | not finite | "
         "saturated | |\n"
         "| --- | --- | --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | --- |\n",
@@ -438,7 +438,7 @@ ExitCode run_stability(const RunOptions &options) {
         const auto failed = std::count_if(results.begin(), results.end(), [&](const Json &row) {
             return !passes(row, suite.survey);
         });
-        fmt::print("{} of {} rows fail; {}\n", failed, results.size(),
+        fmt::print("{} of {} rows failed; see {}\n", failed, results.size(),
                    (out / "stability.md").string());
         return failed > 0 ? ExitCode::regression : ExitCode::ok;
     };

@@ -15,14 +15,14 @@ namespace rtrays {
 
 namespace {
 
-/// The parameters of one case: numbers of the sweep, and formulas of "where", which may use each
-/// other.
+/// Parameters of one case: the values of the sweep, and the formulas of "where", which may refer to
+/// each other.
 class Parameters {
   public:
     Parameters(std::map<std::string, double> swept, const Json &formulas)
         : swept_(std::move(swept)), formulas_(formulas) {}
 
-    /// A number as it is, a text as a formula.
+    /// Returns a number unchanged, and the value of a text as a formula.
     double value(const Json &json) const {
         return json.is_string() ? evaluate(json.get<std::string>(),
                                            [this](const std::string &name) { return named(name); })
@@ -31,8 +31,8 @@ class Parameters {
 
     bool is_swept(const std::string &name) const { return swept_.count(name) > 0; }
 
-    /// The text of a property: lists of numbers and formulas, numbers, booleans; `{"text": ...}` as
-    /// it is.
+    /// Returns the text of a property: a boolean, a number or formula, or a list of them. The text
+    /// of `{"text": ...}` is returned unchanged.
     std::string text(const Json &json) const {
         if (json.is_object()) {
             return json.at("text").get<std::string>();
@@ -53,8 +53,10 @@ class Parameters {
             return found->second;
         }
         if (!formulas_.contains(name) || depth_ > 16) {
-            throw input_error(fmt::format("'{}' is neither swept nor defined by \"where\"{}", name,
-                                          depth_ > 16 ? " without itself" : ""));
+            throw input_error(fmt::format("parameter '{}' {}", name,
+                                          depth_ > 16
+                                              ? "is defined by itself in \"where\""
+                                              : "is unknown; define it in \"each\" or \"where\""));
         }
         ++depth_;
         const double result = value(formulas_.at(name));
@@ -67,7 +69,7 @@ class Parameters {
     mutable int depth_ = 0;
 };
 
-/// All combinations of the values of "each", the last name fastest.
+/// Returns all combinations of the values of "each". The last name varies fastest.
 std::vector<std::map<std::string, double>> combinations(const Json &each) {
     std::vector<std::map<std::string, double>> all = {{}};
     for (const auto &[name, values] : each.items()) {
@@ -110,7 +112,8 @@ void read_expectation(const DescriptionFile &file, const Json &json, const Param
         for (size_t c = 0; c < 3; ++c) {
             result.expected[c] = parameters.value(expected.is_array() ? expected.at(c) : expected);
             if (!std::isfinite(result.expected[c]) || result.expected[c] < 0) {
-                throw input_error(fmt::format("\"expected\" comes to {}", result.expected[c]));
+                throw input_error(fmt::format(
+                    "\"expected\" must be finite and not negative, got {}", result.expected[c]));
             }
         }
     } else {
@@ -166,8 +169,8 @@ StabilityCase read_case(const DescriptionFile &file, const Json &json,
         settings.width = settings.height = setting("size");
         settings.variance = false;
         settings.features = profile.at("features");
-        // No more room than a batch fills: empty queue entries cost time in every round, and no bit
-        // depends on it.
+        // The stream is no larger than a batch: empty queue entries cost time in every round. The
+        // image does not depend on the capacity.
         const double paths =
             static_cast<double>(result.spp) / 32 * settings.width * settings.height;
         settings.stream_capacity = static_cast<uint32_t>(std::clamp(paths, 256.0, 16384.0));
@@ -209,7 +212,7 @@ StabilitySuite load_stability(const std::filesystem::path &path, const std::stri
             for (const auto &swept : combinations(json.value("each", Json::object()))) {
                 suite.cases.push_back(read_case(file, json, swept, chosen));
                 if (!names.insert(suite.cases.back().name).second) {
-                    throw input_error("there are two cases of this name");
+                    throw input_error("two cases have this name; rename one");
                 }
             }
         } catch (const Error &error) {
@@ -218,7 +221,7 @@ StabilitySuite load_stability(const std::filesystem::path &path, const std::stri
         }
     }
     if (suite.cases.empty()) {
-        throw input_error(fmt::format("{}: profile '{}' has no case", path.string(), profile));
+        throw input_error(fmt::format("{}: no case has the profile '{}'", path.string(), profile));
     }
     return suite;
 }

@@ -21,7 +21,7 @@ double mean(const std::vector<double> &values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Unbiased sample variance, two passes.
+/// Unbiased sample variance in two passes.
 double variance(const std::vector<double> &values) {
     const double center = mean(values);
     double sum = 0;
@@ -38,16 +38,16 @@ double standard_error(const std::vector<double> &values) {
 double checked_log(double error) {
     if (!(error > 0) || !std::isfinite(error)) {
         throw run_error(fmt::format(
-            "an error of {} has no logarithm: image and reference may be the same file, or the "
-            "reference too noisy (make references)",
+            "an error of {} has no logarithm; image and reference may be the same file, or the "
+            "reference may be too noisy (make references)",
             error));
     }
     return std::log(error);
 }
 
-/// Inverse variances over seeds. A point without spread (identical seeds) would weigh infinitely:
-/// variances are bounded below by 1e-6 of the largest, and all weights are 1 when there is no
-/// spread at all.
+/// Inverse variances over the seeds, relative to the largest variance. Identical seeds would give a
+/// point infinite weight, so variances are bounded below by 1e-6 of the largest. All weights are 1
+/// if no point has any variance.
 std::vector<double> inverse_variances(const std::vector<std::vector<double>> &logs) {
     std::vector<double> weights(logs.front().size());
     for (size_t p = 0; p < weights.size(); ++p) {
@@ -69,7 +69,7 @@ std::vector<double> inverse_variances(const std::vector<std::vector<double>> &lo
 Interval mean_interval(const std::vector<double> &values, double confidence) {
     if (values.size() < 2) {
         throw run_error(
-            fmt::format("{} values are too few for an interval of their mean", values.size()));
+            fmt::format("an interval of a mean needs at least 2 values, got {}", values.size()));
     }
     const boost::math::students_t_distribution<double> t(static_cast<double>(values.size() - 1));
     const double reach = boost::math::quantile(t, 0.5 + confidence / 2) * standard_error(values);
@@ -136,13 +136,13 @@ Interval power_law_exponent(const std::vector<double> &x, const std::vector<doub
     const size_t n = x.size();
     if (n < 3 || y.size() != n) {
         throw run_error(fmt::format(
-            "an exponent with its interval takes at least 3 points; there are {} and {}", n,
-            y.size()));
+            "an exponent with its interval needs at least 3 points, got {} and {}", n, y.size()));
     }
     std::vector<double> log_x, log_y;
     for (size_t i = 0; i < n; ++i) {
         if (!(x[i] > 0 && y[i] > 0)) {
-            throw run_error(fmt::format("({}, {}) lies on no power law", x[i], y[i]));
+            throw run_error(
+                fmt::format("a power law needs positive values, got ({}, {})", x[i], y[i]));
         }
         log_x.push_back(std::log(x[i]));
         log_y.push_back(std::log(y[i]));
@@ -166,8 +166,8 @@ Interval convergence_slope(const std::vector<double> &spp,
                            int resamples) {
     const size_t seeds = errors.size(), points = spp.size();
     if (seeds < 8 || points < 2) {
-        throw run_error(fmt::format(
-            "a slope needs at least 8 seeds and 2 points; there are {} and {}", seeds, points));
+        throw run_error(fmt::format("a slope needs at least 8 seeds and 2 points, got {} and {}",
+                                    seeds, points));
     }
     std::vector<double> x(points);
     std::transform(spp.begin(), spp.end(), x.begin(), checked_log);
@@ -194,7 +194,7 @@ Interval convergence_slope(const std::vector<double> &spp,
     while (t_values.size() < static_cast<size_t>(resamples)) {
         std::generate(sample.begin(), sample.end(), [&] { return slopes[pick(engine)]; });
         const double resampled_error = standard_error(sample);
-        if (resampled_error > 1e-9 * error) {  // one seed drawn every time has no t value
+        if (resampled_error > 1e-9 * error) {  // a resample of one seed alone has no t value
             t_values.push_back((mean(sample) - center) / resampled_error);
         }
     }
@@ -229,7 +229,7 @@ Interval paired_error_ratio(const std::vector<double> &candidate,
                             const std::vector<double> &baseline, double confidence) {
     if (candidate.size() != baseline.size() || candidate.size() < 2) {
         throw run_error(fmt::format(
-            "paired comparison needs equally many errors, at least 2; there are {} and {}",
+            "a paired comparison needs equal numbers of errors, at least 2, got {} and {}",
             candidate.size(), baseline.size()));
     }
     std::vector<double> ratios(candidate.size());

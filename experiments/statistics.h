@@ -1,73 +1,75 @@
 // SPDX-License-Identifier: MIT
-// Intervals and decisions: medians, convergence slopes and the gate's rule.
+// Statistics of the measurements: intervals, medians, convergence slopes and the gate's decision.
 #pragma once
 
 #include <vector>
 
 namespace rtrays {
 
-/// An estimate with the ends of its confidence interval.
+/// Estimate with the bounds of its confidence interval.
 struct Interval {
     double value = 0;
     double low = 0;
     double high = 0;
 };
 
-/// The mean of independent values, at least 2, with its interval by Student's t. Throws `Error`
-/// (run failed) for fewer.
+/// Returns the mean of independent values with its interval from Student's t. Throws `Error` (run
+/// failed) for fewer than 2 values.
 Interval mean_interval(const std::vector<double> &values, double confidence);
 
-/// Linear interpolation between order statistics (Hyndman & Fan 1996, type 7); `p` in [0, 1].
-/// Throws `Error` (run failed) on an empty sample.
+/// Returns a quantile by linear interpolation between order statistics (Hyndman & Fan 1996, type
+/// 7); `p` in [0, 1]. Throws `Error` (run failed) for an empty sample.
 double quantile(std::vector<double> values, double p);
 
 double median(const std::vector<double> &values);
 
-/// The median with its distribution-free interval from order statistics. The interval covers at
-/// least `confidence`; throws `Error` (run failed) when the sample is too small to promise that (n
-/// < 6 for 95 %).
+/// Returns the median with its distribution-free interval from order statistics. The interval
+/// covers the median with a probability of at least `confidence`. Throws `Error` (run failed) if
+/// the sample is too small for that (n < 6 for 95 %).
 Interval median_interval(std::vector<double> values, double confidence = 0.95);
 
-/// Slope of y against x by least squares with weights w >= 0.
+/// Returns the slope of y against x by least squares with weights w >= 0.
 double weighted_slope(const std::vector<double> &x, const std::vector<double> &y,
                       const std::vector<double> &w);
 
-/// The exponent k of y = c x^k by least squares on logarithms, with its interval by Student's t
-/// over the residuals: for points that do not depend on each other. Needs at least 3 points, all
-/// positive; throws `Error` (run failed) otherwise.
+/// Returns the exponent k of y = c x^k by least squares on logarithms. The interval comes from
+/// Student's t over the residuals, so the points must be independent. Throws `Error` (run failed)
+/// for fewer than 3 points and for values that are not positive.
 Interval power_law_exponent(const std::vector<double> &x, const std::vector<double> &y,
                             double confidence = 0.95);
 
-/// Slope of log error against log spp with its interval.
+/// Returns the slope of log error against log spp with its interval.
 ///
-/// `errors[seed][point]` are the errors (> 0) of independent seeds, each at all of `spp[point]`.
-/// Points of one seed share samples, so SEEDS are resampled, never points. Weights are inverse
-/// variances of the log error over seeds; the interval is a bootstrap-t (Efron & Tibshirani
-/// 1993, 12.5), because with about eight seeds percentile intervals cover too little. Needs >= 8
-/// seeds and >= 2 points, throws `Error` (run failed) otherwise. The resampling is seeded, so equal
-/// input gives equal output.
+/// `errors[seed][point]` is the error (> 0) of an independent seed at `spp[point]`. Points of one
+/// seed share samples, so seeds are resampled, never points. Weights are inverse variances of the
+/// log error over the seeds. The interval is a bootstrap-t (Efron & Tibshirani 1993, 12.5), because
+/// percentile intervals of about eight seeds cover too little. The resampling is seeded, so equal
+/// input gives equal output. Throws `Error` (run failed) for fewer than 8 seeds or 2 points.
 Interval convergence_slope(const std::vector<double> &spp,
                            const std::vector<std::vector<double>> &errors, double confidence = 0.95,
                            int resamples = 4000);
 
-/// How far the slope of mean log RMSE lies above half that of the log of the mean MSE, which alone
-/// is that of the estimator, because seeds scatter: of a variable X of mean m and relative variance
-/// c, E[log X] = log m
-/// - c / 2 + ... Where many pixels share the error, c of squared errors is small; where rare bright
-/// paths make it, c is large and falls along the ladder. Taken from its ends; arguments as of
-/// `convergence_slope`.
+/// Estimates the bias of a convergence slope that is caused by the scatter of the seeds.
+///
+/// The estimator's slope is half that of the log of the mean MSE. The slope of the mean log RMSE
+/// lies above it, because E[log X] = log m - c / 2 + ... for a variable X with mean m and relative
+/// variance c. If many pixels share the error, c of the squared errors is small. If rare bright
+/// paths cause it, c is large and decreases with the sample count. The estimate uses the first and
+/// the last sample count. The arguments are those of `convergence_slope`.
 double slope_bias_of_scatter(const std::vector<double> &spp,
                              const std::vector<std::vector<double>> &errors);
 
-/// The z for which P(|N(0,1)| <= z) = confidence.
+/// Returns the z for which P(|N(0,1)| <= z) = confidence.
 double normal_quantile_two_sided(double confidence);
 
-/// The t for which P(|T| <= t) = confidence, T being Student's of so many degrees of freedom.
+/// Returns the t for which P(|T| <= t) = confidence. T has Student's distribution with `freedom`
+/// degrees of freedom.
 double student_quantile_two_sided(double confidence, double freedom);
 
-/// Mean of log(candidate[k] / baseline[k]) as a relative change (exp(mean) - 1) with one-sided
-/// bounds, each at `confidence`, from Student's t over the pairs. Both samples are errors > 0,
-/// paired by index (same seed); needs >= 2 pairs, throws `Error` (run failed) otherwise.
+/// Returns the mean of log(candidate[k] / baseline[k]) as a relative change, exp(mean) - 1. The
+/// bounds are one-sided, each at `confidence`, from Student's t over the pairs. Both samples are
+/// errors > 0 and are paired by index (equal seeds). Throws `Error` (run failed) for fewer than 2
+/// pairs.
 Interval paired_error_ratio(const std::vector<double> &candidate,
                             const std::vector<double> &baseline, double confidence = 0.999);
 
@@ -75,8 +77,8 @@ enum class GateDecision { pass, fail, undecided };
 
 const char *to_string(GateDecision decision);
 
-/// One stage of the gate (architecture, "The gate"): fail when the estimate exceeds `tolerance` and
-/// the lower bound exceeds 0, pass when the upper bound is below `tolerance`, undecided otherwise.
+/// Decides one stage of the gate. It fails if the estimate exceeds `tolerance` and the lower bound
+/// exceeds 0. It passes if the upper bound is below `tolerance`. Otherwise it is undecided.
 GateDecision decide_gate(const Interval &change, double tolerance = 0.05);
 
 }  // namespace rtrays

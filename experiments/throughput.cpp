@@ -50,7 +50,8 @@ Throughput measure_throughput(const ThroughputSettings &settings, const Contesta
     }
     if (static_cast<int>(ratios.size()) < settings.repetitions) {
         result.reason = fmt::format(
-            "foreign load: only {} of {} repetitions had others use at most {:.0f} % of the CPU",
+            "foreign load: in only {} of {} repetitions did other processes use at most {:.0f} % "
+            "of the CPU",
             ratios.size(), result.repetitions.size(), 100 * settings.foreign_limit);
         return result;
     }

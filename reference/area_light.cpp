@@ -22,18 +22,19 @@ std::vector<double> triangle_areas(const Geometry &geometry,
     return areas;
 }
 
-/// The scale of a similarity.
+/// Returns the scale factor of a similarity transform. Throws `Error` (bad input) for any other
+/// transform.
 double scale_of(const Shape &shape) {
     const Eigen::Matrix3d gram = shape.linear().transpose() * shape.linear();
     const double squared = gram.trace() / 3.0;
     if ((gram - squared * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-6 * squared) {
-        throw input_error("an emitting sphere must not be scaled unequally or sheared");
+        throw input_error("an emitting sphere must not be scaled non-uniformly or sheared");
     }
     return std::sqrt(squared);
 }
 
-/// Uniform cone of directions around +z that a sphere at distance d fills: 1 - cos of its half
-/// angle, without the cancellation of small cones.
+/// Returns 1 - cos of the half angle of the cone that a sphere subtends, given the squared distance
+/// from its centre. The form avoids cancellation for small cones.
 double cone_height(double radius, double distance_squared) {
     const double sine_squared = square(radius) / distance_squared;
     return sine_squared / (1.0 + std::sqrt(1.0 - sine_squared));
@@ -45,12 +46,12 @@ double DiffuseEmitter::pdf_w(const Geometry &geometry, const Vec3 &from,
                              const SurfacePoint &hit) const {
     const Vec3 to_light = hit.position - from;
     const double projected =
-        -geometry.normal(hit).dot(to_light);  // cosine at the light times distance
+        -geometry.normal(hit).dot(to_light);  // cosine at the light times the distance
     if (!(projected > 0.0)) {
         return 0.0;
     }
-    // pdf_w = pdf_a d^2 / cos (Veach 1997, eq. 8.10), in a form that keeps d^3 from under- or
-    // overflowing before the rest does.
+    // pdf_w = pdf_a d^2 / cos (Veach 1997, eq. 8.10). This order of operations keeps d^3 from
+    // under- or overflowing unless the result does.
     const double distance_squared = to_light.squaredNorm();
     return distance_squared * (std::sqrt(distance_squared) / projected) / area_;
 }
@@ -65,7 +66,8 @@ std::optional<LightSample> DiffuseEmitter::look(const Geometry &geometry, const 
         return std::nullopt;
     }
     const double distance = std::sqrt(distance_squared);
-    const double pdf_w = distance_squared * (distance / projected) / area_;  // as above
+    // The density is pdf_a d^2 / cos, as in `pdf_w`.
+    const double pdf_w = distance_squared * (distance / projected) / area_;
     return LightSample{to_light / distance,
                        geometry.spawn_point(point, -to_light),
                        radiance_,
@@ -124,7 +126,7 @@ std::optional<LightSample> SphereLight::sample(const Geometry &, const Vec3 &fro
     const Vec3 to_centre = centre_ - from;
     const double distance_squared = to_centre.squaredNorm();
     if (!(distance_squared > square(radius_))) {
-        return std::nullopt;  // inside it is dark
+        return std::nullopt;  // the inside of the sphere is dark
     }
     const double distance = std::sqrt(distance_squared);
     const double height = cone_height(radius_, distance_squared);
@@ -134,7 +136,8 @@ std::optional<LightSample> SphereLight::sample(const Geometry &, const Vec3 &fro
     const double phi = 2.0 * pi * rng.uniform();
     const Frame frame(to_centre / distance);
     const Vec3 wi = frame.to_world({sine * std::cos(phi), sine * std::sin(phi), 1.0 - below});
-    // The nearer crossing; the root's argument is negative by rounding only, at the rim.
+    // Half the chord of the ray, which gives the nearer intersection. The argument of the root is
+    // negative only through rounding, at the rim.
     const double reach =
         std::sqrt(std::max(square(radius_) - distance_squared * sine_squared, 0.0));
     const Vec3 point = from + (distance * (1.0 - below) - reach) * wi;

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Lights that have a surface: one-sided diffuse emission of constant radiance. Each has the members
+// Area lights: meshes, discs and spheres with one-sided diffuse emission of constant radiance.
+// Every area light has these members:
 //
-//     std::optional<LightSample> sample(geometry, from, rng)   a point of the light, given that it
-//     was chosen double pdf_w(geometry, from, hit)   the density of `sample` for that direction,
-//     per solid angle Spectrum emitted(geometry, hit, wo) radiance leaving the hit point towards wo
-//     double power()                      W, mean of the channels (thesis 3.3.4: pi A Le)
+//     std::optional<LightSample> sample(geometry, from, rng)
+//         Samples a point on the light, given that this light was selected.
+//     double pdf_w(geometry, from, hit)
+//         Density with which `sample` chooses the direction to `hit`, per solid angle at `from`.
+//     Spectrum emitted(geometry, hit, wo)
+//         Radiance leaving `hit` towards `wo`.
+//     double power()
+//         Emitted power pi A Le [W], mean of the channels (thesis, section 3.3.4).
 #pragma once
 
 #include <optional>
@@ -18,7 +23,8 @@
 
 namespace rtrays::reference {
 
-/// What all diffuse area lights share: density per area 1 / area, emission from the front.
+/// Base of the area lights. Only the front emits. `pdf_w` is for points that are uniform in area
+/// (density 1 / area).
 class DiffuseEmitter {
   public:
     DiffuseEmitter(double area, const Spectrum &radiance) : area_(area), radiance_(radiance) {}
@@ -30,7 +36,8 @@ class DiffuseEmitter {
     double power() const { return pi * area_ * radiance_.mean(); }
 
   protected:
-    /// Looking from `from` at a point that was drawn uniformly in area; nothing from behind.
+    /// Builds the light sample for `point`, which was sampled uniformly in area, as seen from
+    /// `from`. Returns nothing if `from` is behind the light.
     std::optional<LightSample> look(const Geometry &geometry, const Vec3 &from,
                                     const SurfacePoint &point, const Vec3 &normal) const;
 
@@ -38,21 +45,21 @@ class DiffuseEmitter {
     Spectrum radiance_;
 };
 
-/// All triangles of a mesh; points are uniform in area.
+/// All triangles of a mesh. Points are uniform in area.
 class MeshLight : public DiffuseEmitter {
   public:
-    /// `triangles`: indices into the geometry, at least one.
+    /// `triangles`: indices into the geometry's triangles, at least one.
     MeshLight(const Geometry &geometry, std::vector<uint32_t> triangles, const Spectrum &radiance);
 
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;
 
   private:
     std::vector<uint32_t> triangles_;
-    AliasTable choose_;  ///< in proportion to area
+    AliasTable choose_;  ///< selects a triangle in proportion to its area
 };
 
-/// A disc, or the ellipse that an affine map makes of it; points are uniform in area, which such a
-/// map preserves.
+/// A disc, or the ellipse that an affine map makes of it. Points are uniform in area, because an
+/// affine map preserves uniformity.
 class DiscLight : public DiffuseEmitter {
   public:
     /// `shape`: index of the geometry's shape.
@@ -65,11 +72,12 @@ class DiscLight : public DiffuseEmitter {
     Vec3 normal_;
 };
 
-/// A sphere under a similarity, emitting outwards; directions are uniform in the cone it fills as
-/// seen from outside (Shirley, Wang & Zimmerman 1996, 3.2).
+/// A sphere under a similarity transform, emitting outwards. Directions are uniform in the cone
+/// that the sphere subtends from outside (Shirley, Wang & Zimmerman 1996, section 3.2).
 class SphereLight : public DiffuseEmitter {
   public:
-    /// `shape`: index of the geometry's shape. Throws `Error` (bad input) when it is no sphere.
+    /// `shape`: index of the geometry's shape. Throws `Error` (bad input) if its transform is not a
+    /// similarity.
     SphereLight(const Geometry &geometry, uint32_t shape, const Spectrum &radiance);
 
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;
@@ -78,7 +86,7 @@ class SphereLight : public DiffuseEmitter {
   private:
     Vec3 centre_;
     double radius_;
-    double offset_;  ///< of shadow rays' ends from the surface
+    double offset_;  ///< distance of the ends of shadow rays from the surface
 };
 
 }  // namespace rtrays::reference

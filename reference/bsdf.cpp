@@ -27,7 +27,7 @@ Viewpoint Composite::viewpoint(const Vec3 &wo, const Eigen::Vector2d &uv) const 
 
 namespace {
 
-/// wi as seen with wo mirrored to the upper side.
+/// Returns wi in the frame in which wo is on the upper side, mirrored in z if necessary.
 Vec3 mirrored(const Vec3 &wi, const Vec3 &wo) {
     return {wi.x(), wi.y(), std::copysign(1.0, wo.z()) * wi.z()};
 }
@@ -64,7 +64,7 @@ double Composite::density(const Vec3 &wi, const Viewpoint &view) const {
 }
 
 Spectrum Composite::evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
-    // A direction in the surface has no side.
+    // A direction in the surface plane is on neither side.
     return is_black(wo) || wi.z() * wo.z() == 0.0 ? Spectrum(Spectrum::Zero())
                                                   : sum(mirrored(wi, wo), viewpoint(wo, uv));
 }
@@ -96,7 +96,7 @@ std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2
     }
     const Component &component = components_[chosen];
     if (!(importance[chosen] > 0.0)) {
-        return std::nullopt;  // the last one, reached by rounding
+        return std::nullopt;  // rounding selected the last component, whose importance is 0
     }
     if (component.is_delta()) {
         const auto event = component.scatter(view);
@@ -113,7 +113,7 @@ std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2
     }
     const double pdf = density(*wi, view);
     if (!(pdf > 0.0)) {
-        return std::nullopt;  // so improbable that its density underflows
+        return std::nullopt;  // the density of this improbable direction underflows
     }
     return BsdfSample{mirrored(*wi, wo), sum(*wi, view) * (std::abs(wi->z()) / pdf), pdf, false,
                       expansion(*wi, view)};
@@ -124,9 +124,9 @@ std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArray
     for (size_t i = 0; i < materials.name.size(); ++i) {
         const uint32_t count = materials.component_count[i];
         if (count > Composite::most_components) {
-            throw input_error(
-                fmt::format("material {} '{}': the reference takes at most {} components, not {}",
-                            i, materials.name[i], Composite::most_components, count));
+            throw input_error(fmt::format(
+                "material {} '{}': the reference supports at most {} components, got {}", i,
+                materials.name[i], Composite::most_components, count));
         }
         std::vector<Component> components;
         for (uint32_t k = 0; k < count; ++k) {

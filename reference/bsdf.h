@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Scattering at surfaces, in the local frame of the shading normal (z up, front side z > 0; x along
-// the tangent); `wi` and `wo` point away from the surface. A model has the members
+// BSDFs: the interface of surface scattering models, and the two models, Lambert and composite.
 //
-//     Spectrum evaluate(wi, wo, uv)   the BSDF f [1/sr], WITHOUT the cosine; 0 for delta components
-//     double pdf_w(wi, wo, uv)        density of sample() per solid angle of wi; 0 for delta
-//     components std::optional<BsdfSample> sample(wo, uv, rng)   nothing when the path is absorbed
-//     bool is_delta()                 true when evaluate() is 0 everywhere: light sampling is of no
-//     use bool needs_parametrization()    whether uv or the tangent change anything
+// Directions are in the local frame of the shading normal: z is up, z > 0 is the front side, and x
+// is along the tangent. `wi` and `wo` point away from the surface. Every model has these members:
 //
-// Radiance through a refraction carries the factor (eta_o / eta_i)^2: paths start at the camera.
+//     Spectrum evaluate(wi, wo, uv)
+//         BSDF value f [1/sr], WITHOUT the cosine; 0 for delta components.
+//     double pdf_w(wi, wo, uv)
+//         Density of `sample` per solid angle of wi; 0 for delta components.
+//     std::optional<BsdfSample> sample(wo, uv, rng)
+//         Samples wi; returns nothing if the path is absorbed.
+//     bool is_delta()
+//         Whether `evaluate` is 0 everywhere, so that light sampling is useless.
+//     bool needs_parametrization()
+//         Whether the results depend on uv or on the tangent.
 //
-// Where the shading normal is not the geometric one (interpolated normals), the integrator decides:
-// a direction whose sides of the two differ scatters nothing, sampled or evaluated (see shading.h).
+// Refraction multiplies radiance by (eta_o / eta_i)^2, because paths start at the camera.
+//
+// The integrator handles shading normals that differ from the geometric normal. It discards every
+// sampled or evaluated direction that is on different sides of the two (see shading.h).
 #pragma once
 
 #include <optional>
@@ -26,16 +33,19 @@
 
 namespace rtrays::reference {
 
+/// A sampled direction and its weight.
 struct BsdfSample {
     Vec3 wi;
-    Spectrum weight;  ///< f |cos(theta_i)| / pdf_w; for a delta event its coefficient over its
-                      ///< probability
-    double pdf_w;     ///< per solid angle; not used for a delta event
+    Spectrum weight;  ///< f |cos(theta_i)| / pdf_w; delta events: coefficient / probability
+    double pdf_w;     ///< per solid angle; unused for delta events
     bool delta;
-    double expansion = 1.0;  ///< (eta_i / eta_o)^2 of a refraction: `weight` times it is energy
+    /// (eta_i / eta_o)^2 for a refraction, 1 otherwise. `weight` times `expansion` is the energy
+    /// throughput.
+    double expansion = 1.0;
 };
 
-/// Ideal diffuse reflection of both sides (thesis (3.31)): the plain case, made for speed.
+/// Ideal diffuse reflection on both sides (thesis (3.31)): the fast path for the most common
+/// material.
 class Lambert {
   public:
     explicit Lambert(const Spectrum &albedo) : albedo_(albedo) {}
@@ -52,7 +62,7 @@ class Lambert {
         Vec3 wi = sample_cosine_hemisphere(rng);
         const double pdf = wi.z() * inv_pi;
         if (!(pdf > 0.0)) {
-            return std::nullopt;  // exactly in the surface: an event of probability 2^-53
+            return std::nullopt;  // wi is in the surface plane, with probability 2^-53
         }
         wi.z() = std::copysign(wi.z(), wo.z());
         return BsdfSample{wi, albedo_, pdf, false};
@@ -67,13 +77,15 @@ class Lambert {
     Spectrum albedo_;
 };
 
-/// Weighted sum of components (thesis (3.51)). One is chosen with a probability proportional to its
-/// `importance`, which depends on the local geometry alone; the density is the sum over all
-/// components that are not delta (departure from thesis 2.7.4, which takes the chosen one's: higher
-/// variance).
+/// Weighted sum of components (thesis (3.51)).
 ///
-/// A material with a refracting component is a boundary, seen from both sides with eta or 1 / eta.
-/// Any other looks the same from both sides, or is black from behind when it is not two-sided.
+/// `sample` selects one component with a probability proportional to its `importance`, which does
+/// not depend on wi. The density is the sum over all components that are not delta. Thesis, section
+/// 2.7.4, uses the density of the selected component alone, which has higher variance.
+///
+/// A material with a refracting component is a boundary: its index ratio is eta from the front and
+/// 1 / eta from behind. A two-sided material without such a component looks the same from both
+/// sides. Any other material is black from behind.
 class Composite {
   public:
     Composite(std::vector<Component> components, bool two_sided);
@@ -95,17 +107,17 @@ class Composite {
     double expansion(const Vec3 &wi, const Viewpoint &view) const;
 
     std::vector<Component> components_;
-    double eta_;  ///< of the first refracting component
+    double eta_;  ///< index ratio of the first refracting component
     bool boundary_;
     bool visible_from_behind_;
     bool delta_;
 };
 
-/// The closed set of models.
+/// A BSDF of any model. The set of models is closed.
 class Bsdf {
   public:
     template <class Model>
-    Bsdf(const Model &model) : model_(model) {}  // NOLINT: an implicit conversion is the point
+    Bsdf(const Model &model) : model_(model) {}  // NOLINT: the conversion is meant to be implicit
 
     Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
         return std::visit([&](const auto &model) { return model.evaluate(wi, wo, uv); }, model_);
@@ -127,8 +139,8 @@ class Bsdf {
     std::variant<Lambert, Composite> model_;
 };
 
-/// One BSDF per material. Throws `Error` (bad input) for parameters out of range, naming material
-/// and component.
+/// Builds one BSDF per material. Throws `Error` (bad input) naming material and component for
+/// parameters out of range.
 std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArrays &textures);
 
 }  // namespace rtrays::reference

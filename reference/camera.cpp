@@ -29,19 +29,19 @@ bool fov_is_horizontal(CameraArrays::FovAxis axis, int width, int height) {
 
 Camera::Camera(const CameraArrays &cameras, size_t index, int width, int height) {
     if (index >= cameras.fov.size()) {
-        throw input_error(
-            fmt::format("camera {} asked for, but the scene has {}", index, cameras.fov.size()));
+        throw input_error(fmt::format("camera {}: index out of range; the scene has {} camera(s)",
+                                      index, cameras.fov.size()));
     }
     if (width < 1 || height < 1) {
         throw input_error(
-            fmt::format("the film must have at least one pixel, not {}x{}", width, height));
+            fmt::format("the film must have at least one pixel, got {}x{}", width, height));
     }
     const double fov = cameras.fov[index];
     if (!(fov > 0.0 && fov < pi)) {
         throw input_error(
             fmt::format("camera {}: field of view {} rad is outside (0, pi)", index, fov));
     }
-    // Pixels are square: the extent along one axis fixes the size of a pixel on the plane z = -1.
+    // Pixels are square, so the extent along one axis determines their size on the plane z = -1.
     const double extent = 2.0 * std::tan(0.5 * fov);
     const double pixel =
         extent / (fov_is_horizontal(cameras.fov_axis[index], width, height) ? width : height);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Pinhole and thin-lens cameras of the reference.
 #pragma once
 
 #include "reference/math.h"
@@ -13,24 +14,25 @@ struct Ray {
     Vec3 direction;
 };
 
-/// Pinhole or thin-lens camera looking along -z, +y up, +x right in camera space.
+/// Pinhole or thin-lens camera. In camera space it looks along -z, with +y up and +x to the right.
 class Camera {
   public:
-    /// Camera `index` of the store with a film of `width` x `height` square pixels. Throws `Error`
-    /// (bad input) for an index out of range, a film without pixels or an angle of view outside (0,
-    /// pi).
+    /// Creates camera `index` of the store with a film of `width` x `height` square pixels. Throws
+    /// `Error` (bad input) for an index out of range, a film without pixels, a field of view
+    /// outside (0, pi), or an invalid aperture radius or focus distance.
     Camera(const CameraArrays &cameras, size_t index, int width, int height);
 
-    /// The ray through the middle of the lens and (x, y) in pixels from the top left corner of the
-    /// film: x in [0, width] to the right, y in [0, height] downwards. With (x, y) uniform in a
-    /// pixel its importance is 1 (box filter).
+    /// Returns the ray through the centre of the lens and the film point (x, y). The film point is
+    /// in pixels from the top left corner: x in [0, width] to the right, y in [0, height]
+    /// downwards. If (x, y) is uniform in a pixel, the importance of the ray is 1 (box filter).
     Ray ray(double x, double y) const {
         return {position_, (corner_ + x * step_x_ + y * step_y_).normalized()};
     }
 
-    /// A ray from a uniform point of the lens to where `ray(x, y)` meets the plane of focus. Its
-    /// importance is 1 as well: the pixel's value is the mean over film and lens, as for a pinhole
-    /// of the same exposure (PBRT 4th ed., 5.2.3). Draws nothing for a pinhole.
+    /// Returns a ray from a uniform point of the lens to the point where `ray(x, y)` meets the
+    /// plane of focus. Its importance is 1 as well: the pixel value is the mean over film and lens,
+    /// as for a pinhole of the same exposure (PBRT 4th ed., section 5.2.3). A pinhole draws no
+    /// random numbers.
     Ray ray(double x, double y, Rng &rng) const {
         if (lens_x_.isZero()) {
             return ray(x, y);
@@ -44,11 +46,11 @@ class Camera {
 
   private:
     Vec3 position_;
-    Vec3 corner_;  ///< of the film at distance 1, relative to the position: top left
+    Vec3 corner_;  ///< top left corner of the film at distance 1, relative to the position
     Vec3 step_x_;  ///< one pixel to the right
     Vec3 step_y_;  ///< one pixel down
-    Vec3 lens_x_;  ///< radius of the lens to the right; zero for a pinhole
-    Vec3 lens_y_;  ///< upwards
+    Vec3 lens_x_;  ///< lens radius to the right; zero for a pinhole
+    Vec3 lens_y_;  ///< lens radius upwards
     double focus_distance_;
 };
 

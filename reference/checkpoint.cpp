@@ -36,7 +36,7 @@ uint32_t read_u32(const std::string &bytes, size_t offset) {
 
 Error damaged(const std::filesystem::path &path, const std::string &what) {
     return input_error(
-        fmt::format("{}: {}; delete it to start anew, or restore a copy", path.string(), what));
+        fmt::format("{}: {}; delete it to start again, or restore a copy", path.string(), what));
 }
 
 }  // namespace
@@ -77,17 +77,17 @@ void save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &
 Checkpoint load_checkpoint(const std::filesystem::path &path) {
     const std::string bytes = read_file(path);
     if (bytes.size() < prefix_size + hash_size || bytes.compare(0, magic_size, magic) != 0) {
-        throw damaged(path, "is not a state file of rtrays-reference");
+        throw damaged(path, "not a state file of rtrays-reference");
     }
     if (const uint32_t version = read_u32(bytes, magic_size); version != format_version) {
-        throw damaged(path, fmt::format("is of format version {}, this program reads {}", version,
+        throw damaged(path, fmt::format("unsupported format version {}, expected {}", version,
                                         format_version));
     }
     const size_t content_size = bytes.size() - hash_size;
     if (content_hash(bytes.substr(0, content_size)) != bytes.substr(content_size)) {
-        throw damaged(path, "is truncated or damaged (its checksum does not match)");
+        throw damaged(path, "truncated or damaged (checksum mismatch)");
     }
-    // The checksum vouches for the header's fields and their types.
+    // The checksum guarantees that the header's fields exist and have the right types.
     const size_t header_size = read_u32(bytes, magic_size + sizeof(uint32_t));
     const Json header = parse_json(bytes.substr(prefix_size, header_size), path.string());
     const Json &config = header.at("config");
@@ -95,9 +95,9 @@ Checkpoint load_checkpoint(const std::filesystem::path &path) {
     film.end = header.at("end");
     const size_t pixels_size = film.pixels.size() * pixel_size;
     if (prefix_size + header_size + pixels_size != content_size) {
-        throw damaged(path, "does not hold the number of pixels it states");
+        throw damaged(path, "wrong number of pixels for the film size in the header");
     }
-    // The moments are plain doubles under Eigen's non-trivial assignment operators.
+    // The moments are plain doubles, although Eigen's assignment operators are not trivial.
     std::memcpy(static_cast<void *>(film.pixels.data()), bytes.data() + prefix_size + header_size,
                 pixels_size);
     return {config, std::move(film), header.at("target"), header.at("seconds"),
@@ -110,16 +110,16 @@ void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_
         const Json stored = checkpoint.config.value(key, Json());
         if (stored != wanted) {
             throw input_error(fmt::format(
-                "{}: was made with {} = {}, this run asks for {}; give another --state, "
-                "or delete it to start anew",
+                "{}: rendered with {} = {}, this run requests {}; specify another --state, "
+                "or delete it to start again",
                 path.string(), key, stored.dump(), wanted.dump()));
         }
     }
     const Film &film = checkpoint.film;
     if (film.begin != begin || film.end > end) {
         throw input_error(fmt::format(
-            "{}: holds the samples {}:{}, which the range {}:{} asked for does not continue; give "
-            "another range or --state, or delete it to start anew",
+            "{}: holds the samples {}:{}, which the requested range {}:{} does not continue; "
+            "specify another range or --state, or delete it to start again",
             path.string(), film.begin, film.end, begin, end));
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state file of a reference render: what must resume exactly, unlike the EXR.
+// State files of reference renders. Unlike the EXR, they store the film exactly, so that a render
+// can resume with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -14,38 +15,45 @@
 
 namespace rtrays::reference {
 
-/// Raised whenever the same settings give other bits than before: older states are then refused.
+/// Version of the sampling code. It is incremented whenever the same settings produce different
+/// bits; older states are then refused.
 constexpr int sampling_version = 1;
 
-/// Everything the samples depend on, the sample range apart: scene name and hash, film size,
-/// camera, seed, strategies, max_depth, engine, sampling version. Two renders may share a state
-/// only if it is equal.
+/// Returns everything that determines the samples except the sample range: scene name and hash,
+/// film size, camera, seed, strategies, max_depth, engine and sampling version. Two renders may
+/// share a state only if their configurations are equal.
 Json make_config(const std::string &scene_name, const std::string &scene_hash,
                  const ReferenceSettings &settings, const std::string &engine);
 
-/// A film on its way, with its origin.
+/// A film, finished or not, and its provenance.
 struct Checkpoint {
     Json config;
     Film film;
-    uint64_t target;                   ///< the sample at which the run means to end
+    uint64_t target;                   ///< end of the sample range requested by the run
     double seconds;                    ///< wall time spent on the film
-    std::vector<std::string> commits;  ///< of the programs that worked on it, in order, each once
+    std::vector<std::string> commits;  ///< program commits in order of work, without duplicates
 
     bool finished() const { return film.end >= target; }
 };
 
-/// Writes the state whole or not at all (temporary file, fsync, rename).
-/// Layout: 8 bytes magic; u32 version; u32 length of the JSON header; header; the pixels' moments
-/// as doubles (sum, compensation, squared deviations, 3 channels each; rows from the top); 32
-/// hexadecimal digits of the XXH3 of everything before. Numbers are little-endian.
+/// Writes the state atomically (temporary file, fsync, rename). The layout, with little-endian
+/// numbers, is:
+///
+///     8 bytes magic
+///     u32 version
+///     u32 length of the JSON header
+///     JSON header
+///     moments of the pixels as doubles: sum, compensation, squared deviations, with 3 channels
+///         each; rows from the top
+///     32 hexadecimal digits: XXH3 hash of everything before
 void save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &path);
 
-/// Throws `Error` (bad input) naming the file when it is missing, no state, of another version,
-/// truncated or damaged.
+/// Loads a state. Throws `Error` (bad input) naming the file if it is missing, not a state file, of
+/// another version, truncated or damaged.
 Checkpoint load_checkpoint(const std::filesystem::path &path);
 
-/// Throws `Error` (bad input) naming the first difference unless `checkpoint` was made with
-/// `config` and holds samples that the range [begin, end) continues.
+/// Checks that a render with `config` and the sample range [begin, end) can continue `checkpoint`.
+/// Throws `Error` (bad input) naming the first difference if it cannot.
 void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_t begin,
                        uint64_t end, const std::filesystem::path &path);
 

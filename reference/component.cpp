@@ -11,7 +11,8 @@ namespace {
 
 using Kind = BxdfComponent::Kind;
 
-constexpr double fresnel_free_share = 0.05;  ///< see `Component::importance`
+/// Share of the importance that ignores F, see `Component::importance`.
+constexpr double fresnel_free_share = 0.05;
 
 template <class Lobe>
 constexpr bool is_delta_lobe =
@@ -26,9 +27,9 @@ void require(bool condition, const std::string &what, const char *complaint) {
 void check(const BxdfComponent &c, const TextureArrays &textures, const std::string &what) {
     const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
     require((c.weight.array() >= 0.0f).all() && (c.weight.array() <= 1.0f).all(), what,
-            "its weight (reflectance) must lie in [0, 1]");
+            "the weight (reflectance) must be in [0, 1]");
     require(c.texture == no_index || c.texture < textures.image.size(), what,
-            "its texture does not exist");
+            "the texture does not exist");
     const bool refracts = c.kind == Kind::ideal_refraction || c.kind == Kind::microfacet_refraction;
     switch (c.fresnel) {
         case BxdfComponent::Fresnel::ideal:
@@ -43,7 +44,7 @@ void check(const BxdfComponent &c, const TextureArrays &textures, const std::str
             break;
         case BxdfComponent::Fresnel::schlick:
             require((c.eta.array() >= 0.0).all() && (c.eta.array() <= 1.0).all(), what,
-                    "the reflectance at normal incidence must lie in [0, 1]");
+                    "the reflectance at normal incidence must be in [0, 1]");
             break;
     }
     require(!refracts || positive(c.eta[0]), what, "eta must be positive");
@@ -51,10 +52,10 @@ void check(const BxdfComponent &c, const TextureArrays &textures, const std::str
                            c.kind == Kind::microfacet_reflection ||
                            c.kind == Kind::microfacet_refraction;
     require(!has_alpha || (c.alpha.minCoeff() > 0.0 && c.alpha.maxCoeff() <= 1.0), what,
-            "alpha must lie in (0, 1]");
+            "alpha must be in (0, 1]");
     require(c.kind != Kind::blinn || positive(c.exponent), what, "the exponent must be positive");
     require(c.kind != Kind::oren_nayar || (c.sigma >= 0.0 && c.sigma <= 0.5 * pi + 1e-9), what,
-            "sigma must lie in [0, pi / 2]");
+            "sigma must be in [0, pi / 2]");
 }
 
 }  // namespace
@@ -79,7 +80,7 @@ Component::Lobe Component::make_lobe(const BxdfComponent &component) {
         case Kind::microfacet_reflection:
             return MicrofacetReflectionLobe(distribution);
         case Kind::microfacet_refraction:
-            // Without a change of index no facet bends a ray: the lobe is the ideal one, exactly.
+            // Without a change of index no facet refracts, so the lobe is exactly the ideal one.
             return component.eta[0] == 1.0 ? Lobe(IdealRefractionLobe{})
                                            : Lobe(MicrofacetRefractionLobe(distribution));
     }
@@ -116,7 +117,7 @@ Spectrum Component::fresnel_factor(const Vec3 &wi, const Viewpoint &view) const 
         return Spectrum::Ones();
     }
     if (rough_) {
-        // Rounding of the unit vectors may exceed 1 by an ulp.
+        // Rounding of the unit vectors may make the cosine exceed 1 by an ulp.
         return fresnel_.evaluate(std::min(half_cosine(wi, view), 1.0), view.inverted);
     }
     const Spectrum at_wo = fresnel_.evaluate(view.wo.z(), view.inverted);

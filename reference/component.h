@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One term of a composite BSDF: weight * texture * F * f (thesis (3.52)).
+// Component of a composite BSDF: weight * texture * F * f (thesis (3.52)).
 #pragma once
 
 #include <optional>
@@ -12,18 +12,21 @@
 
 namespace rtrays::reference {
 
-/// wo as a component sees it: on the upper side, with the surface's state that belongs to it.
+/// The outgoing direction as a component sees it, mirrored to the upper side, with the surface
+/// state.
 struct Viewpoint {
     Vec3 wo;        ///< wo.z > 0
-    bool inverted;  ///< seen from behind a boundary: dielectric indices are 1 / eta
+    bool inverted;  ///< wo is behind a boundary, so dielectric indices are 1 / eta
     Eigen::Vector2d uv;
 };
 
+/// Direction and coefficient of a delta component.
 struct DeltaEvent {
     Vec3 wi;
-    Spectrum coefficient;  ///< of the component: f |cos| without the delta function
+    Spectrum coefficient;  ///< f |cos(theta_i)| without the delta function
 };
 
+/// A BxDF with its weight, texture and Fresnel term.
 class Component {
   public:
     /// Throws `Error` (bad input) naming `what` for parameters out of range.
@@ -32,23 +35,28 @@ class Component {
 
     bool is_delta() const { return delta_; }
     bool transmits() const { return transmits_; }
-    double eta() const { return eta_; }  ///< index of refraction behind over that in front
+    /// Index of refraction behind the surface over that in front of it.
+    double eta() const { return eta_; }
 
-    /// f with all its factors [1/sr]; wi on the side `transmits` says. 0 for delta components.
+    /// Returns f with all its factors [1/sr]; 0 for delta components. `wi` must be below the
+    /// surface if `transmits()`, above it otherwise.
     Spectrum evaluate(const Vec3 &wi, const Viewpoint &view) const;
 
-    /// Density per solid angle of `sample`. 0 for delta components.
+    /// Returns the density of `sample` per solid angle; 0 for delta components.
     double pdf_w(const Vec3 &wi, const Viewpoint &view) const;
 
+    /// Samples wi. Returns nothing for delta components, or if the sample is on the wrong side.
     std::optional<Vec3> sample(const Viewpoint &view, Rng &rng) const;
 
-    /// Of a delta component; nothing at total internal reflection.
+    /// Returns the event of a delta component, or nothing at total internal reflection.
     std::optional<DeltaEvent> scatter(const Viewpoint &view) const;
 
-    /// What the choice among components goes by: mean over the channels of weight * texture *
-    /// F(wo.z). The Fresnel term of a rough component is evaluated elsewhere and may exceed that at
-    /// wo (it is not 0 where the latter is: rough refraction beyond the critical angle), so there a
-    /// twentieth ignores it.
+    /// Returns the importance of this component when `Composite` selects one: the mean over the
+    /// channels of weight * texture * F(wo.z).
+    ///
+    /// The Fresnel term of a rough component is evaluated at the half vector and may exceed
+    /// F(wo.z). It can be nonzero where F(wo.z) is 0, in rough refraction beyond the critical
+    /// angle. Therefore a twentieth of a rough component's importance ignores F.
     double importance(const Viewpoint &view) const;
 
   private:
@@ -56,7 +64,7 @@ class Component {
                               MicrofacetRefractionLobe, IdealReflectionLobe, IdealRefractionLobe>;
     static Lobe make_lobe(const BxdfComponent &component);
 
-    /// Cosine at which a rough component's Fresnel term is evaluated.
+    /// Returns the cosine at which the Fresnel term of a rough component is evaluated.
     double half_cosine(const Vec3 &wi, const Viewpoint &view) const;
     Spectrum fresnel_factor(const Vec3 &wi, const Viewpoint &view) const;
     Spectrum colour(const Viewpoint &view) const {
@@ -70,7 +78,7 @@ class Component {
     double eta_;
     bool delta_;
     bool transmits_;
-    bool rough_;  ///< Fresnel at the half vector
+    bool rough_;  ///< the Fresnel term is evaluated at the half vector
     bool fresnel_of_wo_;
     Lobe lobe_;
 };

@@ -7,7 +7,7 @@ std::optional<LightSample> PointLight::sample(const Geometry &, const Vec3 &from
     const Vec3 to_light = position_ - from;
     const double distance_squared = to_light.squaredNorm();
     if (!(distance_squared > 0.0)) {
-        return std::nullopt;  // on the light itself, where no direction leads to it
+        return std::nullopt;  // `from` is the position of the light: there is no direction
     }
     return LightSample{to_light / std::sqrt(distance_squared),
                        position_,
@@ -19,7 +19,7 @@ std::optional<LightSample> PointLight::sample(const Geometry &, const Vec3 &from
 
 std::optional<LightSample> SpotLight::sample(const Geometry &geometry, const Vec3 &from,
                                              Rng &rng) const {
-    // From sine and cosine: acos would lose the digits of small angles.
+    // The angle comes from sine and cosine, because acos would lose the digits of small angles.
     const Vec3 away = from - position_;
     const double angle = std::atan2(axis_.cross(away).norm(), axis_.dot(away));
     if (angle >= outer_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights that no path meets by chance. Members as those of area lights; what arrives is an
-// irradiance.
+// Point, spot and directional lights, which no path can hit. They have the members of area lights
+// (area_light.h), but their samples hold an irradiance.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace rtrays::reference {
 
-/// What a light has that cannot be hit.
+/// Base of the lights that no path can hit: density and emission are zero.
 struct Unhittable {
     double pdf_w(const Geometry &, const Vec3 &, const SurfacePoint &) const { return 0.0; }
     Spectrum emitted(const Geometry &, const SurfacePoint &, const Vec3 &) const {
@@ -20,7 +20,7 @@ struct Unhittable {
     }
 };
 
-/// Radiant intensity `intensity` [W/sr] in all directions.
+/// Point light of radiant intensity `intensity` [W/sr] in all directions.
 class PointLight : public Unhittable {
   public:
     PointLight(const Vec3 &position, const Spectrum &intensity)
@@ -34,8 +34,8 @@ class PointLight : public Unhittable {
     Spectrum intensity_;
 };
 
-/// A point light whose intensity is full up to `inner` from its axis and falls linearly with the
-/// angle to zero at `outer` (Mitsuba 3's).
+/// Point light whose intensity depends on the angle to its axis, as in Mitsuba 3. The intensity is
+/// full up to the angle `inner` and falls linearly with the angle to zero at `outer` (radians).
 class SpotLight : public Unhittable {
   public:
     SpotLight(const Vec3 &position, const Vec3 &axis, double inner, double outer,
@@ -44,19 +44,20 @@ class SpotLight : public Unhittable {
 
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;
 
-    /// That of the whole cone with full intensity up to the middle: close enough to choose by.
+    /// Returns the power of a cone of full intensity up to the mean of both angles. This
+    /// approximation is good enough for light selection.
     double power() const {
         return 2.0 * pi * (1.0 - std::cos(0.5 * (inner_ + outer_))) * intensity_.mean();
     }
 
   private:
     Vec3 position_;
-    Vec3 axis_;  ///< unit, the way the light travels
+    Vec3 axis_;  ///< unit, the direction in which the light travels
     double inner_, outer_;
     Spectrum intensity_;
 };
 
-/// Parallel light of `irradiance` [W/m^2] on a plane facing it.
+/// Parallel light of irradiance `irradiance` [W/m^2] on a plane facing it.
 class DirectionalLight : public Unhittable {
   public:
     DirectionalLight(const Vec3 &axis, const Spectrum &irradiance, double scene_radius)

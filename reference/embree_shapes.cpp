@@ -9,14 +9,14 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The box of a shape in float, large enough for the float ray that stands for the double one near
-/// it.
+/// Computes the bounding box of a shape in float. The padding makes the box large enough for the
+/// float ray that replaces the double ray near it.
 void shape_bounds(const RTCBoundsFunctionArguments *args) {
     const Shape &shape = static_cast<const Shape *>(args->geometryUserPtr)[args->primID];
     if (!shape.is_bounded()) {
         *args->bounds_o = {infinity,  infinity,  infinity,  0.0f,
                            -infinity, -infinity, -infinity, 0.0f};
-        return;  // Embree leaves out what has no valid bounds
+        return;  // Embree skips primitives without valid bounds
     }
     const Eigen::AlignedBox3d &box = shape.bounds();
     const double pad = 16.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
@@ -29,7 +29,7 @@ void shape_bounds(const RTCBoundsFunctionArguments *args) {
 void intersect_shape(const RTCIntersectFunctionNArguments *args) {
     auto &query = *static_cast<ShapeQuery *>(args->context);
     auto &result =
-        *reinterpret_cast<RTCRayHit *>(args->rayhit);  // N is 1: only rtcIntersect1 is used
+        *reinterpret_cast<RTCRayHit *>(args->rayhit);  // N is 1, because only rtcIntersect1 is used
     const Shape &shape = static_cast<const Shape *>(args->geometryUserPtr)[args->primID];
     double t = 0.0;
     Vec3 object;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes as user geometry of an Embree scene. Embree traverses in float; the callbacks intersect in
-// double.
+// Shapes as user geometry of an Embree scene. Embree traverses in float; the callbacks use double.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -11,11 +10,11 @@
 
 namespace rtrays::reference {
 
-constexpr unsigned shapes_id =
-    1;  ///< geometry ID of all shapes; the primitive ID is the shape's index
+/// Geometry ID of all shapes. The primitive ID is the index of the shape.
+constexpr unsigned shapes_id = 1;
 
-/// Must be the context of every query of a scene that holds shapes: the ray in double goes to the
-/// callbacks in it and the hit comes back.
+/// Context of every query of a scene with shapes. It passes the ray in double to the callbacks and
+/// returns the hit point.
 struct ShapeQuery : RTCIntersectContext {
     ShapeQuery(const Ray &wanted, bool coherent) : ray(&wanted) {
         rtcInitIntersectContext(this);
@@ -23,10 +22,10 @@ struct ShapeQuery : RTCIntersectContext {
             coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     }
     const Ray *ray;
-    Vec3 object;  ///< of the nearest shape hit so far
+    Vec3 object;  ///< point in object space on the nearest shape hit so far
 };
 
-/// Unbounded shapes are left out. The vector must outlive the scene and not move.
+/// Attaches the bounded shapes to the scene. The vector must outlive the scene and must not move.
 void attach_shapes(RTCDevice device, RTCScene scene, std::vector<Shape> &shapes);
 
 }  // namespace rtrays::reference

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Film of the reference: sums and squared deviations of the samples of every pixel.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +10,16 @@
 
 namespace rtrays::reference {
 
-/// Sum and squared deviations of the samples of one pixel, per channel. The result depends on the
-/// order of the samples alone, so a run that was cut anywhere and resumed has the same bits.
+/// Sum and squared deviations of the samples of one pixel, per channel. The result depends only on
+/// the order of the samples, so a run that was interrupted and resumed has the same bits.
 class PixelMoments {
   public:
     /// Adds sample number `count` (from 0).
     ///
-    /// The sum carries its rounding errors along (Knuth's TwoSum; Ogita, Rump & Oishi 2005,
-    /// algorithm 4.1: error about 2^-53 |sum| whatever the count). Squared deviations are added
-    /// from the running mean (Welford 1962), since sum of squares minus square of the sum cancels
-    /// where the variance is small.
+    /// The sum is compensated for rounding errors (Knuth's TwoSum; Ogita, Rump & Oishi 2005,
+    /// algorithm 4.1). Its error is about 2^-53 |sum| for any count. Squared deviations are added
+    /// from the running mean (Welford 1962). The sum of squares minus the square of the sum would
+    /// cancel where the variance is small.
     void add(const Spectrum &value, uint64_t count) {
         const auto n = static_cast<double>(count);
         if (count > 0) {
@@ -35,13 +36,13 @@ class PixelMoments {
         return (sum_ + compensation_) / static_cast<double>(count);
     }
 
-    /// Unbiased estimate of the variance of `mean`; zero for fewer than two samples.
+    /// Returns an unbiased estimate of the variance of `mean`; zero for fewer than two samples.
     Spectrum variance_of_mean(uint64_t count) const {
         const auto n = static_cast<double>(count);
         return count < 2 ? Spectrum(Spectrum::Zero()) : Spectrum(deviations_ / (n * (n - 1.0)));
     }
 
-    /// Of `count` samples of which only this is known.
+    /// Returns moments of `count` samples with the given mean and variance of the mean.
     static PixelMoments of(const Spectrum &mean, const Spectrum &variance_of_mean, uint64_t count) {
         const auto n = static_cast<double>(count);
         PixelMoments moments;
@@ -56,7 +57,7 @@ class PixelMoments {
     Spectrum deviations_ = Spectrum::Zero();
 };
 
-/// The accumulated samples of an image; every pixel holds the samples [begin, end).
+/// Accumulated samples of an image. Every pixel holds the samples [begin, end).
 struct Film {
     Film(int film_width, int film_height, uint64_t first_sample)
         : width(film_width),
@@ -67,11 +68,12 @@ struct Film {
 
     uint64_t count() const { return end - begin; }
 
-    /// R, G, B, variance.R, .G, .B (of the mean), samples.
+    /// Returns an image with the channels R, G, B, variance.R, variance.G, variance.B (variances of
+    /// the mean) and samples.
     Image develop() const;
 
-    /// The film of which that was developed, means and variances as float32 has them (relative
-    /// error 6e-8).
+    /// Reconstructs a film from its developed image. Means and variances have the precision of
+    /// float32 (relative error 6e-8).
     static Film of(const Image &developed, uint64_t first_sample, uint64_t end_sample);
 
     int width;

@@ -8,20 +8,20 @@
 namespace rtrays::reference {
 
 double refracted_cosine(double cos_o, double eta) {
-    // (1 - c)(1 + c) keeps the digits of a small sine.
+    // The form (1 - c)(1 + c) keeps the digits of a small sine.
     const double cos_squared = 1.0 - (1.0 - cos_o) * (1.0 + cos_o) / square(eta);
     return cos_squared > 0.0 ? std::sqrt(cos_squared) : 0.0;
 }
 
 double fresnel_dielectric(double cos_o, double eta) {
     if (eta == 1.0) {
-        return 0.0;  // no boundary; 0 / 0 below at grazing incidence
+        return 0.0;  // no boundary; the formula below would be 0 / 0 at grazing incidence
     }
     const double cos_i = refracted_cosine(cos_o, eta);
     if (cos_i == 0.0) {
         return 1.0;
     }
-    // Both denominators are positive: cos_i > 0.
+    // Both denominators are positive, because cos_i > 0.
     const double parallel = (eta * cos_o - cos_i) / (eta * cos_o + cos_i);
     const double perpendicular = (cos_o - eta * cos_i) / (cos_o + eta * cos_i);
     return 0.5 * (square(parallel) + square(perpendicular));
@@ -29,12 +29,12 @@ double fresnel_dielectric(double cos_o, double eta) {
 
 double fresnel_conductor(double cos_o, double eta, double k) {
     if (!(cos_o > 0.0)) {
-        return 1.0;  // the limit; 0 / 0 below for an index of 1
+        return 1.0;  // the limit; the formula below would be 0 / 0 for an index of 1
     }
     const std::complex<double> index(eta, k);
     const std::complex<double> index_squared = index * index;
-    // index times the cosine of the (complex) refracted angle, by Snell's law. Its real part is not
-    // negative, so that neither denominator vanishes.
+    // Index times the cosine of the (complex) refracted angle, by Snell's law. Its real part is not
+    // negative, so neither denominator vanishes.
     const std::complex<double> s = std::sqrt(index_squared - (1.0 - cos_o) * (1.0 + cos_o));
     const double perpendicular = std::norm(cos_o - s) / std::norm(cos_o + s);
     const double parallel =

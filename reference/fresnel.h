@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Fresnel reflectance of dielectrics and conductors, and the Fresnel term of a component.
 #pragma once
 
 #include "reference/math.h"
@@ -6,26 +7,29 @@
 
 namespace rtrays::reference {
 
-/// Reflectance of a smooth boundary for unpolarized light (Born & Wolf 1999, 1.5.2; thesis
-/// (3.26, 3.27)). `cos_o`: of the angle to the normal on the side of the ray, in [0, 1]; `eta`:
-/// index of refraction of the other side over that of the ray's side. 1 at and beyond the critical
-/// angle.
+/// Returns the reflectance of a smooth dielectric boundary for unpolarized light (Born & Wolf 1999,
+/// 1.5.2; thesis (3.26), (3.27)). It is 1 at and beyond the critical angle.
+///
+/// `cos_o`: cosine of the angle to the normal on the side of the ray, in [0, 1].
+/// `eta`: index of refraction of the other side over that of the ray's side.
 double fresnel_dielectric(double cos_o, double eta);
 
-/// Likewise at a conductor of index eta + ik over that of the ray's side (Born & Wolf 1999, 14.2).
+/// Returns the reflectance of a smooth conductor for unpolarized light (Born & Wolf 1999, 14.2).
+/// The index of the conductor over that of the ray's side is eta + ik.
 double fresnel_conductor(double cos_o, double eta, double k);
 
-/// The approximation of thesis (3.28): up to 0.006 off.
+/// Returns the approximation of `fresnel_conductor` by thesis (3.28). Its error is at most about
+/// 0.007 for common metals and larger for weakly absorbing materials.
 double fresnel_conductor_approximate(double cos_o, double eta, double k);
 
-/// Schlick 1994, eq. 15; thesis (3.29).
+/// Returns Schlick's approximation (Schlick 1994, eq. 15; thesis (3.29)).
 double fresnel_schlick(double cos_o, double reflectance_at_normal);
 
-/// cos of the refracted angle, or 0 at total internal reflection. Same arguments as
-/// `fresnel_dielectric`.
+/// Returns the cosine of the refracted angle, or 0 at total internal reflection. The arguments are
+/// those of `fresnel_dielectric`.
 double refracted_cosine(double cos_o, double eta);
 
-/// The factor F of a component, or 1 - F.
+/// Fresnel factor F of a component, or its complement 1 - F.
 class Fresnel {
   public:
     explicit Fresnel(const BxdfComponent &component)
@@ -36,8 +40,8 @@ class Fresnel {
 
     bool is_ideal() const { return kind_ == BxdfComponent::Fresnel::ideal && !complement_; }
 
-    /// `cos_o` in [0, 1]; `inverted`: seen from behind a boundary, where a dielectric's eta is 1 /
-    /// eta.
+    /// Returns F or 1 - F for `cos_o` in [0, 1]. `inverted` means that the ray is behind a
+    /// boundary, where a dielectric's eta is replaced by 1 / eta.
     Spectrum evaluate(double cos_o, bool inverted) const;
 
   private:

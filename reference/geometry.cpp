@@ -44,7 +44,7 @@ Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes) {
     const auto start = std::chrono::steady_clock::now();
     device_.reset(rtcNewDevice(nullptr));
     if (!device_) {
-        throw run_error("embree: no device could be created");
+        throw run_error("embree: cannot create a device");
     }
     const auto version = rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_VERSION);
     stats_.engine =
@@ -193,7 +193,7 @@ Parametrization Geometry::parametrize(const SurfacePoint &point) const {
         const Vec3 normal = (1.0 - u - v) * normals_[a].cast<double>() +
                             u * normals_[b].cast<double>() + v * normals_[c].cast<double>();
         const double length = normal.norm();
-        // Opposite normals cancel; what is left of them below 1e-6 is rounding to float.
+        // Opposite normals cancel. A length below 1e-6 is rounding error of the float normals.
         if (length > 1e-6) {
             result.shading_normal = normal / length;
         }
@@ -203,7 +203,7 @@ Parametrization Geometry::parametrize(const SurfacePoint &point) const {
         const Eigen::Vector2d along1 = uvs_[b].cast<double>() - uv0,
                               along2 = uvs_[c].cast<double>() - uv0;
         result.uv = uv0 + u * along1 + v * along2;
-        // edge = dp/du du + dp/dv dv for both edges, solved for dp/du.
+        // Both edges satisfy edge = dp/du du + dp/dv dv, which is solved for dp/du.
         const double determinant = along1.x() * along2.y() - along2.x() * along1.y();
         if (std::abs(determinant) > 1e-12 * along1.norm() * along2.norm()) {
             result.tangent = (along2.y() * record.edge1 - along1.y() * record.edge2) / determinant;

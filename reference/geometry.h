@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Surfaces and ray queries. Embree finds WHICH triangle a ray hits, in float and with its robust
-// (watertight) traversal; where on it is computed again in double. Other shapes are user geometry,
-// intersected in double from the start; infinite planes, which have no bounds, are tried one by
-// one.
+// Surfaces of a scene and ray queries.
+//
+// Embree finds WHICH triangle a ray hits, in float and with its robust (watertight) traversal. The
+// hit point on that triangle is recomputed in double. Other shapes are user geometry, intersected
+// in double from the start. Infinite planes have no bounds and are tested one by one.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -23,34 +24,35 @@ namespace rtrays::reference {
 /// A point on a surface.
 struct SurfacePoint {
     Vec3 position;
-    Vec3 local;  ///< triangles: second and third barycentric coordinate; shapes: object space
-    uint32_t primitive;  ///< triangles first, then shapes
+    /// Triangles: barycentrics of the second and third vertex; shapes: object-space point.
+    Vec3 local;
+    uint32_t primitive;  ///< index, triangles first, then shapes
 };
 
-/// What interpolation and texturing need to know of a point.
+/// Shading normal, tangent and texture coordinates of a surface point.
 struct Parametrization {
-    Vec3 shading_normal;  ///< unit; the geometric one where the surface has no other
-    Vec3 tangent;         ///< along dp/du, any length
-    Eigen::Vector2d uv;   ///< zero where the surface has no coordinates
+    Vec3 shading_normal;  ///< unit; the geometric normal if the surface has no other
+    Vec3 tangent;         ///< along dp/du, of any length
+    Eigen::Vector2d uv;   ///< zero if the surface has no coordinates
 };
 
-/// How a ray batch relates to its neighbours: a hint to Embree, without effect on the result.
+/// Coherence of a ray with its neighbours. It is a hint to Embree and does not change the result.
 enum class Coherence { coherent, incoherent };
 
-/// Numbers of the build, for statistics.
+/// Statistics of the build.
 struct GeometryStats {
     size_t triangles = 0;
-    size_t degenerate_triangles = 0;  ///< of zero area, left out
+    size_t degenerate_triangles = 0;  ///< triangles of zero area, omitted
     size_t shapes = 0;
     double build_seconds = 0;
-    std::string engine;  ///< "embree 3.13.5"
+    std::string engine;  ///< name and version, as in "embree 3.13.5"
 };
 
-/// All surfaces of a scene. Immutable, shared by all threads.
+/// All surfaces of a scene. Immutable and shared by all threads.
 class Geometry {
   public:
-    /// Throws `Error` (bad input) for vertex positions that are not finite and shapes out of range,
-    /// (run failed) when Embree reports an error.
+    /// Builds the Embree scene. Throws `Error` (bad input) for vertex positions that are not finite
+    /// and for shapes out of range. Throws `Error` (run failed) if Embree reports an error.
     Geometry(const MeshArrays &meshes, const ShapeArrays &shapes);
     Geometry(const Geometry &) = delete;
     Geometry &operator=(const Geometry &) = delete;
@@ -59,7 +61,7 @@ class Geometry {
     const std::vector<Shape> &shapes() const { return shapes_; }
     const GeometryStats &stats() const { return stats_; }
 
-    /// Of all bounded surfaces; empty when there is none.
+    /// Returns the bounds of all bounded surfaces; empty if there are none.
     const Eigen::AlignedBox3d &bounds() const { return bounds_; }
 
     bool is_triangle(const SurfacePoint &point) const { return point.primitive < first_shape_; }
@@ -83,25 +85,24 @@ class Geometry {
         return is_triangle(point) && triangle(point).has_normals;
     }
 
-    /// Interpolated normal and coordinates. The tangent of a triangle is dp/du of its texture
-    /// coordinates; without these, or where they are degenerate, its first edge.
+    /// Returns interpolated normal and texture coordinates. The tangent of a triangle is dp/du of
+    /// its texture coordinates. If these are missing or degenerate, it is the first edge.
     Parametrization parametrize(const SurfacePoint &point) const;
 
-    /// Nearest hit of a ray. Returns false when there is none.
+    /// Finds the nearest hit of a ray. Returns false if there is none.
     bool intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit) const;
 
-    /// Whether anything lies strictly between two points; both must have left their surfaces
-    /// already
-    /// (`spawn_point`).
+    /// Returns whether a surface is strictly between two points. Both points must already be off
+    /// their surfaces (`spawn_point`).
     bool occluded(const Vec3 &from, const Vec3 &to) const {
         return blocked({from, to - from}, 1.0);
     }
 
-    /// Whether anything lies in the direction of the ray, however far.
+    /// Returns whether the ray hits a surface at any distance.
     bool occluded(const Ray &ray) const;
 
-    /// Where a ray that leaves `point` to the side of `direction` starts, so that it never meets
-    /// its own surface again (see `TriangleRecord` and `Shape`).
+    /// Returns the origin of a ray that leaves `point` to the side of `direction`. It is offset so
+    /// that the ray never hits its own surface again (see `TriangleRecord` and `Shape`).
     Vec3 spawn_point(const SurfacePoint &point, const Vec3 &direction) const {
         return is_triangle(point)
                    ? triangle(point).spawn_point(point.position, point.local, direction)
@@ -114,7 +115,8 @@ class Geometry {
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
     };
     void attach_triangles(const MeshArrays &meshes, const std::vector<Triangle> &indices);
-    /// The ray's direction need not be of unit length; t in (0, t_max).
+    /// Returns whether the ray hits a surface at t in (0, t_max). The direction of the ray need not
+    /// have unit length.
     bool blocked(const Ray &ray, double t_max) const;
 
     std::unique_ptr<RTCDeviceTy, Release> device_;
@@ -122,10 +124,10 @@ class Geometry {
     std::vector<TriangleRecord> triangles_;
     std::vector<Shape> shapes_;
     uint32_t first_shape_ = 0;         ///< number of triangles
-    std::vector<uint32_t> unbounded_;  ///< indices of shapes
+    std::vector<uint32_t> unbounded_;  ///< indices of shapes without bounds
     Eigen::AlignedBox3d bounds_;
-    // Of vertices, for meshes that have them; `vertices_` is empty when none has.
-    std::vector<Triangle> vertices_;  ///< per triangle
+    // Vertex attributes. `vertices_` is empty if no mesh has normals or texture coordinates.
+    std::vector<Triangle> vertices_;  ///< vertex indices per triangle
     std::vector<Eigen::Vector3f> normals_;
     std::vector<Eigen::Vector2f> uvs_;
     GeometryStats stats_;

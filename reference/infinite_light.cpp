@@ -11,8 +11,8 @@ namespace rtrays::reference {
 
 namespace {
 
-/// x in [0, 1] with density proportional to a + (b - a) x, a + b > 0 (PBRT 4th ed., A.5.1: a form
-/// that stays exact when a and b are equal or one is 0).
+/// Samples x in [0, 1] with a density proportional to a + (b - a) x, where a + b > 0 (PBRT 4th ed.,
+/// A.5.1). This form stays exact if a and b are equal or one is 0.
 double sample_linear(double a, double b, Rng &rng) {
     const double u = rng.uniform();
     return u * (a + b) / (a + std::sqrt((1.0 - u) * a * a + u * b * b));
@@ -35,7 +35,7 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const TextureImage> image,
     require_valid(image_.get(), what);
     std::vector<double> weights;
     for (int row = 0; row <= image_->height; ++row) {
-        // Integral of the sine over the row's latitudes.
+        // Integral over v of the sine of the row's latitudes.
         const double band = (std::cos(pi * top(row)) - std::cos(pi * top(row + 1))) / pi;
         for (int column = 0; column < image_->width; ++column) {
             const auto c = corners({column, row, 0.0, 0.0});
@@ -69,7 +69,7 @@ EnvironmentLight::Cell EnvironmentLight::cell_of(double u, double v) const {
     const int column = static_cast<int>(left) + (left < 0.0 ? image_->width : 0);
     const int row =
         std::clamp(static_cast<int>(std::floor(v * image_->height + 0.5)), 0, image_->height);
-    // At the poles both rows are the same and it does not matter that the cell is half as high.
+    // At the poles both rows are equal, so the half height of the cell does not matter.
     const double down = (v - top(row)) / (top(row + 1) - top(row));
     return {std::min(column, image_->width - 1), row, x - left, std::clamp(down, 0.0, 1.0)};
 }
@@ -83,7 +83,7 @@ Spectrum EnvironmentLight::interpolate(const Cell &cell) const {
 
 Eigen::Vector2d EnvironmentLight::to_image(const Vec3 &d) const {
     const double u = std::atan2(d.x(), -d.z()) / (2.0 * pi);
-    // acos(d.y) of a unit vector without its loss of digits at the poles.
+    // Equals acos(d.y) for a unit vector, without its loss of digits at the poles.
     return {u < 0.0 ? u + 1.0 : u, std::atan2(std::hypot(d.x(), d.z()), d.y()) / pi};
 }
 
@@ -111,8 +111,8 @@ double EnvironmentLight::pdf_w(const Vec3 &direction) const {
                        static_cast<size_t>(cell.column);
     const double cell_area = (top(cell.row + 1) - top(cell.row)) / image_->width;
     const double pdf_uv = choose_.probability(index) * 4.0 * value / sum / cell_area;
-    // dw = 2 pi^2 sin(theta) du dv. Infinite at the poles themselves, where light sampling then has
-    // all of the MIS weight and probability zero.
+    // dw = 2 pi^2 sin(theta) du dv. The density is infinite at the poles. There light sampling has
+    // the full MIS weight and probability zero.
     return pdf_uv / (2.0 * square(pi) * std::hypot(d.x(), d.z()));
 }
 
@@ -134,7 +134,7 @@ std::optional<LightSample> EnvironmentLight::sample(const Geometry &, const Vec3
     const Vec3 wi = rotation_ * d;
     const double pdf = pdf_w(wi);
     if (!(pdf > 0.0 && std::isfinite(pdf))) {
-        return std::nullopt;  // at a pole, or on the rim of a black region: of probability zero
+        return std::nullopt;  // at a pole or on the rim of a black region, with probability zero
     }
     return LightSample{wi, Vec3::Zero(), radiance(wi), pdf, false, true};
 }

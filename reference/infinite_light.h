@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Lights at infinity. Besides the members of area lights (which they cannot be hit by, but by
-// leaving the scene) they have
+// Lights at infinity: the uniform dome and the environment map. A path hits them by leaving the
+// scene. Besides the members of area lights (area_light.h) they have:
 //
-//     Spectrum radiance(direction)   arriving from there
-//     double pdf_w(direction)        density of sample() per solid angle
+//     Spectrum radiance(direction)
+//         Radiance arriving from the direction.
+//     double pdf_w(direction)
+//         Density of `sample` per solid angle.
 #pragma once
 
 #include <array>
@@ -17,7 +19,7 @@
 
 namespace rtrays::reference {
 
-/// The same radiance from everywhere; directions are uniform over the sphere.
+/// The same radiance from every direction. Directions are uniform over the sphere.
 class DomeLight : public Unhittable {
   public:
     using Unhittable::pdf_w;
@@ -29,7 +31,7 @@ class DomeLight : public Unhittable {
     Spectrum radiance(const Vec3 &) const { return radiance_; }
     double pdf_w(const Vec3 &) const { return 0.25 * inv_pi; }
 
-    /// Into the scene's bounding sphere: 4 pi L times its disc.
+    /// Returns the power into the scene's bounding sphere: 4 pi L times the area of its disc.
     double power() const { return 4.0 * square(pi * scene_radius_) * radiance_.mean(); }
 
   private:
@@ -37,18 +39,18 @@ class DomeLight : public Unhittable {
     double scene_radius_;
 };
 
-/// A latitude-longitude image (conventions: renderer/scene/stores.h).
+/// Environment map, a latitude-longitude image (conventions: renderer/scene/stores.h).
 ///
-/// Directions are drawn from the image as it is interpolated: the cells between four texel centres
-/// are chosen by the mean of their corners (and channels) times the mean sine of their latitudes;
-/// in a cell the density follows the bilinear interpolant exactly, so that it is zero nowhere but
-/// where the image is black.
+/// Sampling follows the interpolated image. A cell is the region between four texel centres. It is
+/// selected by the mean over its corners and the channels, times the mean sine of its latitudes.
+/// Within the cell, the density follows the bilinear interpolant exactly. Therefore the density is
+/// zero only where the image is black.
 class EnvironmentLight : public Unhittable {
   public:
     using Unhittable::pdf_w;
 
-    /// `rotation`: world from light. Throws `Error` (bad input) naming `what` when there is no
-    /// float image.
+    /// `rotation`: world from light. Throws `Error` (bad input) naming `what` if the image is
+    /// missing or invalid.
     EnvironmentLight(std::shared_ptr<const TextureImage> image, const Eigen::Matrix3d &rotation,
                      const Spectrum &factor, double scene_radius, const std::string &what);
 
@@ -58,18 +60,18 @@ class EnvironmentLight : public Unhittable {
     double power() const { return 4.0 * square(pi * scene_radius_) * mean_radiance_; }
 
   private:
-    /// Where an image point lies among the texel centres around it.
+    /// Position of an image point among the surrounding texel centres.
     struct Cell {
-        int column;  ///< of the left centres; the right ones are the next, wrapped
-        int row;     ///< of the lower centres, 0 to height: the upper ones are the row before
-        double right, down;  ///< from the upper left corner, in [0, 1]
+        int column;  ///< column of the left centres; the right ones are in the next, wrapped
+        int row;     ///< row of the lower centres, 0 to height; the upper ones are in the row above
+        double right, down;  ///< offsets from the upper left corner, in [0, 1]
     };
     bool is_black() const { return !(mean_radiance_ > 0.0); }
     Cell cell_of(double u, double v) const;
-    Spectrum corner(int column, int row) const;  ///< wrapped and clamped
+    Spectrum corner(int column, int row) const;  ///< texel, with column wrapped and row clamped
     Spectrum interpolate(const Cell &cell) const;
     double top(int row) const;  ///< v of the upper edge of a row of cells
-    /// Means over the channels at the four corners, upper left first, row by row.
+    /// Returns the means over the channels at the four corners, upper left first, row by row.
     std::array<double, 4> corners(const Cell &cell) const;
     Eigen::Vector2d to_image(const Vec3 &direction_in_light) const;
 
@@ -77,8 +79,8 @@ class EnvironmentLight : public Unhittable {
     Eigen::Matrix3d rotation_;
     Spectrum factor_;
     double scene_radius_;
-    double mean_radiance_ = 0.0;  ///< over the sphere
-    AliasTable choose_;           ///< of cells, by rows; empty when all is black
+    double mean_radiance_ = 0.0;  ///< mean over the sphere and the channels
+    AliasTable choose_;           ///< selects a cell, row by row; empty if the image is black
 };
 
 }  // namespace rtrays::reference

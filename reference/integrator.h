@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Path tracing (thesis 2.59-2.68; Kajiya 1986; Veach 1997, ch. 9 and 10). A template over the BSDF
-// and light models so that tests can run the shipped integrator with models that are wrong on
-// purpose.
+// Path tracing (thesis (2.59)-(2.68); Kajiya 1986; Veach 1997, chapters 9 and 10).
+//
+// The integrator is a template over the BSDF and light models, so that tests can run the production
+// code with models that are wrong on purpose.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 
 namespace rtrays::reference {
 
-/// Rays cast, for statistics.
+/// Numbers of rays cast.
 struct RayCounts {
     uint64_t camera = 0;
     uint64_t bounce = 0;
@@ -32,25 +33,30 @@ struct RayCounts {
     }
 };
 
-/// A scene as the integrator sees it.
+/// The parts of a scene that the integrator uses.
 template <class BsdfModel, class Lights>
 struct World {
     const Geometry &geometry;
-    const std::vector<BsdfModel> &bsdfs;  ///< by material
+    const std::vector<BsdfModel> &bsdfs;  ///< indexed by material
     const Lights &lights;
 };
 
-/// Russian roulette goes by the throughput's largest channel, as energy (without the compression of
-/// radiance by refraction, which the way out of the glass undoes), which keeps the path's weight
-/// near 1 for any albedo below 1. The cap ends paths between walls that absorb nothing, after a
-/// million bounces; a lower one would let weights grow by albedo / cap per bounce, with infinite
-/// variance once albedo^2 >= cap.
+/// Upper bound of the survival probability in Russian roulette.
+///
+/// The survival probability is the largest channel of the throughput, as energy. It excludes the
+/// compression of radiance by refraction, which is undone when the path leaves the glass. This
+/// keeps the path weight near 1 for any albedo below 1.
+///
+/// The bound ends paths between walls that absorb nothing, after about a million bounces. With a
+/// lower bound, weights would grow by albedo / bound per bounce. The variance would be infinite if
+/// albedo^2 >= bound.
 constexpr double roulette_cap = 1.0 - 0x1p-20;
 
+/// Estimates the radiance along camera rays.
 template <class BsdfModel, class Lights>
 class PathIntegrator {
   public:
-    /// `joinable_only`, `roulette`: see ReferenceSettings.
+    /// `joinable_only`, `roulette`: see `ReferenceSettings`.
     PathIntegrator(const World<BsdfModel, Lights> &world, Strategies strategies, uint32_t max_depth,
                    const std::optional<JoinableLight> &joinable_only = {}, bool roulette = true)
         : world_(world),
@@ -60,17 +66,18 @@ class PathIntegrator {
           joinable_only_(joinable_only),
           roulette_(roulette) {}
 
-    /// Estimate of the radiance arriving along a camera ray [W / (sr m^2)]: emitters seen directly
-    /// included. Unbiased for every choice of strategies, but that point, spot and directional
-    /// lights are unknown to implicit_only. Light hit after a delta event counts for all of them.
+    /// Estimates the radiance arriving along a camera ray [W / (sr m^2)], including directly
+    /// visible emitters. The estimate is unbiased for every choice of strategies, except that
+    /// implicit_only cannot see point, spot and directional lights. Every strategy counts emission
+    /// that is hit after a delta event.
     Spectrum radiance(Ray ray, Rng &rng, RayCounts &counts) const {
         Spectrum result = Spectrum::Zero();
         Spectrum throughput = Spectrum::Ones();
-        double expansion = 1.0;         // what refraction has compressed radiance by: eta^2 of each
-        Vec3 previous = Vec3::Zero();   // the last vertex
-        double pdf_of_direction = 0.0;  // per solid angle there
-        bool light_sampled_too =
-            false;  // whether the last vertex could have found this light explicitly
+        double expansion = 1.0;  // product of eta^2 over all refractions, which compress radiance
+        Vec3 previous = Vec3::Zero();   // position of the previous vertex
+        double pdf_of_direction = 0.0;  // density per solid angle at the previous vertex
+        // Whether the previous vertex could have sampled this light explicitly.
+        bool light_sampled_too = false;
         ++counts.camera;
 
         for (uint32_t depth = 0;; ++depth) {
@@ -123,7 +130,7 @@ class PathIntegrator {
             }
             light_sampled_too = light_sampled_too && !sample->delta;
             if (depth + 1 == max_depth_ && light_sampled_too && !counts_hits_) {
-                return result;  // what the last ray would find does not count
+                return result;  // emission hit by the last ray would not count
             }
             throughput *= sample->weight;
             expansion *= sample->expansion;
@@ -143,8 +150,9 @@ class PathIntegrator {
     }
 
   private:
-    /// MIS weight of light found by following a direction of density `pdf_of_direction` that light
-    /// sampling finds with density `pdf_of_light`; roulette is left out of all densities.
+    /// Returns the MIS weight of emission hit along a direction that the BSDF samples with density
+    /// `pdf_of_direction` and light sampling with density `pdf_of_light`. All densities omit
+    /// Russian roulette.
     double implicit_weight(bool light_sampled_too, double pdf_of_direction,
                            double pdf_of_light) const {
         if (!light_sampled_too) {
@@ -153,8 +161,8 @@ class PathIntegrator {
         return counts_hits_ ? power_heuristic(pdf_of_direction, pdf_of_light) : 0.0;
     }
 
-    /// Weighted radiance from infinity, seen from a vertex. Out of line: the path that meets
-    /// surfaces is the fast one.
+    /// Returns the weighted radiance from infinity as seen from a vertex. It is not inlined,
+    /// because the fast case is a path that hits surfaces.
     [[gnu::noinline]] Spectrum escaped_radiance(const Vec3 &from, const Vec3 &direction,
                                                 bool light_sampled_too,
                                                 double pdf_of_direction) const {
@@ -166,7 +174,7 @@ class PathIntegrator {
         });
     }
 
-    /// One explicit connection, weighted: f Le |cos| / pdf_w.
+    /// Returns the weighted contribution of one explicit connection: f Le |cos| / pdf_w.
     [[gnu::always_inline]] inline Spectrum direct_light(const BsdfModel &bsdf,
                                                         const Shading &shading,
                                                         const Vec3 &wo_local,

@@ -19,7 +19,7 @@ Quaternion squared(const Quaternion &q) {
     return result;
 }
 
-/// q d + d q: the derivative of q^2 along d.
+/// Returns q d + d q, the derivative of q^2 along d.
 Quaternion anticommutator(const Quaternion &q, const Quaternion &d) {
     Quaternion result;
     result << 2.0 * (q[0] * d[0] - q.tail<3>().dot(d.tail<3>())),
@@ -37,7 +37,7 @@ JuliaSet::JuliaSet(const Eigen::Vector4d &constant, double slice, uint32_t itera
         escape_[k - 1] = std::sqrt(escape_[k] + constant.norm());
     }
     const double squared_radius = square(escape_[0]) - square(slice);
-    // For real c and small n the bound is attained: a ray must start outside even so.
+    // The bound is attained for real c and small n. The margin makes a ray start outside even then.
     radius_ = squared_radius > 0.0 ? 1.00001 * std::sqrt(squared_radius) : 0.0;
 }
 
@@ -47,7 +47,7 @@ JuliaSet::Surroundings JuliaSet::look_around(const Vec3 &point) const {
     uint32_t k = 0;
     for (;; ++k) {
         moduli[k] = z.norm();
-        // Twice the escape radius: nothing can overflow before.
+        // Stops at twice the escape radius, before anything can overflow.
         if (k == iterations_ || moduli[k] > 2.0 * escape_[k]) {
             break;
         }
@@ -57,7 +57,7 @@ JuliaSet::Surroundings JuliaSet::look_around(const Vec3 &point) const {
     double radius = std::abs(moduli[k] - escape_[k]);
     while (k > 0) {
         --k;
-        // sqrt(|z|^2 + e) - |z| without its cancellation; 0 / 0 where both are 0.
+        // sqrt(|z|^2 + e) - |z| without cancellation. The fraction would be 0 / 0 if both are 0.
         const double sum = std::sqrt(square(moduli[k]) + radius) + moduli[k];
         radius = sum > 0.0 ? radius / sum : 0.0;
     }
@@ -65,7 +65,7 @@ JuliaSet::Surroundings JuliaSet::look_around(const Vec3 &point) const {
 }
 
 bool JuliaSet::intersect(const Vec3 &origin, const Vec3 &direction, double t_max, double &t) const {
-    // From where the ray enters the bounding sphere to where it leaves it.
+    // The ray is marched from where it enters the bounding sphere to where it leaves the sphere.
     const double speed = direction.norm();
     const double middle = -origin.dot(direction) / square(speed);
     const double reach_squared = square(radius_) - (origin + middle * direction).squaredNorm();
@@ -91,7 +91,7 @@ bool JuliaSet::intersect(const Vec3 &origin, const Vec3 &direction, double t_max
         for (;;) {
             const double mid = 0.5 * (low + high);
             if (!(mid > low && mid < high)) {
-                break;  // neighbours in double
+                break;  // low and high are neighbours in double
             }
             (look_around(origin + mid * direction).outside == outside ? low : high) = mid;
         }
@@ -122,7 +122,7 @@ Vec3 JuliaSet::normal(const Vec3 &point) const {
             d = anticommutator(z, d);
             largest = std::max(largest, d.cwiseAbs().maxCoeff());
         }
-        // Only the ratios matter: without this, 64 iterations near |z| = 2 are 2^128.
+        // Only the ratios matter. Without scaling, 64 iterations near |z| = 2 would reach 2^128.
         for (Quaternion &d : derivative) {
             d /= largest;
         }

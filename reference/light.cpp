@@ -14,10 +14,10 @@ namespace {
 
 using Kind = LightArrays::Kind;
 
-constexpr double uniform_share = 0.5;  ///< of the selection probability; the rest goes by power
+constexpr double uniform_share = 0.5;  ///< share of the selection probability; the rest is by power
 
-/// Half the diagonal of what is bounded: all that parallel light can fall on, as far as choosing it
-/// goes.
+/// Returns half the diagonal of the bounded surfaces. For light selection, this is the radius of
+/// what parallel light can fall on.
 double scene_radius(const Geometry &geometry) {
     return geometry.bounds().isEmpty() ? 1.0 : 0.5 * geometry.bounds().diagonal().norm();
 }
@@ -34,13 +34,13 @@ std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry,
     switch (lights.kind[i]) {
         case Kind::diffuse_area: {
             if (lights.shape[i] == no_index) {
-                // Without area it emits nothing.
+                // A mesh without area emits nothing.
                 return triangles.empty() ? std::nullopt
                                          : std::optional<Light>(
                                                MeshLight(geometry, std::move(triangles), radiance));
             }
             if (lights.shape[i] >= geometry.shapes().size()) {
-                throw input_error("its shape does not exist");
+                throw input_error("the shape does not exist");
             }
             const ShapeArrays::Kind shape = geometry.shapes()[lights.shape[i]].kind();
             if (shape == ShapeArrays::Kind::sphere) {
@@ -49,14 +49,15 @@ std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry,
             if (shape == ShapeArrays::Kind::disc) {
                 return DiscLight(geometry, lights.shape[i], radiance);
             }
-            throw input_error("only meshes, discs and spheres can emit");
+            throw input_error("only meshes, discs and spheres can emit light");
         }
         case Kind::point:
             return PointLight(position, radiance);
         case Kind::spot:
             if (!(lights.inner_angle[i] >= 0.0 && lights.inner_angle[i] < lights.outer_angle[i] &&
                   lights.outer_angle[i] <= 0.5 * pi + 1e-9)) {
-                throw input_error("the angles of a spot must obey 0 <= inner < outer <= pi / 2");
+                throw input_error(
+                    "the angles of a spot light must satisfy 0 <= inner < outer <= pi / 2");
             }
             return SpotLight(position, axis, lights.inner_angle[i], lights.outer_angle[i],
                              radiance);
@@ -66,9 +67,9 @@ std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry,
             return DomeLight(radiance, scene_radius(geometry));
         case Kind::environment:
             return EnvironmentLight(lights.image[i], rotation, radiance, scene_radius(geometry),
-                                    "its image");
+                                    "environment map");
     }
-    throw run_error("unknown kind of light");
+    throw run_error("unknown light kind");
 }
 
 LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All lights of a scene and the choice among them. A light kind is one alternative of the variant
-// `Light` (area_light.h, delta_light.h, infinite_light.h).
+// All lights of a scene and the selection among them. Each type of light is one alternative of the
+// variant `Light` (area_light.h, delta_light.h, infinite_light.h).
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@
 
 namespace rtrays::reference {
 
-/// One light is chosen half by power, half uniformly, so that none is ever chosen less often than 1
-/// / (2 N).
+/// All lights of a scene. The selection probability is half by power and half uniform, so that no
+/// light of N is ever selected with a probability below 1 / (2 N).
 class LightSet {
   public:
     /// Throws `Error` (bad input) naming the light for parameters out of range.
@@ -29,21 +29,22 @@ class LightSet {
     bool empty() const { return lights_.empty(); }
     bool reach_to_infinity() const { return !infinite_.empty(); }
 
-    /// A point on one chosen light; nothing when it faces away.
+    /// Samples a direction towards one selected light. Returns nothing if that light does not
+    /// illuminate `from`.
     std::optional<LightSample> sample(const Geometry &geometry, const Vec3 &from, Rng &rng) const;
 
-    /// Density with which `sample` chooses the direction from `from` to `hit`, a point on light
-    /// `light`.
+    /// Returns the density, per solid angle, with which `sample` chooses the direction from `from`
+    /// to `hit`, a point on light `light`.
     double pdf_w(const Geometry &geometry, uint32_t light, const Vec3 &from,
                  const SurfacePoint &hit) const;
 
-    /// Radiance leaving `hit`, a point on light `light`, towards `wo`.
+    /// Returns the radiance leaving `hit`, a point on light `light`, towards `wo`.
     Spectrum emitted(const Geometry &geometry, uint32_t light, const SurfacePoint &hit,
                      const Vec3 &wo) const;
 
-    /// Radiance arriving from infinity: the sum over the lights there of theirs times
-    /// weight(pdf_w), where pdf_w is the density with which `sample` chooses the direction by that
-    /// light.
+    /// Returns the weighted radiance arriving from infinity: the sum of radiance times
+    /// weight(pdf_w) over the lights there. `pdf_w` is the density with which `sample` chooses the
+    /// direction through that light.
     template <class Weight>
     Spectrum from_infinity(const Vec3 &direction, const Weight &weight) const {
         Spectrum total = Spectrum::Zero();
@@ -70,9 +71,10 @@ class LightSet {
                                            size_t i, std::vector<uint32_t> triangles);
 
     std::vector<Light> lights_;
-    std::vector<uint32_t>
-        slot_;  ///< position in `lights_` of each light of the store, or `no_index`
-    std::vector<uint32_t> infinite_;  ///< positions of those at infinity that can be met
+    /// Index into `lights_` of each light of the store, or `no_index`.
+    std::vector<uint32_t> slot_;
+    /// Indices into `lights_` of the lights at infinity that a path can hit.
+    std::vector<uint32_t> infinite_;
     AliasTable choose_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// rtrays-reference: renders a scene with the independent Embree path tracer, or has Mitsuba or
-// Cycles render it.
+// rtrays-reference: renders a scene with the independent Embree path tracer, with Mitsuba or with
+// Cycles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,13 +36,14 @@ void check_outputs(const Options &options) {
     }
     if (!options.manifest.empty()) {
         if (parse_reference_name(options.output).engine != options.engine) {
-            throw input_error(fmt::format("{}: the engine is {}; name it SCENE.{}.HALF.exr",
-                                          options.output, options.engine, options.engine));
+            throw input_error(
+                fmt::format("{}: the name does not match engine {}; expected SCENE.{}.HALF.exr",
+                            options.output, options.engine, options.engine));
         }
         if (fs::absolute(options.output).parent_path() !=
             fs::absolute(options.manifest).parent_path()) {
-            throw input_error(fmt::format("{}: must lie beside its manifest {}", options.output,
-                                          options.manifest));
+            throw input_error(fmt::format("{}: must be in the folder of its manifest {}",
+                                          options.output, options.manifest));
         }
         if (fs::exists(options.manifest)) {
             load_manifest(options.manifest);
@@ -50,15 +51,15 @@ void check_outputs(const Options &options) {
     }
 }
 
-/// What is to be rendered, in steps of the renderer.
+/// The range to render, in steps of the renderer.
 struct Steps {
     uint64_t begin = 0, end = 0;
-    uint64_t samples = 1;  ///< per pixel, of one
+    uint64_t samples = 1;  ///< samples per pixel of one step
 };
 
-/// Goes on from the image that the manifest lists with these settings and fewer samples: of
-/// references that were made elsewhere the image is there, the state is not. Returns the commits
-/// that worked on it.
+/// Continues the image that the manifest lists if it has these settings and fewer samples.
+/// References from another machine come with their image but without their state. Returns the
+/// commits that worked on the image, or an empty list if it cannot be continued.
 template <class Renderer>
 std::vector<std::string> continue_listed(const Options &options, const Steps &steps,
                                          const Json &config, Renderer &renderer) {
@@ -84,8 +85,9 @@ std::vector<std::string> continue_listed(const Options &options, const Steps &st
     return commits;
 }
 
-/// Restores the state file when asked to, or continues a listed image; refuses to overwrite a state
-/// that is not finished. Returns the commits that worked on the film, this program's included.
+/// Restores the state file if --resume is given and the file exists. Otherwise continues a listed
+/// image. Throws `Error` (bad input) instead of overwriting an unfinished state. Returns the
+/// commits that worked on the film, including this program's if there is work left.
 template <class Renderer>
 std::vector<std::string> begin_or_resume(const Options &options, const Steps &steps,
                                          const Json &config, Renderer &renderer) {
@@ -99,7 +101,7 @@ std::vector<std::string> begin_or_resume(const Options &options, const Steps &st
         } else if (!checkpoint.finished()) {
             throw input_error(fmt::format(
                 "{}: holds {} of {} samples of an unfinished run; pass --resume to continue "
-                "it, or delete it to start anew",
+                "it, or delete it to start again",
                 options.state, steps.samples * checkpoint.film.count(),
                 steps.samples * (checkpoint.target - checkpoint.film.begin)));
         }
@@ -114,21 +116,21 @@ std::vector<std::string> begin_or_resume(const Options &options, const Steps &st
     return commits;
 }
 
-/// Whether the manifest lists a result that serves as well; a longer range with the same start
-/// does.
+/// Returns whether the manifest lists a result that satisfies the request. A longer range with the
+/// same start is sufficient.
 bool is_listed(const Options &options, const Json &config) {
     Json wanted = describe_run(options, config, options.end - options.begin);
     wanted.erase("sample_range");
     return options.begin == 0 && manifest_lists(options.manifest, options.output, wanted);
 }
 
-/// Renders what is missing and writes the results; `counts` tells further statistics.
+/// Renders the missing samples and writes the results. `counts` returns further statistics.
 template <class Renderer, class Counts>
 ExitCode render_reference(const Options &options, const Steps &steps, const Json &config,
                           Renderer &renderer, const Counts &counts) {
     if (options.skip_if_listed && is_listed(options, config)) {
         fmt::print(stderr,
-                   "rtrays-reference: {} is listed already with these settings: nothing to do\n",
+                   "rtrays-reference: {} is already listed with these settings; nothing to do\n",
                    options.output);
         return ExitCode::ok;
     }
@@ -179,7 +181,7 @@ ExitCode render_by_embree(const Options &options, const Scene &scene) {
                             [&] { return describe_counts(renderer); });
 }
 
-/// The number of samples is rounded up to whole steps.
+/// Renders with another program. The number of samples is rounded up to whole steps.
 ExitCode render_by_peer(Options options, Scene &scene) {
     scene.set_film_size(options.settings.width, options.settings.height);
     PeerRenderer renderer(scene, options.settings, options.engine, options.state + ".scene");

@@ -28,15 +28,15 @@ void validate(const Json &manifest, const fs::path &path) {
                   path.string());
 }
 
-/// Holds an advisory lock on a folder: two programs may finish at once, and each must see the
-/// other's entry.
+/// Holds an advisory lock on a folder. Two programs may finish at the same time, and each must see
+/// the other's entry.
 class FolderLock {
   public:
     explicit FolderLock(const fs::path &folder)
         : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
         if (descriptor_ < 0 || flock(descriptor_, LOCK_EX) != 0) {
             throw run_error(
-                fmt::format("{}: cannot be locked: {}", folder.string(), std::strerror(errno)));
+                fmt::format("cannot lock {}: {}", folder.string(), std::strerror(errno)));
         }
     }
     ~FolderLock() { close(descriptor_); }
@@ -55,8 +55,8 @@ ReferenceName parse_reference_name(const fs::path &path) {
     const std::string name = path.filename().string();
     if (!std::regex_match(name, match, form)) {
         throw input_error(fmt::format(
-            "{}: a reference is named SCENE.ENGINE.HALF.exr with ENGINE embree, mitsuba or "
-            "cycles and HALF a or b",
+            "{}: invalid name of a reference; expected SCENE.ENGINE.HALF.exr, where ENGINE is "
+            "embree, mitsuba or cycles and HALF is a or b",
             path.string()));
     }
     return {match[1], match[2], match[3]};
@@ -67,7 +67,7 @@ std::string sha256_of(const fs::path &path) {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
     unsigned int size = 0;
     if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
-        throw run_error(fmt::format("{}: libcrypto cannot compute its SHA-256", path.string()));
+        throw run_error(fmt::format("{}: libcrypto cannot compute the SHA-256", path.string()));
     }
     std::string hexadecimal;
     for (unsigned int i = 0; i < size; ++i) {

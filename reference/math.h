@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Vector and colour types, constants and orthonormal frames of the reference.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +19,8 @@ inline double square(double x) {
 }
 
 /// Orthonormal frame whose z axis is a given unit normal (Duff et al. 2017, "Building an
-/// Orthonormal Basis, Revisited", listing 3: no branch, no cancellation near the poles).
+/// Orthonormal Basis, Revisited", listing 3). The construction has no branch and no cancellation
+/// near the poles.
 class Frame {
   public:
     explicit Frame(const Vec3 &normal) : z_(normal) {
@@ -29,12 +31,12 @@ class Frame {
         y_ = {b, sign + square(normal.y()) * a, -normal.y()};
     }
 
-    /// x axis along the part of `tangent` (any length) that lies in the plane; an arbitrary one
-    /// where the tangent is zero or along the normal.
+    /// Aligns the x axis with the part of `tangent` (any length) that is in the plane. The x axis
+    /// is arbitrary if the tangent is zero or parallel to the normal.
     Frame(const Vec3 &normal, const Vec3 &tangent) : Frame(normal) {
         const Vec3 in_plane = tangent - tangent.dot(normal) * normal;
         const double length = in_plane.norm();
-        // What is left is rounding below 1e-8 of the tangent. Also false for NaN.
+        // A length below 1e-8 of the tangent is rounding error. NaN fails the comparison as well.
         if (length > 1e-8 * tangent.norm()) {
             x_ = in_plane / length;
             y_ = z_.cross(x_);

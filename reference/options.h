@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Command line of rtrays-reference.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +10,15 @@
 
 namespace rtrays::reference {
 
-/// The command line of `rtrays-reference`.
+/// Parsed command line of `rtrays-reference`.
 struct Options {
     std::string scene;
     std::string output;
-    std::string state;              ///< OUTPUT.state unless given
-    std::string stats;              ///< empty: none
-    std::string manifest;           ///< empty: none
-    std::string engine = "embree";  ///< or "mitsuba", "cycles"
-    ReferenceSettings settings;     ///< width and height 0: the scene's film
+    std::string state;              ///< default: OUTPUT.state
+    std::string stats;              ///< empty: not written
+    std::string manifest;           ///< empty: not updated
+    std::string engine = "embree";  ///< "embree", "mitsuba" or "cycles"
+    ReferenceSettings settings;     ///< width and height 0: the scene's film size
     uint64_t begin = 0;
     uint64_t end = 0;
     double checkpoint_interval = 60.0;  ///< seconds
@@ -26,8 +27,8 @@ struct Options {
     bool quiet = false;
 };
 
-/// Parses the command line. Returns nothing after --help or --version (printed on stdout). Throws
-/// `Error` (bad input) on a usage error.
+/// Parses the command line. Returns nothing after --help or --version, which print to stdout.
+/// Throws `Error` (bad input) on a usage error.
 std::optional<Options> parse_options(int argc, char **argv);
 
 }  // namespace rtrays::reference

@@ -44,8 +44,8 @@ Json describe_counts(const ReferenceRenderer &renderer) {
     const ReferenceStats stats = renderer.stats();
     const auto rays =
         static_cast<double>(stats.camera_rays + stats.bounce_rays + stats.shadow_rays);
-    // Restored samples have their time in `seconds` but no rays counted here; a camera ray is a
-    // path.
+    // `seconds` includes the time of restored samples, but their rays are not counted. Each camera
+    // ray is one path, so camera rays over all samples is the share of the rays counted here.
     const double all_samples =
         static_cast<double>(renderer.film().count() * renderer.film().pixels.size());
     const double share = static_cast<double>(stats.camera_rays) / all_samples;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Results of a reference render: EXR image, manifest entry and statistics.
 #pragma once
 
 #include "reference/checkpoint.h"
@@ -7,24 +8,24 @@
 
 namespace rtrays::reference {
 
-/// What a manifest entry says about the settings of a run that ends with `spp` samples.
+/// Returns the keys of a manifest entry that describe the settings of a run of `spp` samples.
 Json describe_run(const Options &options, const Json &config, uint64_t spp);
 
-/// What was rendered.
+/// A finished render.
 struct Result {
-    Image image;                  ///< as developed
-    uint64_t begin = 0, end = 0;  ///< samples
+    Image image;                  ///< the developed film
+    uint64_t begin = 0, end = 0;  ///< sample range
     double seconds = 0;
-    Json counts;  ///< further statistics, an object
+    Json counts;  ///< further statistics, a JSON object
 };
 
-/// Writes the EXR, then the manifest entry and the statistics when asked for. `commits` are those
-/// of the programs that worked on the film. Throws `Error` (run failed) naming the file that cannot
-/// be written.
+/// Writes the EXR, then the manifest entry and the statistics if requested. `commits` are those of
+/// the programs that worked on the film. Throws `Error` (run failed) naming the file that cannot be
+/// written.
 void write_results(const Options &options, const Json &config, Result result,
                    const std::vector<std::string> &commits);
 
-/// Rays, triangles and times of the Embree path tracer.
+/// Returns the numbers of rays and triangles and the times of the Embree path tracer.
 Json describe_counts(const ReferenceRenderer &renderer);
 
 }  // namespace rtrays::reference

@@ -21,15 +21,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What is particular to a program.
+/// Properties of a program.
 struct PeerKind {
     const char *name, *scene_file;
-    uint64_t samples_per_step;  ///< enough that starting a render is small beside it, few enough
-                                ///< for memory
-    std::vector<std::string> version,
-        render;                  ///< command lines; the arguments of the driver follow
-    const char *version_prefix;  ///< before what the version command prints first
-    std::string version_suffix;  ///< and what else the image depends on
+    /// Large enough that the start of a render is cheap in comparison, small enough for the memory.
+    uint64_t samples_per_step;
+    /// Command lines. The arguments of the driver are appended to `render`.
+    std::vector<std::string> version, render;
+    const char *version_prefix;  ///< precedes the first line that the version command prints
+    std::string version_suffix;  ///< other properties that the image depends on
 };
 
 const char *const python = RTRAYS_SOURCE "/build/peers/bin/python";
@@ -58,16 +58,15 @@ std::string version_of(const PeerKind &kind) {
     Process program(kind.version, python_environment());
     const auto line = program.read_line();
     if (!line) {
-        throw Error(
-            ExitCode::skipped,
-            fmt::format("{} is not installed; scripts/install --peers installs it", kind.name));
+        throw Error(ExitCode::skipped,
+                    fmt::format("{} is not installed; run scripts/install --peers", kind.name));
     }
     while (program.read_line()) {
     }
     return kind.version_prefix + *line + kind.version_suffix;
 }
 
-/// Seeds of different halves do not meet: each has a million steps.
+/// Returns the seed of the first step. Each half has a million steps, so halves never share a seed.
 uint64_t first_seed(uint64_t seed) {
     return seed << 20;
 }
@@ -81,7 +80,7 @@ struct PeerRenderer::State {
     std::string engine;
     Film film;
     double seconds = 0;
-    std::optional<Process> process;  ///< renders the steps from film.end on
+    std::optional<Process> process;  ///< renders the steps from `film.end` onwards
 
     void start(uint64_t end) {
         std::vector<std::string> command = kind.render;
@@ -100,21 +99,21 @@ struct PeerRenderer::State {
         process.emplace(command, python_environment());
     }
 
-    /// The record that the driver prints for the next image.
+    /// Returns the record that the driver prints for the next image.
     Json next_record() {
         while (const auto line = process->read_line()) {
             if (line->rfind("{\"file\"", 0) == 0) {
                 return parse_json(*line, engine);
             }
         }
-        throw run_error(fmt::format("{} ended with exit code {} before its images were done",
+        throw run_error(fmt::format("{}: ended with exit code {} before all images were rendered",
                                     engine, process->wait()));
     }
 
     void add(const Image &image) {
         if (image.width() != film.width || image.height() != film.height) {
-            throw run_error(
-                fmt::format("{} made an image of {}x{}", engine, image.width(), image.height()));
+            throw run_error(fmt::format("{}: unexpected image size {}x{}", engine, image.width(),
+                                        image.height()));
         }
         const auto names = rgb_names();
         for (size_t i = 0; i < film.pixels.size(); ++i) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Quadric surfaces in object space: ray intersection, gradients and texture coordinates.
 #pragma once
 
 #include "reference/math.h"
@@ -6,21 +7,22 @@
 
 namespace rtrays::reference {
 
-/// The zero set of F = x^2 + y^2 + a z^2 + b z + c between two heights: sphere, cylinder, cone,
-/// paraboloid and hyperboloid of ShapeArrays in their object spaces.
+/// The zero set of F = x^2 + y^2 + a z^2 + b z + c between two heights. It covers the sphere,
+/// cylinder, cone, paraboloid and hyperboloid of ShapeArrays in their object spaces.
 class Quadric {
   public:
     Quadric(ShapeArrays::Kind kind, double flare)
         : surface_(coefficients(kind, flare)), spherical_(kind == ShapeArrays::Kind::sphere) {}
 
-    /// Nearest t in (0, t_max) at which origin + t direction crosses the surface; false when there
-    /// is none.
+    /// Finds the nearest t in (0, t_max) at which origin + t direction crosses the surface. Returns
+    /// false if there is none.
     bool intersect(const Vec3 &origin, const Vec3 &direction, double t_max, double &t) const;
 
-    /// The nearest point of the surface to one that is off by rounding.
+    /// Returns the point of the surface nearest to `point`, which is off the surface by rounding
+    /// only.
     Vec3 project(const Vec3 &point) const;
 
-    /// Gradient of F, half of it; outwards or away from the axis.
+    /// Returns half the gradient of F. It points outwards or away from the axis.
     Vec3 gradient(const Vec3 &point) const {
         return {point.x(), point.y(), surface_.a * point.z() + 0.5 * surface_.b};
     }
@@ -44,7 +46,7 @@ class Quadric {
                surface_.c;
     }
     Coefficients surface_;
-    bool spherical_;  ///< v by the angle, not the height
+    bool spherical_;  ///< v follows the polar angle instead of the height
 };
 
 }  // namespace rtrays::reference

@@ -31,10 +31,10 @@ using namespace reference;
 namespace {
 
 constexpr uint64_t tile_size = 16;
-constexpr uint64_t paths_per_batch = 1
-                                     << 18;  // a fraction of a second: an interrupt is soon obeyed
+/// A batch takes a fraction of a second, so that an interrupt takes effect soon.
+constexpr uint64_t paths_per_batch = 1 << 18;
 
-/// That every surface's material exists, and its light, if it has one.
+/// Checks that the material of every surface exists, and its light if it has one.
 void check_indices(const SceneArrays &scene) {
     const auto check = [&](const char *what, const std::string &name, uint32_t material,
                            uint32_t light) {
@@ -42,8 +42,9 @@ void check_indices(const SceneArrays &scene) {
             throw input_error(fmt::format("{} '{}' has no material", what, name));
         }
         if (light != no_index && light >= scene.lights.kind.size()) {
-            throw input_error(fmt::format("{} '{}' names light {} of {}", what, name, light,
-                                          scene.lights.kind.size()));
+            throw input_error(
+                fmt::format("{} '{}': light {} is out of range; the scene has {} light(s)", what,
+                            name, light, scene.lights.kind.size()));
         }
     };
     for (size_t i = 0; i < scene.meshes.name.size(); ++i) {
@@ -54,7 +55,7 @@ void check_indices(const SceneArrays &scene) {
     }
 }
 
-/// The first path, in the order of pixels and samples, whose radiance was not finite.
+/// Records the first path, in the order of pixels and samples, whose radiance is not finite.
 class FirstFault {
   public:
     void note(uint64_t pixel, uint64_t sample) {
@@ -127,7 +128,7 @@ void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> 
 
 void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
     const auto start = std::chrono::steady_clock::now();
-    // The arena alone gets no more threads than there are cores; tests ask for more.
+    // The arena alone gets at most as many threads as there are cores; tests request more.
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<size_t>(threads));
     const tbb::blocked_range2d<uint64_t> pixels(0, static_cast<uint64_t>(settings.height),
@@ -151,7 +152,8 @@ void ReferenceRenderer::State::render_batch(uint64_t begin, uint64_t end) {
 ReferenceRenderer::ReferenceRenderer(const SceneArrays &scene, const ReferenceSettings &settings) {
     check_indices(scene);
     if (!settings.roulette && settings.max_depth == 0) {
-        throw input_error("paths without roulette need a limit of scattering events");
+        throw input_error(
+            "paths without Russian roulette need a maximum number of scattering events");
     }
     state_ = std::make_unique<State>(scene, settings);
 }
@@ -209,7 +211,7 @@ const Film &ReferenceRenderer::film() const {
 
 void ReferenceRenderer::restore(Film film, double seconds) {
     if (film.width != state_->settings.width || film.height != state_->settings.height) {
-        throw run_error("the restored film has another size");
+        throw run_error("the size of the restored film differs from the settings");
     }
     state_->film = std::move(film);
     state_->seconds = seconds;

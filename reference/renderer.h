@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// ReferenceRenderer, the independent CPU path tracer that renders reference images.
 #pragma once
 
 #include <cstdint>
@@ -17,46 +18,48 @@ struct Film;
 
 /// Counts and times of one `ReferenceRenderer`.
 struct ReferenceStats {
-    std::string engine;  ///< "embree 3.13.5"
+    std::string engine;  ///< name and version, as in "embree 3.13.5"
     uint64_t triangles = 0;
-    uint64_t degenerate_triangles = 0;  ///< of zero area, left out
-    double build_seconds = 0;           ///< BVH
-    double seconds = 0;                 ///< wall time of `render`, restored time included
-    uint64_t camera_rays = 0;           ///< and so camera paths, of this object alone
+    uint64_t degenerate_triangles = 0;  ///< triangles of zero area, omitted
+    double build_seconds = 0;           ///< time to build the BVH
+    double seconds = 0;                 ///< wall time of `render`, including restored time
+    uint64_t camera_rays = 0;           ///< equal to the number of paths; without restored samples
     uint64_t bounce_rays = 0;
     uint64_t shadow_rays = 0;
 };
 
-/// The independent path tracer: Embree for visibility, everything else its own and in double
-/// precision. It shares no BSDF, light, camera or random-number code with the renderer.
+/// The independent path tracer. Embree computes visibility; everything else is implemented here in
+/// double precision. It shares no BSDF, light, camera or random-number code with the renderer.
 ///
-/// The film's bits depend on the scene, the settings (threads apart) and the sample range alone.
+/// The bits of the film depend only on the scene, the settings (except `threads`) and the sample
+/// range.
 class ReferenceRenderer {
   public:
-    /// Copies what it needs. Throws `Error` (bad input) for a scene it cannot render.
+    /// Copies the required scene data. Throws `Error` (bad input) for a scene or settings that it
+    /// cannot render.
     ReferenceRenderer(const SceneArrays &scene, const ReferenceSettings &settings);
     ~ReferenceRenderer();
 
-    /// Adds the samples [begin, end) of every pixel. `begin` must be the end of what the film holds
-    /// already (anything while it is empty). Stops at the next batch once `interrupted()`; returns
-    /// the end of what was rendered. Throws `Error` (run failed) naming pixel and sample when a
-    /// path's radiance is not finite; the film is then void.
+    /// Adds the samples [begin, end) of every pixel to the film. `begin` must be the end of the
+    /// samples that the film holds, or any value if the film is empty. Stops at the next batch once
+    /// `interrupted()`. Returns the end of the rendered samples. Throws `Error` (run failed) naming
+    /// pixel and sample if the radiance of a path is not finite; the film is then invalid.
     uint64_t render(uint64_t begin, uint64_t end);
 
-    /// Samples per pixel and call of `render` that take a fraction of a second: a good step between
-    /// checkpoints.
+    /// Returns a number of samples per pixel that takes a fraction of a second to render, a good
+    /// step between checkpoints.
     uint64_t batch_size() const;
 
-    /// R, G, B, variance.R, .G, .B (of the mean), samples; attributes samplesPerPixel,
-    /// renderTimeSeconds.
+    /// Returns an image with the channels R, G, B, variance.R, variance.G, variance.B (variances of
+    /// the mean) and samples, and the attributes samplesPerPixel and renderTimeSeconds.
     Image develop() const;
 
     double seconds() const;    ///< wall time spent in `render`, plus that of a restored film
-    uint64_t samples() const;  ///< per pixel, in the film
+    uint64_t samples() const;  ///< samples per pixel in the film
     ReferenceStats stats() const;
 
     const reference::Film &film() const;
-    /// Continues a stored film; its size must be that of the settings (throws `Error`, run failed).
+    /// Continues a stored film. Throws `Error` (run failed) if its size differs from the settings.
     void restore(reference::Film film, double seconds);
 
   private:

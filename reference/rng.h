@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random numbers of the reference: xoshiro256** (Blackman & Vigna 2021, "Scrambled Linear
 // Pseudorandom Number Generators"), seeded by SplitMix64 (Steele et al. 2014). The renderer uses
-// Philox: the two share nothing.
+// Philox, so the two share no generator.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace rtrays::reference {
 
-/// One generator per camera path. The start state is an injective function of (seed, pixel,
-/// sample), so what a path does depends on these three and on nothing else: not on threads, batches
-/// or checkpoints.
+/// Random number generator of one camera path. The start state is an injective function of (seed,
+/// pixel, sample). A path therefore depends only on these three, not on threads, batches or
+/// checkpoints.
 class Rng {
   public:
     Rng(uint64_t seed, uint64_t pixel, uint64_t sample) {
         // Each step mixes one more coordinate through a bijection. The first output depends on
-        // state_[1] alone, so that word must be the one that has seen all three.
+        // state_[1] alone, so that word must contain all three coordinates.
         const uint64_t of_seed = mix(seed + golden);
         const uint64_t of_pixel = mix((of_seed ^ pixel) + golden);
         const uint64_t of_sample = mix((of_pixel ^ sample) + golden);
@@ -36,7 +36,7 @@ class Rng {
         return result;
     }
 
-    /// Uniform in [0, 1), a multiple of 2^-53.
+    /// Returns a uniform number in [0, 1), a multiple of 2^-53.
     double uniform() { return static_cast<double>(next_bits() >> 11) * 0x1p-53; }
 
   private:
@@ -44,7 +44,7 @@ class Rng {
 
     static uint64_t rotate(uint64_t x, int k) { return (x << k) | (x >> (64 - k)); }
 
-    /// The finalizer of SplitMix64, a bijection of 64-bit words.
+    /// Applies the finalizer of SplitMix64, a bijection of 64-bit words.
     static uint64_t mix(uint64_t x) {
         x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
         x = (x ^ (x >> 27)) * 0x94d049bb133111eb;

@@ -27,7 +27,7 @@ AliasTable::AliasTable(const std::vector<double> &weights) {
         slots_[i] = {probability, probability * count, i};
         (slots_[i].keep < 1.0 ? small : large).push_back(i);
     }
-    // Each small slot is filled up to 1 by one large slot, which may become small by that.
+    // Each small slot is filled up to 1 by one large slot, which may thereby become small.
     while (!small.empty() && !large.empty()) {
         const uint32_t s = small.back();
         const uint32_t l = large.back();
@@ -39,8 +39,8 @@ AliasTable::AliasTable(const std::vector<double> &weights) {
             small.push_back(l);
         }
     }
-    // What rounding leaves over is full up to a few ulps; a slot of weight 0 always found a partner
-    // before, as only slots within rounding of 1 can be left.
+    // Rounding may leave slots over, but these are full up to a few ulps. A slot of weight 0 has
+    // always found a partner before.
     for (const auto &rest : {small, large}) {
         for (const uint32_t i : rest) {
             slots_[i].keep = 1.0;

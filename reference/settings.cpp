@@ -24,7 +24,8 @@ Strategies strategies_from_name(const std::string &name) {
         }
         alternatives += fmt::format("{}{}", alternatives.empty() ? "" : ", ", known);
     }
-    throw input_error(fmt::format("strategies '{}': must be one of {}", name, alternatives));
+    throw input_error(
+        fmt::format("unknown strategies '{}'; strategies are: {}", name, alternatives));
 }
 
 }  // namespace rtrays

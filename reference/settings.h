@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Settings of a reference render.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +13,12 @@
 
 namespace rtrays {
 
-/// Which estimators of direct light a path uses: light hit by chance, light sampled at every vertex
-/// (next-event estimation), or both by multiple importance sampling (power heuristic, beta = 2).
+/// Estimators of direct light that a path uses: emission hit by the path (implicit), light sampled
+/// at every vertex (explicit; next-event estimation), or both combined by multiple importance
+/// sampling (power heuristic, beta = 2).
 enum class Strategies { implicit_only, explicit_only, mis };
 
-/// Their names: parsing, printing, help and error messages all read this table.
+/// Names of the strategies. Parsing, printing, help and error messages all read this table.
 constexpr std::array<std::pair<const char *, Strategies>, 3> strategies_names{{
     {"implicit", Strategies::implicit_only},
     {"explicit", Strategies::explicit_only},
@@ -25,32 +27,35 @@ constexpr std::array<std::pair<const char *, Strategies>, 3> strategies_names{{
 
 std::string name_of(Strategies strategies);
 
-/// Throws `Error` (bad input) listing the alternatives.
+/// Parses the name of a strategy. Throws `Error` (bad input) listing the alternatives.
 Strategies strategies_from_name(const std::string &name);
 
-/// The light that light tracing sees: without light at infinity that the camera looks at, without
-/// what the camera sees in mirrors and smooth glass, and of light from infinity only what comes
-/// through a ball.
+/// Restriction to the light that light tracing can connect to the camera. It excludes light at
+/// infinity that the camera sees directly, and everything that the camera sees in mirrors and
+/// smooth glass. Of the light from infinity it includes only the light that passes through a ball.
 struct JoinableLight {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = std::numeric_limits<double>::infinity();
 
-    /// Whether parallel light of direction `d` (unit) that falls on `point` comes through the ball.
+    /// Returns whether parallel light of direction `d` (unit) that falls on `point` passes through
+    /// the ball.
     bool reaches(const Eigen::Vector3d &point, const Eigen::Vector3d &d) const {
         return (point - centre).cross(d).squaredNorm() < radius * radius;
     }
 };
 
-/// What a reference image depends on besides the scene (`threads` apart, which changes no bit).
+/// Settings that a reference image depends on, besides the scene. Only `threads` changes no bit.
 struct ReferenceSettings {
     int width = 0;
     int height = 0;
     size_t camera = 0;  ///< index into CameraArrays
     uint64_t seed = 1;
     Strategies strategies = Strategies::mis;
-    uint32_t max_depth = 0;  ///< scattering events, 1 is direct light; 0: no limit
-    bool roulette =
-        true;  ///< false: paths end at max_depth alone, to be timed against others that do
+    /// Maximum number of scattering events; 1 is direct light, 0 means no limit.
+    uint32_t max_depth = 0;
+    /// Russian roulette. If false, paths end at `max_depth` alone, for timings against renderers
+    /// without roulette.
+    bool roulette = true;
     std::optional<JoinableLight> joinable_only;  ///< nothing: all light
     int threads = 0;                             ///< 0: all
 };

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The local frame in which a surface scatters.
+// The local frame in which a surface scatters, and the convention for interpolated normals.
 //
-// Convention of interpolated normals, the same in the renderer: the shading normal ns is turned to
-// the side of the geometric normal ng; where wo then still lies on different sides of the two, ng
-// takes the place of ns. BSDF and cosine are those of ns. A direction wi on different sides of ng
-// and ns contributes nothing, neither when it was sampled (the path ends) nor when a light lies
-// there: so what is reflected leaves on wo's geometric side, what is refracted on the other one,
-// and no light leaks through a closed surface.
+// The renderer uses the same convention. The shading normal ns is flipped to the side of the
+// geometric normal ng. If wo is then on different sides of the two, ng replaces ns. BSDF and cosine
+// are those of ns.
+//
+// A direction wi on different sides of ng and ns contributes nothing. A path that sampled it ends,
+// and a light in that direction is ignored. Therefore reflected light leaves on wo's geometric
+// side, refracted light leaves on the other side, and no light leaks through a closed surface.
 #pragma once
 
 #include "reference/geometry.h"
@@ -14,24 +15,26 @@
 
 namespace rtrays::reference {
 
+/// The scattering frame at a surface point.
 struct Shading {
     Frame frame;  ///< z is the shading normal on the surface's front, x along dp/du
     Vec3 geometric_normal;
     Eigen::Vector2d uv;
-    bool bent;  ///< whether the frame's z is not the geometric normal
+    bool bent;  ///< whether the frame's z differs from the geometric normal
 
-    /// Whether wi, as given in both spaces, lies on the same side of both normals.
+    /// Returns whether wi, given in both spaces, is on the same side of both normals.
     bool agrees(const Vec3 &wi, const Vec3 &wi_local) const {
         return !bent || geometric_normal.dot(wi) * wi_local.z() > 0.0;
     }
 };
 
-/// The surface's parametrization with its shading normal turned and replaced as above.
+/// Returns the parametrization of the surface, with its shading normal flipped or replaced
+/// according to the convention above.
 Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &point,
                                 const Vec3 &wo);
 
-/// `parametrized`: whether uv and the direction of dp/du are asked for. All of the plain case is
-/// inline, so that the frame stays in registers.
+/// Builds the scattering frame. `parametrized` tells whether uv and the direction of dp/du are
+/// needed. The simple case is inline, so that the frame stays in registers.
 inline Shading make_shading(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo,
                             bool parametrized) {
     const Vec3 ng = geometry.normal(point);

@@ -27,7 +27,7 @@ Surface make_surface(const ShapeArrays &shapes, size_t i) {
             return Flat{false};
         case Kind::julia: {
             const uint32_t n = shapes.julia_iterations[i];
-            require(n >= 1 && n <= JuliaSet::most_iterations, "iterations must lie in [1, 64]");
+            require(n >= 1 && n <= JuliaSet::most_iterations, "iterations must be in [1, 64]");
             require(shapes.julia_constant[i].allFinite() && std::isfinite(shapes.julia_slice[i]),
                     "constant and slice must be finite");
             return JuliaSet(shapes.julia_constant[i], shapes.julia_slice[i], n);
@@ -57,7 +57,8 @@ Eigen::AlignedBox3d object_bounds(const Surface &surface) {
 }  // namespace
 
 bool Flat::intersect(const Vec3 &origin, const Vec3 &direction, double t_max, double &t) const {
-    const double at = -origin.z() / direction.z();  // infinite or NaN along the plane: no hit
+    // Infinite or NaN for a ray along the plane: no hit.
+    const double at = -origin.z() / direction.z();
     if (!(at > 0.0 && at < t_max)) {
         return false;
     }
@@ -76,10 +77,11 @@ Shape::Shape(const ShapeArrays &shapes, size_t index)
     const Eigen::Matrix4d &transform = shapes.world_from_object[index];
     const bool affine = transform.row(3) == Eigen::RowVector4d(0, 0, 0, 1);
     const double scale = linear_.norm();
-    // The determinant over that of a rotation of the same scale: below, double has no digits left.
+    // Compares the determinant with that of a rotation of the same scale. Below this ratio, double
+    // has no digits left.
     if (!transform.allFinite() || !affine ||
         !(std::abs(linear_.determinant()) > 1e-12 * scale * scale * scale)) {
-        throw input_error(fmt::format("shape {} '{}': its transform must be affine and invertible",
+        throw input_error(fmt::format("shape {} '{}': the transform must be affine and invertible",
                                       index, shapes.name[index]));
     }
     inverse_ = linear_.inverse();
@@ -143,7 +145,7 @@ Eigen::Vector2d Shape::uv(const Vec3 &object) const {
 Vec3 Shape::spawn_point(const Vec3 &object, const Vec3 &direction) const {
     const Vec3 n = normal(object);
     const Vec3 position = to_world(object);
-    // A plane has points at any distance from its object's origin.
+    // A plane has points at any distance from the origin of its object.
     const double offset = is_bounded()
                               ? offset_
                               : std::max(offset_, relative_offset * position.cwiseAbs().maxCoeff());

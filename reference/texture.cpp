@@ -12,7 +12,7 @@ namespace rtrays::reference {
 
 namespace {
 
-/// IEC 61966-2-1, the decoding half.
+/// Decodes an sRGB value (IEC 61966-2-1).
 double decode_srgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
@@ -47,13 +47,13 @@ Spectrum texel(const TextureImage &image, int column, int row) {
 
 void require_valid(const TextureImage *image, const std::string &what) {
     if (image == nullptr || image->width < 1 || image->height < 1) {
-        throw input_error(fmt::format("{}: there is no image", what));
+        throw input_error(fmt::format("{}: the image is missing or empty", what));
     }
     const size_t values =
         3 * static_cast<size_t>(image->width) * static_cast<size_t>(image->height);
     if (image->bytes.size() + image->floats.size() != values ||
         (!image->bytes.empty() && !image->floats.empty())) {
-        throw input_error(fmt::format("{}: the image holds another number of texels than {}x{}",
+        throw input_error(fmt::format("{}: the number of texels differs from the image size {}x{}",
                                       what, image->width, image->height));
     }
     const auto usable = [](float value) { return value >= 0.0f && std::isfinite(value); };
@@ -82,8 +82,8 @@ int Texture::wrap(int64_t i, int size) const {
 Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
     const int width = image_->width, height = image_->height;
     // Texel coordinates from the lower left corner. Coordinates beyond 2^52 texels have no fraction
-    // left and would overflow the integers below: they are held there, where every texel is as
-    // good.
+    // and would overflow the integers below. They are clamped to that value, where every texel is
+    // equally valid.
     const auto coordinate = [](double x) { return std::clamp(x, -0x1p52, 0x1p52); };
     const double x = coordinate((scale_.x() * uv.x() + offset_.x()) * width);
     const double y = coordinate((scale_.y() * uv.y() + offset_.y()) * height);

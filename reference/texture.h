@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Texture look-ups in double precision.
 #pragma once
 
 #include <memory>
@@ -8,15 +9,16 @@
 
 namespace rtrays::reference {
 
-/// Linear colour of a texel, rows from the top; column and row must lie in the image.
+/// Returns the linear colour of a texel. Rows start at the top; column and row must be in the
+/// image.
 Spectrum texel(const TextureImage &image, int column, int row);
 
 /// A colour over the (u, v) plane (conventions: renderer/scene/stores.h). Bytes are decoded before
-/// they are interpolated.
+/// interpolation.
 class Texture {
   public:
-    /// Texture `index` of the store. Throws `Error` (bad input) for an image that is missing,
-    /// empty, of another size than it states, or with values that are negative or not finite.
+    /// Uses texture `index` of the store. Throws `Error` (bad input) for an image that is missing
+    /// or empty, differs from its stated size, or has values that are negative or not finite.
     Texture(const TextureArrays &textures, size_t index);
 
     Spectrum evaluate(const Eigen::Vector2d &uv) const;
@@ -31,7 +33,8 @@ class Texture {
     Eigen::Vector2d offset_;
 };
 
-/// Throws `Error` (bad input) naming `what` unless the image is as `TextureImage` promises.
+/// Checks that the image satisfies the description of `TextureImage`. Throws `Error` (bad input)
+/// naming `what` if it does not.
 void require_valid(const TextureImage *image, const std::string &what);
 
 }  // namespace rtrays::reference

@@ -12,9 +12,9 @@ namespace rtrays::reference {
 
 namespace {
 
-// Half ulps of the largest coordinate between a ray origin and its plane. A float origin is off by
-// one half ulp per axis and Embree's plane distance by a few more (v0 - origin, three products, two
-// sums).
+// Distance of a ray origin from its plane, in half ulps of the largest coordinate. A float origin
+// is off by one half ulp per axis. Embree's plane distance is off by a few more (v0 - origin, three
+// products, two sums).
 constexpr double offset_half_ulps = 16.0;
 constexpr double margin_over_offset = 4.0;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Triangles in double precision: hit points, and origins of rays that leave them.
 #pragma once
 
 #include <algorithm>
@@ -10,40 +11,44 @@
 
 namespace rtrays::reference {
 
-/// A triangle of non-zero area, world space.
+/// A triangle of non-zero area in world space.
 struct TriangleRecord {
-    Vec3 vertex;    ///< the first one
-    Vec3 edge1;     ///< to the second vertex
-    Vec3 edge2;     ///< to the third vertex
+    Vec3 vertex;    ///< first vertex
+    Vec3 edge1;     ///< from the first to the second vertex
+    Vec3 edge2;     ///< from the first to the third vertex
     Vec3 normal;    ///< unit, towards the side from which the vertices run counter-clockwise
     double offset;  ///< distance from the plane at which float rays start
-    double margin;  ///< barycentric distance from the edges kept by ray origins
+    double margin;  ///< barycentric distance that ray origins keep from the edges
     uint32_t material;
-    uint32_t light;  ///< `no_index` when it does not emit
+    uint32_t light;  ///< `no_index` if the triangle does not emit
     bool has_normals;
     bool has_uv;
 
-    /// Second and third barycentric coordinate in, world position out.
+    /// Returns the world position of the barycentrics of the second and third vertex.
     Vec3 point(const Eigen::Vector2d &barycentric) const {
         return vertex + barycentric.x() * edge1 + barycentric.y() * edge2;
     }
     double area() const { return 0.5 * edge1.cross(edge2).norm(); }
 
-    /// Barycentrics of the point where the ray's line meets the plane (Moeller & Trumbore 1997),
-    /// moved onto the triangle: a float hit next to an edge, or at a grazing angle, may lie outside
-    /// in double. `fallback` is used when the line is parallel to the plane.
+    /// Returns the barycentrics of the point where the line of the ray meets the plane (Moeller &
+    /// Trumbore 1997), moved onto the triangle. A float hit next to an edge or at a grazing angle
+    /// may be outside the triangle in double. `fallback` is used if the line is parallel to the
+    /// plane.
     Eigen::Vector2d intersect_plane(const Ray &ray, const Eigen::Vector2d &fallback) const;
 
-    /// Where a ray that leaves `position`, whose barycentrics are the first two of `local`, to the
-    /// side of `direction` starts: off the plane by a multiple of what float rounding and Embree's
-    /// float arithmetic can do, so that it never meets its own triangle, and away from the edges by
-    /// four times as much, so that it is not pushed through a neighbour that meets this triangle at
-    /// an edge with more than 14 degrees.
+    /// Returns the origin of a ray that leaves `position` to the side of `direction`. The first two
+    /// components of `local` are the barycentrics of `position`.
+    ///
+    /// The origin is off the plane by a multiple of the error of float rounding and Embree's float
+    /// arithmetic, so that the ray never meets its own triangle. It is away from the edges by four
+    /// times as much. Therefore it is not pushed through a neighbour that meets this triangle at an
+    /// edge with an angle above 14 degrees.
     Vec3 spawn_point(const Vec3 &position, const Vec3 &local, const Vec3 &direction) const;
 };
 
-/// Fills the record of triangle `index` of the store; returns false when its area is zero (or below
-/// what double can tell from zero). Throws `Error` (bad input) for a vertex that is not finite.
+/// Fills the record of triangle `index` of the store. Returns false if its area is zero, or too
+/// small to be distinguished from zero in double. Throws `Error` (bad input) for a vertex that is
+/// not finite.
 bool make_record(const MeshArrays &meshes, uint32_t index, TriangleRecord &record);
 
 inline Eigen::Vector2d TriangleRecord::intersect_plane(const Ray &ray,
@@ -69,7 +74,7 @@ inline Vec3 TriangleRecord::spawn_point(const Vec3 &position, const Vec3 &local,
     if (smallest >= margin) {
         return position + side * normal;
     }
-    // Towards the centroid until the nearest edge is `margin` away.
+    // Moves the point towards the centroid until the nearest edge is `margin` away.
     const double share = (margin - smallest) / (1.0 / 3.0 - smallest);
     const Eigen::Vector2d barycentric = local.head<2>();
     const Eigen::Vector2d inner =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the benchmark programs share: main.cpp runs what each of them registers.
+// Common part of the benchmark programs: main.cpp runs the benchmarks that each program registers.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -10,12 +10,13 @@
 
 namespace rtrays::benchmarks {
 
-/// Registers the benchmarks of this program. `device` outlives them.
+/// Registers the benchmarks of this program. `device` must outlive them.
 void register_benchmarks(DeviceContext &device);
 
 constexpr int turns = 9;
 
-/// All but the largest, which take minutes (the full profiles of the experiments measure them).
+/// Returns all meshes except the largest, which take minutes. The full profiles of the experiments
+/// measure those.
 inline std::vector<std::string> benchmark_meshes() {
     std::vector<std::string> meshes = measured_meshes();
     meshes.erase(std::remove_if(meshes.begin(), meshes.end(),
@@ -27,7 +28,7 @@ inline std::vector<std::string> benchmark_meshes() {
     return meshes;
 }
 
-/// An iteration is a turn of the contest.
+/// Runs one turn of the contest for each iteration.
 inline void take_turns(benchmark::State &state, Contest &contest) {
     for (auto _ : state) {
         state.SetIterationTime(time_of([&] { contest.turn(); }).wall);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Building the hierarchy by every builder and layout on the OpenCL device and by Embree's three
-// qualities, by mesh: the turns of the experiment bvh_build.json. The time is that of a turn;
-// counters, by contestant: ms by wall time, and how many times faster than Embree's medium quality
-// by processor time (medians).
+// Benchmarks hierarchy builds by mesh: every builder and layout on the OpenCL device, and Embree's
+// three qualities. It runs the turns of the experiment bvh_build.json, and the benchmark time is
+// that of a turn. Counters, medians for each contestant: wall time in ms, and the speed relative to
+// Embree's medium quality by the contest's clock.
 #include <benchmark/benchmark.h>
 
 #include <memory>

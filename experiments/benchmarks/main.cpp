@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Main function of the benchmark programs.
 #include <benchmark/benchmark.h>
 
 #include "experiments/benchmarks/benchmark_program.h"

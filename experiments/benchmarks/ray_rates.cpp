@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rays per second through the hierarchy on the OpenCL device, by every builder and layout, and
-// through Embree's, by mesh and kind of ray: the turns of the experiment ray_rates.json. The time
-// is that of a turn; counters, by contestant: Mrays/s by wall time, and how many times faster than
-// rtcIntersect1 or rtcOccluded1 by processor time (medians).
+// Benchmarks rays per second by mesh and kind of ray: every builder and layout on the OpenCL
+// device, and Embree. It runs the turns of the experiment ray_rates.json, and the benchmark time is
+// that of a turn. Counters, medians for each contestant: Mrays/s by wall time, and the speed
+// relative to rtcIntersect1 or rtcOccluded1 by the contest's clock.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t ray_count = 256 * 256;
 
-/// Benchmarks run mesh by mesh: the last is kept.
+/// Returns a mesh with its hierarchies. Benchmarks run mesh by mesh, so the last one is kept.
 const TracedMesh &loaded(DeviceContext &device, const std::string &mesh) {
     static std::unique_ptr<TracedMesh> last;
     if (!last || last->mesh().mesh.name != mesh) {

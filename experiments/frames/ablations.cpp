@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each choice is worth: frames and builds with one setting changed, against the defaults.
+// Measures the effect of single settings: frames and builds with one setting changed, compared with
+// the defaults.
 #include <fmt/format.h>
 
 #include <memory>
@@ -17,13 +18,13 @@ namespace {
 
 constexpr const char *defaults = "defaults";
 
-/// Of the settings, those that decide the tree.
+/// Returns whether a setting changes the tree.
 bool is_of_builder(const std::string &setting) {
     return setting.rfind("device.bvh_builder=", 0) == 0 ||
            setting.rfind("device.bvh_bins=", 0) == 0 || setting.rfind("device.bvh_axes=", 0) == 0;
 }
 
-/// `setting`: NAME=VALUE, or `defaults`.
+/// Returns the defaults with a setting, NAME=VALUE, changed, or unchanged for `defaults`.
 RenderSettings settings_for(const MeasurementSettings &measurement, const std::string &setting) {
     RenderSettings settings;
     settings.width = measurement.width;
@@ -41,7 +42,7 @@ BvhBuildParameters build_parameters(const RenderSettings &settings, const Device
     return parameters;
 }
 
-/// All but times of what a session needs.
+/// Returns the resources of a session: sizes, launches and compile time.
 Json facts(const RenderSession &session) {
     const Json report = session.report();
     uint64_t binary = 0, launches = 0;
@@ -58,7 +59,7 @@ Json facts(const RenderSession &session) {
             {"compile_ms", 1e3 * report.at("seconds").at("compile").get<double>()}};
 }
 
-/// Names and times of a contest, beside what is known of each contestant.
+/// Returns the names and times of a contest together with the known values of each contestant.
 Json results(const Contest &contest, const std::vector<Json> &known) {
     Json entries = Json::array();
     const std::vector<std::string> names = contest.names();
@@ -110,9 +111,9 @@ class Ablations {
     }
 
   private:
-    /// Every turn makes the session anew, untimed as its first frame is: the memory that it gets
-    /// would otherwise be its own for all turns, and sessions made first are up to 7 % slower than
-    /// the same made later.
+    /// Adds frames with a setting. Every turn creates the session again; creation and first frame
+    /// are not timed. Otherwise a session would keep its memory for all turns, and the sessions
+    /// created first are up to 7 % slower than equal ones created later.
     void add(const std::string &setting) {
         const size_t place = known_frames_.size();
         known_frames_.emplace_back();
@@ -121,15 +122,14 @@ class Ablations {
             session.render(0, settings_.spp);
             session.restart(1);
             const Seconds seconds = time_of([&] { session.render(0, settings_.spp); });
-            if (known_frames_[place]
-                    .is_null()) {  // the first compiles, where there is nothing in the cache
+            if (known_frames_[place].is_null()) {  // the first turn compiles if the cache is empty
                 known_frames_[place] = facts(session);
             }
             return seconds;
         });
     }
 
-    /// The first build compiles.
+    /// Adds builds with a setting. The first build compiles the kernels and is not timed.
     void add_build(const std::string &setting) {
         builders_.push_back(std::make_unique<BvhBuilder>(
             *device_, build_parameters(settings_for(settings_, setting), device_->info())));

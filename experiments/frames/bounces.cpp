@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Samples per second by length of path, on the device and by Embree: thesis 4.4.3.
+// Measures samples per second by path length, on the device and with other renderers (thesis,
+// section 4.4.3).
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Scattering events of 1, 4 and 8 bounces: the first hit is one.
+/// Numbers of scattering events for 1, 4 and 8 bounces. The first hit counts as an event.
 constexpr uint32_t depths[] = {2, 5, 9};
 
 constexpr const char *ours = "wavefront", *megakernel = "megakernel", *embree = "Embree reference";
@@ -51,7 +52,7 @@ ReferenceSettings reference_settings(const MeasurementSettings &measurement,
     return settings;
 }
 
-/// One scene on the device, to be rendered at any depth.
+/// Measurement of one scene at all depths.
 class Bounces {
   public:
     Bounces(const std::string &name, const MeasurementSettings &settings, DeviceContext &device)
@@ -76,8 +77,7 @@ class Bounces {
     }
 
   private:
-    /// Other renderers, each with the scene in a process of its own; those that are not there are
-    /// listed.
+    /// Starts the other renderers, each in its own process, and lists the missing ones.
     void load_peers() {
         if (settings_.peers.empty()) {
             return;
@@ -108,7 +108,7 @@ class Bounces {
             return time_of([&] { done = reference.render(done, done + settings_.spp); });
         });
         for (const std::unique_ptr<Peer> &peer : peers_) {
-            peer->render(depth, settings_.spp);  // compiles
+            peer->render(depth, settings_.spp);  // compiles its kernels
             contest.add(peer->engine(), [&, depth] { return peer->render(depth, settings_.spp); });
         }
         make_sessions({&wavefront_, &megakernel_});
@@ -153,9 +153,9 @@ class Bounces {
         std::unique_ptr<RenderSession> session{};
     };
 
-    /// In that order, which half of the turns have one way and half the other: what is made first
-    /// is up to 7 % slower, whichever it is, by the memory that it gets. The first frame touches
-    /// all of it and is not counted.
+    /// Creates the sessions in the given order. The session created first is up to 7 % slower
+    /// because of the memory it gets, so each half of the turns uses another order. The first frame
+    /// touches all memory and is not timed.
     void make_sessions(const std::array<Pipeline *, 2> &order) {
         for (Pipeline *pipeline : order) {
             pipeline->session.reset();

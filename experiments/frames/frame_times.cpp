@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames of path tracing by kind of ray and by stage: thesis 4.4.2.
+// Times frames of path tracing by kind of ray and by stage (thesis, section 4.4.2).
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -28,7 +28,7 @@ RenderSettings explicit_paths(RenderSettings settings) {
     return settings;
 }
 
-/// What one frame took, in seconds on the device by stage, and what it traced.
+/// Device seconds of one frame by stage, and its numbers of rays.
 struct Frame {
     std::map<std::string, double> stages;
     double nearest_rays, shadow_rays;
@@ -46,7 +46,7 @@ struct Frame {
     }
 };
 
-/// Milliseconds of each turn, their median and interval.
+/// Returns the median of a value over the turns, in milliseconds, with its interval.
 template <typename Value>
 Json milliseconds(const std::vector<Frame> &frames, const Value &seconds) {
     std::vector<double> values;
@@ -111,7 +111,7 @@ class FrameContest {
     }
 
   private:
-    /// The first frame touches all memory and is not kept.
+    /// Adds a contestant. Its first frame touches all memory and is discarded.
     void add(const std::string &contestant, RenderSession &session, std::vector<Frame> &frames,
              uint32_t max_depth) {
         const auto render = [this, &session, max_depth] {

@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *cycles = "cycles";
-constexpr uint64_t frames_of_cycles =
-    4;  ///< in one of Blender's render calls, which itself takes a tenth of a second
+/// Frames in one render call of Blender. The overhead of a call is a tenth of a second.
+constexpr uint64_t frames_of_cycles = 4;
 
-/// Exports the scene and tells the command that serves it.
+/// Exports the scene and returns the command that serves it.
 std::vector<std::string> served(const Scene &scene, const fs::path &folder,
                                 const std::string &kind) {
     const fs::path file = folder / (kind == cycles ? "scene.blender.json" : "scene.xml");
@@ -70,8 +70,8 @@ Seconds Peer::render(uint32_t max_depth, uint64_t spp) {
     process_.write(fmt::format("{} {} {}\n", max_depth, frames_ * spp, ++seed_));
     const std::string answer = next_record();
     if (answer.empty()) {
-        throw run_error(fmt::format("{} ended before its image was done, by exit code {}", engine_,
-                                    process_.wait()));
+        throw run_error(fmt::format("{} ended before its image was finished, with exit code {}",
+                                    engine_, process_.wait()));
     }
     const nlohmann::json seconds = nlohmann::json::parse(answer);
     const auto frames = static_cast<double>(frames_);

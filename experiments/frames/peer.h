@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Another renderer as a contestant: a process that renders when it is told to.
+// Another renderer as a contestant: a separate process that renders on request.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,32 @@
 
 namespace rtrays {
 
-/// `scripts/*_driver.py --serve`, of Mitsuba 3 by the Python that `scripts/install --peers` makes,
-/// or in Blender.
+/// Process of `scripts/*_driver.py --serve`. Mitsuba 3 runs in the Python environment that
+/// `scripts/install --peers` creates; Cycles runs in Blender.
 class Peer {
   public:
-    /// "scalar_rgb" or "llvm_ad_rgb", variants of Mitsuba, or "cycles": exports the scene to
-    /// `folder` and waits until it is loaded. Where the renderer or the variant is not installed,
-    /// `is_there` is false.
+    /// Exports the scene to `folder`, starts the renderer and waits until it has loaded the scene.
+    /// `kind` is a variant of Mitsuba ("scalar_rgb" or "llvm_ad_rgb") or "cycles". `is_there` is
+    /// false if the renderer or the variant is not installed.
     Peer(const Scene &scene, const std::filesystem::path &folder, const std::string &kind);
 
     bool is_there() const { return !engine_.empty(); }
     const std::string &engine() const { return engine_; }  ///< "Mitsuba 3.9.1 scalar_rgb"
 
-    /// What the kind is called where it is not installed: "Mitsuba 3 scalar_rgb".
+    /// Returns the name of a kind that need not be installed: "Mitsuba 3 scalar_rgb".
     static std::string name_of(const std::string &kind);
 
-    /// One frame of path tracing without roulette, `max_depth` as ours, and what it took there.
-    /// Throws `Error` (run failed) when the process ends.
+    /// Renders one frame of path tracing without roulette and returns its duration, measured in the
+    /// process. `max_depth` has RTRays' meaning. Throws `Error` (run failed) if the process ends.
     Seconds render(uint32_t max_depth, uint64_t spp);
 
   private:
-    /// The next line of JSON; empty at the end of what the process says. Blender says other things,
-    /// too.
+    /// Returns the next line of JSON, or an empty text when the output ends. Other lines are
+    /// skipped, because Blender prints its own.
     std::string next_record();
 
     Process process_;
-    uint64_t frames_;  ///< rendered at once, where starting one costs something
+    uint64_t frames_;  ///< frames in one call, more than one if a call has an overhead
     std::string engine_;
     uint32_t seed_ = 0;
 };

@@ -28,20 +28,19 @@ namespace fs = std::filesystem;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Thesis 4.4.3: rectangles, or a dome and a directional light.
+/// Lights of a scene: rectangles, or a dome and a directional light (thesis, section 4.4.3).
 struct Lights {
-    std::optional<Vector3d> sun;  ///< the way it shines, under a sky of radiance 1
-    std::vector<Vector3d> lamps;  ///< middles of rectangles that shine down
+    std::optional<Vector3d> sun;  ///< direction of the sunlight, under a sky of radiance 1
+    std::vector<Vector3d> lamps;  ///< centres of rectangles that face down
     double lamp_side = 0;
 };
 
-/// What a scene consists of: either a model with materials or a mesh, and perhaps a dragon in
-/// front.
+/// Contents of a scene: a model with materials or a mesh, and optionally a dragon in front.
 struct Place {
     std::string name;
-    std::string model;  ///< a file of the models' folder; of San Miguel the list of instances
-    std::string mesh;   ///< of load_measured_mesh
-    View view;          ///< its angle is that across the image
+    std::string model;  ///< file of the models' folder; the list of instances for San Miguel
+    std::string mesh;   ///< name for `load_measured_mesh`
+    View view;          ///< its angle is the horizontal field of view
     Lights lights;
     bool dragon = false;
 };
@@ -49,7 +48,7 @@ struct Place {
 const Vector3d high_sun(0.3, -1, 0.15);
 const char *const dragon_file = "dragon/dragon_vrip_res3.ply";
 
-// Views of the models: cameras.txt beside them, where there is one.
+// The views of the models come from the files cameras.txt beside them, if present.
 const std::vector<Place> &models() {
     static const std::vector<Place> all = {
         {"sponza_dragon",
@@ -92,7 +91,7 @@ const std::vector<Place> &models() {
     return all;
 }
 
-/// HEAD_N and TAIL: the scene made of the mesh MESH_N.
+/// A procedural scene of N triangles. Its name is `head`, N and `tail`; its mesh is `mesh` and N.
 struct Procedure {
     std::string head, tail, mesh;
     View view;
@@ -114,7 +113,7 @@ const std::vector<Procedure> &procedures() {
     return all;
 }
 
-/// The place that the name of a procedural scene names.
+/// Returns the contents of a procedural scene, or nothing for any other name.
 std::optional<Place> procedural_place(const std::string &name) {
     for (const Procedure &procedure : procedures()) {
         const size_t around = procedure.head.size() + procedure.tail.size();
@@ -137,7 +136,7 @@ bool is_present(const Place &place) {
            (!place.dragon || fs::exists(measured_file(dragon_file)));
 }
 
-/// A model's or a procedural scene, where its files are there.
+/// Returns the contents of a model scene or a procedural scene if its files exist.
 std::optional<Place> place_of(const std::string &name) {
     const auto found = std::find_if(models().begin(), models().end(),
                                     [&](const Place &place) { return place.name == name; });
@@ -179,7 +178,7 @@ void add_mesh(Scene &scene, const test::Mesh &mesh, const Eigen::Matrix4d &trans
     node.set_core(lambert_and_blinn());
 }
 
-/// Stanford's, four metres long, on the floor of the atrium.
+/// Adds the Stanford dragon, four metres long, on the floor of the atrium.
 void add_dragon(Scene &scene) {
     Node &node = add_node(
         scene, "measured dragon",
@@ -239,7 +238,7 @@ std::string describe(const Place &place, Surfaces surfaces) {
 }
 
 Scene make_scene(const Place &place) {
-    // Of cameras and lights that models have not, which are replaced.
+    // Suppresses the notices about missing cameras and lights, which are replaced here.
     const NoticeReceiver silence([](const std::string &) {});
     if (!place.model.empty()) {
         const fs::path file = measured_file(place.model);
@@ -276,8 +275,8 @@ TimedScene load_timed_scene(const std::string &name, Surfaces surfaces) {
     const std::optional<Place> place = place_of(name);
     if (!place && !fs::exists(scene_file(name))) {
         throw input_error(fmt::format(
-            "there is no scene '{}'; there are: {}, and the folders of scenes/; RTRAYS_MESHES "
-            "names a folder of models",
+            "cannot load scene '{}'; scenes are: {}, and the folders of scenes/; set RTRAYS_MESHES "
+            "to a folder of models for more",
             name, fmt::join(timed_scenes(), ", ")));
     }
     Scene scene = place ? make_scene(*place) : load_scene(scene_file(name));
@@ -301,7 +300,7 @@ TimedScene load_timed_scene(const std::string &name, Surfaces surfaces) {
         scene.set_active_camera("measured view");
     }
     return {std::move(scene), place && is_procedural(place->mesh),
-            place ? describe(*place, surfaces) : "the scene file's"};
+            place ? describe(*place, surfaces) : "as in the scene file"};
 }
 
 }  // namespace rtrays

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What whole frames are timed on: models and procedural meshes, each with a camera and lights.
+// Loads the scenes on which full frames are timed: models and procedural meshes, each with a camera
+// and lights.
 #pragma once
 
 #include <string>
@@ -12,23 +13,26 @@ namespace rtrays {
 struct TimedScene {
     Scene scene;
     bool is_procedural;
-    std::string description;  ///< of surfaces and lights
+    std::string description;  ///< surfaces and lights
 };
 
-/// Its own materials, where the model has any and else one of a Lambert and a Blinn lobe; or the
-/// same Lambert everywhere.
-enum class Surfaces { own, diffuse };
+/// Materials of a timed scene.
+enum class Surfaces {
+    own,     ///< the model's materials, or a Lambert and a Blinn lobe if it has none
+    diffuse  ///< one Lambert material for all surfaces
+};
 
-/// Scenes of models whose files are there (measured_meshes()), and "NAME_N" of those made of N
-/// triangles.
+/// Returns the names of the model scenes whose files exist, and "NAME_N" for the procedural scenes
+/// with N triangles.
 std::vector<std::string> timed_scenes();
 
-/// `name`: a model's scene, "court_N", "court_N_upper" (seen from a gallery), "hall_N",
-/// "landscape_N" or "city_N" of N triangles, or a folder of scenes/. Throws `Error` (bad input)
-/// listing the names when there is no such scene, and as the readers do.
+/// Loads a scene by its name. The name is that of a model scene, a folder of scenes/, or a
+/// procedural scene with N triangles: "court_N", "court_N_upper" (seen from a gallery), "hall_N",
+/// "landscape_N" or "city_N". Throws `Error` (bad input) listing the names if the scene does not
+/// exist, and the errors of the file readers.
 TimedScene load_timed_scene(const std::string &name, Surfaces surfaces);
 
-/// Whether `load_timed_scene` knows the name and its files are there.
+/// Returns whether `load_timed_scene` knows the name and its files exist.
 bool has_timed_scene(const std::string &name);
 
 }  // namespace rtrays

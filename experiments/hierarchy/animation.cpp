@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An animated mesh: to build its hierarchy anew in every frame, or to fit the first one to what has
-// moved?
+// Compares rebuilding with refitting of the hierarchy of an animated mesh, frame by frame.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,9 +17,9 @@ namespace rtrays {
 
 namespace {
 
-/// The mesh as it is at `time`: of cloth_ball its two frames at 0 and 1 and what a straight line
-/// through them gives beyond; any other is twisted about the vertical axis through its centre, at
-/// time 1 by a whole turn over its height.
+/// Returns the mesh at `time`. cloth_ball has frames at times 0 and 1 and is extrapolated linearly
+/// beyond. Any other mesh is twisted about the vertical axis through its centre, at time 1 by a
+/// full turn over its height.
 test::Mesh at_time(const test::Mesh &mesh, const test::Mesh *second, float time) {
     test::Mesh moved = mesh;
     const Eigen::AlignedBox3f box = mesh.box();
@@ -38,7 +37,7 @@ test::Mesh at_time(const test::Mesh &mesh, const test::Mesh *second, float time)
     return moved;
 }
 
-/// A tree of the first frame that is fitted to every other.
+/// A tree of the first frame that is refitted to every other frame.
 struct Fitted {
     std::string name;
     std::unique_ptr<DeviceTracer> tracer;
@@ -71,8 +70,8 @@ class Animation {
         }
     }
 
-    /// Frame `frame` of 0 to settings.frames, at time frame / settings.frames (twist) or frame
-    /// (cloth_ball).
+    /// Measures frame `frame`, from 0 to settings.frames. Its time is frame / settings.frames for a
+    /// twist, or frame for cloth_ball.
     Json frame(int frame) {
         const float time =
             static_cast<float>(frame) / (second_ ? 1.0f : static_cast<float>(settings_.frames));
@@ -92,7 +91,7 @@ class Animation {
                 if (!tree.refitter->refit(tree.tracer->bvh(), on_device.positions,
                                           on_device.indices)) {
                     throw run_error(
-                        fmt::format("{}: triangles appear at frame {}", mesh.name, frame));
+                        fmt::format("{}: new triangles appear in frame {}", mesh.name, frame));
                 }
             };
             fit();  // the first launches compile
@@ -128,11 +127,11 @@ class Animation {
         return {{"mesh", first_.mesh.name},
                 {"triangles", first_.mesh.triangles.size()},
                 {"motion",
-                 second_ ? "two frames, and straight on" : "twisted by a turn over its height"}};
+                 second_ ? "two frames, then extrapolated" : "twisted by a turn over its height"}};
     }
 
   private:
-    /// Speeds are over the tree that the usual builder builds anew.
+    /// Returns the result of a frame. Speeds are relative to the default builder's rebuilt tree.
     Json result(int frame, const Contest &updates, const Contest &traces, Json work,
                 double ray_count) const {
         Json entries = Json::array();
@@ -146,7 +145,7 @@ class Animation {
             const std::string name = entry.at("name");
             if (entry.at("hits") != work.front().at("hits")) {
                 throw run_error(fmt::format(
-                    "{}: of frame {}, {} rays hit something by '{}', {} by '{}'", first_.mesh.name,
+                    "{}: in frame {}, {} rays hit with '{}' and {} with '{}'", first_.mesh.name,
                     frame, entry.at("hits").dump(), name, work.front().at("hits").dump(), base));
             }
             entry["processor_ns"] = scaled(traces.processor_seconds(name), 1e9 / ray_count);

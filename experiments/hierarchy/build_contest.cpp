@@ -26,8 +26,8 @@ test::EmbreeScene embree_scene(const test::Mesh &mesh, uint32_t threads, RTCBuil
     return {mesh, fmt::format("threads={}", threads), quality, RTC_SCENE_FLAG_NONE};
 }
 
-/// Bytes of the hierarchy with the triangles in it, and the most that building took, vertices and
-/// indices included, as the device builder counts them.
+/// Returns the bytes of the hierarchy including its triangles, and the peak during the build
+/// including vertices and indices. The device builder counts both in the same way.
 Json embree_facts(const test::Mesh &mesh, uint32_t threads, RTCBuildQuality quality) {
     test::EmbreeScene scene = embree_scene(mesh, threads, quality);
     const int64_t before = scene.bytes();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Building hierarchies over one mesh in turns: by every builder and layout on the device, and by
-// Embree.
+// Times the building of hierarchies over one mesh in interleaved repetitions: every builder and
+// layout on the device, and Embree.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace rtrays {
 
-/// One builder for each variant, with its kernels: for any number of meshes.
+/// A builder with compiled kernels for each variant. It is reused for all meshes.
 class Builders {
   public:
     explicit Builders(DeviceContext &device);
@@ -32,29 +32,31 @@ class Builders {
     std::vector<Named> all_;
 };
 
+/// Contest of all builders over one mesh.
 class BuildContest {
   public:
-    /// Builds once by each, which compiles, and traces `rays` diffuse rays. `builders` must outlive
-    /// the contest.
+    /// Builds once with each builder, which compiles its kernels, and traces `rays` diffuse rays.
+    /// `builders` must outlive the contest.
     BuildContest(Builders &builders, const std::string &mesh, size_t rays);
 
     Contest &contest() { return contest_; }
     double triangles() const { return static_cast<double>(mesh_.mesh.triangles.size()); }
 
-    /// What is known after at least 6 turns (kinds.h), but for the cost of a full sweep.
+    /// Returns the row of the result (kinds.h) after at least 6 turns, without "full_sweep_sah".
     Json row() const;
 
-    /// SAH cost of a full sweep on the host: n log n, about a minute for 1e7 triangles.
+    /// Computes the SAH cost of a full-sweep build on the host. It takes O(n log n) time, about a
+    /// minute for 1e7 triangles.
     double full_sweep_cost() const;
 
-    /// What speeds are relative to.
+    /// Contestant that speeds are relative to.
     static constexpr const char *baseline = "Embree medium";
 
   private:
     MeasuredMesh mesh_;
     std::unique_ptr<DeviceMesh> on_device_;
     Contest contest_;
-    std::vector<Json> facts_;  ///< of each contestant, all but times
+    std::vector<Json> facts_;  ///< values of each contestant except times
 };
 
 }  // namespace rtrays

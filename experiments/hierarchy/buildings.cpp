@@ -12,11 +12,11 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float width = 12, height = 8, length = 36;  // of a hall
+constexpr float width = 12, height = 8, length = 36;  // size of a hall
 constexpr float gallery_width = 3, gallery_height = 4;
 constexpr uint32_t column_pairs = 11;
 
-/// A parallelogram of cells, its vertices moved along its normal by up to `relief`.
+/// A parallelogram that is divided into cells.
 struct Sheet {
     Vector3f corner, u, v;
 };
@@ -25,6 +25,8 @@ float area(const Sheet &sheet) {
     return sheet.u.cross(sheet.v).norm();
 }
 
+/// Adds a sheet of cells of about the size `cell`. Its vertices are displaced along the normal by
+/// up to `relief`.
 void add_sheet(test::Mesh &mesh, const Sheet &sheet, float cell, float relief,
                test::Random &random) {
     const auto columns = std::max(1u, static_cast<uint32_t>(sheet.u.norm() / cell));
@@ -49,7 +51,7 @@ void add_sheet(test::Mesh &mesh, const Sheet &sheet, float cell, float relief,
     }
 }
 
-/// An open fluted cylinder along y: 2 * rings * segments triangles.
+/// Adds an open fluted cylinder along y with 2 * rings * segments triangles.
 void add_column(test::Mesh &mesh, float x, float z, uint32_t rings, uint32_t segments) {
     const auto first = static_cast<uint32_t>(mesh.positions.size());
     for (uint32_t ring = 0; ring <= rings; ++ring) {
@@ -73,7 +75,7 @@ void add_column(test::Mesh &mesh, float x, float z, uint32_t rings, uint32_t seg
     }
 }
 
-/// Of the triangles about 15 % are of walls, 35 % of columns, and the others of vases.
+/// Builds a hall or court. Walls have about 15 % of the triangles, columns 35 %, vases the rest.
 test::Mesh interior(uint32_t count, bool has_ceiling) {
     test::Random random(count);
     test::Mesh mesh{"interior", {}, {}};
@@ -119,7 +121,7 @@ test::Mesh interior(uint32_t count, bool has_ceiling) {
     return mesh;
 }
 
-/// A house on a square of `side` with `bays` boxes on its four fronts.
+/// Adds a house on a square with side length `side`, with `bays` boxes on its four fronts.
 void add_house(test::Mesh &mesh, const Vector3f &corner, float side, float house_height,
                uint32_t bays) {
     mesh.add_box(corner, corner + Vector3f(side, house_height, side));
@@ -167,7 +169,7 @@ test::Mesh city(uint32_t count) {
                               pitch * static_cast<float>(lot / lots) + 5);
         add_house(mesh, corner, side, test::uniform(random, 10, 60), boxes / (lots * lots));
     }
-    while (mesh.triangles.size() < count) {  // what a street has standing about
+    while (mesh.triangles.size() < count) {  // boxes in the streets
         const Vector3f at(pitch * static_cast<float>(random() % lots) + test::uniform(random, 0, 3),
                           0, test::uniform(random, 0, extent));
         mesh.add_box(at, at + Vector3f(1.5f, 1.2f, 1.5f));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Procedural architecture, for models that are not there.
+// Procedural architecture that replaces missing models.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,14 @@
 
 namespace rtrays {
 
-/// A hall of 12 x 8 x 36 (x, y, z) from the origin on, of `count` triangles: floor, walls and
-/// ceiling in slight relief, two galleries on rows of columns, and vases. A court has no ceiling.
+/// Builds a hall of size 12 x 8 x 36 (x, y, z) with its corner at the origin and `count` triangles.
+/// It has a floor, walls and a ceiling in slight relief, two galleries on rows of columns, and
+/// vases. A court has no ceiling.
 test::Mesh hall(uint32_t count);
 test::Mesh court(uint32_t count);
 
-/// Blocks of houses with bay windows along straight streets, 30 apart, of `count` triangles; none
-/// is higher than 60.
+/// Builds a city of `count` triangles: houses with bay windows on a square grid with a pitch of 30.
+/// No house is higher than 60.
 test::Mesh city(uint32_t count);
 
 }  // namespace rtrays

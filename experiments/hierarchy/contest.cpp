@@ -37,7 +37,7 @@ const Contest::Contestant &Contest::find(const std::string &name) const {
         std::find_if(contestants_.begin(), contestants_.end(),
                      [&](const Contestant &contestant) { return contestant.name == name; });
     if (found == contestants_.end()) {
-        throw std::out_of_range("no contestant is called " + name);
+        throw std::out_of_range("unknown contestant " + name);
     }
     return *found;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Several ways to do one thing, timed in turns: what is slow for a while is slow for all of them.
+// Times several contestants for one task in interleaved repetitions, so that temporary slowdowns of
+// the machine affect all of them.
 #pragma once
 
 #include <chrono>
@@ -13,11 +14,12 @@
 
 namespace rtrays {
 
-/// Seconds of one run: by the clock on the wall, and of processor by all threads of this process.
+/// Duration of one run: wall time, and processor time of all threads of this process.
 struct Seconds {
     double wall, processor;
 };
 
+/// Runs `work` and returns its duration.
 template <typename Work>
 Seconds time_of(const Work &work) {
     const auto start = std::chrono::steady_clock::now();
@@ -27,39 +29,42 @@ Seconds time_of(const Work &work) {
             static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
 }
 
-/// What speeds compare.
+/// Clock by which speeds are compared.
 enum class Clock {
-    processor,  ///< of all threads: other load on the machine hardly changes it
-    wall        ///< where a GPU works
+    processor,  ///< processor time of all threads, which other load hardly changes
+    wall        ///< wall time, for GPUs
 };
 
+/// Returns the clock for a device.
 inline Clock clock_of(const DeviceInfo &device) {
     return device.is_cpu ? Clock::processor : Clock::wall;
 }
 
+/// Interleaved repetitions ("turns") of all contestants.
 class Contest {
   public:
     explicit Contest(Clock clock = Clock::processor) : clock_(clock) {}
 
-    /// `run` does the work once and says what it took; what it prepares before need not be timed.
+    /// Adds a contestant. `run` does the work once and returns its duration without preparation.
     void add(const std::string &name, const std::function<Seconds()> &run);
 
-    /// Every contestant once; every second turn in reverse order.
+    /// Runs every contestant once. Every second turn runs them in reverse order.
     void turn();
 
     size_t turns() const { return turns_; }
     std::vector<std::string> names() const;
 
-    /// Medians with 95 % intervals; at least 6 turns are needed, `Error` (run failed) otherwise.
-    /// Throws std::out_of_range for a name that is not there.
+    /// Return medians with 95 % intervals. Throw `Error` (run failed) for fewer than 6 turns, and
+    /// std::out_of_range for an unknown name.
     Interval wall_seconds(const std::string &name) const;
     Interval processor_seconds(const std::string &name) const;
 
-    /// How many times faster `name` is than `other` by this clock, turn by turn.
+    /// Returns the speed of `name` relative to `other` by the contest's clock: the median of the
+    /// ratios within turns. Throws like `wall_seconds`.
     Interval speed_over(const std::string &name, const std::string &other) const;
 
-    /// Share of the machine's processor time that others used during the turns, what the hypervisor
-    /// took included.
+    /// Returns the share of the machine's processor time that other processes and the hypervisor
+    /// used during a turn (median over the turns).
     double foreign_load() const;
 
   private:

@@ -27,7 +27,7 @@ constexpr int measurement_schema_version = 1;
 
 struct Kind {
     const char *name;
-    std::vector<const char *> needs;  ///< keys of its profiles
+    std::vector<const char *> needs;  ///< required keys of its profiles
     MeasurementPlan (*plan)(const MeasurementSettings &, DeviceContext &);
 };
 const std::vector<Kind> &kinds() {
@@ -44,22 +44,23 @@ const std::vector<Kind> &kinds() {
     return all;
 }
 
-/// The kind that "measures" names. Throws `Error` (bad input) when the profile lacks what it needs.
+/// Returns the kind that "measures" names. Throws `Error` (bad input) if the profile lacks a
+/// required key.
 const Kind &kind_of(const DescriptionFile &file, const std::string &profile) {
     const std::string measures = file.json.at("measures");
     const Kind &kind = *std::find_if(kinds().begin(), kinds().end(),
                                      [&](const Kind &k) { return k.name == measures; });
     for (const char *key : kind.needs) {
         if (!file.profile(profile).contains(key)) {
-            throw input_error(fmt::format("{}: missing key '{}': {} needs it",
+            throw input_error(fmt::format("{}: missing key '{}', which {} requires",
                                           file.location("/profiles/" + profile), key, measures));
         }
     }
     return kind;
 }
 
-/// Of the meshes or scenes wanted, those that are there; stand-ins for others go to `stand_ins`,
-/// those without one to `absent`.
+/// Returns the requested meshes or scenes that exist, and stand-ins for missing ones. Lists the
+/// replaced names in `stand_ins`, and missing names without a stand-in in `absent`.
 std::vector<std::string> present(const Json &wanted, bool (*has)(const std::string &),
                                  const Json &replacements, Json &stand_ins, Json &absent) {
     std::vector<std::string> names;
@@ -100,7 +101,7 @@ MeasurementSettings settings_of(const Json &description, const Json &profile, Js
     return settings;
 }
 
-/// A row of an earlier call, or measured now and kept for a later one.
+/// Returns the stored row of an interrupted call, or measures and stores it.
 Json row_of(const MeasurementTask &task, const fs::path &partial) {
     const fs::path file = partial / (task.id + ".json");
     if (fs::exists(file)) {
@@ -126,8 +127,10 @@ fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
     Json stand_ins = Json::object(), absent = Json::array();
     const MeasurementSettings settings = settings_of(file.json, profile, stand_ins, absent);
     if (options.compile) {
-        throw input_error(fmt::format("{}: its kernels are compiled as it measures",
-                                      options.experiment.string()));
+        throw input_error(
+            fmt::format("{}: --compile does not apply to measurements, which compile "
+                        "their kernels themselves",
+                        options.experiment.string()));
     }
     if (options.dry_run) {
         fmt::print("{}, profile {}: {} on {}{}{}\n", name, options.profile, measures,
@@ -188,7 +191,7 @@ Json scaled(const Interval &interval, double factor) {
 void run_turns(Contest &contest, int repetitions) {
     for (int turn = 0; turn < repetitions; ++turn) {
         if (interrupted()) {
-            throw Error(ExitCode::interrupted, "interrupted; the same command continues");
+            throw Error(ExitCode::interrupted, "interrupted; repeat the command to continue");
         }
         contest.turn();
     }

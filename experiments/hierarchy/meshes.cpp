@@ -28,7 +28,7 @@ test::Mesh load_first(const std::vector<fs::path> &files) {
     return load_mesh(files.front());
 }
 
-/// Both of Stanford's decimations, side by side.
+/// Places two decimations of the Stanford dragon side by side.
 test::Mesh two_dragons(const std::vector<fs::path> &files) {
     test::Mesh both = load_mesh(files[0]);
     const test::Mesh second = load_mesh(files[1]);
@@ -57,16 +57,16 @@ test::Mesh san_miguel_of(const std::vector<fs::path> &files) {
     return load_san_miguel(files[0], files[1], part);
 }
 
-/// A mesh is read from files of the models' folder, of this repository ("scenes/..."), or made of
-/// nothing.
+/// A named mesh. It is read from files in the models' folder or in this repository ("scenes/..."),
+/// or it is procedural and has no files.
 struct Source {
     const char *name;
-    float view[7];  ///< as of View
+    float view[7];  ///< members of `View` in order
     test::Mesh (*make)(const std::vector<fs::path> &);
     std::vector<const char *> files;
 };
 
-// Views of the models: cameras.txt beside them, where there is one.
+// The views of the models come from the files cameras.txt beside them, if present.
 const std::vector<Source> &sources() {
     const char *const san_miguel = "san-miguel/san-miguel.ply.gz";
     const char *const instances = "san-miguel/san-miguel.instances";
@@ -149,7 +149,7 @@ fs::path scene_file(const std::string &name) {
     return fs::path(RTRAYS_SOURCE) / "scenes" / name / "scene.json";
 }
 
-/// A quarter of the triangles are the floor's, 10 x 10.
+/// Scatters spheres on a hilly floor of 10 x 10. The floor has a quarter of the triangles.
 test::Mesh scattered(uint32_t count) {
     test::Random random(count);
     test::Mesh mesh = test::terrain(std::max(1u, static_cast<uint32_t>(std::sqrt(count / 8.0))), 1);
@@ -167,7 +167,7 @@ test::Mesh scattered(uint32_t count) {
 }
 
 struct Procedure {
-    const char *head;  ///< of "HEAD_N"
+    const char *head;  ///< the name without the triangle count N
     test::Mesh (*make)(uint32_t count);
     View view;
 };
@@ -182,7 +182,7 @@ const std::vector<Procedure> &procedures() {
     return all;
 }
 
-/// The procedure that a name names, and its N; {nullptr, 0} for any other name.
+/// Returns the procedure of a name and its N, or {nullptr, 0} for any other name.
 std::pair<const Procedure *, uint32_t> procedure_of(const std::string &name) {
     for (const Procedure &procedure : procedures()) {
         const std::string head = procedure.head;
@@ -195,7 +195,7 @@ std::pair<const Procedure *, uint32_t> procedure_of(const std::string &name) {
     return {nullptr, 0};
 }
 
-/// Of meshes that need a view of their own, or that are no scene of this repository.
+/// Finds a named mesh; returns null for an unknown name.
 const Source *find(const std::string &name) {
     const auto found = std::find_if(sources().begin(), sources().end(),
                                     [&](const Source &source) { return source.name == name; });
@@ -256,10 +256,9 @@ MeasuredMesh load_measured_mesh(const std::string &name) {
     }
     if (source == nullptr || !is_present(*source)) {
         throw input_error(fmt::format(
-            "there is no mesh '{}' ({}); there are: {}, scattered_N, hall_N, court_N, city_N; "
-            "RTRAYS_MESHES names a "
-            "folder of models",
-            name, source == nullptr ? "no such name" : "its files are missing",
+            "cannot load mesh '{}': {}; meshes are: {}, scattered_N, hall_N, court_N, city_N; set "
+            "RTRAYS_MESHES to a folder of models for more",
+            name, source == nullptr ? "unknown name" : "its files are missing",
             fmt::join(measured_meshes(), ", ")));
     }
     const float(&v)[7] = source->view;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The meshes that hierarchies are measured on, each with a place to look from.
+// Loads the meshes on which hierarchies are measured, each with a view.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,16 @@
 
 namespace rtrays {
 
-/// From where primary rays start, and whereto.
+/// Origin and direction of the primary rays.
 struct View {
     Eigen::Vector3f origin;
-    Eigen::Vector3f direction;  ///< of any length
-    float degrees;              ///< field of view, both ways
+    Eigen::Vector3f direction;  ///< need not be normalised
+    float degrees;              ///< field of view, horizontal and vertical
 };
 
-/// Procedural meshes of stated triangle counts, the Cornell box, and those models of the folder
-/// $RTRAYS_MESHES that are there (../shared/meshes of a checkout unless it is set).
+/// Returns the names of the available named meshes: procedural meshes with fixed triangle counts,
+/// the Cornell box, and the models found in the folder $RTRAYS_MESHES (../shared/meshes beside the
+/// checkout if it is not set).
 std::vector<std::string> measured_meshes();
 
 struct MeasuredMesh {
@@ -26,23 +27,23 @@ struct MeasuredMesh {
     View view;
 };
 
-/// `name`: one of measured_meshes(), a folder of scenes/ with meshes in its scene.json, or a
-/// procedural mesh of N triangles: "hall_N", "court_N", "city_N" (buildings.h), or "scattered_N":
-/// spheres of a few hundred to a few thousand triangles, their sizes over two decades, on a hilly
-/// floor. Throws `Error` (bad input) listing the names when there is no such mesh, and as the
-/// readers do.
+/// Loads a mesh by its name. The name is one of `measured_meshes`, a folder of scenes/ whose
+/// scene.json has meshes, or a procedural mesh of N triangles: "hall_N", "court_N", "city_N"
+/// (buildings.h) or "scattered_N". The last one has spheres of a few hundred to a few thousand
+/// triangles on a hilly floor; their radii span two decades. Throws `Error` (bad input) listing the
+/// names if the mesh does not exist, and the errors of the file readers.
 MeasuredMesh load_measured_mesh(const std::string &name);
 
-/// Whether `load_measured_mesh` knows the name and its file is there.
+/// Returns whether `load_measured_mesh` knows the name and its files exist.
 bool has_measured_mesh(const std::string &name);
 
-/// Whether the name is that of a procedural mesh.
+/// Returns whether the name is that of a procedural mesh with N triangles.
 bool is_procedural(const std::string &name);
 
-/// The path of a file of the models' folder, or of this repository ("scenes/...").
+/// Returns the path of a file in the models' folder, or in this repository ("scenes/...").
 std::filesystem::path measured_file(const std::string &file);
 
-/// Adds the triangles of `part` to `mesh`, with vertices of their own.
+/// Appends the vertices and triangles of `part` to `mesh`.
 void append(test::Mesh &mesh, const test::Mesh &part);
 
 }  // namespace rtrays

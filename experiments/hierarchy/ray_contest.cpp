@@ -15,7 +15,7 @@ namespace rtrays {
 
 namespace {
 
-/// Of the instruction sets the one that traces these rays fastest, best of three.
+/// Returns Embree's tracer with the instruction set that traces these rays fastest, best of three.
 const EmbreeTracer &fastest(const TracedMesh &mesh, const std::vector<RayRecord> &rays,
                             const RayKind &kind, EmbreeCall call) {
     const EmbreeTracer *best = nullptr;
@@ -83,7 +83,7 @@ RayContest::RayContest(const TracedMesh &mesh, const RayKind &kind, size_t count
 
 void RayContest::require_equal_hits(const std::string &name, size_t hits, size_t expected) const {
     if (std::max(hits, expected) - std::min(hits, expected) > rays_.size() / 10000) {
-        throw run_error(fmt::format("{}: of {} {} rays {} hit something by {}, {} by Embree",
+        throw run_error(fmt::format("{}: of {} {} rays, {} hit with {} and {} with Embree",
                                     mesh_->mesh().mesh.name, rays_.size(), kind_.name, hits, name,
                                     expected));
     }

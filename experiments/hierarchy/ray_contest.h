@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays of one kind through one mesh in turns: by every layout on the device, and by Embree.
+// Times rays of one kind through one mesh in interleaved repetitions: every layout on the device,
+// and Embree.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,7 @@
 
 namespace rtrays {
 
-/// A mesh in every hierarchy of the device's, and in Embree's by every instruction set.
+/// A mesh with all hierarchies of the device, and Embree's hierarchy for every instruction set.
 class TracedMesh {
   public:
     TracedMesh(DeviceContext &device, const std::string &mesh);
@@ -35,20 +36,20 @@ class TracedMesh {
     std::vector<std::unique_ptr<EmbreeTracer>> embree_;
 };
 
+/// Contest of all tracers with one kind of ray.
 class RayContest {
   public:
-    /// Traces once by each, which compiles, and chooses Embree's instruction sets. Throws `Error`
-    /// (run failed) when the numbers of rays that hit something differ by more than 1e-4 of all.
-    /// `mesh` must outlive the contest.
+    /// Traces once with each tracer, which compiles its kernels, and chooses Embree's instruction
+    /// sets. Throws `Error` (run failed) if the numbers of hits differ by more than 1e-4 of the
+    /// rays. `mesh` must outlive the contest.
     RayContest(const TracedMesh &mesh, const RayKind &kind, size_t rays);
 
     Contest &contest() { return contest_; }
-    const std::string &baseline() const {
-        return baseline_;
-    }  ///< what speeds are relative to: rtcIntersect1, rtcOccluded1
+    /// Contestant that speeds are relative to: rtcIntersect1 or rtcOccluded1.
+    const std::string &baseline() const { return baseline_; }
     double millions_of_rays() const { return 1e-6 * static_cast<double>(rays_.size()); }
 
-    /// What is known after at least 6 turns (kinds.h).
+    /// Returns the row of the result (kinds.h) after at least 6 turns.
     Json row() const;
 
   private:
@@ -60,7 +61,7 @@ class RayContest {
     std::unique_ptr<DeviceRays> on_device_;
     Contest contest_;
     std::string baseline_;
-    std::vector<Json> facts_;  ///< of each contestant, all but times
+    std::vector<Json> facts_;  ///< values of each contestant except times
 };
 
 }  // namespace rtrays

@@ -52,7 +52,7 @@ std::vector<RayRecord> primary_rays(const View &view, size_t count, Random &rand
     return rays;
 }
 
-/// Where a ray meets its triangle, and the normal on its side.
+/// Hit point of a ray, and the normal on the side from which the ray came.
 struct Arrival {
     SurfacePoint point;
     Eigen::Vector3f normal;
@@ -111,7 +111,7 @@ std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh
             }
         }
         if (rays.empty()) {
-            throw run_error("the view of " + mesh.name + " sees nothing");
+            throw run_error("the view of " + mesh.name + " sees no triangle");
         }
     }
     return rays;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rays of path tracing by kind, in the order in which a renderer would trace them.
+// Makes the rays of path tracing by kind, in the order in which a renderer would trace them.
 #pragma once
 
 #include <string>
@@ -12,21 +12,25 @@ namespace rtrays {
 
 enum class Query { nearest, any };
 
-/// A kind of ray and what is asked of it.
+/// A kind of ray and its query.
 struct RayKind {
     std::string name;
     Query query;
-    bool coherent;  ///< neighbours start together and go the same way
+    bool coherent;  ///< neighbouring rays have similar origins and directions
 };
 
-/// primary: through random points of the image plane, row by row. The others start where those hit,
-/// on the side they came from. shadow: to a random point of a square of a tenth of the scene's
-/// width, nine tenths up in it; ambient occlusion: cosine-distributed, a tenth of the scene's
-/// diagonal long; diffuse: cosine-distributed, endless.
+/// The kinds of rays:
+/// * primary: through random points of the image plane, row by row.
+/// * shadow: from the hits of primary rays to random points of a square. Its sides are a tenth of
+///   the scene's, at nine tenths of the scene's height.
+/// * ambient_occlusion: from the hits, cosine-distributed, a tenth of the scene's diagonal long.
+/// * diffuse: from the hits, cosine-distributed, infinitely long.
+///
+/// Rays from a hit start on the side from which the primary ray came.
 const std::vector<RayKind> &ray_kinds();
 
-/// About `count` rays of the kind. Hits are found by Embree: the rays do not depend on what is
-/// measured.
+/// Makes at least `count` rays of the kind. Embree finds the hits, so that the rays do not depend
+/// on the measured hierarchies.
 std::vector<RayRecord> make_rays(const std::string &kind, const test::Mesh &mesh, const View &view,
                                  const test::EmbreeScene &embree, size_t count);
 

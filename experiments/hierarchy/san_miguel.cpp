@@ -37,7 +37,7 @@ std::string read_gzip(const fs::path &path) {
             file == nullptr ? -1
                             : gzread(file.get(), piece.data(), static_cast<unsigned>(piece.size()));
         if (bytes < 0) {
-            throw input_error(fmt::format("{}: cannot be read as gzip", path.string()));
+            throw input_error(fmt::format("cannot read {} as gzip", path.string()));
         }
         if (bytes == 0) {
             return content;
@@ -46,7 +46,7 @@ std::string read_gzip(const fs::path &path) {
     }
 }
 
-/// The model is read as any PLY file is, from a copy that lives as long as that takes.
+/// Reads a gzipped PLY file through a temporary, uncompressed copy.
 Geometry read_gzipped_ply(const fs::path &path, ModelNotes &notes) {
     const fs::path copy = fs::temp_directory_path() / (content_hash(path.string()) + ".rtrays.ply");
     write_file(copy, read_gzip(path));
@@ -57,7 +57,7 @@ Geometry read_gzipped_ply(const fs::path &path, ModelNotes &notes) {
 
 struct Object {
     std::string name;
-    size_t first, count;  ///< triangles of the model
+    size_t first, count;  ///< range of triangles of the model
     size_t material;
 };
 
@@ -71,7 +71,7 @@ struct Layout {
     std::vector<Instance> instances;
 };
 
-/// Reads the list of a model that has so many triangles.
+/// Reads the list of a model with `triangles` triangles.
 Layout read_layout(const fs::path &path, size_t triangles) {
     std::istringstream file(read_file(path));
     Layout layout;
@@ -102,16 +102,16 @@ Layout read_layout(const fs::path &path, size_t triangles) {
         }
         if (!right) {
             throw input_error(
-                fmt::format("{}:{}: neither an object of a model of {} triangles nor an instance "
-                            "of one above: {}",
+                fmt::format("{}:{}: expected an object of a model with {} triangles or an instance "
+                            "of a previous object, got: {}",
                             path.string(), number, triangles, line));
         }
     }
     return layout;
 }
 
-/// All instances in world space, joined by what `group_of(object)` says: a number, or nothing to
-/// leave it out.
+/// Transforms all instances to world space and merges them by group. `group_of(object)` returns the
+/// group's number, or nothing to omit the object.
 template <class GroupOf>
 std::map<size_t, Geometry> place(const Geometry &model, const Layout &layout,
                                  const GroupOf &group_of) {
@@ -124,7 +124,7 @@ std::map<size_t, Geometry> place(const Geometry &model, const Layout &layout,
     std::map<size_t, Geometry> placed;
     for (const auto &[object, to_world] : layout.instances) {
         const auto part =
-            parts.find(static_cast<int64_t>(object));  // none of an object without triangles
+            parts.find(static_cast<int64_t>(object));  // missing if it has no triangles
         const std::optional<size_t> group = group_of(layout.objects[object]);
         if (part != parts.end() && group) {
             append_geometry(placed[*group], part->second, to_world);
@@ -180,7 +180,7 @@ Scene load_san_miguel_scene(const fs::path &model_file, const fs::path &instance
     const Layout layout = read_layout(instances, model.triangles.size());
     for (const Object &object : layout.objects) {
         if (object.material >= materials.size()) {
-            throw input_error(fmt::format("{}: object '{}' is of material {}, but {} has only {}",
+            throw input_error(fmt::format("{}: object '{}' has material {}, but {} has only {}",
                                           instances.string(), object.name, object.material,
                                           materials_file.string(), materials.size()));
         }

@@ -14,7 +14,7 @@ namespace rtrays {
 
 namespace {
 
-/// The three numbers of every vertex or triangle.
+/// Flattens vertices or triangles into an array of their three components.
 template <typename Number, typename Three>
 std::vector<Number> numbers_of(const std::vector<Three> &all) {
     std::vector<Number> numbers;
@@ -32,7 +32,7 @@ Defines defines(BvhLayout layout, bool counts) {
 
 constexpr size_t packet_size = 16;
 
-/// Lane `lane` of a packet.
+/// Sets one lane of a packet.
 void set_ray(RTCRay16 &packet, size_t lane, const RayRecord &ray) {
     packet.org_x[lane] = ray.origin[0];
     packet.org_y[lane] = ray.origin[1];
@@ -47,7 +47,7 @@ void set_ray(RTCRay16 &packet, size_t lane, const RayRecord &ray) {
     packet.flags[lane] = 0;
 }
 
-/// Rays [begin, end) by sixteens.
+/// Traces the rays [begin, end) in packets of sixteen and returns the number of hits.
 size_t trace_packets(RTCScene scene, const std::vector<RayRecord> &rays, size_t begin, size_t end,
                      Query query, bool coherent) {
     size_t found = 0;

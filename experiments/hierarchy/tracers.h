@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arrays of rays through a hierarchy on the OpenCL device, and through Embree's.
+// Traces arrays of rays through a hierarchy on the OpenCL device, and through Embree's.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,13 @@
 
 namespace rtrays {
 
-/// A way to build and lay out a hierarchy on the device.
+/// A builder and a layout of a hierarchy on the device.
 struct HierarchyVariant {
     std::string name;  ///< "binned_sah wide8"
     BvhBuildParameters parameters;
 };
 
-/// Every layout by the usual builder, and the usual layout by every other builder.
+/// Returns every layout with the default builder, and the default layout with every other builder.
 std::vector<HierarchyVariant> hierarchy_variants(const DeviceInfo &device);
 
 /// Vertices and triangles on the device.
@@ -32,31 +32,32 @@ struct DeviceMesh {
     Buffer<uint32_t> indices;
 };
 
-/// Rays on the device, to be traced through any number of hierarchies.
+/// Rays on the device, which can be traced through several hierarchies.
 struct DeviceRays {
     DeviceRays(DeviceContext &device, const std::vector<RayRecord> &rays, Query query);
 
     Query query;
     uint32_t count;
     Buffer<RayRecord> rays;
-    Buffer<Hit> hits;            ///< of Query::nearest
-    Buffer<uint32_t> occlusion;  ///< of Query::any
+    Buffer<Hit> hits;            ///< results of Query::nearest
+    Buffer<uint32_t> occlusion;  ///< results of Query::any
 
-    /// Number of rays that hit something when they were last traced.
+    /// Returns the number of rays that hit a triangle in the last trace.
     size_t hit_count() const;
 };
 
+/// Traces rays through a hierarchy on the device.
 class DeviceTracer {
   public:
     DeviceTracer(DeviceContext &device, Bvh bvh);
 
     const Bvh &bvh() const { return bvh_; }
-    Bvh &bvh() { return bvh_; }  ///< to be fitted anew
+    Bvh &bvh() { return bvh_; }  ///< for refitting
 
-    /// Traces and waits. The first launch of a kernel compiles it.
+    /// Traces the rays and waits for the device. The first launch of a kernel compiles it.
     void trace(const DeviceRays &rays) const;
 
-    /// Means over the rays: {nodes visited, triangles tested}.
+    /// Returns means over the rays: {nodes visited, triangles tested}.
     std::pair<double, double> work_per_ray(const DeviceRays &rays) const;
 
   private:
@@ -69,22 +70,24 @@ class DeviceTracer {
     Program trace_, count_;
 };
 
-/// How Embree is asked: ray by ray (rtcIntersect1, rtcOccluded1) or sixteen at a time
+/// Embree's interface: single rays (rtcIntersect1, rtcOccluded1) or packets of sixteen
 /// (rtcIntersect16, rtcOccluded16).
 enum class EmbreeCall { single, packets };
 
+/// Returns the name of Embree's function.
 const char *name_of(EmbreeCall call, Query query);
 
-/// An instruction set that Embree is built for, and the bits of its registers.
+/// An instruction set of Embree, and its register width in bits.
 struct EmbreeIsa {
     const char *name;
     uint32_t width;
 };
 
-/// Those that this processor has, the widest last. Throws `Error` where there is none.
+/// Returns the instruction sets that this processor supports, the widest last. Throws `Error` (run
+/// failed) if there is none.
 std::vector<EmbreeIsa> embree_isas();
 
-/// Embree's hierarchy of medium quality, ROBUST, traced by as many threads as it was built by.
+/// Embree's hierarchy of medium quality (ROBUST), built and traced by the same number of threads.
 class EmbreeTracer {
   public:
     EmbreeTracer(const test::Mesh &mesh, uint32_t threads, const EmbreeIsa &isa);
@@ -92,16 +95,15 @@ class EmbreeTracer {
     const test::EmbreeScene &scene() const { return scene_; }
     const std::string &isa() const { return isa_; }
 
-    /// Number of rays that hit something. `coherent`: what packets are told of their rays.
+    /// Traces the rays and returns the number of hits. `coherent` sets the packets' coherence flag.
     size_t trace(const std::vector<RayRecord> &rays, Query query, EmbreeCall call,
                  bool coherent) const;
 
-    /// Distance of the nearest hit of every ray, infinite for none.
+    /// Returns the distance of the nearest hit of every ray, or infinity.
     std::vector<float> nearest(const std::vector<RayRecord> &rays) const;
 
   private:
-    /// Calls work(begin, end) with a piece of [0, count) on every thread and adds up what it
-    /// returns.
+    /// Calls work(begin, end) on every thread with a part of [0, count) and sums the results.
     template <typename Work>
     size_t on_all_threads(size_t count, const Work &work) const;
 
@@ -110,7 +112,7 @@ class EmbreeTracer {
     test::EmbreeScene scene_;
 };
 
-/// One for every instruction set of this processor.
+/// Builds a tracer for every instruction set of this processor.
 std::vector<std::unique_ptr<EmbreeTracer>> embree_tracers(const test::Mesh &mesh, uint32_t threads);
 
 }  // namespace rtrays

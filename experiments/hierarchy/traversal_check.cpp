@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Are the hits right, and is the surface closed? Any number of rays, by batches.
+// Checks traversal with large numbers of rays, in batches: correct hits and watertight surfaces.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,9 +22,8 @@ namespace {
 
 constexpr size_t batch_size = 1 << 18;
 
-/// Rays that may be wrong in double precision (goals: at most 1e-6 of them), and rays that may
-/// leave a closed shape, at the origin of the coordinates and far from it (Embree's own test and
-/// limit).
+/// Largest shares of wrong hits, as judged in double precision, and of rays that escape from a
+/// closed shape near the origin and far from it. The far limit is that of Embree's own test.
 constexpr double wrong_limit = 1e-6, miss_limit = 0, far_miss_limit = 2e-5;
 
 std::vector<DeviceTracer> tracers_of(DeviceContext &device, const test::Mesh &mesh,
@@ -39,19 +38,19 @@ std::vector<DeviceTracer> tracers_of(DeviceContext &device, const test::Mesh &me
     return tracers;
 }
 
-/// Calls work(first, count, batch) until all rays are done; throws `Error` (interrupted) in between
-/// when asked to stop.
+/// Calls work(count, batch) until all rays are done. Throws `Error` (interrupted) between batches
+/// if a signal stops it.
 template <typename Work>
 void by_batches(size_t rays, const Work &work) {
     for (size_t first = 0, batch = 0; first < rays; first += batch_size, ++batch) {
         if (interrupted()) {
-            throw Error(ExitCode::interrupted, "interrupted; the same command continues");
+            throw Error(ExitCode::interrupted, "interrupted; repeat the command to continue");
         }
         work(std::min(batch_size, rays - first), batch);
     }
 }
 
-/// work(i) for i in [0, count) by `threads` threads.
+/// Calls work(i) for i in [0, count) on `threads` threads.
 template <typename Work>
 void in_parallel(size_t count, uint32_t threads, const Work &work) {
     std::atomic<size_t> next = 0;
@@ -68,12 +67,13 @@ void in_parallel(size_t count, uint32_t threads, const Work &work) {
     }
 }
 
-/// Hits that differ from Embree's, by kind of ray, and those that double precision finds wrong.
+/// Numbers of hits that differ from Embree's, by kind of ray, and of those that are wrong in double
+/// precision.
 struct Differences {
     size_t random = 0, grazing = 0, tied = 0, wrong = 0;
 };
 
-/// On a hit of a ray.
+/// Judgement of a hit of a ray, if one was given.
 struct Verdict {
     bool given = false;
     float t = 0;
@@ -97,7 +97,7 @@ Json compare_hits(DeviceContext &device, const std::string &name, size_t ray_cou
         hits += static_cast<size_t>(
             std::count_if(theirs.begin(), theirs.end(), [](float t) { return t < INFINITY; }));
         const DeviceRays on_device(device, rays, Query::nearest);
-        std::vector<Verdict> verdicts(count);  // layouts mostly find the same: it is judged once
+        std::vector<Verdict> verdicts(count);  // kept, as layouts mostly find the same hits
         for (size_t i = 0; i < tracers.size(); ++i) {
             tracers[i].trace(on_device);
             const std::vector<Hit> ours = on_device.hits.read();
@@ -142,7 +142,7 @@ Json compare_hits(DeviceContext &device, const std::string &name, size_t ray_cou
             {"rays", ray_count}, {"hits", hits}, {"layouts", layouts}};
 }
 
-/// A closed shape, and a ball within it where rays start.
+/// A closed shape, and a ball inside it where rays start.
 struct ClosedShape {
     std::string name;
     test::Mesh mesh;
@@ -152,7 +152,7 @@ struct ClosedShape {
 };
 
 std::vector<ClosedShape> closed_shapes() {
-    const Eigen::Vector3f far(148376.0f, 1234.0f, -223423.0f);  // Embree's own test
+    const Eigen::Vector3f far(148376.0f, 1234.0f, -223423.0f);  // from Embree's own test
     return {{"closed sphere",
              test::sphere(64, 128, 1.0f, 0.05f, {0, 0, 0}),
              {0, 0, 0},
@@ -163,7 +163,8 @@ std::vector<ClosedShape> closed_shapes() {
              far, 5.0f, far_miss_limit}};
 }
 
-/// Half of them anywhere, half at points of triangles, of edges and vertices in equal parts.
+/// Makes rays from inside a shape. Half of them have random directions. The others aim, in equal
+/// parts, at points on triangles, on edges and at vertices.
 std::vector<RayRecord> rays_from_inside(const ClosedShape &shape, size_t count, uint64_t seed) {
     test::Random random(seed);
     std::vector<RayRecord> rays;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes with a value derived by hand guard the conventions that renderer and reference share
-// through the importer: axes of the camera, winding, mirroring, colour encoding, units of the
-// lights. Both must meet it.
+// Tests scenes whose values were derived by hand. They check the conventions that renderer and
+// reference share through the importer: camera axes, winding, mirroring, colour encoding and light
+// units. Both must reproduce the derived value.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,18 +19,18 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr uint64_t spp = 2048;
 
-/// Eleven scenes by two renderers by three channels decide by chance: 4.5 standard errors each hold
-/// the whole at 0.0005.
+/// Bound of a deviation in standard errors. Eleven scenes, two renderers and three channels make 66
+/// random decisions; a bound of 4.5 keeps the total probability of a false alarm at 0.0005.
 constexpr double bound = 4.5;
 
 struct Expected {
     const char *scene;
-    /// Radiance of pixel (x, y), or of all pixels where the scene is uniform, per channel.
+    /// Radiance of pixel (x, y) by channel; equal for all pixels if the scene is uniform.
     double (*radiance)(int x, int y, size_t channel);
 };
 
 constexpr std::array<double, 3> rho = {0.8, 0.5, 0.2};
-constexpr std::array<double, 3> steps = {1, 2, 4};  // radiances and intensities rise like this
+constexpr std::array<double, 3> steps = {1, 2, 4};  // radiances and intensities by channel
 
 const std::array<Expected, 11> expectations = {{
     {"fov_axis",
@@ -66,7 +66,7 @@ Image render_reference(const Scene &scene) {
     return reference.develop();
 }
 
-/// Pixels of equal expectation are taken together.
+/// Compares the sum over the pixels with its expected value, and noise-free pixels one by one.
 void expect_meets(const Image &image, const Expected &expected, const char *renderer) {
     for (size_t channel = 0; channel < 3; ++channel) {
         const std::string name = rgb_names()[channel];
@@ -77,8 +77,8 @@ void expect_meets(const Image &image, const Expected &expected, const char *rend
             for (int x = 0; x < image.width(); ++x) {
                 const auto i = static_cast<size_t>(y * image.width() + x);
                 const double here = expected.radiance(x, y, channel);
-                if (variances[i] ==
-                    0.0f) {  // towards the corners of the field cos^3 falls by up to 1.3e-4
+                // Towards the corners of the field of view, cos^3 falls by up to 1.3e-4.
+                if (variances[i] == 0.0f) {
                     ASSERT_NEAR(static_cast<double>(values[i]), here, 1.5e-4 * here)
                         << renderer << " " << x << "," << y;
                 }
@@ -87,8 +87,8 @@ void expect_meets(const Image &image, const Expected &expected, const char *rend
                 variance += static_cast<double>(variances[i]);
             }
         }
-        // Half a degree of field lowers the mean by at most 4.3e-5: cos^3 at a quarter of a degree
-        // from 3 units away, with the light 2 units above.
+        // A field of view of half a degree lowers the mean by at most 4.3e-5: cos^3 at a quarter of
+        // a degree from 3 units away, with the light 2 units above.
         EXPECT_NEAR(sum, wanted, bound * std::sqrt(variance) + 5e-5 * wanted)
             << renderer << " " << name;
         EXPECT_LT(std::sqrt(variance), 0.005 * wanted) << renderer << ": power";

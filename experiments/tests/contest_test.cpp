@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Turns, and what is made of them.
+// Tests of contests: the order of the turns, and the speeds computed from them.
 #include "experiments/hierarchy/contest.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(Contest, TakesTurnsThereAndBack) {
 }
 
 TEST(Contest, SpeedsAreRatiosWithinATurn) {
-    // Both are slowed alike, by a factor of the turn: the ratio stays what it is, and times spread.
+    // Both are slowed by the number of the turn, so the times spread and the ratio is constant.
     Contest contest;
     int slow = 0, fast = 0;
     contest.add("slow", [&] { return Seconds{8.0 * ++slow, 4.0 * slow}; });

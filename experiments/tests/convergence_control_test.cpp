@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The comparison of renders with and without convergence control on images whose bias and cost are
-// known.
+// Tests the comparison of renders with and without convergence control on images with known bias
+// and cost.
 #include "experiments/convergence_control.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ std::vector<ControlledRender> without() {
     return renders;
 }
 
-/// The same with less work, and some noise of its own where pixels have stopped.
+/// Returns the renders of `without` with less work and additional noise, as if pixels had stopped.
 std::vector<ControlledRender> stopped(float own_noise) {
     std::vector<ControlledRender> renders = without();
     for (uint32_t seed = 0; seed < seeds; ++seed) {
@@ -73,8 +73,8 @@ TEST(ConvergenceControl, FindsNoBiasWhereThereIsNone) {
     const nlohmann::json mean = row["bias"]["mean"];
     EXPECT_LT(mean["low"], 0);
     EXPECT_GT(mean["high"], 0);
-    // Noise that both share does not widen it: 0.05 / 2 over sqrt(10 x 48 x 48 x 3) values, times t
-    // of 9 degrees.
+    // Shared noise does not widen the interval. Its half width is 0.05 / 2 over the square root of
+    // 10 x 48 x 48 x 3 values, times t with 9 degrees of freedom.
     EXPECT_LT(mean["high"].get<double>() - mean["low"].get<double>(),
               2 * 3.25 * 0.025 / std::sqrt(10.0 * 48 * 48 * 3) * 2);
     EXPECT_DOUBLE_EQ(row["paths"], 0.25);
@@ -89,7 +89,7 @@ TEST(ConvergenceControl, FindsABiasWhereItIs) {
         render.image = with_biased_block(render.image, 0.99f);
     }
     const nlohmann::json row = compare_control(with, without(), grey(2.0f));
-    EXPECT_EQ(row["bias"]["rejected"], 2) << "the block and the whole of its channel";
+    EXPECT_EQ(row["bias"]["rejected"], 2) << "the block and the full image of its channel";
     EXPECT_EQ(row["bias"]["largest_z_at"], "G (16, 32)");
     const nlohmann::json mean = row["bias"]["mean"];
     const double bias = -0.01 / 27;  // one of nine blocks, one of three channels
@@ -99,7 +99,7 @@ TEST(ConvergenceControl, FindsABiasWhereItIs) {
 }
 
 TEST(ConvergenceControl, ComparesErrorsAtEqualRays) {
-    // The same error for a fifth of the rays; and one that samples spread evenly have at a fifth.
+    // First equal errors with a fifth of the rays, then the error of a fifth of evenly spread rays.
     const nlohmann::json same = compare_control(stopped(0.0f), without(), grey(2.0f));
     for (const char *end : {"value", "low", "high"}) {
         EXPECT_NEAR(same["efficiency"][end], 5, 1e-9);

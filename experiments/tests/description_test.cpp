@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Experiment and gate files: the shipped ones load, broken ones are refused with what is wrong and
-// where.
+// Tests of experiment and gate files: the shipped ones load, and broken ones are refused with a
+// message that names the error and its location.
 #include "experiments/description.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 const fs::path shipped = RTRAYS_EXPERIMENTS;
 
-/// The message of the error that loading the text as an experiment (or a gate) gives.
+/// Loads the text as an experiment or a gate and returns the message of the error.
 std::string error_of(const std::string &text, bool as_gate = false) {
     const fs::path path = fs::path(testing::TempDir()) / "broken_experiment.json";
     write_file(path, text);
@@ -49,7 +49,7 @@ TEST(Description, ShippedExperimentsLoadInEveryProfile) {
             const auto experiment =
                 load_experiment(shipped / (std::string(name) + ".json"), profile);
             EXPECT_EQ(experiment.name, name);
-            // Throughput is the last curve's: path tracing on every page.
+            // Throughput is measured on the last curve, which is path tracing in all experiments.
             EXPECT_EQ(experiment.curves.back().id(), "path_tracing.mis");
             EXPECT_TRUE(experiment.scene.is_absolute());
             for (const CurveDescription &curve : experiment.curves) {
@@ -77,9 +77,9 @@ TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
                   is_capped ? std::vector<uint64_t>{4} : std::vector<uint64_t>({4, 16}));
     }
     const auto error = [&](const std::string &most) { return error_of(capped(most)); };
-    EXPECT_NE(error("\"bdpt\": 8").find("there is no curve 'bdpt'"), std::string::npos);
-    EXPECT_NE(error("\"bdpt.mis\": 5").find("none of \"spp\""), std::string::npos);
-    EXPECT_NE(error("\"bdpt.mis\": 2").find("from the third on"), std::string::npos);
+    EXPECT_NE(error("\"bdpt\": 8").find("unknown curve 'bdpt'"), std::string::npos);
+    EXPECT_NE(error("\"bdpt.mis\": 5").find("value of \"spp\", got 5"), std::string::npos);
+    EXPECT_NE(error("\"bdpt.mis\": 2").find("the third or a later value"), std::string::npos);
 }
 
 TEST(Description, CurvesThatTheProfileNamesHaveMoreSeeds) {
@@ -92,7 +92,7 @@ TEST(Description, CurvesThatTheProfileNamesHaveMoreSeeds) {
     for (const CurveDescription &curve : load_experiment(path, "quick").curves) {
         EXPECT_EQ(curve.seeds, curve.id() == "bdpt.mis" ? 24u : 8u);
     }
-    EXPECT_NE(error_of(with("\"bdpt\": 24")).find("there is no curve 'bdpt'"), std::string::npos);
+    EXPECT_NE(error_of(with("\"bdpt\": 24")).find("unknown curve 'bdpt'"), std::string::npos);
     EXPECT_NE(error_of(with("\"bdpt.mis\": 4")).find("more_seeds"), std::string::npos);
 }
 
@@ -126,10 +126,10 @@ TEST(Description, UnknownProfileListsTheProfiles) {
 TEST(Description, ErrorsOfGatesNameTheKey) {
     const std::string good = read_file(shipped / "gate_cornell_box.json");
     EXPECT_NE(error_of(replaced(good, "\"split\": 3", "\"split\": 8"), true)
-                  .find("/bitwise/split: 8 is not below"),
+                  .find("/bitwise/split: 8 must be less than"),
               std::string::npos);
     EXPECT_NE(error_of(replaced(good, "[2, 8, 32]", "[2, 32, 8]"), true)
-                  .find("/convergence/spp: must increase"),
+                  .find("/convergence/spp: values must increase"),
               std::string::npos);
     EXPECT_NE(error_of(replaced(good, "\"explicit\"", "\"implicit\""), true).find("two curves"),
               std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From measurements to the curve of run.json.
+// Tests of the curves in run.json that are computed from measurements.
 #include "experiments/document.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace rtrays {
 namespace {
 
-/// Ladders with RMSE = spread(seed) / sqrt(spp) and the noise of a reference on top.
+/// Returns ladders with MSE = scale(seed)^2 / spp + the noise of a reference.
 std::vector<Repetition> power_law(double noise_mse) {
     std::vector<Repetition> repetitions;
     for (uint32_t seed = 1; seed <= 8; ++seed) {
@@ -46,7 +46,7 @@ TEST(Document, CurveHoldsMediansAndRawValues) {
 }
 
 TEST(Document, CurveStopsWhereTheReferenceNoiseDominates) {
-    // 10 % of the MSE is passed between 8 and 16 spp.
+    // The noise exceeds 10 % of the MSE between 8 and 16 spp.
     const auto curve = summarise_curve(power_law(0.009), 0.009);
     EXPECT_FALSE(curve.at("points")[3].at("noise_dominates"));
     EXPECT_TRUE(curve.at("points")[4].at("noise_dominates"));
@@ -65,7 +65,7 @@ TEST(Document, RepetitionsRoundTrip) {
     EXPECT_EQ(to_json(again), to_json(repetition));
 }
 
-/// The message of the error that reading the text as a run.json gives.
+/// Reads the text as a run.json and returns the message of the error.
 std::string error_of(const std::string &text) {
     try {
         parse_run(text, "run.json");
@@ -79,7 +79,7 @@ std::string error_of(const std::string &text) {
 TEST(Document, AnIncompleteRunIsRefused) {
     EXPECT_NE(error_of(R"({"schema_version": 2})").find("missing key 'experiment'"),
               std::string::npos);
-    // JSON has no NaN: it is written as null.
+    // JSON has no NaN, so it is written as null.
     const nlohmann::json run = {{"schema_version", std::nan("")}};
     EXPECT_NE(error_of(run.dump()).find("null is not of type"), std::string::npos)
         << error_of(run.dump());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Independent estimators of one picture agree: implicit, explicit and MIS paths of the renderer,
-// and the reference, pairwise, by blocks of 16 x 16 pixels and on the mean.
+// Tests that independent estimators of one picture agree pairwise, over blocks of 16 x 16 pixels
+// and in the mean: implicit, explicit and MIS paths of the renderer, and the reference.
 #include <gtest/gtest.h>
 
 #include <iterator>
@@ -18,8 +18,9 @@ namespace {
 
 constexpr int size = 64;
 
-/// Samples, enough that an error of 2 % is seen (asserted below; implicit paths are the noisiest),
-/// and seed: each its own, since the tests take the images as independent.
+/// Sample count and seed of an estimator. The samples suffice to detect an error of 2 %, as
+/// asserted below; implicit paths are the noisiest. The seeds differ, because the tests assume
+/// independent images.
 struct Run {
     uint64_t spp;
     uint32_t seed;
@@ -60,7 +61,7 @@ TEST(Estimators, AgreePairwiseAndWithTheReference) {
             const Agreement agreement = test_agreement(a->second, b->second, policy);
             EXPECT_TRUE(agreement.agrees())
                 << a->first << " against " << b->first << ": " << agreement.rejected
-                << " tests rejected, largest |z| " << agreement.largest_z;
+                << " tests reject, largest |z| " << agreement.largest_z;
             Image brighter = a->second;
             for (const std::string &channel : rgb_names()) {
                 for (float &value : brighter.channel(channel)) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Tests of formulas: precedence, functions and errors.
 #include "experiments/expression.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stored references and arrays.
+// Tests of stored references and arrays.
 #include "renderer/base/files.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ Image noise_image(int width, int height, uint32_t seed) {
     return image;
 }
 
-/// A folder with both halves of a reference of scene "box".
+/// A folder for the halves of a reference of the scene "box".
 class StoredReferences : public testing::Test {
   protected:
     void SetUp() override {
@@ -95,8 +95,8 @@ TEST_F(StoredReferences, ASmallerFilmIsAveraged) {
     store("a", 1);
     store("b", 2);
     EXPECT_EQ(load_reference(request(4)).description.at("reduced_by"), 2);
-    EXPECT_EQ(error_code(request(3), "cannot be averaged"), ExitCode::bad_input);
-    EXPECT_EQ(error_code(request(16), "cannot be averaged"), ExitCode::bad_input);
+    EXPECT_EQ(error_code(request(3), "not a multiple of the film size"), ExitCode::bad_input);
+    EXPECT_EQ(error_code(request(16), "not a multiple of the film size"), ExitCode::bad_input);
 }
 
 TEST_F(StoredReferences, AMissingHalfNamesTheCommand) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Planting errors, without a device: every planted error of the shipped gates still finds its
-// place. The rule of slopes.
+// Tests of the gate without a device: every planted error of the shipped gates still fits its
+// kernel, and slopes are judged correctly.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,11 +33,23 @@ TEST(Plant, ShippedErrorsFitTheShippedKernels) {
         for (const auto &error : gate.planted.errors) {
             EXPECT_NO_THROW(plant(error, device_source(error.file))) << error.name;
         }
+        EXPECT_NO_THROW(require_plantable(gate.planted.errors));
     }
 }
 
-/// Errors of 16 renders at 4, 16 and 64 spp: e (spp / 4)^slope, squares scattered with this
-/// relative deviation at 4 spp, half of it at 16 and a quarter at 64.
+TEST(Plant, ErrorsThatCannotBePlantedAreFoundBeforehand) {
+    const std::string file = "kernels/light/light.h";
+    EXPECT_THROW(require_plantable({{"test", {}, file, "this text does not occur", "1"}}), Error);
+    EXPECT_THROW(require_plantable({{"test", {}, "kernels/missing.h", "cos", "1"}}), Error);
+}
+
+TEST(GateSummary, CountsFailedChecks) {
+    EXPECT_EQ(gate_summary(13, 0), "gate: all 13 checks passed");
+    EXPECT_EQ(gate_summary(13, 9), "gate: 9 of 13 checks failed");
+}
+
+/// Returns the errors of 16 renders at 4, 16 and 64 spp: 0.1 (spp / 4)^slope. The squares scatter
+/// with the relative deviation `scatter` at 4 spp, half of it at 16 and a quarter at 64.
 StageErrors made_up_errors(double slope, double scatter, uint64_t random_seed) {
     std::mt19937_64 engine(random_seed);
     std::normal_distribution<double> noise;
@@ -47,7 +59,7 @@ StageErrors made_up_errors(double slope, double scatter, uint64_t random_seed) {
         for (const uint64_t spp : {4u, 16u, 64u}) {
             const double steps = std::log2(static_cast<double>(spp) / 4) / 2;
             const double spread = scatter * std::pow(0.5, steps);
-            // Log-normal: of mean 1.
+            // Log-normal with mean 1.
             const double square =
                 std::exp(spread * (deviation + 0.3 * noise(engine)) - 0.5 * spread * spread * 1.09);
             errors[spp].push_back(0.1 * std::pow(4.0, slope * steps) * std::sqrt(square));
@@ -58,8 +70,12 @@ StageErrors made_up_errors(double slope, double scatter, uint64_t random_seed) {
 
 TEST(SlopeOfTheGate, MissesWhatDoesNotFallAsItShould) {
     const StageErrors good = made_up_errors(-0.5, 0.02, 1);
-    EXPECT_TRUE(check_slope("good", good, good, {}).passed);
-    EXPECT_FALSE(check_slope("shallow", made_up_errors(-0.48, 0.02, 2), good, {}).passed);
+    const CheckLine passed = check_slope("good", good, good, {});
+    EXPECT_TRUE(passed.passed);
+    EXPECT_NE(passed.text.find("] contains -1/2"), std::string::npos) << passed.text;
+    const CheckLine failed = check_slope("shallow", made_up_errors(-0.48, 0.02, 2), good, {});
+    EXPECT_FALSE(failed.passed);
+    EXPECT_NE(failed.text.find("does not contain -1/2"), std::string::npos) << failed.text;
     EXPECT_FALSE(check_slope("steep", made_up_errors(-0.52, 0.02, 3), good, {}).passed);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Closed forms of the metrics, and the power of the agreement tests on synthetic images.
+// Tests the metrics against closed forms, and the agreement tests on synthetic images.
 #include "experiments/metrics.h"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ Image constant(int width, int height, float value) {
     return image;
 }
 
-/// Mean `truth` * (1 + bias) with Gaussian noise of standard deviation `sigma` per pixel and
-/// channel.
+/// Returns an image of mean `truth` * (1 + bias) with Gaussian noise of standard deviation `sigma`
+/// in every pixel and channel.
 Image noisy(double truth, double bias, double sigma, uint64_t seed, int size = 64) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> noise;
@@ -76,7 +76,7 @@ TEST(Metrics, HalvesGiveTheNoiseOfTheirAverage) {
     const auto reference =
         combine_halves(noisy(truth, 0, sigma, 1, 256), noisy(truth, 0, sigma, 2, 256));
     EXPECT_NEAR(reference.noise_mse, sigma * sigma / 2, 0.01 * sigma * sigma / 2);
-    // The estimate is what the average is really off by, and the variance layer says the same.
+    // The estimate equals the actual error of the average, and so does the variance layer.
     const double actual = compute_metrics(reference.image, constant(256, 256, 1)).mse;
     EXPECT_NEAR(reference.noise_mse, actual, 0.02 * actual);
     EXPECT_NEAR(reference.image.channel("variance.R")[7], sigma * sigma / 2, 1e-6);
@@ -140,13 +140,13 @@ TEST(Agreement, RejectsATrueHypothesisAtMostAtItsLevel) {
         rejected +=
             test_agreement(noisy(1, 0, 0.1, seed), noisy(1, 0, 0.1, seed + 1)).agrees() ? 0 : 1;
     }
-    // Family-wise level 1 %: 12 of 500 is the 99.9 % quantile of the binomial.
+    // The family-wise level is 1 %, and 12 of 500 is the 99.9 % quantile of the binomial.
     EXPECT_LE(rejected, 12);
 }
 
 TEST(Agreement, FindsAHalfPercentBias) {
-    // Standard error of the mean difference per channel: sqrt(2) 0.05 / 64 = 0.0011, the bias
-    // is 4.5 of it.
+    // The standard error of the mean difference per channel is sqrt(2) 0.05 / 64 = 0.0011. The bias
+    // is 4.5 standard errors.
     int found = 0;
     for (uint64_t i = 0; i < 100; ++i) {
         found +=
@@ -159,7 +159,7 @@ TEST(Agreement, FindsAHalfPercentBias) {
 
 TEST(Agreement, FindsALocalErrorThatTheMeanHides) {
     Image image = noisy(1, 0, 0.02, 9);
-    for (size_t i = 0; i < 16 * 64; ++i) {  // one bright and one dark block, the mean unchanged
+    for (size_t i = 0; i < 16 * 64; ++i) {  // a bright and a dark block leave the mean unchanged
         const size_t x = i % 64;
         image.channel("R")[i] += x < 16 ? 0.02f : x < 32 ? -0.02f : 0.0f;
     }
@@ -196,14 +196,14 @@ TEST(AverageRuns, EstimatesTheVarianceOfTheMean) {
     for (const float value : average.channel("variance.G")) {
         variance += static_cast<double>(value) / static_cast<double>(average.pixel_count());
     }
-    // 4096 pixels of 15 degrees of freedom: relative standard error sqrt(2 / 61440) = 0.6 %.
+    // 4096 pixels with 15 degrees of freedom: relative standard error sqrt(2 / 61440) = 0.6 %.
     EXPECT_NEAR(variance, 0.3 * 0.3 / 16, 5 * 0.006 * 0.3 * 0.3 / 16);
     EXPECT_TRUE(test_agreement(average, noisy(2, 0, 0.05, 600)).agrees());
     EXPECT_THROW(average_runs({runs[0]}), Error);
     EXPECT_THROW(average_runs({runs[0], constant(8, 8, 2)}), Error);
 }
 
-/// Images of standard deviation sqrt(32) times that of their mean.
+/// Returns 32 images whose mean has the standard deviation `sigma`.
 std::vector<Image> noisy_batches(double bias, double sigma, uint64_t seed) {
     std::vector<Image> batches;
     for (uint64_t i = 0; i < 32; ++i) {
@@ -224,7 +224,7 @@ TEST(Agreement, FreshBatchesConfirmWhatRejects) {
     const std::vector<Image> clean = noisy_batches(0, 0.05, 100),
                              dark = noisy_batches(-0.02, 0.005, 100);
     EXPECT_TRUE(test_agreement(clean, reference, {}, fresh(-0.02)).agrees());
-    EXPECT_EQ(asked, 0) << "nothing rejects";
+    EXPECT_EQ(asked, 0) << "no test rejects";
 
     const Agreement alone = test_agreement(dark, reference);
     EXPECT_EQ(alone.rejected, 51u);
@@ -272,8 +272,8 @@ TEST(Agreement, OfBatchesFindsABiasAndNothingElse) {
         test_agreement(noisy_batches(0, 0.05, 100), noisy_batches(0.02, 0.05, 400)).agrees());
 }
 
-// Log-normal batches of mean 1 whose median is a quarter of that: most estimates are too low, and
-// too sure of it.
+// The batches are log-normal with mean 1 and median 1/4. Most estimates are too low and have too
+// small intervals.
 TEST(Agreement, LeavesBatchesUndecidedThatAreTooSkewed) {
     const Image reference = noisy(1, 0, 0.001, 7, 16);
     int rejected = 0, decided = 0;
@@ -294,7 +294,7 @@ TEST(Agreement, LeavesBatchesUndecidedThatAreTooSkewed) {
     EXPECT_LT(decided, 100);
 }
 
-// Exponential batches: Student's t alone rejects 90 of these runs, where 5 are to be expected.
+// The batches are exponential. Student's t alone rejects 90 of these runs, but 5 are expected.
 TEST(Agreement, OfSkewedBatchesRejectsFewMoreThanItsLevel) {
     AgreementPolicy pixels;
     pixels.block_size = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes that frames are timed on: what their names say is there, in sight, and lit.
+// Tests of the scenes on which frames are timed: their triangle counts, visibility and lighting.
 #include "experiments/frames/scenes.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(TimedScenes, AreSeenAndLit) {
             lit += red > 0 ? 1 : 0;
         }
         EXPECT_GT(lit, 0.95 * 16 * 12) << name;
-        // Some look into the sky, but not all: what is hit scatters.
+        // Some camera rays hit the sky, but enough hit surfaces and scatter.
         EXPECT_GT(static_cast<double>(renderer.stats().bounce_rays),
                   0.2 * static_cast<double>(renderer.stats().camera_rays))
             << name;
@@ -85,8 +85,8 @@ TEST(TimedScenes, OthersAreRefused) {
     }
 }
 
-/// Two triangles with normals and texture coordinates, each an object; read as they are, since they
-/// are not packed.
+/// Two triangles with normals and texture coordinates, each an object. The file is not compressed,
+/// which the reader accepts.
 class SanMiguelFiles : public testing::Test {
   protected:
     void SetUp() override {
@@ -131,7 +131,7 @@ TEST_F(SanMiguelFiles, HaveAMeshForEachMaterial) {
     const auto corner = [&](size_t i, size_t k) {
         return Eigen::Vector3f(loaded.meshes().position[triangles[i][k]]);
     };
-    // Mirrored, it still faces +z: its corners run the other way.
+    // The mirrored triangle still faces +z, because the order of its corners is reversed.
     const Eigen::Vector3f normal = (corner(2, 1) - corner(2, 0)).cross(corner(2, 2) - corner(2, 0));
     EXPECT_EQ(corner(2, 0), Eigen::Vector3f(5, 0, 0));
     EXPECT_EQ(normal, Eigen::Vector3f(0, 0, 2));

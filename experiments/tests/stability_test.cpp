@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The verdicts of stability cases: what is planted must be found, and what is as expected pass.
+// Tests of the verdicts of stability cases: planted errors are found, and expected images pass.
 #include "experiments/stability.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Image filled(const std::function<double(int)> &value) {
 
 const ExpectedImage one{filled([](int) { return 1.0; }), false};
 
-/// 32 batches of `draw(generator, pixel)`.
+/// Returns 32 batches with the pixel values draw(generator, pixel).
 std::vector<Image> batches(const std::function<double(std::mt19937 &, int)> &draw) {
     std::mt19937 generator(1);
     std::vector<Image> images;
@@ -38,7 +38,7 @@ std::vector<Image> batches(const std::function<double(std::mt19937 &, int)> &dra
     return images;
 }
 
-/// Noise of 10 % and mean 1.
+/// Draws a value with mean 1 and a standard deviation of 10 %.
 double noise(std::mt19937 &generator, int) {
     return std::normal_distribution<double>(1, 0.1)(generator);
 }
@@ -46,7 +46,7 @@ double noise(std::mt19937 &generator, int) {
 TEST(Stability, PassesWhatIsAsExpected) {
     const StabilityTest test = test_stability(batches(noise), one, 0, 0.01, alpha);
     EXPECT_EQ(test.verdict, "ok");
-    EXPECT_EQ(test.tests + test.undecided, 15u);  // four blocks and the whole by three channels
+    EXPECT_EQ(test.tests + test.undecided, 15u);  // four blocks and the image, three channels
     EXPECT_LT(test.difference.low, 0);
     EXPECT_GT(test.difference.high, 0);
     EXPECT_NEAR(test.mse, 0.01, 0.001);
@@ -76,7 +76,7 @@ TEST(Stability, HasRoundingWithoutNoiseKeepToItsBound) {
 
 TEST(Stability, DoesNotPassWhatItCannotTell) {
     EXPECT_EQ(test_stability(batches(noise), one, 0, 1e-5, alpha).verdict, "imprecise");
-    // All of the light in one batch of 32.
+    // One batch of 32 has all the light.
     int drawn = 0;
     const auto rare = [&](std::mt19937 &, int) { return drawn++ < 3 * size * size ? 32.0 : 0.0; };
     EXPECT_EQ(test_stability(batches(rare), one, 0, 1e9, alpha).verdict, "undecided");
@@ -100,7 +100,7 @@ TEST(Stability, LeavesTheNoiseOfTheReferenceOutOfTheError) {
         noisy.mean.add_channel(channel).assign(size * size, 0.09f);
     }
     const StabilityTest test = test_stability(batches(noise), noisy, 0, 0.1, alpha);
-    EXPECT_NEAR(test.mse, 0.01, 0.025);  // 768 values of the reference: 0.09 +- 5 %, and 5 sigma
+    EXPECT_NEAR(test.mse, 0.01, 0.025);  // 768 reference values: 0.09 +- 5 %, tolerance 5 sigma
     EXPECT_NEAR(test.mse_expected, 0.09, 0.01);
 }
 

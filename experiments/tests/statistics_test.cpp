@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Known answers of the statistics, and their error rates measured over simulations.
+// Tests the statistics against known answers, and their error rates by simulation.
 #include "experiments/statistics.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(Quantile, InterpolatesOrderStatistics) {
 }
 
 TEST(MedianInterval, UsesTheTabulatedRanks) {
-    // Ranks of the 95 % interval for n = 9 are 2 and 8, for n = 8 they are 1 and 8.
+    // The ranks of the 95 % interval are 2 and 8 for n = 9, and 1 and 8 for n = 8.
     const auto nine = median_interval({1, 2, 3, 4, 5, 6, 7, 8, 9});
     EXPECT_DOUBLE_EQ(nine.value, 5);
     EXPECT_DOUBLE_EQ(nine.low, 2);
@@ -35,8 +35,8 @@ TEST(MedianInterval, UsesTheTabulatedRanks) {
 }
 
 TEST(MeanInterval, IsStudents) {
-    const auto interval =
-        mean_interval({1, 2, 3}, 0.99);  // standard error 1 / sqrt(3), t of 2 degrees 9.924843
+    // The standard error is 1 / sqrt(3), and t with 2 degrees of freedom is 9.924843.
+    const auto interval = mean_interval({1, 2, 3}, 0.99);
     EXPECT_DOUBLE_EQ(interval.value, 2);
     EXPECT_NEAR(interval.low, 2 - 9.924843 / std::sqrt(3.0), 1e-5);
     EXPECT_NEAR(interval.high, 2 + 9.924843 / std::sqrt(3.0), 1e-5);
@@ -45,8 +45,8 @@ TEST(MeanInterval, IsStudents) {
 
 TEST(WeightedSlope, ExactLineAndWeights) {
     EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {1, 3, 5}, {1, 5, 2}), 2);
-    EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {0, 1, 7}, {1, 1, 0}),
-                     1);  // weight 0 leaves a point out
+    // Weight 0 excludes a point.
+    EXPECT_DOUBLE_EQ(weighted_slope({0, 1, 2}, {0, 1, 7}, {1, 1, 0}), 1);
     EXPECT_THROW(weighted_slope({1, 1}, {0, 1}, {1, 1}), Error);
 }
 
@@ -57,7 +57,7 @@ TEST(Holm, KnownAnswer) {
     EXPECT_DOUBLE_EQ(adjusted[2], 0.06);
     EXPECT_DOUBLE_EQ(adjusted[1], 0.06);
     EXPECT_DOUBLE_EQ(holm_adjusted({0.9, 0.8})[0], 1.0);
-    // What is not a number has not passed, wherever it stands.
+    // A NaN is rejected at any position.
     const auto broken = holm_adjusted({0.5, std::nan(""), 0.9});
     EXPECT_EQ(broken[1], 0.0);
     EXPECT_DOUBLE_EQ(broken[0], 1.0);
@@ -69,9 +69,8 @@ TEST(Normal, TailsKeepTheirPrecision) {
     EXPECT_NEAR(normal_quantile_two_sided(0.99), 2.5758293035489004, 1e-12);
 }
 
-/// One seed's errors along a ladder of cumulative samples: the squared error of the mean of growing
-/// batches of `pixels` Gaussian values, so that points of a seed are correlated as they are in a
-/// render.
+/// Returns one seed's RMSE along a ladder of cumulative samples. The values are means of growing
+/// numbers of Gaussian samples in `pixels` pixels: points of a seed are correlated as in a render.
 std::vector<double> ladder(const std::vector<double> &spp, int pixels, std::mt19937_64 &engine) {
     std::normal_distribution<double> noise;
     std::vector<double> sums(static_cast<size_t>(pixels), 0.0), errors;
@@ -111,8 +110,8 @@ TEST(ConvergenceSlope, IntervalCoversMinusOneHalfAtItsRate) {
         covered += slope.low <= -0.5 && -0.5 <= slope.high ? 1 : 0;
         width += (slope.high - slope.low) / runs;
     }
-    // 95 % of 400 is 380; the binomial's 99.9 % range is 364 to 393. A plain percentile bootstrap
-    // gives about 355.
+    // 95 % of 400 is 380, and the 99.9 % range of the binomial is 364 to 393. A percentile
+    // bootstrap covers about 355.
     EXPECT_GE(covered, 364);
     EXPECT_LE(covered, 393);
     EXPECT_LT(width, 0.1);
@@ -137,8 +136,8 @@ TEST(ConvergenceSlope, NeedsEightSeedsAndPositiveErrors) {
 }
 
 TEST(ConvergenceSlope, ScatterMovesLogarithms) {
-    // Log-normal squares of sigma 0.6 at the first point, 0.1 at the last: of mean 1, their
-    // logarithm's is -sigma^2 / 2.
+    // The squares are log-normal with mean 1, and sigma is 0.6 at the first point and 0.1 at the
+    // last. The mean of their logarithm is -sigma^2 / 2.
     std::mt19937_64 engine(4);
     std::normal_distribution<double> noise;
     std::vector<std::vector<double>> errors;
@@ -148,16 +147,16 @@ TEST(ConvergenceSlope, ScatterMovesLogarithms) {
             errors.back().push_back(std::exp(0.5 * (sigma * noise(engine) - 0.5 * sigma * sigma)));
         }
     }
-    const double slope =
-        convergence_slope({1, 16}, errors, 0.95, 100).value;  // of a mean that does not fall
+    // The mean of the squares does not fall.
+    const double slope = convergence_slope({1, 16}, errors, 0.95, 100).value;
     EXPECT_NEAR(slope, (0.36 - 0.01) / 4 / std::log(16.0), 0.003);
-    // To first order in the variance, exp(0.36) - 1 of log-normal squares.
+    // First order in the relative variance, which is exp(sigma^2) - 1 for log-normal squares.
     EXPECT_NEAR(slope_bias_of_scatter({1, 16}, errors),
                 (std::expm1(0.36) - std::expm1(0.01)) / 4 / std::log(16.0), 0.003);
 }
 
 TEST(PairedErrorRatio, KnownAnswer) {
-    // log ratios 0, 0.2: mean 0.1, standard error 0.1; t(0.975, 1) = 12.706.
+    // The log ratios 0 and 0.2 have mean 0.1 and standard error 0.1; t(0.975, 1) = 12.706.
     const auto change = paired_error_ratio({1, std::exp(0.2)}, {1, 1}, 0.975);
     EXPECT_NEAR(change.value, std::expm1(0.1), 1e-12);
     EXPECT_NEAR(change.high, std::expm1(0.1 + 1.2706204736), 1e-6);
@@ -178,7 +177,7 @@ TEST(Gate, Rule) {
     EXPECT_EQ(decide_gate({-0.3, -0.4, -0.2}), GateDecision::pass);
 }
 
-/// How often one stage of K independent pairs decides each way when the error truly changed by
+/// Counts the decisions of one stage with 16 independent pairs if the error truly changes by
 /// `change` and the log error of one render scatters by `sigma`.
 std::array<int, 3> simulate_gate(double change, double sigma, int runs) {
     std::mt19937_64 engine(3);
@@ -196,13 +195,13 @@ std::array<int, 3> simulate_gate(double change, double sigma, int runs) {
 }
 
 TEST(Gate, FalsePositiveRateAndPower) {
-    // A 64x64 render's log RMSE scatters by about 2 % between seeds.
+    // The log RMSE of a render with 64 x 64 pixels scatters by about 2 % between seeds.
     const auto unchanged = simulate_gate(0, 0.02, 20000);
     EXPECT_EQ(unchanged[1], 0);      // never a false alarm
-    EXPECT_GE(unchanged[0], 19900);  // and hardly ever a second stage
+    EXPECT_GE(unchanged[0], 19900);  // a second stage is rare
     const auto worse = simulate_gate(0.10, 0.02, 2000);
     EXPECT_GE(worse[1], 1990);  // +10 % is found in the first stage
-    // At the boundary a false "pass" has the probability of the 99.9 % bound.
+    // At the boundary, a false "pass" has the probability 0.1 % of the 99.9 % bound.
     const auto boundary = simulate_gate(0.05, 0.02, 20000);
     EXPECT_LE(boundary[0], 36);  // 0.1 % of 20000 is 20; 36 is its 99.9 % quantile
 }
@@ -216,8 +215,8 @@ TEST(Statistics, ExponentOfAPowerLaw) {
     const Interval interval = power_law_exponent(x, exact);
     EXPECT_NEAR(interval.value, 1.25, 1e-12);
     EXPECT_NEAR(interval.high - interval.low, 0, 1e-6);
-    // Three points of residuals 1, -2, 1 around a slope of 1: t of one degree of freedom times
-    // sqrt(6 / 2).
+    // Three points with residuals 1, -2, 1 around a slope of 1. The half width is t with one degree
+    // of freedom times sqrt(6 / 2).
     const double e = std::exp(1.0);
     const Interval rough = power_law_exponent({1, e, e * e}, {e, 1 / e, e * e * e});
     EXPECT_NEAR(rough.value, 1, 1e-12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Interleaving and the refusal under foreign load.
+// Tests of throughput: interleaved repetitions, and refusal under foreign load.
 #include "experiments/throughput.h"
 
 #include <gtest/gtest.h>

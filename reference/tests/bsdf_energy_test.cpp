@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// White furnaces, reciprocity, sides.
+// BSDFs: white furnaces, reciprocity, and the sides of a surface.
 #include <gtest/gtest.h>
 
 #include "reference/tests/sphere_grid.h"
@@ -21,7 +21,8 @@ Vec3 at(double degrees) {
     return {std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7), std::cos(theta)};
 }
 
-/// Radiance is compressed by eta^-2 on the side of the lower index: multiplied back it is energy.
+/// Returns the factor that converts radiance to energy. Radiance is compressed by eta^-2 on the
+/// side of the lower index.
 double energy_factor(const TestMaterial &material, const Vec3 &wi, const Vec3 &wo) {
     if (wi.z() * wo.z() > 0.0) {
         return 1.0;
@@ -30,7 +31,7 @@ double energy_factor(const TestMaterial &material, const Vec3 &wi, const Vec3 &w
     return wo.z() > 0.0 ? square(eta) : 1.0 / square(eta);
 }
 
-/// What leaves when 1 arrives along wo, delta events included.
+/// Returns the energy that leaves when 1 arrives along wo, including delta events.
 double albedo(const TestMaterial &material, const Bsdf &bsdf, const Vec3 &wo) {
     double total = integrate_sphere(
         [&](const Vec3 &wi) {
@@ -65,18 +66,20 @@ TEST(BsdfEnergy, the_originals_that_cannot_are_as_far_off_as_known) {
         const TestMaterial material{"", components};
         return albedo(material, make_bsdf(components), at(degrees));
     };
-    EXPECT_NEAR(value({oren_nayar(0.1)}, 88.0), 1.008, 0.004);  // digest, section 6
-    // Diverges as 1 / sqrt(cos): tenfold for an angle a hundredth as far from the horizon.
+    // The albedo of the qualitative model slightly exceeds 1.
+    EXPECT_NEAR(value({oren_nayar(0.1)}, 88.0), 1.008, 0.004);
+    // The original form diverges as 1 / sqrt(cos): tenfold at a hundredth of the angle to the
+    // horizon.
     const double diverging = value({ward(0.3, 0.3, false)}, 89.9999);
     EXPECT_GT(diverging, 5.0);
     EXPECT_NEAR(diverging / value({ward(0.3, 0.3, false)}, 89.99), 10.0, 0.1);
     EXPECT_LE(value({ward(0.3, 0.3, true)}, 89.9999), 1.0);
 }
 
-/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta. With
-/// cos(phi) above zero integrating to 2 over the azimuth, what B multiplies is 2 / pi times the
-/// integral over theta_i of sin(max) tan(min) cos(theta_i) sin(theta_i), in two parts with theta_i
-/// below and above theta.
+/// Returns the albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta.
+/// The positive part of cos(phi) integrates to 2 over the azimuth. Therefore the factor of B is 2 /
+/// pi times the integral over theta_i of sin(max) tan(min) cos(theta_i) sin(theta_i). The integral
+/// has two parts, with theta_i below and above theta.
 double oren_nayar_albedo(double sigma, double theta) {
     const double variance = square(sigma);
     const double a = 1.0 - 0.5 * variance / (variance + 0.33),
@@ -96,7 +99,7 @@ TEST(BsdfEnergy, oren_nayar_has_the_albedo_of_its_closed_form) {
                 << sigma << " " << degrees;
         }
     }
-    // An error of 2 % in either coefficient, or in sigma, is ten times as large as what is allowed.
+    // An error of 2 % in either coefficient or in sigma is at least five times the tolerance.
     const double theta = 60.0 * pi / 180.0, a = oren_nayar_albedo(0.5, 0.0);
     EXPECT_GT(0.02 * std::min(a, oren_nayar_albedo(0.5, theta) - a), 10.0 * quadrature_error);
     EXPECT_GT(oren_nayar_albedo(0.5, 0.0) - oren_nayar_albedo(0.51, 0.0), 20.0 * quadrature_error);
@@ -118,7 +121,7 @@ TEST(BsdfEnergy, sampled_weights_have_the_albedo_as_their_mean) {
                 sum += weight;
                 squares += square(weight);
             }
-            // In the red channel, whose colour is the largest of no test material.
+            // The expected mean of the red channel.
             const double expected =
                 integrate_sphere(
                     [&](const Vec3 &wi) {
@@ -132,8 +135,8 @@ TEST(BsdfEnergy, sampled_weights_have_the_albedo_as_their_mean) {
             const double mean = sum / samples;
             const double deviation =
                 std::sqrt(std::max(squares / samples - square(mean), 0.0) / samples);
-            // The quadrature's error matters where all weights are equal and the variance is
-            // rounding.
+            // The quadrature error matters if all weights are equal, so that the variance is
+            // rounding error.
             suite.push_back(
                 {material.name + " " + std::to_string(degrees),
                  normal_p_value((mean - expected) / std::hypot(deviation, quadrature_error))});
@@ -163,10 +166,10 @@ TEST(BsdfReciprocity, exchanging_the_directions_changes_nothing_but_eta_squared)
         }
         EXPECT_GT(compared, 1000) << material.name;
         if (material.reciprocal) {
-            EXPECT_LT(largest, 1e-7)
-                << material.name;  // half vectors of directions that nearly cancel
+            // The error is largest for half vectors of directions that nearly cancel.
+            EXPECT_LT(largest, 1e-7) << material.name;
         } else {
-            EXPECT_GT(largest, 0.1) << material.name;  // exempt by name, and rightly so
+            EXPECT_GT(largest, 0.1) << material.name;  // the exemption is justified
         }
     }
 }
@@ -191,7 +194,8 @@ TEST(Bsdf, smooth_glass_obeys_snell_and_fresnel) {
     const Bsdf glass = make_bsdf(smooth_glass(1.5));
     EXPECT_TRUE(glass.is_delta());
     std::vector<Comparison> suite;
-    for (const double degrees : {30.0, 80.0, 150.0, 120.0}) {  // the last beyond the critical angle
+    // The last is beyond the critical angle.
+    for (const double degrees : {30.0, 80.0, 150.0, 120.0}) {
         const Vec3 wo = at(degrees);
         const double eta = wo.z() > 0.0 ? 1.5 : 1.0 / 1.5;
         const double reflectance = fresnel_dielectric(std::abs(wo.z()), eta);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every sampler draws from the density it claims, and its weights are f cos / density.
+// BSDF samplers: each one has the density that it states, and its weights are f cos / density.
 #include <gtest/gtest.h>
 
 #include "reference/tests/sphere_grid.h"
@@ -14,13 +14,13 @@ using Distribution = BxdfComponent::Distribution;
 constexpr int samples = 100000;
 const Eigen::Vector2d no_uv = Eigen::Vector2d::Zero();
 
-/// At `degrees` from the normal; beyond 90 from below.
+/// Returns a direction at `degrees` from the normal; above 90 it is below the surface.
 Vec3 view(double degrees) {
     const double theta = degrees * pi / 180.0;
     return {std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7), std::cos(theta)};
 }
 
-/// Delta events are left out, as their density is.
+/// Returns a sampler that omits delta events, because the density omits them as well.
 DirectionSampler sampler_of(const Bsdf &bsdf, const Vec3 &wo) {
     return [&bsdf, wo](Rng &rng) -> std::optional<Vec3> {
         const auto sample = bsdf.sample(wo, no_uv, rng);
@@ -51,7 +51,7 @@ TEST(BsdfSampling, directions_have_the_density_claimed) {
 struct SharpLobe {
     const char *name;
     BxdfComponent component;
-    Eigen::Vector2d width;  ///< of its slopes
+    Eigen::Vector2d width;  ///< width of the distribution of slopes
 };
 
 TEST(BsdfSampling, sharp_lobes_have_the_density_claimed) {
@@ -74,7 +74,7 @@ TEST(BsdfSampling, sharp_lobes_have_the_density_claimed) {
             const SamplerCheck check = check_sharp_sampler(
                 sampler_of(bsdf, wo), density_of(bsdf, wo), wo, lobe.width, samples, rng);
             EXPECT_LT(check.total, 1.0 + 5e-5);
-            EXPECT_GT(check.total, 0.9);  // the lobe is where the cells are
+            EXPECT_GT(check.total, 0.9);  // the cells cover the lobe
             suite.push_back(
                 {lobe.name + std::string(" ") + std::to_string(degrees), check.p_value});
         }
@@ -83,8 +83,8 @@ TEST(BsdfSampling, sharp_lobes_have_the_density_claimed) {
 }
 
 TEST(BsdfSampling, the_chi_square_test_sees_two_percent) {
-    // The sampler of a lobe 2 % rougher (of one selection probability 2 % off) against the density
-    // claimed.
+    // Tests a wrong sampler against the stated density. Its lobe is 2 % rougher, or a selection
+    // probability is 2 % off.
     const auto ggx = Distribution::ggx, beckmann = Distribution::beckmann;
     const std::vector<
         std::tuple<const char *, std::vector<BxdfComponent>, std::vector<BxdfComponent>>>
@@ -106,7 +106,7 @@ TEST(BsdfSampling, the_chi_square_test_sees_two_percent) {
             check_sampler(sampler_of(sampled, wo), density_of(stated, wo), 20 * samples, rng);
         EXPECT_LT(check.p_value, 0.01 * family_alpha) << name;
     }
-    // Oren and Nayar's directions do not depend on sigma: here the density is wrong.
+    // Oren and Nayar's directions do not depend on sigma, so here the density is wrong instead.
     const Bsdf rough = make_bsdf({oren_nayar(0.5)});
     const DirectionDensity claimed = density_of(rough, view(35.0));
     const auto tilted = [&](const Vec3 &wi) { return claimed(wi) * (wi.x() > 0.0 ? 1.02 : 0.98); };

@@ -15,13 +15,13 @@ using FovAxis = CameraArrays::FovAxis;
 
 constexpr double fov = 0.8;
 
-/// A camera at the origin with camera space equal to world space.
+/// Returns a camera at the origin whose camera space equals world space.
 Camera camera_at_origin(FovAxis axis, int width, int height) {
     return Camera({{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {axis}, {0}, {1}}, 0, width,
                   height);
 }
 
-/// tan of the half angles towards the middle of the film's right and top edge.
+/// Returns the tangents of the half angles towards the middle of the film's right and top edges.
 Eigen::Vector2d half_extents(const Camera &camera, int width, int height) {
     const Vec3 right = camera.ray(width, 0.5 * height).direction;
     const Vec3 top = camera.ray(0.5 * width, 0.0).direction;
@@ -56,8 +56,8 @@ TEST(Camera, measures_the_field_of_view_along_its_axis) {
 
 TEST(Camera, turns_and_moves_with_its_matrix) {
     TestScene scene;
-    scene.set_camera({1, 2, 3}, {1, 2, 10}, Vec3::UnitY(),
-                     fov);  // looking along +z, so right is -x
+    // The camera looks along +z, so right is -x.
+    scene.set_camera({1, 2, 3}, {1, 2, 10}, Vec3::UnitY(), fov);
     const Camera camera(scene.cameras, 0, 10, 10);
     const Ray centre = camera.ray(5, 5);
     EXPECT_EQ(centre.origin, Vec3(1, 2, 3));
@@ -97,8 +97,8 @@ TEST(Camera, a_lens_focuses_on_its_plane) {
         mean += origin / samples;
         squares += origin.squaredNorm() / samples;
     }
-    // Uniform over the disc: mean 0 with deviation r / 2 per axis, mean square r^2 / 2 with r^2 /
-    // sqrt(12).
+    // A uniform disc has the mean 0 with a deviation of r / 2 per axis. Its mean square is r^2 / 2
+    // with a deviation of r^2 / sqrt(12).
     EXPECT_LT(mean.norm(), 4.0 * 0.15 * std::sqrt(2.0 / samples));
     EXPECT_NEAR(squares, 0.045, 4.0 * 0.09 / std::sqrt(12.0 * samples));
 }
@@ -141,10 +141,10 @@ TEST(Camera, a_closed_lens_is_a_pinhole_and_broken_ones_are_refused) {
 }
 
 TEST(Camera, a_point_out_of_focus_spreads_over_its_circle_of_confusion) {
-    // A small disc light at twice the focus distance. There the rays of a pixel, which meet in the
-    // plane of focus, have spread again to a disc as large as the lens.
+    // A small disc light is at twice the focus distance. The rays of a pixel meet in the plane of
+    // focus. At the light they have spread again to a disc as large as the lens.
     TestScene scene;
-    Eigen::Matrix4d facing = placed({0, 0, -8}, 0.05);  // +z looks at the camera
+    Eigen::Matrix4d facing = placed({0, 0, -8}, 0.05);  // +z faces the camera
     scene.add_shape(ShapeArrays::Kind::disc, facing, scene.add_material(Rgb::Zero()), Rgb::Ones());
     scene.set_camera(Vec3::Zero(), {0, 0, -1}, Vec3::UnitY(), 2.0 * std::atan(0.25));
     scene.cameras.aperture_radius[0] = 0.5;
@@ -152,8 +152,8 @@ TEST(Camera, a_point_out_of_focus_spreads_over_its_circle_of_confusion) {
     auto renderer = scene.renderer(small_settings(16, 153));
     renderer.render(0, 4096);
     const BlockMean mean = image_mean(renderer.develop(), "R");
-    // At distance 8 the chief rays cover 4 x 4; each pixel's rays spread over a disc of radius 0.5
-    // there, and what the spread takes from the disc light at one pixel it gives at another.
+    // At distance 8 the chief rays cover 4 x 4, and the rays of each pixel spread over a disc of
+    // radius 0.5. The spread moves light from one pixel to another but keeps the mean.
     EXPECT_NEAR(mean.mean, pi * square(0.05) / 16.0, 4.0 * std::sqrt(mean.variance));
     const Image image = renderer.develop();
     const auto lit = [&](int x, int y) {

@@ -24,7 +24,7 @@ class CheckpointFile : public testing::Test {
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    /// The message of the error that `action` throws.
+    /// Returns the message of the error that `action` throws.
     template <class Action>
     std::string error_of(const Action &action) {
         try {
@@ -91,10 +91,10 @@ TEST_F(CheckpointFile, names_what_differs) {
         return error_of([&] { require_continues(checkpoint, config, 0, 20, path_); });
     };
     EXPECT_EQ(message("abc123"), "no error");
-    EXPECT_NE(message("def456").find("scene_hash = \"abc123\", this run asks for \"def456\""),
+    EXPECT_NE(message("def456").find("scene_hash = \"abc123\", this run requests \"def456\""),
               std::string::npos);
     settings.seed = 2;
-    EXPECT_NE(message("abc123").find("seed = 1, this run asks for 2"), std::string::npos);
+    EXPECT_NE(message("abc123").find("seed = 1, this run requests 2"), std::string::npos);
     settings = small_settings(8, 1, Strategies::implicit_only);
     EXPECT_NE(message("abc123").find("strategies = \"mis\""), std::string::npos);
     settings = small_settings(9, 1);
@@ -103,7 +103,7 @@ TEST_F(CheckpointFile, names_what_differs) {
     settings.max_depth = 3;
     EXPECT_NE(message("abc123").find("max_depth = 0"), std::string::npos);
     settings.max_depth = 0;
-    settings.threads = 7;  // changes no bit, so it is not compared
+    settings.threads = 7;  // changes no bit, so the number is not compared
     EXPECT_EQ(message("abc123"), "no error");
 }
 

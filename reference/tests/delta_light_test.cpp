@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Radiance of a floor under lights with closed forms, seen by a narrow camera.
+// Point, spot and directional lights: the radiance of a floor against closed forms, seen by a
+// narrow camera.
 #include <gtest/gtest.h>
 
 #include "reference/tests/statistics.h"
@@ -14,7 +15,7 @@ using Kind = LightArrays::Kind;
 
 constexpr double albedo = 0.5;
 
-/// Rotation whose -z axis is `axis`.
+/// Returns a transform to `position` whose -z axis is `axis`.
 Eigen::Matrix4d aimed(const Vec3 &position, const Vec3 &axis) {
     Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
     transform.topLeftCorner<3, 3>() =
@@ -23,7 +24,8 @@ Eigen::Matrix4d aimed(const Vec3 &position, const Vec3 &axis) {
     return transform;
 }
 
-/// A floor at y = 0, seen at `point` by a camera of a hundredth of a degree.
+/// Returns a floor at y = 0, seen at `point` by a camera with a field of view of a hundredth of a
+/// degree.
 TestScene floor_seen_at(const Vec3 &point) {
     TestScene scene;
     scene.add_quad({Vec3(-10, 0, -10), Vec3(-10, 0, 10), Vec3(10, 0, 10), Vec3(10, 0, -10)},
@@ -32,7 +34,7 @@ TestScene floor_seen_at(const Vec3 &point) {
     return scene;
 }
 
-/// Of the floor, as one minus its relative error.
+/// Returns the measured irradiance of the floor over the expected one.
 double relative_irradiance(const TestScene &scene, double expected, Strategies strategies,
                            uint64_t spp = 64) {
     ReferenceSettings settings = small_settings(4, 121, strategies);
@@ -79,9 +81,9 @@ TEST(DeltaLights, directional_light_is_given_as_irradiance) {
     TestScene scene = floor_seen_at(point);
     scene.add_light(Kind::directional, Rgb::Constant(3.0f));
     const Vec3 axis = Vec3(0.3, -0.8, 0.2).normalized();
-    scene.lights.world_from_light[0] = aimed({100, -200, 300}, axis);  // the position means nothing
+    scene.lights.world_from_light[0] = aimed({100, -200, 300}, axis);  // the position has no effect
     EXPECT_NEAR(relative_irradiance(scene, -3.0 * axis.y(), Strategies::mis), 1.0, 1e-4);
-    // Whatever stands in its way, however far, casts a shadow.
+    // An occluder casts a shadow from any distance.
     scene.add_quad({Vec3(-9, 0, -9), Vec3(-9, 0, 9), Vec3(9, 0, 9), Vec3(9, 0, -9)}, 0);
     for (size_t i = 4; i < 8; ++i) {
         scene.meshes.position[i] += (point - 1000.0 * axis).cast<float>();
@@ -94,7 +96,8 @@ TEST(DeltaLights, several_are_chosen_without_bias) {
     double expected = 0.0;
     for (int i = 0; i < 5; ++i) {
         const Vec3 position(i - 2.0, 1.0 + i, 0.5 * i);
-        scene.add_light(Kind::point, Rgb::Constant(static_cast<float>(i)));  // one is black
+        // The first one is black.
+        scene.add_light(Kind::point, Rgb::Constant(static_cast<float>(i)));
         scene.lights.world_from_light.back() = aimed(position, Vec3::UnitX());
         const double distance = (position - point).norm();
         expected += i * position.y() / (distance * distance * distance);
@@ -112,9 +115,9 @@ TEST(DeltaLights, several_are_chosen_without_bias) {
 TEST(DeltaLights, refuse_parameters_out_of_range) {
     TestScene scene = floor_seen_at(point);
     scene.add_light(Kind::spot, Rgb::Ones());
-    EXPECT_THROW(scene.renderer(small_settings(4, 1)), Error);  // no angles
+    EXPECT_THROW(scene.renderer(small_settings(4, 1)), Error);  // missing angles
     scene.lights.kind[0] = Kind::environment;
-    EXPECT_THROW(scene.renderer(small_settings(4, 1)), Error);  // no image
+    EXPECT_THROW(scene.renderer(small_settings(4, 1)), Error);  // missing image
     scene.lights.kind[0] = Kind::diffuse_area;
     scene.lights.shape[0] = 3;
     EXPECT_THROW(scene.renderer(small_settings(4, 1)), Error);

@@ -21,8 +21,8 @@ TEST(PixelMoments, average_200k_samples_of_a_tenth_to_a_tenth) {
 }
 
 TEST(PixelMoments, survive_a_firefly) {
-    // 1e8 once among 200k ones: a plain double sum keeps this; its square would cancel in the
-    // variance.
+    // One sample of 1e8 among 200k ones. A plain double sum keeps the mean, but its square would
+    // cancel in the variance.
     constexpr uint64_t count = 200000;
     PixelMoments moments;
     for (uint64_t i = 0; i < count; ++i) {
@@ -35,8 +35,8 @@ TEST(PixelMoments, survive_a_firefly) {
 }
 
 TEST(PixelMoments, know_the_variance_around_a_large_mean) {
-    // Uniform on [1e6, 1e6 + 1]: the textbook formula would lose every digit in float and six in
-    // double.
+    // The samples are uniform on [1e6, 1e6 + 1]. The textbook formula would lose every digit in
+    // float and most digits in double.
     constexpr uint64_t count = 100000;
     PixelMoments moments;
     Rng rng(7, 0, 0);

@@ -6,8 +6,8 @@
 namespace rtrays::reference {
 namespace {
 
-/// Fresnel's own sine and tangent laws (Born & Wolf 1999, 1.5.2, eq. 21a), which the code does not
-/// use.
+/// Returns the reflectance by Fresnel's sine and tangent laws (Born & Wolf 1999, 1.5.2, eq. 21a),
+/// which the code does not use.
 double by_sines_and_tangents(double angle_i, double eta) {
     const double angle_t = std::asin(std::sin(angle_i) / eta);
     const double s = std::sin(angle_i - angle_t) / std::sin(angle_i + angle_t);
@@ -16,8 +16,8 @@ double by_sines_and_tangents(double angle_i, double eta) {
 }
 
 TEST(Fresnel, dielectric_has_its_tabulated_values) {
-    // Hecht, Optics, 4.6: an air-glass boundary of 1.5 reflects 4 %, one of water (4/3) 2.04 %; at
-    // Brewster's angle only the perpendicular half is left, ((n^2 - 1) / (n^2 + 1))^2 / 2.
+    // Hecht, Optics, 4.6. At normal incidence, glass (1.5) reflects 4 % and water (4/3) 2.04 %. At
+    // Brewster's angle only the perpendicular half is reflected: ((n^2 - 1) / (n^2 + 1))^2 / 2.
     EXPECT_NEAR(fresnel_dielectric(1.0, 1.5), 0.04, 1e-15);
     EXPECT_NEAR(fresnel_dielectric(1.0, 4.0 / 3.0), 1.0 / 49.0, 1e-15);
     EXPECT_NEAR(fresnel_dielectric(std::cos(std::atan(1.5)), 1.5), 0.5 * square(1.25 / 3.25),
@@ -37,19 +37,20 @@ TEST(Fresnel, dielectric_behaves_at_its_edges) {
         EXPECT_EQ(fresnel_dielectric(c, 1.0), 0.0);
     }
     EXPECT_LT(fresnel_dielectric(0.5, 1.0 + 1e-6), 1e-11);
-    // One ulp of the cosine around the critical angle of 1 / 1.5: continuous up to the root's
-    // slope.
+    // One ulp of the cosine on both sides of the critical angle of 1 / 1.5. The reflectance is
+    // continuous, with the slope of a root.
     const double critical = std::sqrt(1.0 - square(1.0 / 1.5));
     EXPECT_EQ(fresnel_dielectric(std::nextafter(critical, 0.0) - 1e-15, 1.0 / 1.5), 1.0);
     EXPECT_NEAR(fresnel_dielectric(std::nextafter(critical, 1.0) + 1e-15, 1.0 / 1.5), 1.0, 1e-6);
-    // Both sides of a boundary reflect the same.
+    // Both sides of a boundary have the same reflectance.
     for (double c = 0.1; c < 1.0; c += 0.1) {
         EXPECT_NEAR(fresnel_dielectric(c, 1.5),
                     fresnel_dielectric(refracted_cosine(c, 1.5), 1.0 / 1.5), 1e-14);
     }
 }
 
-/// Born & Wolf's form in real numbers (1999, 14.2; as in Lazanyi & Szirmay-Kalos 2005, eq. 1).
+/// Returns the reflectance in Born & Wolf's form with real numbers (1999, 14.2; as in Lazanyi &
+/// Szirmay-Kalos 2005, eq. 1).
 double conductor_by_reals(double c, double eta, double k) {
     const double s2 = 1.0 - c * c, t0 = eta * eta - k * k - s2;
     const double a2_b2 = std::sqrt(t0 * t0 + 4.0 * eta * eta * k * k);
@@ -82,8 +83,8 @@ TEST(Fresnel, approximations_are_as_close_as_stated) {
         largest = std::max(largest, std::abs(fresnel_conductor(c, 1.44, 7.6) -
                                              fresnel_conductor_approximate(c, 1.44, 7.6)));
     }
-    EXPECT_LT(largest, 0.006);  // digest, section 6
-    EXPECT_GT(largest, 1e-4);   // but it is another formula
+    EXPECT_LT(largest, 0.006);
+    EXPECT_GT(largest, 1e-4);  // the two formulas are not the same
     EXPECT_DOUBLE_EQ(fresnel_conductor_approximate(1.0, 0.2, 3.1),
                      fresnel_conductor(1.0, 0.2, 3.1));
     EXPECT_DOUBLE_EQ(fresnel_schlick(1.0, 0.04), 0.04);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Closed furnaces with L = E / (1 - rho), and the proof that they would notice planted errors: the
-// shipped integrator runs with BSDFs and lights that are wrong on purpose.
+// Closed furnaces, whose radiance is L = E / (1 - rho).
+//
+// To prove that the furnaces notice errors, the production integrator also runs with BSDFs and
+// lights that are wrong on purpose.
 #include <gtest/gtest.h>
 
 #include <boost/math/special_functions/gamma.hpp>
@@ -20,7 +22,8 @@ constexpr uint64_t spp = 2048;
 constexpr double z_999 = 3.2905;  // two-sided 99.9 %
 const Rgb emission(1.0f, 0.5f, 0.25f);
 
-/// Deviation of the image's red mean from the closed form, in standard errors of the mean.
+/// Returns the deviation of the image's red mean from the closed form, in standard errors of the
+/// mean.
 double furnace_z(const Image &image, double albedo) {
     const BlockMean mean = image_mean(image, "R");
     const double expected = static_cast<double>(emission[0]) / (1.0 - albedo);
@@ -31,14 +34,15 @@ class Furnace : public testing::TestWithParam<std::tuple<float, Strategies>> {};
 
 TEST_P(Furnace, radiance_is_emission_over_one_minus_albedo) {
     const auto [albedo, strategies] = GetParam();
-    const double absorbed = 1.0 - static_cast<double>(albedo);  // of the albedo as rounded to float
+    // Uses the albedo as rounded to float.
+    const double absorbed = 1.0 - static_cast<double>(albedo);
     auto renderer = furnace_box(albedo, emission).renderer(small_settings(size, 21, strategies));
-    // Paths are 1 / absorbed long and their values as widely spread, relative to the mean, at any
-    // albedo.
+    // The mean length of a path is 1 / absorbed. The spread of path values relative to the mean is
+    // the same at any albedo.
     renderer.render(0, static_cast<uint64_t>(std::ceil(spp * std::min(1.0, 10.0 * absorbed))) + 48);
     const Image image = renderer.develop();
     EXPECT_LT(std::abs(furnace_z(image, static_cast<double>(albedo))), z_999);
-    // The bound must mean something: one standard error is below 1 % of the value.
+    // The bound must be meaningful: one standard error is below 1 % of the value.
     EXPECT_LT(std::sqrt(image_mean(image, "R").variance), 0.01 / absorbed);
 }
 
@@ -48,8 +52,8 @@ INSTANTIATE_TEST_SUITE_P(albedos, Furnace,
                                                           Strategies::mis)));
 
 TEST(Furnace, survives_an_albedo_of_a_millionth_less_than_one) {
-    // The implicit estimate is E times the number of vertices, which is geometric with mean 1e6;
-    // the sum over k paths, over its mean, is Gamma(k, 1 / k) to within 1e-6.
+    // The implicit estimate is E times the number of vertices, which is geometrically distributed
+    // with mean 1e6. The sum over k paths, divided by its mean, is Gamma(k, 1 / k) to within 1e-6.
     constexpr unsigned paths = 16;
     const float albedo = 1.0f - 1e-6f;
     auto renderer =
@@ -75,8 +79,7 @@ TEST(Furnace, a_depth_limit_cuts_the_series_after_as_many_terms) {
     }
 }
 
-// --- planted errors
-// --------------------------------------------------------------------------------------
+// Planted errors follow.
 
 /// The density of the sampled direction is 2 % too large.
 struct WrongDensity : Lambert {
@@ -98,7 +101,8 @@ struct MissingCosine : Lambert {
     }
 };
 
-/// MIS weights of the implicit estimate forget the light's density: direct light counts twice.
+/// The MIS weights of the implicit estimate ignore the density of the light, so direct light counts
+/// twice.
 struct ForgottenMis : LightSet {
     using LightSet::LightSet;
     double pdf_w(const Geometry &, uint32_t, const Vec3 &, const SurfacePoint &) const {
@@ -130,7 +134,8 @@ double planted_z(Strategies strategies) {
 }
 
 TEST(Furnace, notices_planted_errors) {
-    EXPECT_LT(std::abs((planted_z<Lambert, LightSet>(Strategies::mis))), z_999);  // nothing planted
+    // No planted error.
+    EXPECT_LT(std::abs((planted_z<Lambert, LightSet>(Strategies::mis))), z_999);
     EXPECT_GT(std::abs((planted_z<WrongDensity, LightSet>(Strategies::implicit_only))), 2 * z_999);
     EXPECT_GT(std::abs((planted_z<WrongDensity, LightSet>(Strategies::mis))), 2 * z_999);
     EXPECT_GT(std::abs((planted_z<MissingCosine, LightSet>(Strategies::mis))), 2 * z_999);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays that leave a surface must neither meet it again nor slip through a closed wall.
+// Geometry: rays that leave a surface must neither hit it again nor pass through a closed wall.
 #include "reference/geometry.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 struct Escapes {
     int self_hits = 0;
     int misses = 0;
-    int behind = 0;  ///< hits that lie against the direction of the ray
+    int behind = 0;  ///< hits behind the origin of the ray
 };
 
 /// Walks `steps` diffuse bounces (every eighth one grazing) inside a closed mesh.
@@ -50,7 +50,7 @@ Escapes walk(const Geometry &geometry, const Vec3 &start, int steps, uint64_t se
     return escapes;
 }
 
-/// A closed sphere of 20 * 4^level triangles, facing outwards.
+/// Adds a closed sphere of 20 * 4^level triangles, facing outwards.
 void add_sphere(TestScene &scene, const Vec3 &centre, double radius, int level) {
     const double g = 0.5 * (1.0 + std::sqrt(5.0));
     std::vector<Vec3> v = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(placements, ClosedMesh,
                          [](const auto &param_info) { return std::string(param_info.param.name); });
 
 TEST(Geometry, hit_points_are_exact_in_double) {
-    // A plane far below a steep ray: the float hit is off by 1e-6 of the distance, the double one
+    // A plane far below a steep ray. The float hit is off by 1e-6 of the distance, the double hit
     // is not.
     TestScene scene;
     scene.add_quad(

@@ -29,7 +29,7 @@ void set_texel(TextureImage &image, int column, int row, float value) {
     }
 }
 
-/// One bright texel, black regions and a smooth rest.
+/// Returns an image with one bright texel, a black region and random values elsewhere.
 std::shared_ptr<TextureImage> contrasty_image(int width, int height) {
     auto image = make_image(width, height);
     Rng rng(141, 0, 0);
@@ -62,13 +62,13 @@ TEST(Environment, looks_up_directions_as_documented) {
         return light.radiance(direction.normalized())[0];
     };
     EXPECT_NEAR(red({0, 1e-9, -1}), 2.0 * 0.5 * (0.5 * (1 + 4) + 0.5 * (11 + 14)),
-                1e-7);  // the left edge
+                1e-7);  // left edge
     EXPECT_NEAR(red({1, 0, -1}), 2.0 * 0.5 * (1 + 11),
                 1e-12);  // u = 1/8: centre of the first column
     EXPECT_NEAR(red({1, 0, 1}), 2.0 * 0.5 * (2 + 12), 1e-12);
     EXPECT_NEAR(red({-1, 0, -1}), 2.0 * 0.5 * (4 + 14), 1e-12);
     EXPECT_NEAR(red({1, std::sqrt(2.0), -1}), 2.0, 1e-12);  // v = 1/4: centre of the first row
-    EXPECT_NEAR(red({1, 20, -1}), 2.0, 1e-12);              // repeated above
+    EXPECT_NEAR(red({1, 20, -1}), 2.0, 1e-12);  // the first row is repeated above its centres
     EXPECT_NEAR(red({1, -20, -1}), 22.0, 1e-12);
 }
 
@@ -91,7 +91,7 @@ TEST(Environment, directions_have_their_density_and_see_all_that_shines) {
         };
         const auto density = [&](const Vec3 &w) { return light.pdf_w(w); };
         const SamplerCheck check = check_sampler(sample, density, 400000, rng);
-        EXPECT_NEAR(check.total, 1.0, 1e-3);  // 1 / sin(theta) at poles inside the cells
+        EXPECT_NEAR(check.total, 1.0, 1e-3);  // the cells at the poles contain 1 / sin(theta)
         suite.push_back({std::to_string(width), check.p_value});
         for (int i = 0; i < 10000; ++i) {
             const double z = 1.0 - 2.0 * rng.uniform(), phi = 2.0 * pi * rng.uniform();
@@ -122,7 +122,7 @@ TEST(Environment, a_two_percent_error_of_its_image_is_seen) {
     EXPECT_LT(check.p_value, 0.01 * family_alpha);
 }
 
-/// The mean over the image of a scene under an added light of a given kind.
+/// Returns the image mean of a scene with an added light of the given kind.
 BlockMean under_sky(TestScene scene, Kind kind, std::shared_ptr<const TextureImage> image,
                     Strategies strategies, uint64_t spp, uint32_t max_depth) {
     scene.add_light(kind, Rgb::Constant(2.0f));
@@ -170,12 +170,13 @@ TEST(Dome, glass_spheres_are_invisible_in_a_furnace) {
                         scene.add_material(smooth_glass(eta)));
         scene.set_camera({0, 0, 3}, Vec3::Zero(), Vec3::UnitY(), 0.5);
         const BlockMean mean = under_sky(scene, Kind::dome, nullptr, Strategies::mis, 4096, 0);
-        // Roulette ends about one path in a million at each vertex: with 65536 paths the variance
-        // does not know of it, but it may well take 2 / 65536 off the mean once or twice.
+        // Russian roulette ends about one path in a million at each vertex. With 65536 paths, the
+        // estimated variance may miss this, but one or two such events take 2 / 65536 each off the
+        // mean.
         constexpr double rare = 1e-4;
         EXPECT_LT(std::abs(mean.mean - 2.0), 3.3 * std::sqrt(mean.variance) + rare) << eta;
         EXPECT_LT(std::sqrt(mean.variance), 0.01);
-        // From inside the glass radiance is eta^2 as large.
+        // Inside the glass, radiance is eta^2 times as large.
         scene.set_camera({0, 0.2, 0.1}, {1, 0.3, 0.5}, Vec3::UnitY(), 0.3);
         const BlockMean inside = under_sky(scene, Kind::dome, nullptr, Strategies::mis, 4096, 0);
         EXPECT_LT(std::abs(inside.mean - 2.0 * eta * eta), 3.3 * std::sqrt(inside.variance) + rare)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Irradiance under a rectangular light against Lambert's closed form (1760; Arvo 1994, eq. 1).
+// Irradiance under a rectangular light against Lambert's closed form (1760; Arvo 1994, eq. 1), and
+// under a dome through a ball.
 #include <gtest/gtest.h>
 
 #include "reference/tests/statistics.h"
@@ -14,8 +15,8 @@ constexpr double albedo = 0.5;
 const std::array<Vec3, 4> light_corners{Vec3(-1, 2, -0.5), Vec3(1, 2, -0.5), Vec3(1, 2, 0.5),
                                         Vec3(-1, 2, 0.5)};
 
-/// E = Le / 2 sum theta_i (n . gamma_i) over the polygon's edges as seen from `point`; the polygon
-/// must lie wholly above the horizon.
+/// Returns E = Le / 2 sum theta_i (n . gamma_i) over the edges of the polygon as seen from `point`.
+/// The full polygon must be above the horizon.
 double polygon_irradiance(const Vec3 &point, const Vec3 &normal) {
     double sum = 0.0;
     for (size_t i = 0; i < 4; ++i) {
@@ -28,8 +29,8 @@ double polygon_irradiance(const Vec3 &point, const Vec3 &normal) {
     return 0.5 * radiance * std::abs(sum);
 }
 
-/// A floor and the light above it, seen by a camera of a hundredth of a degree that looks at
-/// `point`.
+/// Returns a floor and the light above it. The camera looks at `point` with a field of view of a
+/// hundredth of a degree.
 TestScene floor_under_light(const Vec3 &point) {
     TestScene scene;
     const uint32_t material = scene.add_material(Rgb::Constant(albedo));
@@ -53,7 +54,7 @@ TEST(Irradiance, under_a_rectangle_is_lamberts) {
             suite.push_back(
                 {name, normal_p_value((mean.mean - expected) / std::sqrt(mean.variance))});
             if (strategies == Strategies::explicit_only) {
-                EXPECT_NEAR(mean.mean / expected, 1.0, 0.004);  // and closely
+                EXPECT_NEAR(mean.mean / expected, 1.0, 0.004);  // and the error is small
             }
         }
     }
@@ -63,8 +64,8 @@ TEST(Irradiance, under_a_rectangle_is_lamberts) {
 TEST(Irradiance, the_back_of_a_light_is_dark) {
     for (const auto &entry : strategies_names) {
         TestScene scene = floor_under_light(Vec3::Zero());
-        scene.set_camera({0, 5, 0}, {0, 2, 0}, Vec3::UnitZ(),
-                         1e-3);  // from above, on the light's back
+        // The camera sees the back of the light from above.
+        scene.set_camera({0, 5, 0}, {0, 2, 0}, Vec3::UnitZ(), 1e-3);
         auto renderer = scene.renderer(small_settings(4, 32, entry.second));
         renderer.render(0, 64);
         EXPECT_EQ(image_mean(renderer.develop(), "R").mean, 0.0) << entry.first;
@@ -76,16 +77,17 @@ TEST(Irradiance, the_front_of_a_light_shows_its_radiance) {
         TestScene scene = floor_under_light(Vec3::Zero());
         scene.set_camera({0, 1, 0}, {0, 2, 0}, Vec3::UnitZ(), 1e-3);
         ReferenceSettings settings = small_settings(4, 33, entry.second);
-        settings.max_depth = 1;  // the floor's reflection on the light itself left out
+        // Excludes light from the floor that the surface of the light reflects.
+        settings.max_depth = 1;
         auto renderer = scene.renderer(settings);
         renderer.render(0, 64);
         EXPECT_EQ(image_mean(renderer.develop(), "R").mean, radiance) << entry.first;
     }
 }
 
-// Under a dome, light that comes through a ball reaches a plane at distance s = 1 / sin(a) radii
-// from its centre from two half cones of half-angle a about the line to the centre: E = L (2 a -
-// sin 2 a).
+// A plane under a dome, lit only through a ball. The point is at the distance s = 1 / sin(a) radii
+// from the centre of the ball. Its light comes from two half cones of half angle a around the line
+// to the centre, so E = L (2 a - sin 2 a).
 TEST(Irradiance, of_a_plane_by_light_through_a_ball) {
     std::vector<Comparison> suite;
     for (const double distance : {0.5, 1.1, 2.0, 5.0}) {
@@ -103,7 +105,7 @@ TEST(Irradiance, of_a_plane_by_light_through_a_ball) {
             const double a = std::asin(std::min(1.0, 1.0 / distance));
             const double expected = albedo / pi * radiance * (2 * a - std::sin(2 * a));
             const double error =
-                std::sqrt(mean.variance) + 1e-6 * expected;  // a whole dome has no noise
+                std::sqrt(mean.variance) + 1e-6 * expected;  // the full dome has no noise
             suite.push_back({name, normal_p_value((mean.mean - expected) / error)});
         }
     }

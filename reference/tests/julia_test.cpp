@@ -29,7 +29,7 @@ Vec3 random_point(Rng &rng, double radius) {
     return radius * Vec3(2 * rng.uniform() - 1, 2 * rng.uniform() - 1, 2 * rng.uniform() - 1);
 }
 
-/// Slope of |z_n| along the normal, by central differences.
+/// Returns the slope of |z_n| along the normal, by central differences.
 double slope(const JuliaSet &set, const Vec3 &point) {
     const Vec3 step = 1e-7 * set.normal(point);
     return (set.modulus(point + step) - set.modulus(point - step)) / 2e-7;
@@ -58,12 +58,13 @@ TEST(Julia, hits_satisfy_the_level_set_and_have_its_gradient) {
             }
             ++hits;
             const Vec3 point = ray.origin + t * ray.direction;
-            // As a distance: the error of the modulus over its slope.
+            // The error of the modulus over its slope is a distance.
             const double gradient = slope(set, point);
-            ASSERT_GT(gradient, 0.0) << c.name;  // outwards
+            ASSERT_GT(gradient, 0.0) << c.name;  // the normal points outwards
             ASSERT_LT(std::abs(set.modulus(point) - 4.0) / gradient, 1e-13) << c.name;
-            ASSERT_LT(set.normal(point).dot(ray.direction), 0.0) << c.name;  // seen from outside
-            // Every direction in the surface leaves the modulus as it is.
+            // The ray comes from outside.
+            ASSERT_LT(set.normal(point).dot(ray.direction), 0.0) << c.name;
+            // The modulus is constant along every direction in the surface.
             const Frame frame(set.normal(point));
             const Vec3 tangent = frame.to_world({1, 0, 0}), bitangent = frame.to_world({0, 1, 0});
             for (const Vec3 &along : {tangent, bitangent}) {
@@ -93,7 +94,7 @@ TEST(Julia, nothing_nearer_is_found_by_small_steps) {
             }
             double t = std::numeric_limits<double>::infinity();
             const bool hit = set.intersect(ray.origin, ray.direction, t, t);
-            // Small steps may overshoot a thin part, but never see what marching does not.
+            // Small steps may miss a thin part, but they never find a hit that marching misses.
             ASSERT_LE(hit ? t : std::numeric_limits<double>::infinity(), nearest) << c.name;
             found += std::isfinite(nearest);
         }
@@ -113,7 +114,7 @@ TEST(Julia, rays_from_inside_and_limits_are_respected) {
     ASSERT_TRUE(ball.intersect({-9, 0, 0}, 0.5 * Vec3::UnitX(), 100.0, t));
     EXPECT_NEAR(t, 14.0, 1e-13);
     EXPECT_EQ(JuliaSet(Eigen::Vector4d::Zero(), 2.5, 1).bounding_radius(),
-              0.0);  // the slice misses it
+              0.0);  // the slice misses the surface
     EXPECT_FALSE(
         JuliaSet(Eigen::Vector4d::Zero(), 2.5, 1).intersect({-9, 0, 0}, Vec3::UnitX(), 100.0, t));
 }

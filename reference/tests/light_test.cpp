@@ -11,7 +11,7 @@
 namespace rtrays::reference {
 namespace {
 
-/// Solid angle of a triangle seen from `point` (Van Oosterom & Strackee 1983, eq. 8).
+/// Returns the solid angle of a triangle seen from `point` (Van Oosterom & Strackee 1983, eq. 8).
 double solid_angle(const TriangleRecord &triangle, const Vec3 &point) {
     const Vec3 a = (triangle.vertex - point).normalized();
     const Vec3 b = (triangle.vertex + triangle.edge1 - point).normalized();
@@ -19,7 +19,7 @@ double solid_angle(const TriangleRecord &triangle, const Vec3 &point) {
     return 2.0 * std::abs(std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a)));
 }
 
-/// Three lights of very different power and shape around the origin, all facing it.
+/// Returns three lights of very different power and shape around the origin.
 TestScene three_lights() {
     TestScene scene;
     const uint32_t material = scene.add_material(Rgb::Constant(0.5f));
@@ -32,7 +32,8 @@ TestScene three_lights() {
 }
 
 TEST(LightSet, sampled_directions_integrate_to_the_lights_solid_angle) {
-    // The mean of 1 / pdf_w over samples that land on a triangle is its solid angle.
+    // The mean over all samples of 1 / pdf_w, or 0 for a sample off the triangle, is the solid
+    // angle of the triangle.
     const TestScene scene = three_lights();
     const Geometry geometry(scene.meshes, scene.shapes);
     const LightSet lights(geometry, scene.lights);
@@ -45,7 +46,7 @@ TEST(LightSet, sampled_directions_integrate_to_the_lights_solid_angle) {
     for (int i = 0; i < samples; ++i) {
         const auto sample = lights.sample(geometry, from, rng);
         if (!sample) {
-            continue;  // a face of the box that looks away
+            continue;  // a face of the box that faces away
         }
         SurfacePoint hit;
         ASSERT_TRUE(geometry.intersect({from, sample->wi}, Coherence::incoherent, hit));
@@ -55,7 +56,7 @@ TEST(LightSet, sampled_directions_integrate_to_the_lights_solid_angle) {
             continue;
         }
         ++visible;
-        // Both sides of MIS must see one density.
+        // Both MIS strategies must use the same density.
         ASSERT_NEAR(lights.pdf_w(geometry, light, from, hit) / sample->pdf_w, 1.0, 1e-9);
         ASSERT_TRUE((lights.emitted(geometry, light, hit, -sample->wi) == sample->radiance).all());
         sum[hit.primitive] += 1.0 / sample->pdf_w;

@@ -46,7 +46,7 @@ TEST_F(ManifestFile, gains_and_replaces_entries) {
     EXPECT_EQ(references.at("box.embree.a.exr").at("seed"), 3);
     EXPECT_EQ(references.at("box.embree.b.exr").at("seed"), 2);
     EXPECT_EQ(references.at("box.embree.b.exr").at("engine"), "embree");
-    // FIPS 180-4's own example, and the empty message.
+    // The example of FIPS 180-4 and the empty message.
     EXPECT_EQ(references.at("box.embree.a.exr").at("sha256"),
               "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     EXPECT_EQ(references.at("box.embree.b.exr").at("sha256"),
@@ -75,7 +75,8 @@ TEST_F(ManifestFile, lists_what_serves_a_request) {
     EXPECT_FALSE(manifest_lists(manifest_, image_a_, {{"spp", 16}, {"scene_hash", "1f"}}));
     EXPECT_FALSE(manifest_lists(manifest_, image_b_, {{"spp", 16}, {"seed", 1}}));
     write_file(image_a_, "abcd");
-    EXPECT_FALSE(manifest_lists(manifest_, image_a_, {{"spp", 16}, {"seed", 1}}));  // another file
+    // The file has changed.
+    EXPECT_FALSE(manifest_lists(manifest_, image_a_, {{"spp", 16}, {"seed", 1}}));
 }
 
 TEST_F(ManifestFile, refuses_a_manifest_of_another_kind) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The real program: command line, kills, resumes, refusals.
+// The program rtrays-reference: command line, interruption, resumption and refused input.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 const std::string cornell_box = RTRAYS_SCENES "/cornell_box/scene.json";
 const std::string furnace = RTRAYS_SCENES "/analytic/furnace_050.json";
 
-/// A running `rtrays-reference`, its output in a file.
+/// A running `rtrays-reference` with its output in a file.
 class Process {
   public:
     Process(const std::vector<std::string> &arguments, const fs::path &log) {
@@ -50,7 +50,8 @@ class Process {
 
     void send(int signal) const { kill(pid_, signal); }
 
-    /// Exit code, or minus the number of the signal that ended it.
+    /// Waits for the program. Returns its exit code, or minus the number of the signal that ended
+    /// it.
     int wait() {
         int status = 0;
         waitpid(pid_, &status, 0);
@@ -76,7 +77,7 @@ class Program : public testing::Test {
 
     int run(const std::vector<std::string> &arguments) { return Process(arguments, log()).wait(); }
 
-    /// Runs and expects exit code 2 with one line that contains `text`, and no output image.
+    /// Runs the program. Expects exit code 2 and a message of one line that contains `text`.
     void expect_refused(const std::vector<std::string> &arguments, const std::string &text) {
         EXPECT_EQ(run(arguments), static_cast<int>(ExitCode::bad_input));
         const std::string message = read_file(log());
@@ -99,7 +100,7 @@ class Program : public testing::Test {
                 "0"};
     }
 
-    /// Waits until the state holds more samples than `before`.
+    /// Waits until the state holds more samples than `before`. Returns the end of its samples.
     uint64_t wait_for_progress(const std::string &state, uint64_t before) const {
         for (int i = 0; i < 20000; ++i) {
             if (fs::exists(state)) {
@@ -114,7 +115,7 @@ class Program : public testing::Test {
         return before;
     }
 
-    /// Everything but the time taken is equal, bit by bit.
+    /// Expects images that are equal bit by bit, except for the render time.
     static void expect_same_image(const std::string &path_a, const std::string &path_b) {
         Image a = read_exr(path_a), b = read_exr(path_b);
         ASSERT_EQ(a.channels().size(), 7u);
@@ -140,15 +141,15 @@ TEST_F(Program, killed_and_resumed_equals_uninterrupted) {
     for (const int delay : {0, 11, 37}) {
         Process process(arguments, log());
         done = wait_for_progress(state, done);
-        std::this_thread::sleep_for(
-            std::chrono::milliseconds(delay));  // somewhere within a batch or a save
+        // The kill falls somewhere within a batch or a save.
+        std::this_thread::sleep_for(std::chrono::milliseconds(delay));
         process.send(SIGKILL);
         ASSERT_EQ(process.wait(), -SIGKILL);
         EXPECT_FALSE(fs::exists(in_folder("killed.exr")));
         done = load_checkpoint(state).film.end;
         ASSERT_LT(done, 1024u);
     }
-    arguments.insert(arguments.end(), {"--threads", "1"});  // the rest on another number of threads
+    arguments.insert(arguments.end(), {"--threads", "1"});  // the rest uses one thread
     ASSERT_EQ(run(arguments), 0) << read_file(log());
     expect_same_image(in_folder("whole.exr"), in_folder("killed.exr"));
     for (const float samples : read_exr(in_folder("killed.exr")).channel("samples")) {
@@ -169,9 +170,8 @@ TEST_F(Program, terminated_leaves_a_state_that_continues) {
         EXPECT_NE(read_file(log()).find("--resume"), std::string::npos);
         EXPECT_FALSE(fs::exists(in_folder("cut.exr")));
         if (signal == SIGTERM) {
-            expect_refused(
-                arguments,
-                "unfinished run");  // hours of work are not overwritten by a typing error
+            // A typing error must not overwrite hours of work.
+            expect_refused(arguments, "unfinished run");
             arguments.push_back("--resume");
         }
     }
@@ -191,7 +191,7 @@ TEST_F(Program, extends_a_finished_run) {
     ASSERT_EQ(render("grown.exr", "50"), 0) << read_file(log());
     ASSERT_EQ(render("whole.exr", "50"), 0) << read_file(log());
     expect_same_image(in_folder("whole.exr"), in_folder("grown.exr"));
-    EXPECT_EQ(render("grown.exr", "30"), 2);  // samples cannot be taken back
+    EXPECT_EQ(render("grown.exr", "30"), 2);  // samples cannot be removed
 }
 
 TEST_F(Program, sample_ranges_are_disjoint_parts_of_one_run) {
@@ -222,8 +222,8 @@ TEST_F(Program, refuses_the_state_of_other_settings) {
         expect_refused(more, text);
     };
     refused(cornell_box, {"--size", "8x8"}, "scene");
-    refused(furnace, {"--size", "8x9"}, "height = 8, this run asks for 9");
-    refused(furnace, {"--size", "8x8", "--seed", "2"}, "seed = 1, this run asks for 2");
+    refused(furnace, {"--size", "8x9"}, "height = 8, this run requests 9");
+    refused(furnace, {"--size", "8x8", "--seed", "2"}, "seed = 1, this run requests 2");
     refused(furnace, {"--size", "8x8", "--max-depth", "2"}, "max_depth");
     refused(furnace, {"--size", "8x8", "--strategies", "implicit"}, "strategies");
     write_file(out + ".state", "nonsense");
@@ -251,7 +251,8 @@ TEST_F(Program, adds_a_complete_manifest_entry) {
     const Json stats = load_json(in_folder("stats.json"));
     EXPECT_EQ(stats.at("rays").at("camera"), 8 * 8 * 8);
     EXPECT_GT(stats.at("samples_per_second"), 0.0);
-    // What is listed is not rendered again, unless more is asked for or the file was changed.
+    // A listed image is not rendered again, unless more samples are requested or the file has
+    // changed.
     const auto again = [&](const std::string &spp) {
         fs::remove(image + ".state");
         EXPECT_EQ(run({furnace, "-o", image, "--spp", spp, "--size", "8x8", "--seed", "3",
@@ -260,7 +261,7 @@ TEST_F(Program, adds_a_complete_manifest_entry) {
         return fs::exists(image + ".state");
     };
     EXPECT_FALSE(again("8"));
-    // More samples go on from the image, whose state is gone.
+    // More samples continue from the image, because its state is gone.
     const std::string whole = in_folder("whole.exr");
     ASSERT_EQ(run({furnace, "-o", whole, "--spp", "20", "--size", "8x8", "--seed", "3", "--quiet"}),
               0);
@@ -288,9 +289,9 @@ TEST_F(Program, adds_a_complete_manifest_entry) {
                        text);
     };
     refused("x.exr", "SCENE.ENGINE.HALF.exr");
-    refused("furnace_050.cycles.a.exr", "the engine is embree");
+    refused("furnace_050.cycles.a.exr", "does not match engine embree");
     fs::create_directory(folder_ / "elsewhere");
-    refused("elsewhere/furnace_050.embree.a.exr", "beside its manifest");
+    refused("elsewhere/furnace_050.embree.a.exr", "in the folder of its manifest");
 }
 
 TEST_F(Program, refuses_bad_usage_with_code_2_and_one_line) {
@@ -316,8 +317,8 @@ TEST_F(Program, refuses_bad_usage_with_code_2_and_one_line) {
     EXPECT_EQ(run({"--version"}), 0);
 }
 
-/// The other renderers, where they are installed: a grown reference with its entry, and the
-/// reference's image.
+/// Tests the other renderers if they are installed: an extended reference, its manifest entry, and
+/// its image against Embree's.
 TEST_F(Program, other_engines_go_on_from_their_state) {
     ASSERT_EQ(run({cornell_box, "-o", in_folder("cornell_box.embree.a.exr"), "--spp", "512",
                    "--size", "16x16", "--quiet"}),
@@ -338,7 +339,7 @@ TEST_F(Program, other_engines_go_on_from_their_state) {
             ASSERT_EQ(code, 0) << read_file(log());
         }
         ++installed;
-        EXPECT_EQ(manifest_entry(manifest, image).at("spp"), 512);  // whole steps
+        EXPECT_EQ(manifest_entry(manifest, image).at("spp"), 512);  // full steps
         ASSERT_EQ(render("1024"), 0) << read_file(log());
         EXPECT_EQ(manifest_entry(manifest, image).at("spp"), 1024);
         EXPECT_FALSE(fs::exists(image + ".state.scene"));

@@ -12,7 +12,7 @@
 namespace rtrays::reference {
 namespace {
 
-/// All channels of both images are equal, bit by bit.
+/// Expects that all channels of both images are equal bit by bit.
 void expect_same_bits(const Image &a, const Image &b) {
     ASSERT_EQ(a.channels().size(), b.channels().size());
     for (size_t i = 0; i < a.channels().size(); ++i) {
@@ -87,7 +87,7 @@ TEST(ReferenceRenderer, counts_samples_and_rays) {
 
 TEST(ReferenceRenderer, sums_the_largest_radiance_and_refuses_an_infinite_one) {
     TestScene scene = furnace_box(0.5f, Rgb::Constant(std::numeric_limits<float>::max()));
-    // The largest float is finite; sums of it over a path are too, in double.
+    // The largest float is finite, and so are sums of it over a path in double.
     auto renderer = scene.renderer(small_settings(8, 1));
     EXPECT_NO_THROW(renderer.render(0, 4));
     scene.lights.radiance[0].setConstant(std::numeric_limits<float>::infinity());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spheres and discs that emit: closed forms of their irradiance, densities, glass in a furnace.
+// Emitting spheres and discs: closed forms of their irradiance, and the densities of their samples.
 #include <gtest/gtest.h>
 
 #include "reference/light.h"
@@ -43,7 +43,7 @@ void compare(const std::string &name, const TestScene &scene, double irradiance,
     }
 }
 
-/// Facing down.
+/// Returns a scaled transform to `position` in which +z faces down.
 Eigen::Matrix4d ceiling(const Vec3 &position, double scale) {
     Eigen::Matrix4d transform = placed(position, scale);
     transform.topLeftCorner<3, 3>() *=
@@ -54,15 +54,15 @@ Eigen::Matrix4d ceiling(const Vec3 &position, double scale) {
 TEST(RoundLights, irradiance_is_that_of_the_closed_forms) {
     std::vector<Comparison> suite;
     for (const double x : {0.0, 1.0, 3.0}) {
-        // A sphere wholly above the horizon: pi L (r / d)^2 cos.
+        // A sphere fully above the horizon: pi L (r / d)^2 cos.
         const Vec3 point(x, 0, 0), centre(0, 1.5, 0);
         TestScene sphere = floor_at(point);
         sphere.add_shape(Kind::sphere, placed(centre, 0.5), 0, Rgb::Constant(radiance));
         const double distance = (centre - point).norm();
         compare("sphere", sphere, pi * radiance * 0.25 * 1.5 / (distance * distance * distance),
                 suite);
-        // A parallel disc off its axis (Howell, A Catalog of Radiation Heat Transfer Configuration
-        // Factors, B-13).
+        // A parallel disc seen off its axis (Howell, A Catalog of Radiation Heat Transfer
+        // Configuration Factors, B-13).
         TestScene disc = floor_at(point);
         disc.add_shape(Kind::disc, ceiling(centre, 0.8), 0, Rgb::Constant(radiance));
         const double h = 1.5 * 1.5 + x * x, r = 0.8 * 0.8;
@@ -74,8 +74,9 @@ TEST(RoundLights, irradiance_is_that_of_the_closed_forms) {
 }
 
 TEST(RoundLights, extreme_spheres_keep_their_closed_form) {
-    // Of 1e-6 of the distance, and so near that one fills almost the half space above: L pi (r /
-    // d)^2, as the mean of L cos / pdf_w.
+    // One sphere has a radius of 1e-6 of its distance; the others are so near that they almost fill
+    // the upper half space. The irradiance is L pi (r / d)^2, estimated as the mean of L cos /
+    // pdf_w.
     constexpr int samples = 200000;
     std::vector<Comparison> suite;
     for (const auto &[radius, height] :
@@ -98,7 +99,7 @@ TEST(RoundLights, extreme_spheres_keep_their_closed_form) {
         const double mean = sum / samples, expected = pi * square(radius / height);
         const double deviation =
             std::sqrt(std::max(squares / samples - square(mean), 0.0) / samples);
-        // Small cones have no variance to speak of but rounding.
+        // The variance of small cones is only rounding error.
         suite.push_back(
             {std::to_string(radius),
              normal_p_value((mean - expected) / std::hypot(deviation, 1e-9 * expected))});
@@ -107,7 +108,8 @@ TEST(RoundLights, extreme_spheres_keep_their_closed_form) {
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
 }
 
-/// A light above the origin that fills a part of the directions: a mirrored sphere, or an ellipse.
+/// Returns a light above the origin that fills a part of the directions: a mirrored sphere or an
+/// ellipse.
 TestScene round_light(Kind kind) {
     TestScene scene;
     Eigen::Matrix4d transform = ceiling({0.4, 1.2, 0.3}, 0.9);
@@ -116,8 +118,8 @@ TestScene round_light(Kind kind) {
     return scene;
 }
 
-/// Samples of that light against its density, made wrong by the factor 1 + planted on one side of
-/// its middle and 1 - planted on the other.
+/// Tests samples of that light against its density. The density is multiplied by 1 + planted on one
+/// side of the middle of the light and by 1 - planted on the other.
 SamplerCheck check_round_light(const Geometry &geometry, const LightSet &lights, int samples,
                                double planted, Rng &rng) {
     const DirectionSampler sample = [&](Rng &r) -> std::optional<Vec3> {

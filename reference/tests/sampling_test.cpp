@@ -21,7 +21,7 @@ size_t cell(double unit) {
     return static_cast<size_t>(std::min(unit, 0x1.fffffep-1) * cells);
 }
 
-/// Counts points of the unit square in cells x cells.
+/// Counts the points of the unit square in a grid of cells x cells.
 template <class Draw>
 std::vector<uint64_t> count_square(const Draw &draw) {
     std::vector<uint64_t> counts(cells * cells, 0);
@@ -37,7 +37,8 @@ double uniform_p_value(const std::vector<uint64_t> &counts) {
     return chi_square_p(counts, std::vector<double>(counts.size(), expected));
 }
 
-/// (cos^2, phi / 2 pi) of a direction: uniform on the square for a cosine-distributed one.
+/// Returns (cos^2, phi / 2 pi) of a direction. It is uniform on the square for a cosine-distributed
+/// direction.
 std::pair<double, double> to_square(const Vec3 &w) {
     const double phi = std::atan2(w.y(), w.x()) / (2.0 * pi);
     return {w.z() * w.z(), phi < 0.0 ? phi + 1.0 : phi};
@@ -78,7 +79,7 @@ TEST(Sampling, every_sampler_has_the_density_it_claims) {
             return to_square(sample->wi);
         }));
 
-    // The sum of both barycentrics squared, and the share of the second: uniform on the square.
+    // The squared sum of both barycentrics and the share of the second are uniform on the square.
     add("triangle", count_square([&](int) {
             const Eigen::Vector2d b = sample_triangle(rng);
             const double root = b.sum();
@@ -107,7 +108,7 @@ TEST(Sampling, every_sampler_has_the_density_it_claims) {
 }
 
 TEST(Sampling, the_chi_square_test_sees_a_two_percent_error) {
-    // cos^1.02 instead of cos: cos^2.02 is uniform, so cos^2 is not.
+    // The density is cos^1.02 instead of cos, so cos^2.02 is uniform and cos^2 is not.
     Rng rng(12, 0, 0);
     const auto counts = count_square(
         [&](int) { return std::make_pair(std::pow(rng.uniform(), 2.0 / 2.02), rng.uniform()); });

@@ -13,7 +13,7 @@ namespace {
 
 const std::array<Vec3, 4> floor_corners{Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(1, 0, 0)};
 
-/// The floor, facing up, with one shading normal everywhere.
+/// Returns a floor that faces up, with the same shading normal everywhere.
 TestScene floor_with_normal(const Vec3 &normal) {
     TestScene scene;
     scene.add_quad(floor_corners, scene.add_material(Rgb::Constant(0.5f)));
@@ -40,18 +40,19 @@ TEST(Shading, normals_are_interpolated_and_turned_to_the_front) {
     scene.meshes.normal = {-left.cast<float>(), -left.cast<float>(), -right.cast<float>(),
                            -right.cast<float>()};
     EXPECT_NEAR((shade(scene, Vec3::UnitY()).frame.z() - quarter.frame.z()).norm(), 0.0, 1e-12);
-    // From below the frame is the same: z is the front.
+    // The frame is the same from below, because z is the front.
     EXPECT_NEAR((shade(scene, -Vec3::UnitY()).frame.z() - quarter.frame.z()).norm(), 0.0, 1e-12);
 }
 
 TEST(Shading, sides_that_disagree_give_way_to_the_geometric_normal_or_to_nothing) {
     const TestScene scene = floor_with_normal(Vec3(1, 1, 0).normalized());
-    const Vec3 behind = Vec3(-1, 0.5, 0).normalized();  // above the floor, below the shading normal
+    // Above the floor, behind the shading normal.
+    const Vec3 behind = Vec3(-1, 0.5, 0).normalized();
     EXPECT_FALSE(shade(scene, behind).bent);
     EXPECT_EQ(shade(scene, behind).frame.z(), Vec3::UnitY());
     const Shading seen = shade(scene, Vec3::UnitY());
     EXPECT_FALSE(seen.agrees(behind, seen.frame.to_local(behind)));
-    const Vec3 under = Vec3(1, -0.5, 0).normalized();  // below the floor, above the shading normal
+    const Vec3 under = Vec3(1, -0.5, 0).normalized();  // below the floor, before the shading normal
     EXPECT_FALSE(seen.agrees(under, seen.frame.to_local(under)));
     EXPECT_TRUE(seen.agrees(Vec3::UnitY(), seen.frame.to_local(Vec3::UnitY())));
     EXPECT_TRUE(seen.agrees(-Vec3::UnitY(), seen.frame.to_local(-Vec3::UnitY())));
@@ -88,8 +89,8 @@ TEST(Shading, a_closed_box_stays_dark_inside_whatever_its_normals) {
     EXPECT_EQ(image_mean(renderer.develop(), "R").mean, 0.0);
 }
 
-/// Radiance of a floor of one material under a black box that emits 1: with the bent normal's
-/// losses, its albedo.
+/// Returns the radiance of a floor in a black box that emits 1. It is the albedo of the material,
+/// less the losses due to the bent normal.
 BlockMean floor_in_furnace(const std::vector<BxdfComponent> &components, const Vec3 &normal,
                            Strategies strategies, uint64_t spp) {
     TestScene scene;
@@ -108,8 +109,7 @@ BlockMean floor_in_furnace(const std::vector<BxdfComponent> &components, const V
 }
 
 TEST(Shading, a_lambert_floor_loses_what_its_bent_normal_sends_below) {
-    // Of the cosine lobe around a normal tilted by t the share (1 - cos t) / 2 lies beyond the
-    // plane.
+    // The share (1 - cos t) / 2 of the cosine lobe around a normal tilted by t is below the plane.
     const double tilt = 0.4;
     const Vec3 normal(std::sin(tilt), std::cos(tilt), 0.0);
     const double expected = 0.5 * 0.5 * (1.0 + std::cos(tilt));

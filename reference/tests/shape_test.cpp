@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quadrics, discs and planes against brute force on their implicit functions, and as closed
+// Quadrics, discs and planes: hits against brute force on the implicit functions, and closed
 // surfaces.
 #include "reference/shape.h"
 
@@ -20,7 +20,7 @@ using Kind = ShapeArrays::Kind;
 const std::vector<Kind> all_kinds{Kind::sphere,      Kind::cylinder, Kind::cone, Kind::paraboloid,
                                   Kind::hyperboloid, Kind::disc,     Kind::plane};
 
-/// The definitions of renderer/scene/stores.h, flare 1.
+/// Evaluates the definitions of renderer/scene/stores.h, with flare 1.
 double implicit(Kind kind, const Vec3 &p) {
     const double r2 = p.x() * p.x() + p.y() * p.y();
     switch (kind) {
@@ -58,7 +58,8 @@ Vec3 random_vector(Rng &rng) {
     return {2 * rng.uniform() - 1, 2 * rng.uniform() - 1, 2 * rng.uniform() - 1};
 }
 
-/// Rotations, unequal scales, shears and, in every other case, a mirror.
+/// Returns a transform with rotation, unequal scales and shear, and with a reflection if
+/// `mirrored`.
 Eigen::Matrix4d random_transform(Rng &rng, bool mirrored) {
     Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
     do {
@@ -73,13 +74,14 @@ Eigen::Matrix4d random_transform(Rng &rng, bool mirrored) {
     return transform;
 }
 
-/// From around the shape, towards a point of its object space's cube.
+/// Returns a ray from around the shape towards a point in the cube of its object space.
 Ray random_ray(Rng &rng, const Shape &shape) {
     const Vec3 origin = shape.centre() + 4.0 * random_vector(rng);
     return {origin, (shape.to_world(random_vector(rng)) - origin).normalized()};
 }
 
-/// First sign change of the implicit function in range, by 4000 steps and bisection.
+/// Returns the first sign change of the implicit function in range, found by 4000 steps and
+/// bisection.
 double brute_force(Kind kind, const Eigen::Matrix4d &world_from_object, const Ray &ray,
                    double range) {
     const Eigen::Affine3d inverse = Eigen::Affine3d(world_from_object).inverse();
@@ -123,7 +125,7 @@ TEST(Shape, hits_are_those_of_brute_force) {
                 ASSERT_TRUE(in_range(kind, object, 1e-9));
                 ASSERT_NEAR((shape.to_world(object) - ray.origin - t * ray.direction).norm(), 0.0,
                             1e-8 + 1e-9 * t);
-                // Steps may jump over two crossings, but find no nearer one.
+                // Steps may jump over two crossings, but they find no nearer one.
                 ASSERT_LE(t, expected + 1e-8);
                 missed_by_steps += t < expected - 1e-8 && t < 20.0;
             } else {
@@ -197,8 +199,8 @@ struct Placement {
 class ClosedSphere : public testing::TestWithParam<Placement> {};
 
 TEST_P(ClosedSphere, neither_leaks_nor_hits_itself) {
-    // Inside a sphere the chord of a ray at angle theta to the normal is 2 r cos(theta), however
-    // grazing.
+    // Inside a sphere, the chord of a ray at the angle theta to the normal is 2 r cos(theta), even
+    // at grazing angles.
     const Placement &p = GetParam();
     TestScene scene;
     scene.add_shape(Kind::sphere, placed(p.scale * p.offset, p.scale), 0);
@@ -219,10 +221,10 @@ TEST_P(ClosedSphere, neither_leaks_nor_hits_itself) {
         SurfacePoint next;
         ASSERT_TRUE(geometry.intersect(ray, Coherence::incoherent, next)) << i;
         const double chord = (next.position - hit.position).norm();
-        // Starting off the surface by an offset makes it longer by offset / cos(theta).
+        // A start off the surface lengthens the chord by offset / cos(theta).
         const double offset = 1e-10 * (p.offset.cwiseAbs().maxCoeff() + 1.0);
         ASSERT_NEAR(chord / p.scale, 2.0 * local.z(), 1.1 * offset / local.z() + 1e-12) << i;
-        // And outwards there is nothing, though the ray starts on the surface.
+        // Outwards the ray hits nothing, although it starts on the surface.
         const Vec3 out = Frame(normal).to_world(local);
         ASSERT_FALSE(geometry.occluded({geometry.spawn_point(hit, out), out})) << i;
     }
@@ -258,7 +260,7 @@ TEST(Shape, stands_among_triangles_and_planes) {
     EXPECT_TRUE(geometry.occluded(Vec3(7, 0.1, 0), Vec3(7, -0.1, 0)));
     EXPECT_TRUE(geometry.occluded({Vec3(1e6, 5, 0), -Vec3::UnitY()}));
     EXPECT_FALSE(geometry.occluded({Vec3(1e6, 5, 0), Vec3::UnitY()}));
-    // The plane has no bounds and takes no part in them.
+    // The plane has no bounds, so the scene's bounds ignore it.
     EXPECT_EQ(geometry.bounds().min(), Vec3(-1, 0.5, -1));
     EXPECT_EQ(geometry.bounds().max(), Vec3(1, 2, 1));
     SurfacePoint hit;

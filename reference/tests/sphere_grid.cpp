@@ -35,7 +35,7 @@ double refine(const Function &f, double x0, double x1, double y0, double y1, dou
            refine(f, xm, x1, ym, y1, parts[3], 0.25 * tolerance, depth - 1);
 }
 
-constexpr int rows = 20;  // of cos(theta), even: none straddles the horizon
+constexpr int rows = 20;  // cells of cos(theta); even, so that none straddles the horizon
 constexpr int columns = 24;
 constexpr int slope_cells = 24;
 constexpr double slope_range = 6.0;
@@ -47,7 +47,7 @@ Vec3 direction(double z, double phi) {
 
 SamplerCheck decide(std::vector<uint64_t> observed, std::vector<double> expected, int samples) {
     const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
-    // The integrals are good to 1e-5: by that much the rest may be more than what they leave of 1.
+    // The integrals are accurate to 1e-5, so the remaining probability may be that large.
     expected.push_back(std::max(1.0 - total, 1e-5));
     for (double &e : expected) {
         e *= samples;

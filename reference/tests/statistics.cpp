@@ -12,7 +12,7 @@ namespace rtrays::reference {
 
 namespace {
 
-/// Over the pixels [x0, x1) x [y0, y1).
+/// Returns the mean over the pixels [x0, x1) x [y0, y1).
 BlockMean block_mean(const Image &image, const std::string &channel, int x0, int y0, int x1,
                      int y1) {
     const auto &values = image.channel(channel);

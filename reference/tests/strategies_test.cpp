@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// implicit = explicit = mis: three estimators of one image, compared per 16x16 block and on the
-// mean.
+// The strategies implicit, explicit and mis estimate the same image. They are compared per 16x16
+// block and on the mean.
 #include <gtest/gtest.h>
 
 #include "reference/tests/statistics.h"
@@ -19,7 +19,7 @@ Image render(const TestScene &scene, Strategies strategies, uint64_t seed, uint6
     return renderer.develop();
 }
 
-/// What Holm's procedure rejects among all pairs of strategies.
+/// Returns the comparisons that Holm's procedure rejects among all pairs of strategies.
 std::vector<std::string> disagreements(const TestScene &scene, uint32_t max_depth, uint64_t seed) {
     const Image by_hits = render(scene, Strategies::implicit_only, seed, 1024, max_depth);
     const Image by_sampling = render(scene, Strategies::explicit_only, seed + 1, 256, max_depth);
@@ -49,7 +49,7 @@ TEST(Strategies, agree_with_several_lights_of_different_power) {
 }
 
 TEST(Strategies, the_comparison_sees_half_a_percent) {
-    // Brighter light by 0.5 % in one of two images of many samples.
+    // The light is 0.5 % brighter in one of two images of many samples.
     TestScene brighter = cornell_like_box();
     for (Rgb &radiance : brighter.lights.radiance) {
         radiance *= 1.005f;
@@ -72,11 +72,11 @@ TEST(Strategies, agree_without_roulette_and_trace_two_rays_per_event) {
     compare_images("without = with roulette", renderer.develop(),
                    render(scene, Strategies::mis, 76, 256, depth), suite);
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
-    // Paths end early only where they leave the box, hit the back of something or point away from
-    // the light.
+    // Paths end early only if they leave the box, hit the back of a surface or point away from the
+    // light.
     const ReferenceStats stats = renderer.stats();
     EXPECT_LE(stats.bounce_rays, (depth - 1) * stats.camera_rays)
-        << "the last event sends no ray on";
+        << "the last event traces no bounce ray";
     EXPECT_LE(stats.shadow_rays, depth * stats.camera_rays);
     EXPECT_GT(stats.bounce_rays, stats.camera_rays);
     settings.max_depth = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One material per model and per kind of composite, for tests of the BSDFs.
+// Test materials: one per BSDF model and per kind of composite.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@
 
 namespace rtrays::reference {
 
+/// A material and its expected properties.
 struct TestMaterial {
     std::string name;
     std::vector<BxdfComponent> components;
@@ -26,10 +27,10 @@ BxdfComponent microfacet(BxdfComponent::Distribution distribution, double alpha_
 BxdfComponent rough_refraction(BxdfComponent::Distribution distribution, double alpha, double eta);
 BxdfComponent with_dielectric(BxdfComponent component, double eta, bool complement = false);
 
-/// Not a delta material among them.
+/// Returns one material per model and kind of composite. None of them is purely delta.
 std::vector<TestMaterial> rough_materials();
 
-/// Reflection and refraction, ideal or rough, weighted by F and 1 - F.
+/// Returns glass: reflection and refraction, ideal or rough, weighted by F and 1 - F.
 std::vector<BxdfComponent> smooth_glass(double eta);
 std::vector<BxdfComponent> rough_glass(BxdfComponent::Distribution distribution, double alpha,
                                        double eta);

@@ -118,7 +118,7 @@ void TestScene::add_box(const Vec3 &low, const Vec3 &high, bool inside, uint32_t
         corners.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
                              i & 4 ? high.z() : low.z());
     }
-    // Faces counter-clockwise from outside.
+    // Faces are counter-clockwise from outside.
     std::vector<Triangle> triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
                                        {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
                                        {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};

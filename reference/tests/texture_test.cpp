@@ -11,7 +11,8 @@ namespace {
 using Filter = TextureArrays::Filter;
 using Wrap = TextureArrays::Wrap;
 
-/// Two columns, two rows; red is 1 2 over 3 4 (from the top), green its tenth.
+/// Returns two columns and two rows of texels. Red is 1 2 over 3 4 (from the top), green is its
+/// tenth.
 TextureArrays four_texels(Filter filter, Wrap wrap) {
     auto image = std::make_shared<TextureImage>();
     image->width = image->height = 2;
@@ -73,7 +74,7 @@ TEST(Texture, bytes_are_decoded_before_they_are_interpolated) {
     image->srgb = true;
     const Spectrum left = Texture(t, 0).evaluate({0.25, 0.5});
     EXPECT_EQ(left[0], 0.0);
-    EXPECT_NEAR(left[1], 0.2158605, 1e-7);  // IEC 61966-2-1 of 128
+    EXPECT_NEAR(left[1], 0.2158605, 1e-7);  // 128 decoded by IEC 61966-2-1
     EXPECT_EQ(left[2], 1.0);
     EXPECT_NEAR(Texture(t, 0).evaluate({0.75, 0.5})[1], 10.0 / 255.0 / 12.92, 1e-15);
     EXPECT_DOUBLE_EQ(Texture(t, 0).evaluate({0.5, 0.5})[0], 0.5);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Text files that are compiled into a program, such as kernels and schemas.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,7 @@ class EmbeddedFiles {
     const EmbeddedFile *begin() const { return files_; }
     const EmbeddedFile *end() const { return files_ + count_; }
 
-    /// The content, or nothing (`data() == nullptr`) when there is no such file.
+    /// Returns the content of a file, or an empty view (`data() == nullptr`) if it does not exist.
     std::string_view find(std::string_view path) const {
         for (const EmbeddedFile &file : *this) {
             if (file.path == path) {
@@ -33,11 +34,12 @@ class EmbeddedFiles {
         return {};
     }
 
-    /// The content; throws `Error` (run failed) listing the files when there is no such file.
+    /// Returns the content of a file. Throws `Error` (run failed) listing the files if it does not
+    /// exist.
     std::string_view text(std::string_view path) const {
         const std::string_view found = find(path);
         if (found.data() == nullptr) {
-            std::string message = "no embedded file '" + std::string(path) + "'; there are:";
+            std::string message = "unknown embedded file '" + std::string(path) + "'; files are:";
             for (const EmbeddedFile &file : *this) {
                 message += ' ' + std::string(file.path);
             }

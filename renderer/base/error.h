@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Errors and exit codes of all programs.
 #pragma once
 
 #include <functional>
@@ -7,7 +8,7 @@
 
 namespace rtrays {
 
-/// Exit codes of every program (a contract with scripts).
+/// Exit codes of all programs, which scripts rely on.
 enum class ExitCode {
     ok = 0,
     run_failed = 1,
@@ -15,11 +16,11 @@ enum class ExitCode {
     regression = 3,
     reference_missing = 4,
     skipped = 77,       ///< a peer is not installed
-    interrupted = 130,  ///< as a shell reports SIGINT
+    interrupted = 130,  ///< what a shell reports for SIGINT
 };
 
-/// The one error type of all libraries. Its message is complete: it names the file, key or device
-/// concerned and the remedy. Only `main` turns it into an exit code.
+/// The only error type of all libraries. The message is complete: it names the file, key or device
+/// and the remedy. Only `main` converts an error to an exit code.
 class Error : public std::runtime_error {
   public:
     Error(ExitCode exit_code, const std::string &message)
@@ -31,18 +32,18 @@ class Error : public std::runtime_error {
     ExitCode exit_code_;
 };
 
-/// Bad usage or bad input: exit code 2.
+/// Makes the error of bad usage or bad input: exit code 2.
 inline Error input_error(const std::string &message) {
     return {ExitCode::bad_input, message};
 }
 
-/// A run that could not be carried through: exit code 1.
+/// Makes the error of a run that could not be completed: exit code 1.
 inline Error run_error(const std::string &message) {
     return {ExitCode::run_failed, message};
 }
 
-/// Runs `body`, prints the message of an `Error` (or of any other exception) as `PROGRAM: message`
-/// on stderr and returns the exit code for `main`.
+/// Runs `body` and returns the exit code for `main`. Prints the message of an `Error`, or of any
+/// other exception, as `PROGRAM: message` on stderr.
 int run_main(const char *program, const std::function<ExitCode()> &body);
 
 }  // namespace rtrays

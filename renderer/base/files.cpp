@@ -41,7 +41,7 @@ std::string reason() {
     return std::strerror(errno);
 }
 
-/// Paths that cannot be looked at count as none: opening them then says why.
+/// Returns false for paths that cannot be inspected; opening them then reports the reason.
 bool names_directory(const fs::path &path) {
     std::error_code ignored;
     return fs::is_directory(path, ignored);

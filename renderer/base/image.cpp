@@ -25,7 +25,7 @@ namespace rtrays {
 
 namespace {
 
-/// Larger sides are taken for a damaged header rather than allocated.
+/// Largest side of an image in pixels. A header that states a larger one is considered damaged.
 constexpr int max_side = 1 << 16;
 
 /// The stored type of each alternative of `Attribute`.
@@ -66,7 +66,8 @@ const std::vector<float> &Image::channel(const std::string &name) const {
         for (const Channel &c : channels_) {
             names += (names.empty() ? "" : ", ") + c.name;
         }
-        throw input_error(fmt::format("image has no channel '{}'; it has: {}", name, names));
+        throw input_error(
+            fmt::format("image: unknown channel '{}'; channels are: {}", name, names));
     }
     return found->values;
 }
@@ -77,14 +78,14 @@ std::vector<float> &Image::channel(const std::string &name) {
 
 std::vector<float> &Image::add_channel(const std::string &name) {
     if (has(name)) {
-        throw run_error(fmt::format("image already has a channel '{}'", name));
+        throw run_error(fmt::format("image: channel '{}' already exists", name));
     }
     channels_.push_back({name, std::vector<float>(pixel_count(), 0.0f)});
     return channels_.back().values;
 }
 
 Image read_exr(const std::filesystem::path &path) {
-    std::error_code unknown;  // then opening the file says why
+    std::error_code unknown;  // if set, opening the file reports the reason
     if (!std::filesystem::exists(path, unknown) && !unknown) {
         throw input_error(fmt::format("{}: no such file", path.string()));
     }
@@ -95,8 +96,9 @@ Image read_exr(const std::filesystem::path &path) {
         const int width = window.max.x - window.min.x + 1;
         const int height = window.max.y - window.min.y + 1;
         if (width > max_side || height > max_side) {
-            throw input_error(fmt::format("{}: {} x {} pixels is more than {} a side",
-                                          path.string(), width, height, max_side));
+            throw input_error(
+                fmt::format("{}: {} x {} pixels are too many; the limit is {} per side",
+                            path.string(), width, height, max_side));
         }
         Image image(width, height);
         // R, G, B first, then the file's (alphabetical) order.
@@ -135,7 +137,8 @@ Image read_exr(const std::filesystem::path &path) {
     } catch (const Error &) {
         throw;
     } catch (const std::exception &error) {
-        throw input_error(fmt::format("{}: not a readable EXR: {}", path.string(), error.what()));
+        throw input_error(
+            fmt::format("{}: cannot be read as an EXR image: {}", path.string(), error.what()));
     }
 }
 
@@ -143,7 +146,7 @@ void require_exr_output(const std::filesystem::path &path) {
     require_writable(path);
     if (path.extension() != ".exr") {
         throw input_error(
-            fmt::format("{}: images are OpenEXR; name it {}", path.string(),
+            fmt::format("{}: images are written as OpenEXR; use the name {}", path.string(),
                         std::filesystem::path(path).replace_extension(".exr").string()));
     }
 }

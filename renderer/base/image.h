@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Images of named float channels, and their OpenEXR files.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +11,14 @@
 
 namespace rtrays {
 
-/// One attribute of the EXR header.
+/// Value of an attribute in the EXR header.
 using Attribute = std::variant<int, float, double, std::string>;
 
 /// A float32 image, linear Rec. 709, planar. The first three channels are "R", "G", "B" (radiance,
-/// W / (sr m^2)); further layers use dotted names: "variance.R" (variance of the MEAN per pixel),
+/// W / (sr m^2)). Further layers have dotted names: "variance.R" (variance of the MEAN per pixel),
 /// "samples" (sample count per pixel), ...
 ///
-/// Rows run from the top, pixel (x, y) of a channel is at `y * width + x`.
+/// Rows run from the top; pixel (x, y) of a channel is at `y * width + x`.
 class Image {
   public:
     struct Channel {
@@ -28,7 +29,7 @@ class Image {
     Image() = default;
     Image(int width, int height) : width_(width), height_(height) {}
 
-    /// A black image with channels R, G, B.
+    /// Returns a black image with the channels R, G, B.
     static Image rgb(int width, int height);
 
     int width() const { return width_; }
@@ -40,11 +41,11 @@ class Image {
     const std::vector<Channel> &channels() const { return channels_; }
     bool has(const std::string &name) const { return find(name) != nullptr; }
 
-    /// The channel's values; throws `Error` when there is none of that name.
+    /// Returns the values of a channel. Throws `Error` if the image has no channel of that name.
     const std::vector<float> &channel(const std::string &name) const;
     std::vector<float> &channel(const std::string &name);
 
-    /// Appends a zero channel and returns its values; throws `Error` when the name is taken.
+    /// Appends a channel of zeros and returns its values. Throws `Error` if the name is taken.
     std::vector<float> &add_channel(const std::string &name);
 
     std::map<std::string, Attribute> &attributes() { return attributes_; }
@@ -59,21 +60,21 @@ class Image {
     std::map<std::string, Attribute> attributes_;
 };
 
-/// Names of the colour channels in order; `layer` prefixes them: "variance" gives "variance.R", ...
+/// Returns the names of the colour channels in order, prefixed by `layer`: "variance" gives
+/// "variance.R", ...
 std::vector<std::string> rgb_names(const std::string &layer = "");
 
-/// Reads all channels and the attributes of int, float, double and string type.
-/// Throws `Error` (bad input) naming the file when it is missing, truncated or not an EXR.
+/// Reads all channels, and the attributes of int, float, double and string type. Throws `Error`
+/// (bad input) naming the file when it is missing, truncated or not an EXR.
 Image read_exr(const std::filesystem::path &path);
 
-/// Writes the image whole or not at all (temporary file beside it, then rename), ZIP-compressed
-/// float32 with the standard `chromaticities` of Rec. 709. Throws `Error` (run failed) naming the
-/// file.
+/// Writes the image atomically (to a temporary file beside it, which is then renamed), as
+/// ZIP-compressed float32 with the standard `chromaticities` of Rec. 709. Throws `Error` (run
+/// failed) naming the file.
 void write_exr(const Image &image, const std::filesystem::path &path);
 
-/// The check of a name that a user gave, for before there is an image. Throws `Error` (bad input)
-/// unless `write_exr` can write it and it ends in .exr: other endings would lie about what is in
-/// the file.
+/// Checks the name of an output file before the image exists. Throws `Error` (bad input) if
+/// `write_exr` cannot write it or its extension is not .exr, which would misrepresent the content.
 void require_exr_output(const std::filesystem::path &path);
 
 }  // namespace rtrays

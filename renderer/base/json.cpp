@@ -21,13 +21,14 @@ namespace rtrays {
 
 namespace {
 
-/// Where the lexer is: the library does not tell its SAX callbacks, so lines are counted as
-/// characters are taken.
+/// Position of the lexer. The library does not pass it to its SAX callbacks, so lines are counted
+/// as characters are consumed.
 struct Position {
     size_t line = 1;
     char last = 0;
 };
 
+/// Iterator over the text that keeps `Position` up to date.
 class CountingIterator {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -53,6 +54,7 @@ class CountingIterator {
     Position *position_;
 };
 
+/// Escapes a token of a JSON pointer (RFC 6901).
 std::string escaped(std::string token) {
     for (const auto &[from, to] : {std::pair{"~", "~0"}, std::pair{"/", "~1"}}) {
         for (size_t at = token.find(from); at != std::string::npos; at = token.find(from, at + 2)) {
@@ -62,26 +64,26 @@ std::string escaped(std::string token) {
     return token;
 }
 
-/// The "name" of an object, which tells people more than its place in the document.
+/// Returns the "name" of an object, or nullptr. Users recognise it better than a path.
 const std::string *name_of(const Json &value) {
     const auto found = value.is_object() ? value.find("name") : value.end();
     return found != value.end() && found->is_string() ? found->get_ptr<const std::string *>()
                                                       : nullptr;
 }
 
-/// Builds the document and follows where in it the lexer is.
+/// SAX handler that builds the document and knows the path and line of each value.
 class StrictReader {
   public:
     StrictReader(const std::string &source_name, const Position &position)
         : source_name_(source_name), position_(position) {}
 
-    /// Also remembers the line of the value at this pointer, and lets duplicate keys pass.
+    /// Records the line of the value at this pointer, and accepts duplicate keys.
     void look_for(const std::string &pointer) { wanted_ = &pointer; }
 
     Json take() { return std::move(root_); }
     size_t found_line() const { return found_line_; }
 
-    // What the library calls; `true` means go on.
+    // Callbacks of the library; `true` means continue.
     bool null() { return add(nullptr, false); }
     bool boolean(bool value) { return add(value, false); }
     bool number_integer(Json::number_integer_t value) { return add(value, true); }
@@ -118,14 +120,14 @@ class StrictReader {
   private:
     struct Level {
         Json *value;
-        std::string key;  ///< of the member being read, when `value` is an object
+        std::string key;  ///< key of the member being read, if `value` is an object
     };
 
-    /// Of the value that is being read or comes next.
+    /// Pointer of the value that is being read or comes next.
     std::string pointer() const {
         std::string path;
         for (const Level &level : levels_) {
-            // All but the innermost array already hold the element that is being read.
+            // All arrays but the innermost already hold the element that is being read.
             const size_t unfinished = &level != &levels_.back() ? 1 : 0;
             path += level.value->is_array() ? fmt::format("/{}", level.value->size() - unfinished)
                                             : "/" + escaped(level.key);
@@ -189,7 +191,7 @@ class StrictReader {
     std::vector<Level> levels_;
 };
 
-/// Line (from 1) of the value at `pointer`, 0 when the text has none.
+/// Returns the line (from 1) of the value at `pointer`, or 0 if the text does not have the value.
 size_t line_of(const std::string &text, const std::string &pointer) {
     Position position;
     StrictReader reader(pointer, position);
@@ -198,12 +200,12 @@ size_t line_of(const std::string &text, const std::string &pointer) {
         Json::sax_parse(CountingIterator(text.data(), &position),
                         CountingIterator(text.data() + text.size(), &position), &reader);
     } catch (const Error &) {
-        // The text is not the one the document came from; what was found before that still holds.
+        // The text is not that of the document; a line found before the error is still valid.
     }
     return reader.found_line();
 }
 
-/// Follows local references; schemas are our own, so a dangling one is our bug.
+/// Follows local references. Schemas are part of the program, so a dangling reference is a bug.
 const Json &resolved(const Json &root, const Json &schema) {
     const Json *node = &schema;
     while (node->is_object() && node->contains("$ref")) {
@@ -212,7 +214,7 @@ const Json &resolved(const Json &root, const Json &schema) {
     return *node;
 }
 
-/// All schema nodes that apply to `schema`'s value, those of its combinators included.
+/// Appends all schema nodes that apply to the value of `schema`, including those of combinators.
 void collect(const Json &root, const Json &schema, std::vector<const Json *> &nodes) {
     const Json &node = resolved(root, schema);
     if (!node.is_object()) {
@@ -233,7 +235,7 @@ void collect(const Json &root, const Json &schema, std::vector<const Json *> &no
     }
 }
 
-/// The schema nodes that apply to the value at `path`.
+/// Returns the schema nodes that apply to the value at `path`.
 std::vector<const Json *> schema_nodes(const Json &root, const std::vector<std::string> &path) {
     std::vector<const Json *> nodes;
     collect(root, root, nodes);
@@ -254,7 +256,7 @@ std::vector<const Json *> schema_nodes(const Json &root, const std::vector<std::
     return nodes;
 }
 
-/// What stands at `keyword` in any of the nodes, the elements of arrays one by one.
+/// Returns the values of `keyword` in all nodes; arrays are split into their elements.
 std::vector<Json> gathered(const std::vector<const Json *> &nodes, const char *keyword) {
     std::vector<Json> values;
     for (const Json *node : nodes) {
@@ -276,15 +278,15 @@ std::string listed(const std::vector<Json> &values, const char *separator) {
     return fmt::format("{}", fmt::join(words, separator));
 }
 
-/// A value as it appears in a message: cut, and with invalid UTF-8 replaced.
+/// Returns a value as it appears in a message: truncated, with invalid UTF-8 replaced.
 std::string shown(const Json &value) {
     constexpr size_t longest = 60;
     const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
     return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-/// Says what is wrong with `value` in terms of the schema: the validator only tells where and why
-/// in general ("could not be validated"), never what would have been right.
+/// Explains what is wrong with `value` in terms of the schema. The validator reports only the path
+/// and a general reason ("could not be validated"), never the legal values.
 std::string explain(const Json &value, const std::vector<const Json *> &nodes,
                     const std::string &description) {
     const std::vector<Json> types = gathered(nodes, "type");
@@ -364,7 +366,7 @@ void validate_json(const Json &document, const std::string &schema_text,
     if (validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results)) {
         return;
     }
-    // Every enclosing value reports its part's error again: the deepest path is the cause.
+    // Every enclosing value repeats the error of its member; the deepest path is the cause.
     const auto deepest = std::max_element(
         results.begin(), results.end(),
         [](const auto &a, const auto &b) { return a.context.size() < b.context.size(); });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Notices: messages to the user that are not errors.
 #pragma once
 
 #include <functional>
@@ -6,11 +7,11 @@
 
 namespace rtrays {
 
-/// Tells the user what a program does otherwise than its input says: a line "notice: TEXT" on
-/// stderr.
+/// Informs the user that the program departs from its input: prints "notice: TEXT" on stderr, or
+/// passes the text to the current `NoticeReceiver`.
 void notice(const std::string &text);
 
-/// While it lives, notices go to `receive` instead (not from several threads at once).
+/// Redirects notices to `receive` during its lifetime. Not thread-safe.
 class NoticeReceiver {
   public:
     explicit NoticeReceiver(std::function<void(const std::string &)> receive);

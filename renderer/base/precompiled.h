@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Headers of libraries that most files include anyway, parsed once for every target. Files name
-// what they use all the same: with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as the debug preset has
-// it, all compile without.
+// Library headers that most files include, parsed once for all targets. Files must still include
+// what they use: they also compile with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, which the debug
+// preset sets.
 #pragma once
 
 #include <fmt/format.h>

@@ -18,12 +18,13 @@ namespace rtrays {
 
 namespace {
 
-constexpr int not_found = 127;  // as of a shell
+constexpr int not_found = 127;  // exit code of a shell for an unknown command
 
 std::array<int, 2> make_pipe() {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) {  // no other process is to hold the ends
-        throw run_error(fmt::format("no pipe to another program: {}", std::strerror(errno)));
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) {  // no other child process inherits the ends
+        throw run_error(
+            fmt::format("cannot create a pipe to another program: {}", std::strerror(errno)));
     }
     return ends;
 }
@@ -43,12 +44,12 @@ Process::Process(const std::vector<std::string> &command,
     }
     arguments.push_back(nullptr);
     const auto down = make_pipe(), up = make_pipe();
-    std::signal(SIGPIPE,
-                SIG_IGN);  // of a program that has ended: the answer that does not come tells
+    // Writing to a program that has ended fails instead of raising SIGPIPE; the missing answer then
+    // shows that the program has ended.
+    std::signal(SIGPIPE, SIG_IGN);
     process_ = fork();
     if (process_ < 0) {
-        throw run_error(
-            fmt::format("{} cannot be started: {}", command.front(), std::strerror(errno)));
+        throw run_error(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
     }
     if (process_ == 0) {
         for (const auto &[name, value] : environment) {

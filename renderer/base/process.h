@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Another program that answers line by line.
+// Child processes that answer line by line.
 #pragma once
 
 #include <sys/types.h>
@@ -11,26 +11,27 @@
 
 namespace rtrays {
 
-/// A running program whose standard input and output are ours. The destructor closes both ends,
-/// asks it to stop and waits for it.
+/// A running child process whose standard input and output are connected to this program. The
+/// destructor closes both, asks the process to terminate and waits for it.
 class Process {
   public:
-    /// Looks for `command[0]` in the PATH; `environment` is added to ours. A program that is not
-    /// there ends at once without a word. Throws `Error` (run failed) where no process can be made.
+    /// Starts the program `command[0]`, which is searched in the PATH. `environment` is added to
+    /// the environment of this program. If the program does not exist, the process ends at once
+    /// without output. Throws `Error` (run failed) if no process can be created.
     explicit Process(const std::vector<std::string> &command,
                      const std::vector<std::pair<std::string, std::string>> &environment = {});
     ~Process();
     Process(const Process &) = delete;
     Process &operator=(const Process &) = delete;
 
-    /// Whether all of the text could be written.
+    /// Writes the text; returns whether all of it could be written.
     bool write(const std::string &text);
 
-    /// The next line without its end; nothing once the program has closed its output.
+    /// Returns the next line without its line end, or nothing after the program closed its output.
     std::optional<std::string> read_line();
 
-    /// Waits for the end of the program: its exit code, 127 where it is not there, 128 and the
-    /// signal where one ended it.
+    /// Waits until the program ends and returns its exit code: 127 if the program does not exist,
+    /// 128 plus the signal number if a signal ended it.
     int wait();
 
   private:
@@ -39,8 +40,8 @@ class Process {
     std::string read_ahead_;
 };
 
-/// Debian's Python first in the PATH: Blender takes its Python's packages from where the first
-/// python3 is.
+/// Returns a PATH with Debian's Python first. Blender takes the packages of its Python from the
+/// installation of the first python3 in the PATH.
 std::vector<std::pair<std::string, std::string>> python_environment();
 
 }  // namespace rtrays

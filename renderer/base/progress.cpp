@@ -15,7 +15,7 @@ namespace {
 
 std::atomic<bool> interrupt_flag{false};
 static_assert(std::atomic<bool>::is_always_lock_free,
-              "the handler may only touch a lock-free flag");
+              "a signal handler may only access a lock-free flag");
 
 std::string format_duration(double seconds) {
     const auto s = static_cast<uint64_t>(seconds + 0.5);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Progress messages, and interruption of long runs by signals.
 #pragma once
 
 #include <chrono>
@@ -7,18 +8,18 @@
 
 namespace rtrays {
 
-/// Progress with time left on stderr: one line redrawn in place on a terminal, otherwise a line
-/// every ten seconds. Silent when `quiet`.
+/// Progress and estimated time left on stderr. On a terminal, one line is updated in place;
+/// otherwise a line is printed every ten seconds. Prints nothing if `quiet`.
 class Progress {
   public:
-    /// `total` and later `done` are in units of `what` ("spp", "curves").
+    /// `total`, and later `done`, are in units of `what` ("spp", "curves").
     Progress(std::string task, uint64_t total, std::string what, bool quiet);
     ~Progress();
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
 
-    /// `done` counts from 0 to `total`; what was done before the first call is not used for the
-    /// estimate.
+    /// Reports that `done` of `total` units are complete. Units completed before the first call do
+    /// not enter the estimate.
     void update(uint64_t done);
 
   private:
@@ -39,9 +40,10 @@ class Progress {
     Clock::time_point last_print_;
 };
 
-/// Set by SIGINT or SIGTERM once `install_interrupt_handler` was called: long loops poll it, leave
-/// a resumable state and return.
+/// Returns whether SIGINT or SIGTERM arrived since `install_interrupt_handler` was called. Long
+/// loops poll it, save a state that can be resumed, and return.
 bool interrupted();
+/// Installs the handler of SIGINT and SIGTERM. A second signal ends the process at once.
 void install_interrupt_handler();
 
 }  // namespace rtrays

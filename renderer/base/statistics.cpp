@@ -9,7 +9,7 @@
 namespace rtrays {
 
 double normal_p_value(double z) {
-    // erfc keeps its relative precision far out in the tail, where 1 - cdf is zero.
+    // erfc keeps its relative precision far out in the tail, where 1 - cdf rounds to zero.
     return std::erfc(std::abs(z) / std::sqrt(2.0));
 }
 

@@ -13,9 +13,9 @@ namespace rtrays {
 
 namespace {
 
-/// Device memory of a build per triangle, stated in the message when it does not fit: two buffers
-/// of primitives, scratch nodes, the finished nodes (at most as many as scratch) and the leaf
-/// triangles.
+/// Device memory of a build per triangle, stated in the message when the build does not fit: two
+/// buffers of primitives, scratch nodes, the finished nodes (at most as many as scratch nodes) and
+/// the leaf triangles.
 constexpr uint64_t bytes_per_triangle =
     2 * sizeof(PrimitiveRef) + 2 * sizeof(BvhNode) + sizeof(LeafTriangle);
 
@@ -23,11 +23,12 @@ uint32_t divide_up(uint32_t a, uint32_t b) {
     return a / b + (a % b != 0 ? 1 : 0);
 }
 
-/// An unsplit node is above the subtree size, so a level has at most this many; no level is deeper
-/// than leaves may be, which bounds nodes and subtrees of the large phase.
+/// Sizes of the buffers of the large phase. A node to be split is above the subtree size, which
+/// bounds the nodes of a level. The greatest depth of leaves bounds the number of levels, and thus
+/// the nodes and subtrees of the phase.
 struct Capacities {
     uint32_t tasks, chunks, top_nodes, subtrees;
-    size_t chunk_bins, task_bins;  ///< a BinSet is one of the usual number of bins and axes
+    size_t chunk_bins, task_bins;  ///< in units of a BinSet of the default bins and axes
 
     Capacities(uint32_t triangles, const BvhBuildParameters &parameters) {
         tasks = triangles / parameters.subtree_size + 1;
@@ -47,8 +48,8 @@ struct Capacities {
 }  // namespace
 
 BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
-    // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU wants many
-    // short ones. Layouts by measurement: `make bench`.
+    // A CPU core takes long pieces one at a time and keeps a subtree in its cache; a GPU takes many
+    // short ones. The layouts were chosen by measurement: `make bench`.
     if (device.is_cpu) {
         return {1, 1024, 1024, BvhLayout::wide8};
     }
@@ -58,7 +59,7 @@ BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
     return parameters;
 }
 
-/// The primitives of the input, and the first task or subtree: the range of all of them.
+/// The primitives of the input, and the first task or subtree, whose range covers all of them.
 struct BvhBuilder::Gathered {
     Gathered(DeviceContext &device, uint32_t triangles, uint32_t chunk_size,
              const Capacities &capacities)
@@ -80,7 +81,7 @@ struct BvhBuilder::Gathered {
     Buffer<BuildSubtree> subtrees;
 };
 
-/// What binning takes besides; levels go back and forth between two of the buffers each.
+/// Buffers of binning, besides those of `Gathered`. Levels alternate between two buffers.
 struct BvhBuilder::Workspace {
     Workspace(DeviceContext &device, Gathered &gathered, const Capacities &capacities)
         : state(gathered.state),
@@ -123,19 +124,19 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
     if (group == 0 || parameters.chunk_size == 0 || parameters.subtree_size < BVH_LEAF_SIZE) {
         throw input_error(
             fmt::format("BVH build parameters: group size {} and chunk size {} must be positive, "
-                        "subtree size {} at least {}",
+                        "subtree size {} must be at least {}",
                         group, parameters.chunk_size, parameters.subtree_size, BVH_LEAF_SIZE));
     }
     if (parameters.one_group == 0 || (parameters.one_group & (parameters.one_group - 1)) != 0 ||
         parameters.parts == 0) {
         throw input_error(fmt::format(
-            "BVH build parameters: one group of {} is no power of two, or {} parts are none",
+            "BVH build parameters: one_group {} must be a power of two, parts {} must be positive",
             parameters.one_group, parameters.parts));
     }
     if (parameters.bins < 2 || parameters.bins > 64 ||
         (parameters.axes != 1 && parameters.axes != 3)) {
         throw input_error(
-            fmt::format("BVH build parameters: {} bins must be 2 to 64, {} axes 1 or 3",
+            fmt::format("BVH build parameters: bins {} must be 2 to 64, axes {} must be 1 or 3",
                         parameters.bins, parameters.axes));
     }
     const Defines numbering = {{"ONE_GROUP", fmt::format("{}u", parameters.one_group)}};
@@ -173,8 +174,8 @@ void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uin
     constexpr double gib = 1024.0 * 1024.0 * 1024.0;
     if (triangle_count > BVH_MAX_TRIANGLES) {
         throw input_error(fmt::format(
-            "{} triangles are more than a BVH can hold ({}): take a smaller scene; building it "
-            "would take {:.1f} GiB of device memory ({} bytes per triangle)",
+            "BVH: {} triangles exceed the limit of {}; use a smaller scene (this one would take "
+            "{:.1f} GiB of device memory, {} bytes per triangle)",
             triangle_count, BVH_MAX_TRIANGLES,
             static_cast<double>(triangle_count * bytes_per_triangle) / gib, bytes_per_triangle));
     }
@@ -182,11 +183,9 @@ void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uin
     const uint64_t total = triangle_count * bytes_per_triangle + input_bytes;
     if (largest > device.max_allocation || total > device.global_memory) {
         throw input_error(fmt::format(
-            "building a BVH over {} triangles takes {:.2f} GiB of device memory, {:.2f} GiB of it "
-            "in one "
-            "piece, but device '{}' has {:.2f} GiB and allows {:.2f} GiB in one piece: take "
-            "another device or a "
-            "smaller scene",
+            "BVH: {} triangles take {:.2f} GiB of device memory, {:.2f} GiB of it in one "
+            "allocation, but device '{}' has {:.2f} GiB and allows {:.2f} GiB per allocation; use "
+            "another device or a smaller scene",
             triangle_count, static_cast<double>(total) / gib, static_cast<double>(largest) / gib,
             device.name, static_cast<double>(device.global_memory) / gib,
             static_cast<double>(device.max_allocation) / gib));
@@ -210,7 +209,8 @@ BuildState BvhBuilder::gather(Gathered &gathered, uint32_t subtree_size,
     const BuildState state = gathered.state.read().front();
     if (state.bad_index > 0) {
         throw input_error(
-            fmt::format("{} triangles name a vertex that does not exist (there are {})",
+            fmt::format("BVH: {} triangles refer to a vertex that does not exist; there are {} "
+                        "vertices",
                         state.bad_index, vertex_count));
     }
     return state;
@@ -252,8 +252,9 @@ Bvh BvhBuilder::build(const Buffer<float> &positions, const Buffer<uint32_t> &in
 
 Bvh BvhBuilder::build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
     if (positions.size() % 3 != 0 || indices.size() % 3 != 0) {
-        throw input_error(fmt::format("{} coordinates and {} vertex indices do not come in threes",
-                                      positions.size(), indices.size()));
+        throw input_error(
+            fmt::format("BVH: expected multiples of 3, got {} coordinates and {} vertex indices",
+                        positions.size(), indices.size()));
     }
     require_build_memory(device_->info(), indices.size() / 3, positions.bytes() + indices.bytes());
     device_->finish();
@@ -330,7 +331,7 @@ Bvh BvhBuilder::build_by_binning(const Buffer<float> &positions, const Buffer<ui
     report.sah_cost = static_cast<double>(state.cost);
     report.bytes = nodes.bytes() + triangles.bytes();
     report.bytes_peak = report.bytes + gathered.input_chunks.bytes() + work.bytes();
-    device_->finish();  // before the workspace goes
+    device_->finish();  // before the workspace is released
     return {std::move(nodes), std::move(triangles), report};
 }
 

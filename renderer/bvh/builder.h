@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The BVH builder: its parameters, its memory limits and the stages that it schedules.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,37 +16,39 @@
 
 namespace rtrays {
 
-/// How the build is spread over a device, and what it builds. Group and chunk size change no bit of
-/// the result; the subtree size moves nodes in memory, but boxes, links and the order of triangles
-/// stay the same.
+/// Method and layout of a build, and how the build is divided among work-items. Group size and
+/// chunk size do not change a single bit of the result. The subtree size changes the order of nodes
+/// in memory, but not the boxes, the links or the order of triangles.
 struct BvhBuildParameters {
     uint32_t group_size;    ///< work-items per work-group
-    uint32_t chunk_size;    ///< primitives per work-item while a node is split by many
-    uint32_t subtree_size;  ///< a node of at most this many primitives is finished by one work-item
-    BvhLayout layout = BvhLayout::bvh2;  ///< of the result
+    uint32_t chunk_size;    ///< primitives per work-item while many work-items split one node
+    uint32_t subtree_size;  ///< one work-item finishes a node of at most this many primitives
+    BvhLayout layout = BvhLayout::bvh2;  ///< layout of the result
     BvhMethod method = BvhMethod::binned_sah;
-    uint32_t bins = 16;  ///< on an axis, from 2 to 64; of binned_sah
-    uint32_t axes = 3;   ///< that are binned: 3, or 1, the one along which centroids lie widest
-    uint32_t one_group =
-        1;  ///< work-items of stages that number things in order, all in one work-group: 2^n
+    uint32_t bins = 16;  ///< bins per axis for binned_sah, from 2 to 64
+    uint32_t axes = 3;   ///< number of binned axes: 3, or 1 for the axis of largest centroid extent
+    /// Work-items of the stages that number elements in order. All of them are in one work-group;
+    /// a power of two.
+    uint32_t one_group = 1;
     uint32_t parts = 1;  ///< work-items that share the bins of a node
 
+    /// Returns the parameters that suit the type of device, CPU or GPU.
     static BvhBuildParameters for_device(const DeviceInfo &device);
 };
 
-/// Device memory of a build at its peak, whatever the method, the layout and the triangles: at most
-/// so much for each of them and so much besides, the input apart. Reached only where leaves hold
-/// one triangle each, in blocks of eight; ordinary meshes take less than half on a CPU, less than
-/// three quarters on a GPU.
+/// Upper bounds of the device memory at the peak of a build, without the input: this many bytes per
+/// triangle, plus `bvh_peak_bytes`. They are valid for every method, layout and set of triangles.
+/// A build reaches them only if each leaf holds one triangle, in blocks of eight. Ordinary meshes
+/// take less than half of that on a CPU and less than three quarters on a GPU.
 constexpr uint64_t bvh_peak_bytes_per_triangle = 640;
 constexpr uint64_t bvh_peak_bytes = 1 << 20;
 
-/// Throws `Error` (bad input), stating the bytes, when a build over `triangle_count` triangles,
-/// whose input takes `input_bytes`, exceeds what the layout can number (2^26) or what the device
-/// can hold.
+/// Throws `Error` (bad input) when a build over `triangle_count` triangles, whose input takes
+/// `input_bytes`, is too large. The limits are the 2^26 triangles that the layout can index and the
+/// memory of the device. The message states the bytes.
 void require_build_memory(const DeviceInfo &device, uint64_t triangle_count, uint64_t input_bytes);
 
-/// Vertices and triangles in device memory, as builds and refits take them.
+/// Vertices and triangles in device memory, the input of builds and refits.
 struct BvhInput {
     BvhInput(DeviceContext &device, const std::vector<Eigen::Vector3f> &vertices,
              const std::vector<std::array<uint32_t, 3>> &triangles);
@@ -54,28 +57,32 @@ struct BvhInput {
     Buffer<uint32_t> indices;  ///< 3 per triangle
 };
 
-/// Builds hierarchies on a device, by one of two methods. binned_sah: breadth-first binned SAH
-/// (thesis 3.1) in a large phase, level by level with all work-items on each node, and a small
-/// phase with a subtree per work-item. hploc: clustering (bvh/hploc.h); a tree deeper than
-/// traversal allows is made anew by binned_sah, and so is one of a single leaf. Deterministic:
-/// partitions are stable, numbering follows the order of the input, nothing depends on scheduling.
+/// Builds hierarchies on a device by one of two methods.
 ///
-/// Keeps its compiled kernels: one builder serves any number of builds.
+/// binned_sah: breadth-first binned SAH (thesis 3.1). The large phase splits nodes level by level,
+/// with all work-items on each node. The small phase gives each work-item a subtree.
+///
+/// hploc: clustering (bvh/hploc.h). If the tree becomes deeper than traversal allows, or has a
+/// single leaf, it is rebuilt by binned_sah.
+///
+/// Builds are deterministic: partitions are stable, numbering follows the order of the input, and
+/// nothing depends on scheduling. A builder keeps its compiled kernels for any number of builds.
 class BvhBuilder {
   public:
-    /// With `BvhBuildParameters::for_device`.
+    /// Uses `BvhBuildParameters::for_device`.
     explicit BvhBuilder(DeviceContext &device);
 
     /// Throws `Error` (bad input) when a parameter is out of range.
     BvhBuilder(DeviceContext &device, const BvhBuildParameters &parameters);
 
-    /// `positions`: 3 floats per vertex; `indices`: 3 vertex numbers per triangle; both on the
-    /// device. Zero triangles give a valid tree that nothing hits. Triangles that cannot be hit are
-    /// left out and counted in the report. Throws `Error` (bad input) when an index is out of range
-    /// or the build does not fit the device, before anything is allocated.
+    /// Builds from buffers on the device. `positions` holds 3 floats per vertex, `indices` 3 vertex
+    /// indices per triangle. Zero triangles give a valid tree that no ray hits. Triangles that
+    /// cannot be hit are omitted and counted in the report. Throws `Error` (bad input) when an
+    /// index is out of range, or, before anything is allocated, when the build does not fit the
+    /// device.
     Bvh build(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
 
-    /// The same for arrays on the host.
+    /// Copies arrays from the host to the device and builds from them.
     Bvh build(const std::vector<Eigen::Vector3f> &positions,
               const std::vector<std::array<uint32_t, 3>> &triangles);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// A bounding volume hierarchy in device memory, its layouts and the report of its build.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +9,15 @@
 
 namespace rtrays {
 
-/// How a hierarchy is built.
+/// Methods of building a hierarchy.
 enum class BvhMethod : uint32_t {
-    binned_sah,  ///< top down, by the surface area heuristic over bins
-    hploc,  ///< bottom up, by clustering along a space-filling curve: faster to build, slower to
-            ///< trace
+    /// Top down, by the surface area heuristic over bins.
+    binned_sah,
+    /// Bottom up, by clustering along a space-filling curve: faster to build, slower to trace.
+    hploc,
 };
 
-/// All methods by the names that settings give them.
+/// A method and its name in settings.
 struct NamedBvhMethod {
     BvhMethod method;
     const char *name;
@@ -25,40 +27,42 @@ inline constexpr NamedBvhMethod bvh_methods[] = {{BvhMethod::binned_sah, "binned
 
 const char *to_string(BvhMethod method);
 
-/// Facts of one build, all but the seconds deterministic.
+/// Facts about one build. All of them except the seconds are deterministic.
 struct BvhReport {
-    BvhMethod method = BvhMethod::binned_sah;  ///< that made it: binned_sah where clustering became
-                                               ///< too deep, or for one leaf
-    double seconds_device = 0;                 ///< device time of all stages of the build
-    uint32_t triangles = 0;                    ///< in the tree
-    uint32_t left_out = 0;    ///< of the input, not in the tree: rejected when it was built
-    uint32_t not_finite = 0;  ///< rejected: a coordinate is NaN, infinite or beyond 1e12
-    uint32_t degenerate =
-        0;  ///< rejected: the vertices lie on a line (cross product of the edges is 0)
+    /// Method that built the tree: binned_sah where clustering became too deep, or for one leaf.
+    BvhMethod method = BvhMethod::binned_sah;
+    double seconds_device = 0;  ///< device time of all stages of the build
+    uint32_t triangles = 0;     ///< triangles in the tree
+    uint32_t left_out = 0;      ///< triangles of the input that the build rejected
+    uint32_t not_finite = 0;    ///< rejected: a coordinate is NaN, infinite or beyond 1e12
+    /// Rejected: the vertices are on a line (the cross product of the edges is 0).
+    uint32_t degenerate = 0;
     uint32_t nodes = 0;
     uint32_t leaves = 0;
     uint32_t depth = 0;  ///< edges from the root to the deepest leaf
-    double sah_cost =
-        0;  ///< thesis (3.3) with K_T = K_I = 1: expected nodes entered + triangles tested
-    uint32_t wide_nodes =
-        0;  ///< of the eight-wide layout, else 0: the rest is of the two-wide tree below it
+    /// Thesis (3.3) with K_T = K_I = 1: expected number of nodes entered plus triangles tested.
+    double sah_cost = 0;
+    /// Nodes of the eight-wide layout, else 0. `nodes`, `leaves`, `depth` and `sah_cost` describe
+    /// the two-wide tree that it was made from.
+    uint32_t wide_nodes = 0;
     uint32_t wide_leaves = 0;
-    uint64_t bytes = 0;       ///< of the tree and its triangles
-    uint64_t bytes_peak = 0;  ///< of device memory held during the build, the tree included
+    uint64_t bytes = 0;       ///< size of the tree and its triangles
+    uint64_t bytes_peak = 0;  ///< device memory held during the build, including the tree
 
     uint32_t rejected() const { return not_finite + degenerate; }
 };
 
-/// How a hierarchy lies in memory; a program that traverses it is compiled with `BVH_LAYOUT`
-/// defined as its number.
+/// Memory layouts of a hierarchy. A program that traverses a hierarchy is compiled with
+/// `BVH_LAYOUT` defined as the number of its layout.
 enum class BvhLayout : uint32_t {
     bvh2 = BVH_LAYOUT_BVH2,  ///< nodes of two children, traversed with a stack
-    bvh2_stackless =
-        BVH_LAYOUT_STACKLESS,  ///< the same in depth-first order, traversed without one
-    wide8 = BVH_LAYOUT_WIDE8,  ///< nodes of eight, for devices whose work-items compute on vectors
+    /// Nodes of two children in depth-first order, traversed without a stack.
+    bvh2_stackless = BVH_LAYOUT_STACKLESS,
+    /// Nodes of eight children, for devices whose work-items compute on vectors.
+    wide8 = BVH_LAYOUT_WIDE8,
 };
 
-/// All layouts by the names that settings give them.
+/// A layout and its name in settings.
 struct NamedBvhLayout {
     BvhLayout layout;
     const char *name;
@@ -69,8 +73,8 @@ inline constexpr NamedBvhLayout bvh_layouts[] = {{BvhLayout::bvh2, "bvh2"},
 
 const char *to_string(BvhLayout layout);
 
-/// A hierarchy over the triangles of a scene, in device memory: what
-/// kernels/traversal/intersect_bvh.h reads. It has the buffers of its layout.
+/// A hierarchy over the triangles of a scene in device memory, the input of
+/// kernels/traversal/intersect_bvh.h. Only the buffers of its layout are filled.
 class Bvh {
   public:
     Bvh() = default;

@@ -7,9 +7,10 @@ namespace rtrays {
 
 namespace {
 
-/// Nodes over n triangles, node 0 included. A node of less than eight children has only leaves, and
-/// more than eight triangles in them: those are at most n / 9. Of the i with eight children 8 i < i
-/// + n / 9 + (leaves, at most n): at most n / 6.
+/// Returns an upper bound of the number of wide nodes over n triangles, including node 0. A node of
+/// fewer than eight children has only leaves, with more than eight triangles in them: there are at
+/// most n / 9 such nodes. For the i nodes of eight children, 8 i < i + n / 9 + (leaves, at most n),
+/// so there are at most n / 6 of them.
 uint32_t node_capacity(uint32_t triangles) {
     return triangles / 3 + 2;
 }

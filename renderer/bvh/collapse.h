@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Collapsing two-wide hierarchies to eight-wide ones.
 #pragma once
 
 #include "renderer/bvh/bvh.h"
@@ -7,15 +8,15 @@
 
 namespace rtrays {
 
-/// Turns two-wide hierarchies into eight-wide ones on a device (shared/wide_node.h). Deterministic
-/// as the builder is.
+/// Collapses two-wide hierarchies to eight-wide ones on a device (shared/wide_node.h). The result
+/// is deterministic, like that of the builder.
 class BvhCollapser {
   public:
     BvhCollapser(DeviceContext &device, uint32_t group_size);
 
-    /// `bvh` has the layout bvh2; what it holds may be released afterwards. Throws `Error` (run
-    /// failed) when the device's memory does not suffice: per triangle about 100 bytes while it
-    /// works, and about 70 for the result.
+    /// Returns the eight-wide hierarchy of `bvh`, which must have the layout bvh2. The buffers of
+    /// `bvh` may be released afterwards. Throws `Error` (run failed) when the device runs out of
+    /// memory: collapsing takes about 100 bytes per triangle, the result about 70.
     Bvh collapse(const Bvh &bvh);
 
   private:

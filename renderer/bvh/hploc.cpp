@@ -7,18 +7,17 @@ namespace rtrays {
 
 namespace {
 
-/// Of kernels with a work-item per primitive or node: enough for a CPU to loop over, few enough for
-/// any GPU.
+/// Group size of kernels with a work-item per primitive or node: enough for a CPU to loop over, few
+/// enough for any GPU.
 constexpr uint32_t element_group = 64;
 
-/// Of the codes, all that there are.
+/// Bits of a code that are sorted by: all of them.
 constexpr uint32_t code_bits = 63;
 
 }  // namespace
 
-/// What clustering takes besides the clusters and their codes. Ranges above the subtree size are
-/// disjoint in each of the levels of the radix tree, and each of them has one place where it is
-/// divided.
+/// Buffers of clustering. The ranges above the subtree size are disjoint in each level of the radix
+/// tree, and each of them is divided at one position, which bounds their number.
 struct HplocBuilder::Workspace {
     Workspace(DeviceContext &device, uint32_t count, uint32_t subtree_size)
         : range_capacity(static_cast<uint32_t>(std::min<uint64_t>(
@@ -104,7 +103,7 @@ std::optional<Bvh> HplocBuilder::build(GatheredPrimitives gathered, const Buffer
     Buffer<PrimitiveRef> clusters(*device_, "bvh clusters", count);
     gather_clusters_.bind({gathered.primitives, order, count, clusters});
     gather_clusters_.enqueue(count);
-    device_->finish();  // what is no longer needed is released here
+    device_->finish();  // the buffers of sorting are released below
     uint64_t peak = gathered.primitives.bytes() + codes.bytes() + order.bytes() + clusters.bytes() +
                     sort_.bytes(count);
     gathered.primitives = {};

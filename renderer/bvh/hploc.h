@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The H-PLOC builder: bottom-up construction of hierarchies by clustering.
 #pragma once
 
 #include <optional>
@@ -13,8 +14,8 @@ namespace rtrays {
 /// The primitives of a build on a device, checked and gathered in the order of the input.
 struct GatheredPrimitives {
     Buffer<BuildState> state;
-    Buffer<PrimitiveRef> primitives;  ///< the first `count` of them
-    Buffer<BuildSubtree> all;         ///< the range of all of them, with its bounds
+    Buffer<PrimitiveRef> primitives;  ///< only the first `count` are valid
+    Buffer<BuildSubtree> all;         ///< one range that covers all primitives, with its bounds
     uint32_t count;
 };
 
@@ -22,13 +23,13 @@ struct GatheredPrimitives {
 /// Deterministic: the tree depends on the primitives alone.
 class HplocBuilder {
   public:
-    /// `subtree_size`: a range of at most so many primitives is finished by one work-item; changes
-    /// no bit of the result.
+    /// One work-item finishes a range of at most `subtree_size` primitives. The value does not
+    /// change a single bit of the result.
     HplocBuilder(DeviceContext &device, uint32_t group_size, uint32_t subtree_size);
 
-    /// None where the tree would be deeper than traversal allows (bvh_node.h). `gathered` has more
-    /// than BVH_LEAF_SIZE primitives. Sets what the report says of the tree, and the peak of memory
-    /// without positions and indices.
+    /// Returns `std::nullopt` if the tree would be deeper than traversal allows (bvh_node.h).
+    /// `gathered` must have more than BVH_LEAF_SIZE primitives. The report of the result has only
+    /// the properties of the tree and the peak of memory, without positions and indices.
     std::optional<Bvh> build(GatheredPrimitives gathered, const Buffer<float> &positions,
                              const Buffer<uint32_t> &indices);
 

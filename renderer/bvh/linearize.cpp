@@ -5,7 +5,7 @@ namespace rtrays {
 
 namespace {
 
-/// Every stage has a work-item per node.
+/// Group size of all stages; each has a work-item per node.
 constexpr uint32_t group_size = 64;
 
 }  // namespace

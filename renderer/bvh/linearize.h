@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Conversion of two-wide hierarchies to the layout that is traversed without a stack.
 #pragma once
 
 #include "renderer/bvh/bvh.h"
@@ -6,15 +7,14 @@
 
 namespace rtrays {
 
-/// Makes two-wide hierarchies ones that are traversed without a stack, on a device
-/// (shared/stackless_node.h).
+/// Converts two-wide hierarchies to the stackless layout on a device (shared/stackless_node.h).
 class BvhLinearizer {
   public:
-    /// `subtree_size`: a subtree of at most so many triangles is numbered by one work-item; changes
-    /// no bit of the result.
+    /// One work-item numbers a subtree of at most `subtree_size` triangles. The value does not
+    /// change a single bit of the result.
     BvhLinearizer(DeviceContext &device, uint32_t subtree_size);
 
-    /// `bvh` has the layout bvh2; its triangles become those of the result.
+    /// Converts `bvh`, which must have the layout bvh2. The result takes over its triangles.
     Bvh linearize(Bvh bvh);
 
   private:

@@ -8,8 +8,8 @@ namespace rtrays {
 PrefixSums::PrefixSums(DeviceContext &device, uint32_t group_size, uint32_t block_size)
     : device_(&device), block_size_(block_size) {
     if (block_size < 2) {
-        throw input_error(
-            fmt::format("prefix sums by blocks of {}: at least 2 values each", block_size));
+        throw input_error(fmt::format(
+            "prefix sums: block size {} is too small; use at least 2 values", block_size));
     }
     const Program program(device, "kernels/bvh/prefix_sums.cl");
     sum_blocks_ = Kernel(program, "sum_blocks", group_size);

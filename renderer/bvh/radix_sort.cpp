@@ -4,8 +4,8 @@
 namespace rtrays {
 
 RadixSortParameters RadixSortParameters::for_device(const DeviceInfo &device, uint32_t group_size) {
-    // A GPU keeps the counters of a work-item in registers, or near; a CPU those of 256 digits in
-    // its first cache.
+    // A GPU keeps the counters of a work-item in or near its registers; a CPU keeps the counters of
+    // 256 digits in its first-level cache.
     return device.is_cpu ? RadixSortParameters{group_size, 8, 16384}
                          : RadixSortParameters{group_size, 4, 32};
 }
@@ -16,7 +16,8 @@ RadixSort::RadixSort(DeviceContext &device, const RadixSortParameters &parameter
       sums_(PrefixSums::for_device(device, parameters.group_size)) {
     if (parameters.digit_bits < 1 || parameters.digit_bits > 8 || parameters.chunk_size == 0) {
         throw input_error(fmt::format(
-            "radix sort by digits of {} bits, {} keys per work-item: 1 to 8 bits, at least 1 key",
+            "radix sort: digits of {} bits and {} keys per work-item are out of range; use 1 to 8 "
+            "bits and at least 1 key",
             parameters.digit_bits, parameters.chunk_size));
     }
     const Program program(device, "kernels/bvh/radix_sort.cl",

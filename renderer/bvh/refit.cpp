@@ -13,8 +13,8 @@ namespace rtrays {
 
 namespace {
 
-/// More than any tree has (bvh_node.h), node 0 of the eight-wide layout and the end of the last
-/// included.
+/// An upper bound of the levels of any tree (bvh_node.h), including node 0 of the eight-wide layout
+/// and the end of the last level.
 constexpr uint32_t level_limit = BVH_STACK_SIZE + 2;
 
 constexpr uint32_t fault_kinds = TRIANGLE_BAD_INDEX + 1;
@@ -53,8 +53,10 @@ BvhRefitter::BvhRefitter(DeviceContext &device, const Bvh &bvh, uint32_t group_s
 bool BvhRefitter::refit(Bvh &bvh, const Buffer<float> &positions, const Buffer<uint32_t> &indices) {
     const uint64_t triangles_built = uint64_t{bvh.report().left_out} + bvh.report().triangles;
     if (indices.size() != 3 * triangles_built) {
-        throw input_error(fmt::format("refitting a BVH over {} triangles to {} vertex indices",
-                                      triangles_built, indices.size()));
+        throw input_error(
+            fmt::format("BVH refit: the tree was built from {} triangles; expected 3 vertex "
+                        "indices for each, got {}",
+                        triangles_built, indices.size()));
     }
     device_->finish();
     const double seconds_before = total_seconds(device_->profiler().stages());
@@ -67,7 +69,7 @@ bool BvhRefitter::refit(Bvh &bvh, const Buffer<float> &positions, const Buffer<u
     const std::vector<uint32_t> input = faults_.read();
     if (input[TRIANGLE_BAD_INDEX] > 0) {
         throw input_error(fmt::format(
-            "refitting a BVH: {} triangles name a vertex that does not exist (there are {})",
+            "BVH refit: {} triangles refer to a vertex that does not exist; there are {} vertices",
             input[TRIANGLE_BAD_INDEX], vertex_count));
     }
     faults_.fill(0);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Typed arrays in device memory, with blocking copies to and from the host.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,8 +15,8 @@
 
 namespace rtrays {
 
-/// A device array of `T`. Copies to and from the host are blocking. Every operation throws `Error`
-/// (run failed) naming the buffer when the device refuses it.
+/// Device array of `T`. Copies to and from the host are blocking. Every operation throws `Error`
+/// (run failed) that names the buffer when the device refuses it.
 template <typename T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>, "device records are plain data");
@@ -23,8 +24,8 @@ class Buffer {
   public:
     Buffer() = default;
 
-    /// Uninitialized. PoCL's vectoriser may read past the end (pocl#757), hence 64 bytes of
-    /// padding.
+    /// Allocates `count` uninitialised items. PoCL's vectoriser may read past the end (pocl#757),
+    /// hence 64 bytes of padding.
     Buffer(DeviceContext &device, std::string name, size_t count)
         : device_(&device), name_(std::move(name)), count_(count) {
         memory_ = device.allocate(name_, bytes() + padding);
@@ -37,8 +38,8 @@ class Buffer {
 
     void write(const std::vector<T> &values) {
         if (values.size() != count_) {
-            throw run_error(
-                fmt::format("buffer '{}' holds {} items, not {}", name_, count_, values.size()));
+            throw run_error(fmt::format("buffer '{}': expected {} items, got {}", name_, count_,
+                                        values.size()));
         }
         if (count_ > 0) {
             check_cl(clEnqueueWriteBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(),

@@ -65,9 +65,8 @@ DeviceInfo select_device(const std::string &spec) {
     const std::vector<DeviceInfo> devices = list_devices();
     if (devices.empty()) {
         throw input_error(
-            "no OpenCL device found; install one: the CPU device is Debian's package "
-            "pocl-opencl-icd "
-            "(scripts/install does it), a GPU's comes with its driver");
+            "no OpenCL device found; for the CPU, install Debian's package pocl-opencl-icd "
+            "(scripts/install does this); for a GPU, install its driver");
     }
     std::string listing;
     std::vector<std::string> index(devices.size());
@@ -105,14 +104,14 @@ DeviceInfo select_device(const std::string &spec) {
     }
     if (found == nullptr) {
         throw input_error(
-            fmt::format("no OpenCL device matches '{}'; there are:{}", spec, listing));
+            fmt::format("no OpenCL device matches '{}'; devices are:{}", spec, listing));
     }
     return *found;
 }
 
-/// Asks for huge pages under a large buffer in the host's memory, before it is first touched: what
-/// kernels read lies anywhere in it, and every read would wait for its address to be translated,
-/// too. A mere wish: no error where it is not granted.
+/// Requests huge pages for a large buffer in host memory, before anything touches it. Kernels read
+/// all over such a buffer, and with small pages most reads would also wait for an address
+/// translation. A refusal is not an error.
 void prefer_huge_pages(cl_command_queue queue, cl_mem memory, uint64_t bytes) {
     constexpr uint64_t huge_page = 1u << 21;
     if (bytes < 2 * huge_page) {
@@ -134,8 +133,8 @@ void prefer_huge_pages(cl_command_queue queue, cl_mem memory, uint64_t bytes) {
 
 std::vector<DeviceInfo> list_devices() {
     cl_uint platform_count = 0;
-    // The loader reports "no platform" as an error (-1001, cl_khr_icd); that is an empty list, not
-    // a failure.
+    // The loader reports a missing platform as an error (-1001, cl_khr_icd). The result is an empty
+    // list, not a failure.
     if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS) {
         return {};
     }
@@ -144,7 +143,7 @@ std::vector<DeviceInfo> list_devices() {
              "listing OpenCL platforms");
     std::vector<DeviceInfo> devices;
     for (const cl_platform_id platform : platforms) {
-        // A driver without its hardware must not take the devices of the others with it.
+        // A driver whose hardware is absent must not hide the devices of other platforms.
         cl_uint count = 0;
         if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS ||
             count == 0) {
@@ -178,8 +177,8 @@ void DeviceContext::finish() {
 ClMemory DeviceContext::allocate(const std::string &name, uint64_t bytes) {
     if (bytes > info_.max_allocation) {
         throw run_error(fmt::format(
-            "buffer '{}' needs {:.1f} MiB; '{}' allocates at most {:.1f} MiB at once: take a "
-            "device with more memory, or a smaller scene, image or stream",
+            "buffer '{}': needs {:.1f} MiB, but '{}' allocates at most {:.1f} MiB at once; use a "
+            "device with more memory, or a smaller scene, image or stream capacity",
             name, static_cast<double>(bytes) / 0x1p20, info_.name,
             static_cast<double>(info_.max_allocation) / 0x1p20));
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// OpenCL devices: discovery, selection, and the context and queue of one device.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace rtrays {
 
-/// What is known of an OpenCL device and decides defaults.
+/// Properties of an OpenCL device that identify it or decide default settings.
 struct DeviceInfo {
     cl_platform_id platform;
     cl_device_id device;
@@ -20,32 +21,36 @@ struct DeviceInfo {
     std::string c_version;  ///< "OpenCL C 1.2 PoCL"
     bool is_cpu;
     bool has_int64_atomics;  ///< cl_khr_int64_base_atomics
-    bool rounds_division;  ///< divisions and square roots are correctly rounded where that is asked
-                           ///< for
+    /// Whether the device can round single-precision divisions and square roots correctly on
+    /// request (a compiler option).
+    bool rounds_division;
     uint32_t compute_units;
     uint64_t max_group_size;
     uint64_t max_allocation;  ///< bytes
     uint64_t global_memory;   ///< bytes
 };
 
-/// All devices of all platforms, platform by platform; platforms that cannot list their devices
-/// have none.
+/// Returns all devices of all platforms, grouped by platform. Platforms that cannot list their
+/// devices are skipped.
 std::vector<DeviceInfo> list_devices();
 
-/// What becomes of a compiled program's binary.
+/// Whether the binaries of compiled programs are kept.
 enum class Binaries {
-    keep,   ///< on disk: a later start takes 0.15 s instead of about one
-    leave,  ///< to the driver, which may keep its own: PoCL compiles every kernel once more when
-            ///< asked for the binary
+    /// On disk. A later start takes 0.15 s instead of about 1 s.
+    keep,
+    /// Left to the driver, which may have its own cache. This saves time: PoCL compiles every
+    /// kernel once more when it is asked for the binary.
+    leave,
 };
 
-/// One device with its context, an in-order profiling queue, and the account of what was launched
-/// on it.
+/// One OpenCL device with its context, an in-order profiling queue, and the profile of all kernels
+/// launched on it.
 class DeviceContext {
   public:
-    /// `spec`: "" (the first GPU, else the first device), "cpu", "gpu", "PLATFORM:DEVICE" by index,
-    /// or a part of a device's name. Throws `Error` (bad usage) listing the devices when none
-    /// matches, and naming the package to install when there is no device at all.
+    /// Opens the device that `spec` selects: "" (the first GPU, otherwise the first device), "cpu",
+    /// "gpu", "PLATFORM:DEVICE" by index, or part of a device name. Throws `Error` (bad usage) that
+    /// lists the devices when none matches, and that names the package to install when there is no
+    /// device at all.
     explicit DeviceContext(const std::string &spec = "", Binaries binaries = Binaries::leave);
 
     const DeviceInfo &info() const { return info_; }
@@ -54,11 +59,11 @@ class DeviceContext {
     cl_command_queue queue() const { return queue_.get(); }
     Profiler &profiler() { return profiler_; }
 
-    /// Waits until everything enqueued is done and books the events.
+    /// Waits until all enqueued commands have completed, and adds their times to the profile.
     void finish();
 
-    /// Device memory that kernels read and write, uninitialized; throws `Error` (run failed) naming
-    /// buffer and size when there is not so much of it.
+    /// Allocates uninitialised device memory that kernels read and write. Throws `Error` (run
+    /// failed) with the buffer's name and size when the device has too little memory.
     ClMemory allocate(const std::string &name, uint64_t bytes);
 
   private:

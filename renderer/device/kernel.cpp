@@ -16,7 +16,7 @@ std::string argument_type(cl_kernel kernel, cl_uint index) {
     char name[256] = "";
     if (clGetKernelArgInfo(kernel, index, CL_KERNEL_ARG_TYPE_NAME, sizeof name - 1, name,
                            nullptr) != CL_SUCCESS) {
-        return {};  // programs loaded from a binary may have dropped it
+        return {};  // programs loaded from a binary may lack this information
     }
     return name;
 }
@@ -56,18 +56,18 @@ void Kernel::bind(const std::vector<KernelArgument> &arguments) {
 void Kernel::require_argument_count(size_t count) const {
     if (count != types_.size()) {
         throw run_error(
-            fmt::format("kernel '{}' takes {} arguments, not {}", name_, types_.size(), count));
+            fmt::format("kernel '{}': expected {} arguments, got {}", name_, types_.size(), count));
     }
 }
 
 void Kernel::bind(uint32_t index, const KernelArgument &argument) {
     if (index >= types_.size()) {
-        throw run_error(fmt::format("kernel '{}' takes {} arguments; there is no number {}", name_,
-                                    types_.size(), index));
+        throw run_error(fmt::format("kernel '{}': expected an argument index below {}, got {}",
+                                    name_, types_.size(), index));
     }
     if (!types_[index].empty() && types_[index] != argument.type()) {
-        throw run_error(fmt::format("argument {} of kernel '{}' is '{}', not '{}'", index, name_,
-                                    types_[index], argument.type()));
+        throw run_error(fmt::format("argument {} of kernel '{}': expected '{}', got '{}'", index,
+                                    name_, types_[index], argument.type()));
     }
     check_cl(clSetKernelArg(kernel_.get(), index, argument.bytes().size(), argument.bytes().data()),
              fmt::format("binding argument {} of kernel '{}'", index, name_));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Kernels and their arguments, with a type check when an argument is bound.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 
 namespace rtrays {
 
-/// One kernel argument: a buffer, or a plain value (number or shared record), with its type for the
-/// check against the kernel.
+/// One kernel argument: a buffer or a plain value (number or shared record). It carries the name of
+/// its type, which is checked against the kernel.
 class KernelArgument {
   public:
     template <typename T>
@@ -27,7 +28,7 @@ class KernelArgument {
     const std::string &bytes() const { return bytes_; }
 
   private:
-    /// OpenCL's name of a C++ type: "uint" for unsigned int, "BvhNode" for a shared record.
+    /// Returns OpenCL's name of a C++ type: "uint" for unsigned int, "BvhNode" for a shared record.
     static std::string type_name(const std::type_info &type);
 
     template <typename T>
@@ -46,22 +47,24 @@ class Kernel {
   public:
     Kernel() = default;
 
-    /// `group_size`: work-items per group. Throws `Error` (run failed) when the program has no
-    /// kernel `name`.
+    /// Creates kernel `name` of `program` with `group_size` work-items per group. Throws `Error`
+    /// (run failed) when the program has no such kernel.
     Kernel(const Program &program, const std::string &name, uint32_t group_size);
 
     /// Binds all arguments in order. Throws `Error` (run failed) when their number or a type
     /// differs from the kernel's.
     void bind(const std::vector<KernelArgument> &arguments);
 
-    /// Binds one argument that changes between launches, by position; throws likewise.
+    /// Binds one argument by position, for arguments that change between launches. Throws `Error`
+    /// (run failed) when the position or the type is wrong.
     void bind(uint32_t index, const KernelArgument &argument);
 
-    /// Throws `Error` unless the kernel takes that many arguments.
+    /// Throws `Error` (run failed) unless the kernel has `count` arguments.
     void require_argument_count(size_t count) const;
 
-    /// Enqueues at least `items` work-items (rounded up to whole groups; kernels guard the rest).
-    /// The launch is booked under the kernel's name. Zero items are not launched.
+    /// Enqueues at least `items` work-items, rounded up to whole groups; kernels guard against the
+    /// excess. The launch is recorded in the profile under the kernel's name. Nothing is launched
+    /// for zero items.
     void enqueue(uint64_t items);
 
   private:
@@ -69,7 +72,7 @@ class Kernel {
     ClKernel kernel_;
     std::string name_;
     uint32_t group_size_ = 0;
-    std::vector<std::string> types_;  ///< empty strings where the driver does not tell
+    std::vector<std::string> types_;  ///< empty strings if the driver does not report them
 };
 
 }  // namespace rtrays

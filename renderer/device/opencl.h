@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenCL's C API with ownership and with every status checked.
+// Wrappers of OpenCL's C API: every status is checked, and handles own their objects.
 #pragma once
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -10,11 +10,11 @@
 
 namespace rtrays {
 
-/// Throws `Error` (run failed) with the status by name unless it is CL_SUCCESS; `what` says what
-/// was tried.
+/// Throws `Error` (run failed) with the name of `status` unless it is CL_SUCCESS. `what` describes
+/// the attempted operation.
 void check_cl(cl_int status, const std::string &what);
 
-/// "CL_OUT_OF_RESOURCES" and the like.
+/// Returns the name of a status, for instance "CL_OUT_OF_RESOURCES".
 std::string cl_status_name(cl_int status);
 
 /// Owns one reference to an OpenCL object.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Device time and number of launches of every stage, measured with OpenCL events.
 #pragma once
 
 #include <cstdint>
@@ -11,35 +12,36 @@
 
 namespace rtrays {
 
-/// Device time and number of launches by stage, read from OpenCL events.
+/// Accumulates device time and number of launches by stage, read from OpenCL events.
 class Profiler {
   public:
     struct Stage {
-        double seconds = 0;  ///< between the start and the end of its launches on the device
+        /// Device time of its launches, each from its start to its end.
+        double seconds = 0;
         uint64_t launches = 0;
     };
 
-    /// Takes over the event of one launch of `stage`.
+    /// Adds the event of one launch of `stage` and takes ownership of it.
     void add(const std::string &stage, ClEvent event) {
         pending_.emplace_back(&stages_[stage], std::move(event));
     }
 
-    /// Books all events so far; they must have completed. Throws `Error` (run failed) when a launch
-    /// had failed.
+    /// Adds the times of all pending events; they must have completed. Throws `Error` (run failed)
+    /// when a launch has failed.
     void collect();
 
     const std::map<std::string, Stage> &stages() const { return stages_; }
 
-    /// The stages booked so far, which start again from nothing: how users of one device keep
-    /// accounts apart.
+    /// Returns the accumulated stages and resets them, so that several users of one device can keep
+    /// separate profiles.
     std::map<std::string, Stage> take();
 
   private:
-    std::map<std::string, Stage> stages_;  // nodes are stable: pending_ points into it
+    std::map<std::string, Stage> stages_;  // nodes are stable: pending_ points to them
     std::vector<std::pair<Stage *, ClEvent>> pending_;
 };
 
-/// Device seconds of all stages together.
+/// Returns the device seconds of all stages together.
 double total_seconds(const std::map<std::string, Profiler::Stage> &stages);
 
 }  // namespace rtrays

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An exclusive advisory lock on a file, held for the object's life. Without it two processes would
-/// only compile twice, so a cache directory that cannot be locked is not an error.
+/// Exclusive advisory lock on a file, held for the object's lifetime. Without it two processes
+/// would only compile the same program twice, so a failure to lock is not an error.
 class FileLock {
   public:
     explicit FileLock(const fs::path &path)
@@ -43,7 +43,8 @@ class FileLock {
     int fd_;
 };
 
-/// NVIDIA's compiler takes no notice of #line: it counts the lines of the whole text.
+/// Replaces line numbers in a build log by file names and lines. NVIDIA's compiler ignores #line
+/// and counts the lines of the full text.
 std::string with_file_names(const std::string &log, const std::string &source) {
     const std::regex place("<kernel>:([0-9]+)");
     std::string named;
@@ -111,7 +112,8 @@ Program::Program(DeviceContext &device, const std::string &path, const Defines &
     const std::string text = expand_source(path, overlays);
     std::string source;
     for (const auto &[name, value] : defines) {
-        // What the text does not name must not make another program of it.
+        // Defines that the text does not mention are omitted: they must not change the program's
+        // cache key.
         if (text.find(name) != std::string::npos) {
             source += fmt::format("#define {} {}\n", name, value);
         }

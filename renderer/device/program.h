@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// OpenCL programs: compilation of stage files with defines, and the cache of binaries on disk.
 #pragma once
 
 #include <map>
@@ -9,19 +10,20 @@
 
 namespace rtrays {
 
-/// Preprocessor definitions of a specialised program, in a fixed order: name -> value.
+/// Preprocessor definitions of a specialised program: name -> value, in a fixed order.
 using Defines = std::map<std::string, std::string>;
 
-/// An OpenCL program made from one stage file, its includes and a generated block of defines.
+/// An OpenCL program built from one stage file, its includes and a generated block of defines.
 ///
-/// Binaries are kept on disk in `program_cache_directory()`, keyed by expanded source, defines,
-/// options, device and driver; each file carries a checksum, is written atomically and made under a
-/// lock, so that processes share one compilation. A file that does not load is compiled anew. Where
-/// the device's binaries are left to its driver, what others have kept is loaded and nothing is
-/// added.
+/// Binaries are kept on disk in `program_cache_directory()`. Their key is a hash of expanded
+/// source, defines, options, device and driver. Each file carries a checksum, is written
+/// atomically, and is written under a lock, so that concurrent processes share one compilation. A
+/// file that does not load is compiled again. With `Binaries::leave`, existing files are loaded but
+/// no file is added.
 class Program {
   public:
-    /// Throws `Error` (run failed) with the whole build log when the compiler rejects the source.
+    /// Loads or compiles the program at `path`. Throws `Error` (run failed) with the full build log
+    /// when the compiler rejects the source.
     Program(DeviceContext &device, const std::string &path, const Defines &defines = {},
             const SourceOverlays &overlays = {});
 
@@ -30,7 +32,7 @@ class Program {
     const std::string &path() const { return path_; }
     double build_seconds() const { return build_seconds_; }
     bool from_cache() const { return from_cache_; }
-    size_t binary_bytes() const { return binary_bytes_; }  ///< 0: left to the driver
+    size_t binary_bytes() const { return binary_bytes_; }  ///< 0: the binary is left to the driver
 
   private:
     bool load(const std::string &key);
@@ -44,11 +46,12 @@ class Program {
     size_t binary_bytes_ = 0;
 };
 
-/// $RTRAYS_CACHE_DIR, else $XDG_CACHE_HOME/rtrays, else ~/.cache/rtrays.
+/// Returns $RTRAYS_CACHE_DIR, otherwise $XDG_CACHE_HOME/rtrays, otherwise ~/.cache/rtrays.
 std::string program_cache_directory();
 
-/// The compiler options of every program: strict floating point, no contraction by the sources' own
-/// pragma. CPUs round divisions correctly without being asked.
+/// Returns the compiler options that all programs share. Floating point is strict; a pragma in the
+/// sources disables contraction. GPUs that support correctly rounded divisions and square roots are
+/// asked for them; CPUs round correctly without the option.
 std::string program_options(const DeviceInfo &device);
 
 }  // namespace rtrays

@@ -42,7 +42,7 @@ std::string required_source(const std::string &path, const SourceOverlays &overl
     return *std::move(text);
 }
 
-/// The path between quotes of an `#include "..."` line, empty for any other line.
+/// Returns the path of an `#include "..."` line, or an empty string for any other line.
 std::string included_path(const std::string &line) {
     const size_t hash = line.find_first_not_of(" \t");
     if (hash == std::string::npos || line[hash] != '#') {
@@ -69,7 +69,7 @@ class Expander {
   private:
     void expand(const std::string &path, const std::string &text) {
         if (std::find(stack_.begin(), stack_.end(), path) != stack_.end()) {
-            return;  // an include cycle, which the file's own guard would cut as well
+            return;  // an include cycle, which an include guard would end as well
         }
         if (text.find("#pragma once") != std::string::npos && !once_.insert(path).second) {
             return;
@@ -95,8 +95,8 @@ class Expander {
     void include(const std::string &from, unsigned line, const std::string &wanted) {
         const std::filesystem::path relative = std::filesystem::path(from).parent_path() / wanted;
         std::string rooted = wanted;
-        const std::string own_root =
-            "renderer/";  // host code includes device code by its full path
+        // Host code includes device code by its full path.
+        const std::string own_root = "renderer/";
         if (rooted.compare(0, own_root.size(), own_root) == 0) {
             rooted = rooted.substr(own_root.size());
         }
@@ -107,7 +107,7 @@ class Expander {
                 return;
             }
         }
-        // The line may stand in a branch that is never compiled: only the compiler can tell.
+        // The line may be in a branch that is not compiled; only the compiler knows.
         output_ += fmt::format("#error {}:{}: include \"{}\" does not exist\n", from, line, wanted);
     }
 
@@ -126,7 +126,7 @@ std::string device_source(const std::string &path) {
 std::string source_place(const std::string &expanded, size_t line) {
     std::istringstream stream(expanded);
     std::string file = "defines", text;
-    size_t number = 1;  // of the line to come, in its file
+    size_t number = 1;  // number of the next line in its file
     for (size_t i = 1; i < line && std::getline(stream, text); ++i) {
         number += 1;
         if (text.compare(0, 6, "#line ") == 0) {

@@ -25,53 +25,51 @@ using Json = nlohmann::json;
 using Kind = BxdfComponent::Kind;
 using Fresnel = BxdfComponent::Fresnel;
 
-/// What Cycles of Blender 3.4 lacks for that component; empty when it has it. Its sources are
-/// intern/cycles/kernel/closure/bsdf_*.h and kernel/svm/closure.h.
+/// Returns why Cycles of Blender 3.4 cannot render a component, or an empty text if it can. See
+/// intern/cycles/kernel/closure/bsdf_*.h and kernel/svm/closure.h in its sources.
 std::string missing_in_cycles(const BxdfComponent &part) {
     switch (part.kind) {
         case Kind::lambert:
             return part.fresnel == Fresnel::ideal || part.fresnel_of_wo
                        ? ""
-                       : "a Fresnel term of a diffuse component there knows the direction of the "
-                         "eye alone, "
-                         "not that "
-                         "of the light";
+                       : "the Fresnel term of its diffuse components depends on the view direction "
+                         "alone, not on the direction of the light";
         case Kind::oren_nayar:
-            return "its Oren-Nayar is another one (Fujii's, normalised)";
+            return "its Oren-Nayar model differs (Fujii's, normalised)";
         case Kind::ideal_reflection:
         case Kind::ideal_refraction:
             return "";
         case Kind::microfacet_reflection:
             if (part.fresnel != Fresnel::ideal) {
-                return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF takes it at "
-                       "the normal "
-                       "instead "
-                       "of the half vector";
+                return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF evaluates "
+                       "the term at the normal instead of the half vector";
             }
             if (part.alpha[0] != part.alpha[1]) {
-                return "its tangents are others on meshes";
+                return "its tangents on meshes differ";
             }
-            // bsdf_microfacet_ggx_sample and its like: alpha_x * alpha_y <= 1e-7 is a mirror.
+            // bsdf_microfacet_ggx_sample and similar: alpha_x * alpha_y <= 1e-7 is a mirror.
             return part.alpha[0] * part.alpha[1] <= 1.01e-7
-                       ? "it takes a surface so smooth for a mirror"
+                       ? "it treats a surface of such low roughness as a mirror"
                        : "";
         case Kind::microfacet_refraction:
-            return "its rough Glass BSDF takes the Fresnel term at the normal instead of the half "
-                   "vector";
+            return "its rough Glass BSDF evaluates the Fresnel term at the normal instead of the "
+                   "half vector";
         case Kind::blinn:
         case Kind::ward:
         case Kind::ward_original:
             return "it has no such model";
     }
-    throw run_error("unknown kind of component");
+    throw run_error("unknown kind of BxDF component");
 }
 
-/// What shines is coarser: Cycles chooses among triangles by a float, and the more there are the
-/// darker it renders them. Three spheres (scenes/analytic/three_lamps.json) come out up to 0.02 %
-/// too dark where each has 64 columns, 0.1 % with 128, 0.4 % with 256. Seen from any side a sphere
-/// of 64 has the disc it should to within 9e-4, 2e-4 in the root mean square.
+/// Grid of shapes that emit, which is coarser: Cycles samples the triangles of lights by a float,
+/// and the more there are, the darker it renders them. Three spheres
+/// (scenes/analytic/three_lamps.json) become up to 0.02 % too dark with 64 columns each, 0.1 % with
+/// 128 and 0.4 % with 256. The projected disc of a sphere of 64 columns differs from the exact one
+/// by at most 9e-4 from any side, 2e-4 in the root mean square.
 constexpr TessellationGrid bright_grid{32, 64};
 
+/// Returns the components of a vector as an array.
 template <typename Vector>
 Json numbers(const Vector &vector) {
     Json array = Json::array();
@@ -81,7 +79,7 @@ Json numbers(const Vector &vector) {
     return array;
 }
 
-/// By rows.
+/// Returns a matrix as an array of rows.
 Json matrix(const Eigen::Matrix4d &values) {
     Json rows = Json::array();
     for (int row = 0; row < 4; ++row) {
@@ -96,7 +94,7 @@ class SceneWriter {
         : scene_(scene), arrays_(scene.arrays()), folder_(path) {}
 
     Json write(const ExportSettings &settings) {
-        // Before any file: what cannot be expressed leaves none behind.
+        // Before any file is written, so that a scene that cannot be represented leaves no files.
         Json materials = write_materials();
         require_triangles();
         Json meshes = Json::array(), textures = Json::array(), lights = Json::array();
@@ -113,8 +111,8 @@ class SceneWriter {
             textures.push_back(write_texture(texture));
         }
         for (uint32_t light = 0; light < arrays_.lights.name.size(); ++light) {
-            if (arrays_.lights.kind[light] !=
-                LightArrays::Kind::diffuse_area) {  // those are with their surface
+            // Area lights are written with their surface.
+            if (arrays_.lights.kind[light] != LightArrays::Kind::diffuse_area) {
                 lights.push_back(write_light(light));
             }
         }
@@ -167,7 +165,7 @@ class SceneWriter {
                     const std::string name = bxdf_names()[static_cast<size_t>(part.kind)];
                     const std::string term = fresnel_names()[static_cast<size_t>(part.fresnel)];
                     throw input_error(fmt::format(
-                        "{}material '{}', component {} ({}{}{}): Cycles cannot do that: {}",
+                        "{}material '{}', component {} ({}{}{}): not supported by Cycles: {}",
                         user_of(i), materials.name[i], c, name,
                         part.fresnel == Fresnel::ideal ? "" : " with Fresnel term ",
                         part.fresnel == Fresnel::ideal ? "" : term, missing));
@@ -181,7 +179,7 @@ class SceneWriter {
         return list;
     }
 
-    /// "'NODE': " of the first object of that material.
+    /// Returns "'NODE': " for the first object of a material, or an empty text.
     std::string user_of(uint32_t material) const {
         const auto of = [&](const std::vector<uint32_t> &users,
                             const std::vector<std::string> &names) {
@@ -224,7 +222,7 @@ class SceneWriter {
                 {"uv_offset", numbers(textures.uv_offset[i])}};
     }
 
-    /// The image as linear floats, written once.
+    /// Returns the file of an image as linear floats, which is written on first use.
     std::string image_file(const std::shared_ptr<const TextureImage> &image,
                            const std::string &name) {
         std::string &file = images_[image.get()];
@@ -267,7 +265,8 @@ class SceneWriter {
         for (size_t i = 0; i < shapes.name.size(); ++i) {
             if (!can_be_tessellated(shapes.kind[i])) {
                 throw input_error(fmt::format(
-                    "'{}': Cycles has triangles, and they make no {}", shapes.name[i],
+                    "'{}': Cycles supports only triangles, which cannot represent this {}",
+                    shapes.name[i],
                     shapes.kind[i] == ShapeArrays::Kind::plane ? "unbounded plane" : "Julia set"));
             }
         }

@@ -28,7 +28,8 @@ std::filesystem::path DataFolder::new_file(const std::string &name, const std::s
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
     if (error) {
-        throw run_error(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+        throw run_error(
+            fmt::format("{}: cannot be created: {}", folder_.string(), error.message()));
     }
     return folder_ / (names_.unique(stem) + extension);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Unique names, and the folder of meshes and images beside an exported scene.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +8,10 @@
 
 namespace rtrays {
 
-/// Names that no other object of the file has.
+/// Allocator of names that are unique within a file.
 class Names {
   public:
+    /// Returns `wanted`, or `wanted` with a number appended if that name is taken.
     std::string unique(const std::string &wanted);
     void reserve(const std::string &name) { taken_.insert(name); }
 
@@ -22,11 +24,11 @@ class DataFolder {
   public:
     explicit DataFolder(const std::filesystem::path &scene_file);
 
-    /// A file of it that is not taken, named after an object. Throws `Error` (run failed) when the
-    /// folder cannot be made.
+    /// Returns the path of a new file in the folder, named after an object. Throws `Error` (run
+    /// failed) if the folder cannot be created.
     std::filesystem::path new_file(const std::string &name, const std::string &extension);
 
-    /// As the scene refers to it.
+    /// Returns the path of a file as the scene file refers to it.
     std::string relative(const std::filesystem::path &file) const;
 
   private:

@@ -33,7 +33,8 @@ const Format &format_of(const std::filesystem::path &path) {
             fmt::format("{}{} ({})", known.empty() ? "" : " or ", format.ending, format.renderer);
     }
     throw input_error(
-        fmt::format("{}: the name of an exported scene ends in {}", path.string(), known));
+        fmt::format("{}: unknown format of an exported scene; the file name must end in {}",
+                    path.string(), known));
 }
 
 }  // namespace

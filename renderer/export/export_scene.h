@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Export of scenes to other renderers, chosen by the file name.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +9,14 @@
 
 namespace rtrays {
 
-/// Writes the scene for the renderer that the file name stands for: NAME.xml for Mitsuba 3
-/// (mitsuba_xml.h), NAME.blender.json for Blender's Cycles (blender_scene.h). Throws `Error` as
-/// those do, and `Error` (bad usage) listing the endings when it is none of them.
+/// Writes the scene for the renderer that the file name denotes: NAME.xml for Mitsuba 3
+/// (mitsuba_xml.h), NAME.blender.json for Blender's Cycles (blender_scene.h). Throws the errors of
+/// these exporters, and `Error` (bad usage) listing the endings for any other name.
 void export_scene(const Scene &scene, const std::filesystem::path &path,
                   const ExportSettings &settings = {});
 
-/// The check of the name alone, for before the scene is loaded.
+/// Checks only the name, before the scene is loaded. Throws `Error` (bad usage) listing the
+/// endings.
 void require_export_name(const std::filesystem::path &path);
 
 }  // namespace rtrays

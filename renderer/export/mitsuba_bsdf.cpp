@@ -17,7 +17,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Kind = BxdfComponent::Kind;
 
-/// "ideal_reflection * dielectric + lambert * (1 - dielectric)".
+/// Returns the formula of a material, such as "ideal_reflection * dielectric + lambert * (1 -
+/// dielectric)".
 std::string formula(const BxdfComponent *parts, uint32_t count) {
     std::string text;
     for (uint32_t i = 0; i < count; ++i) {
@@ -63,7 +64,7 @@ const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
          &BsdfWriter::write_dielectric},
         {"microfacet_reflection * dielectric + microfacet_refraction * (1 - dielectric)",
          "dielectric", true, &BsdfWriter::write_dielectric},
-        // A rough coat is no roughplastic: Mitsuba's lets less light through to its base.
+        // A rough coat cannot be a roughplastic: Mitsuba's transmits less light to its base.
         {"ideal_reflection * dielectric + lambert * (1 - dielectric)", "plastic", false,
          &BsdfWriter::write_plastic},
     };
@@ -81,7 +82,7 @@ const BsdfWriter::Recipe &BsdfWriter::recipe(uint32_t material) const {
         }
         known += (known.empty() ? "" : "; ") + std::string(row.components);
     }
-    throw input_error(fmt::format("material '{}': Mitsuba has no BSDF for {}; it has some for: {}",
+    throw input_error(fmt::format("material '{}': Mitsuba has no BSDF for {}; supported are: {}",
                                   materials.name[material], wanted, known));
 }
 
@@ -94,8 +95,8 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
         });
     if (depends_on_uv && uv == UvConvention::none) {
         throw input_error(fmt::format(
-            "material '{}': a texture or an anisotropic roughness needs a surface whose texture "
-            "coordinates are those of Mitsuba: a mesh that has some, a sphere or a cylinder",
+            "material '{}': its texture or anisotropic roughness needs texture coordinates that "
+            "agree with Mitsuba's; use a mesh with texture coordinates, a sphere or a cylinder",
             materials.name[material]));
     }
     std::string &id = written_[{material, depends_on_uv ? uv : UvConvention::none}];
@@ -136,7 +137,7 @@ void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *part
     if (parts[0].eta != parts[1].eta || parts[0].alpha != parts[1].alpha ||
         parts[0].distribution != parts[1].distribution) {
         throw input_error(
-            "what is reflected and what is refracted must have one eta, roughness and "
+            "the reflecting and the refracting component must have the same eta, roughness and "
             "distribution");
     }
     add_number(bsdf, "int_ior", parts[0].eta[0]);
@@ -151,16 +152,16 @@ void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *part
 void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
     const double eta = parts[0].eta[0];
     if (parts[1].eta[0] != eta || !(eta > 1) || eta > 3) {
-        throw input_error(fmt::format(
-            "the coat and what it lets through must have one eta, in (1, 3], not {} and {}", eta,
-            parts[1].eta[0]));
+        throw input_error(
+            fmt::format("the coat and the base must have the same eta, in (1, 3], got {} and {}",
+                        eta, parts[1].eta[0]));
     }
     add_number(bsdf, "int_ior", eta);
     add_number(bsdf, "ext_ior", 1);
     add_boolean(bsdf, "nonlinear", false);
     write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture,
                  uv);
-    // Mitsuba multiplies by that, for the light that goes to and fro below the coat.
+    // Mitsuba multiplies by this factor, for the light reflected back and forth below the coat.
     const Vector3d factor = plastic_base_weight(Vector3d::Ones(), eta, false);
     write_weight(bsdf, "diffuse_reflectance", parts[1].weight.cast<double>().cwiseQuotient(factor),
                  parts[1].texture, uv);
@@ -185,7 +186,7 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
     const bool decodes = image.floats.empty() && image.srgb && weight == Vector3d::Ones();
     add_boolean(node, "raw", !decodes);
 
-    // The inverse of what the importer does: Mitsuba's rows run from the top.
+    // The inverse of the importer's mapping: Mitsuba's rows run from the top.
     const Vector2d &scale = textures.uv_scale[texture];
     const Vector2d &offset = textures.uv_offset[texture];
     const bool flipped = uv == UvConvention::flipped;
@@ -195,8 +196,8 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
         return;
     }
     if (to_scale[0] == 0 || to_scale[1] == 0) {
-        throw input_error(
-            fmt::format("texture '{}': Mitsuba takes no scale of 0", textures.name[texture]));
+        throw input_error(fmt::format("texture '{}': Mitsuba does not support a uv_scale of 0",
+                                      textures.name[texture]));
     }
     pugi::xml_node transform = node.append_child("transform");
     transform.append_attribute("name") = "to_uv";
@@ -215,7 +216,7 @@ std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight) {
     const std::string &name = arrays_.textures.name[texture];
     TextureImage written = *image;
     if (weight != Vector3d::Ones()) {
-        // A bitmap takes no factor: its texels do.
+        // A bitmap has no factor, so its texels are multiplied.
         written.floats.resize(3 * static_cast<size_t>(image->width) *
                               static_cast<size_t>(image->height));
         for (size_t i = 0; i < written.floats.size(); ++i) {

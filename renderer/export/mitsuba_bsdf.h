@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Export of materials to Mitsuba BSDFs.
 #pragma once
 
 #include <map>
@@ -14,14 +15,15 @@
 
 namespace rtrays::mitsuba {
 
-/// Writes materials as BSDFs, each once (per convention of texture coordinates where that matters).
+/// Writer of materials as BSDFs. Each material is written once, or once per convention of texture
+/// coordinates if its BSDF depends on them.
 class BsdfWriter {
   public:
     BsdfWriter(const SceneArrays &arrays, pugi::xml_node scene, Names &ids, DataFolder &folder)
         : arrays_(arrays), scene_(scene), ids_(ids), folder_(folder) {}
 
-    /// The id of the BSDF for that material. Throws `Error` (bad input) naming the material and
-    /// what Mitsuba has none for.
+    /// Returns the id of the BSDF of a material, which is written on first use. Throws `Error` (bad
+    /// input) naming the material and the feature that Mitsuba lacks.
     std::string id(uint32_t material, UvConvention uv);
 
   private:
@@ -29,7 +31,7 @@ class BsdfWriter {
     using Write = void (BsdfWriter::*)(pugi::xml_node, const BxdfComponent *, UvConvention);
     struct Recipe {
         const char *components;
-        const char *plugin;  ///< "rough" before it where its first component is
+        const char *plugin;  ///< prefixed by "rough" if the first component is rough
         bool transmits;
         Write write;
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parts of the Mitsuba exporter share: XML elements.
+// XML elements that all parts of the Mitsuba exporter write.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 
 namespace rtrays::mitsuba {
 
-/// Appends <TAG name="NAME" value="VALUE"/>. Numbers are written with as many digits as it takes to
-/// read them back.
+/// Appends <TAG name="NAME" value="VALUE"/>. Numbers have as many digits as are needed to read the
+/// same value back.
 inline void add_property(pugi::xml_node parent, const char *tag, const char *name,
                          const std::string &value) {
     pugi::xml_node node = parent.append_child(tag);
@@ -28,7 +28,7 @@ inline void add_boolean(pugi::xml_node parent, const char *name, bool value) {
     add_property(parent, "boolean", name, value ? "true" : "false");
 }
 
-/// Colours are float or double; what is a float is written as one.
+/// Appends an RGB colour. A component that is exactly a float has the shorter digits of a float.
 template <typename Vector>
 void add_colour(pugi::xml_node parent, const char *name, const Vector &rgb) {
     const auto text = [](double value) {

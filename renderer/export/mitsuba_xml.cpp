@@ -39,7 +39,7 @@ class SceneWriter {
     void write(const ExportSettings &settings) {
         root_.append_attribute("version") = "3.0.0";
         add_default("spp", fmt::format("{}", settings.samples_per_pixel));
-        // One more for the camera's own vertex; none for no limit.
+        // Mitsuba's depth counts one more, for the camera's own vertex; -1 means no limit.
         add_default("max_depth", settings.max_depth == 0
                                      ? "-1"
                                      : fmt::format("{}", uint64_t{settings.max_depth} + 1));
@@ -58,7 +58,7 @@ class SceneWriter {
     }
 
   private:
-    /// Nodes keep their names, materials (often of the same names) make way.
+    /// Reserves the names of nodes, so that materials of the same names get other ones.
     void reserve_names() {
         for (const auto *names : {&arrays_.cameras.name, &arrays_.meshes.name, &arrays_.shapes.name,
                                   &arrays_.lights.name}) {
@@ -74,7 +74,7 @@ class SceneWriter {
         node.append_attribute("value") = value.c_str();
     }
 
-    /// From the baked world to that of the scene file.
+    /// Returns the transform from the baked world to the world of the scene file.
     Matrix4d placed(const Matrix4d &world) const { return translation(scene_.origin()) * world; }
 
     void write_camera() {
@@ -92,7 +92,7 @@ class SceneWriter {
             add_number(sensor, "focus_distance", cameras.focus_distance[camera]);
         }
         const Matrix4d world = placed(cameras.world_from_camera[camera]);
-        // Nothing is clipped here: the planes there go to the near and far side of everything.
+        // This renderer does not clip; Mitsuba's clipping planes are set to enclose the scene.
         const Eigen::AlignedBox3d bounds = scene_.graph().bounds();
         const Vector3d eye = world.topRightCorner<3, 1>();
         const double extent = bounds.isEmpty() ? 1
@@ -102,7 +102,7 @@ class SceneWriter {
             add_number(sensor, "near_clip", 1e-5 * extent);
             add_number(sensor, "far_clip", 1e3 * extent);
         }
-        add_transform(sensor, world * scaling({-1, 1, -1}));  // cameras look along +z there
+        add_transform(sensor, world * scaling({-1, 1, -1}));  // Mitsuba's cameras look along +z
         add_property(add_object(sensor, "sampler", "independent"), "integer", "sample_count",
                      "$spp");
         const pugi::xml_node film = add_object(sensor, "film", "hdrfilm");
@@ -113,7 +113,7 @@ class SceneWriter {
         add_object(film, "rfilter", "box");
     }
 
-    /// Appends a shape with its BSDF (before it) and its emitter.
+    /// Appends a shape with its BSDF (which precedes it) and its emitter.
     pugi::xml_node add_shape(const char *type, const std::string &name, uint32_t material,
                              uint32_t light, UvConvention uv) {
         std::string bsdf;
@@ -179,8 +179,8 @@ class SceneWriter {
                 break;
         }
         if (!can_be_tessellated(shapes.kind[index])) {
-            throw input_error(fmt::format("'{}': Mitsuba has no {}, and triangles make none", name,
-                                          kind_name(shapes.kind[index])));
+            throw input_error(fmt::format("'{}': Mitsuba has no {}, and it cannot be tessellated",
+                                          name, kind_name(shapes.kind[index])));
         }
         write_mesh(tessellated(shapes, index), 0);
     }
@@ -230,7 +230,7 @@ class SceneWriter {
         };
         switch (lights.kind[index]) {
             case Kind::diffuse_area:
-                return;  // with its shape
+                return;  // written with its shape
             case Kind::point: {
                 const pugi::xml_node emitter = add("point");
                 add_colour(emitter, "intensity", radiance);
@@ -265,8 +265,9 @@ class SceneWriter {
     void require_only_surroundings(const std::string &name) {
         if (!surroundings_.empty()) {
             throw input_error(fmt::format(
-                "'{}': Mitsuba has one light all around at most, and there is '{}' already", name,
-                surroundings_));
+                "'{}': Mitsuba supports at most one dome or environment light, and there is "
+                "already '{}'; remove one of them",
+                name, surroundings_));
         }
         surroundings_ = name;
     }
@@ -275,7 +276,7 @@ class SceneWriter {
         const LightArrays &lights = arrays_.lights;
         Rgb factor = lights.radiance[index];
         TextureImage image = *lights.image[index];
-        if (factor[0] != factor[1] || factor[1] != factor[2]) {  // the factor there is one number
+        if (factor[0] != factor[1] || factor[1] != factor[2]) {  // Mitsuba's factor is one number
             for (size_t i = 0; i < image.floats.size(); ++i) {
                 image.floats[i] *= factor[static_cast<Eigen::Index>(i % 3)];
             }
@@ -294,7 +295,7 @@ class SceneWriter {
     Names ids_;
     DataFolder folder_;
     BsdfWriter bsdfs_;
-    std::string surroundings_;  ///< name of the light all around
+    std::string surroundings_;  ///< name of the dome or environment light
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Export of a scene to Mitsuba 3.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +9,11 @@
 
 namespace rtrays {
 
-/// Writes the scene as last updated, seen by its active camera, as a Mitsuba 3 scene file. Its
-/// meshes (binary PLY) and images (PNG, or EXR) go to the folder NAME_data beside NAME.xml and
-/// replace files of the same names. The file itself is written last.
+/// Writes the scene as last updated, seen by its active camera, as a Mitsuba 3 scene file. Meshes
+/// (binary PLY) and images (PNG, or EXR) go to the folder NAME_data beside NAME.xml and replace
+/// files of the same names. The scene file itself is written last.
 ///
-/// Throws `Error` (bad input) naming the object that Mitsuba cannot express, and `Error` (run
+/// Throws `Error` (bad input) naming the object that Mitsuba cannot represent, and `Error` (run
 /// failed) naming a file that cannot be written.
 void export_mitsuba_xml(const Scene &scene, const std::filesystem::path &path,
                         const ExportSettings &settings = {});

@@ -12,7 +12,7 @@ namespace rtrays {
 namespace {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
-              "bytes are written in the order of the machine");
+              "bytes are written in the byte order of the machine");
 
 template <typename T>
 void append(std::string &bytes, const T *values, size_t count) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Writing of meshes as PLY files.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +8,9 @@
 
 namespace rtrays {
 
-/// Writes one mesh of the arrays as binary PLY (Turk 1994): vertices x, y, z as they are, nx, ny,
-/// nz and u, v where it has them, triangles as vertex_indices. Throws `Error` (run failed) naming
-/// the file.
+/// Writes one mesh of the arrays as binary PLY (Turk 1994): vertices x, y, z without a transform,
+/// normals nx, ny, nz and coordinates u, v if the mesh has them, triangles as vertex_indices.
+/// Throws `Error` (run failed) naming the file.
 void write_ply(const MeshArrays &meshes, uint32_t mesh, const std::filesystem::path &path);
 
 }  // namespace rtrays

@@ -20,20 +20,21 @@ using Eigen::Vector3d;
 constexpr double pi = 3.14159265358979323846;
 
 struct Vertex {
-    Vector3d position, normal;  ///< the normal of any length
+    Vector3d position, normal;  ///< the normal can have any length
     double v;                   ///< texture coordinate
 };
 
-/// A canonical surface of stores.h, from its first row (t = 0) to its last (t = 1).
+/// A canonical surface of stores.h, parametrised from its first row (t = 0) to its last (t = 1).
 struct Quadric {
     ShapeArrays::Kind kind;
     Vertex (*at)(double phi, double t, double flare);
     bool first_is_pole, last_is_pole;
-    double area;   ///< that the triangles are to have; 0: as they are
-    bool is_flat;  ///< one row will do
+    double area;   ///< area that the triangles are scaled to; 0 for no scaling
+    bool is_flat;  ///< one row is sufficient
 };
 
-/// The normal is (cos phi, sin phi) times `outwards`, and `upwards` along z.
+/// Returns a vertex of a surface of revolution. Its normal is (cos phi, sin phi) times `outwards`,
+/// and `upwards` along z.
 Vertex of_revolution(double phi, double radius, double z, double outwards, double upwards,
                      double v) {
     const double cosine = std::cos(phi), sine = std::sin(phi);
@@ -54,12 +55,12 @@ Vertex on_cone(double phi, double t, double /*flare*/) {
     return of_revolution(phi, 1 - t, t, 1, 1, t);
 }
 
-/// Rows of equal steps in the radius: z = r^2, and the gradient of x^2 + y^2 - z is (2 x, 2 y, -1).
+/// Rows have equal steps in the radius r; z = r^2. The gradient of x^2 + y^2 - z is (2 x, 2 y, -1).
 Vertex on_paraboloid(double phi, double t, double /*flare*/) {
     return of_revolution(phi, t, t * t, 2 * t, -1, t * t);
 }
 
-/// Half the gradient of x^2 + y^2 - 1 - flare z^2.
+/// The normal is half the gradient of x^2 + y^2 - 1 - flare z^2.
 Vertex on_hyperboloid(double phi, double t, double flare) {
     const double z = 2 * t - 1, radius = std::sqrt(1 + flare * z * z);
     return of_revolution(phi, radius, z, radius, -flare * z, t);
@@ -84,13 +85,13 @@ const Quadric *quadric_of(ShapeArrays::Kind kind) {
     return found == std::end(quadrics) ? nullptr : found;
 }
 
-/// Twice the area along the normal.
+/// Returns the normal of a triangle; its length is twice the area.
 Vector3d twice_area(const std::vector<Vector3d> &position, const Triangle &triangle) {
     const Vector3d &a = position[triangle[0]];
     return (position[triangle[1]] - a).cross(position[triangle[2]] - a);
 }
 
-/// Two triangles to a cell, counter-clockwise in the plane of u and v.
+/// Returns two triangles per cell, counter-clockwise in the plane of u and v.
 std::vector<Triangle> cells(uint32_t rows, uint32_t columns) {
     std::vector<Triangle> triangles;
     triangles.reserve(size_t{2} * rows * columns);
@@ -113,7 +114,7 @@ bool can_be_tessellated(ShapeArrays::Kind kind) {
 MeshArrays tessellated(const ShapeArrays &shapes, uint32_t shape, const TessellationGrid &grid) {
     const Quadric *quadric = quadric_of(shapes.kind[shape]);
     if (quadric == nullptr) {
-        throw run_error("'" + shapes.name[shape] + "' is of no kind that can be tessellated");
+        throw run_error("'" + shapes.name[shape] + "': a shape of this kind cannot be tessellated");
     }
     const uint32_t rows = quadric->is_flat ? 1 : grid.rows, columns = grid.columns;
     std::vector<Vector3d> position, normal;
@@ -127,7 +128,7 @@ MeshArrays tessellated(const ShapeArrays &shapes, uint32_t shape, const Tessella
                 quadric->at(2 * pi * u, static_cast<double>(row) / rows, shapes.flare[shape]);
             position.push_back(vertex.position);
             normal.push_back(vertex.normal);
-            // A pole has the u of the middle of the triangle that ends there.
+            // The u of a pole is that of the middle of the triangle that ends there.
             const Vector2d uv = quadric->is_flat
                                     ? Vector2d((vertex.position.head<2>().array() + 1) / 2)
                                     : Vector2d(is_pole ? (column + 0.5) / columns : u, vertex.v);
@@ -141,9 +142,9 @@ MeshArrays tessellated(const ShapeArrays &shapes, uint32_t shape, const Tessella
         area += 0.5 * twice_area(position, triangle).norm();
     }
     const double mean = area / static_cast<double>(mesh.triangle.size());
+    // Triangles without area, at the poles, are removed.
     mesh.triangle.erase(
-        std::remove_if(mesh.triangle.begin(),
-                       mesh.triangle.end(),  // those of no area, at the poles
+        std::remove_if(mesh.triangle.begin(), mesh.triangle.end(),
                        [&](const Triangle &triangle) {
                            return !(0.5 * twice_area(position, triangle).norm() > 1e-6 * mean);
                        }),

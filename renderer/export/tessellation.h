@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quadrics as triangles, for renderers that have no such shape.
+// Tessellation of quadrics to triangles, for renderers that lack these shapes.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,20 @@
 
 namespace rtrays {
 
-/// Cells along v and u.
+/// Numbers of cells along v and u.
 struct TessellationGrid {
     uint32_t rows = 256, columns = 512;
 };
 
-/// Whether `tessellated` makes triangles of it: of all but planes and Julia sets.
+/// Returns whether `tessellated` supports a kind of shape: all but planes and Julia sets.
 bool can_be_tessellated(ShapeArrays::Kind kind);
 
-/// A mesh, the only one of its arrays, of that shape: in world space, with normals, texture
-/// coordinates and front as stores.h states them.
+/// Returns a mesh of a shape, as the only mesh of its arrays: in world space, with the normals,
+/// texture coordinates and front side that stores.h defines.
 ///
-/// Chords of a circle are at most 1 - cos(pi / columns) of its radius below it, 1.9e-5 by default;
-/// spheres and discs are scaled to their area, which leaves +- 2e-5. Throws `Error` (run failed)
-/// for what cannot be tessellated.
+/// The chord of a circle is below the circle by at most 1 - cos(pi / columns) of the radius, 1.9e-5
+/// by default. Spheres and discs are scaled to their exact area, which leaves +- 2e-5. Throws
+/// `Error` (run failed) for a kind of shape that cannot be tessellated.
 MeshArrays tessellated(const ShapeArrays &shapes, uint32_t shape,
                        const TessellationGrid &grid = {});
 

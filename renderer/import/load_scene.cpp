@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Selects the scene reader by file name extension.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -18,15 +19,16 @@ Scene load_scene(const std::string &path, bool quiet) {
     if (!is_mitsuba && is_model_file(file)) {
         return load_model(file, quiet);
     }
-    const std::string text = read_file(file);  // first, so that a missing file is called just that
+    // Read first, so that a missing file is reported as missing and not as an unknown format.
+    const std::string text = read_file(file);
     if (!is_mitsuba && file.extension() != ".json") {
         throw input_error(fmt::format(
-            "{}: '{}' is not a known scene format; known: .json, .xml (Mitsuba 3) and model files "
-            "(.ply, .obj, .gltf, .glb, .fbx, .dae, .3ds, .stl, ...)",
+            "{}: unknown scene format '{}'; known formats are: .json, .xml (Mitsuba 3) and model "
+            "files (.ply, .obj, .gltf, .glb, .fbx, .dae, .3ds, .stl, ...)",
             path, file.extension().string()));
     }
-    // scenes/cornell_box/scene.json is called cornell_box, scenes/analytic/furnace_050.json
-    // furnace_050.
+    // scenes/cornell_box/scene.json is named cornell_box by its folder.
+    // scenes/analytic/furnace_050.json is named furnace_050 by its file.
     const bool named_by_folder =
         file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();
     const std::filesystem::path named =

@@ -16,7 +16,7 @@ size_t row_length(const TextureImage &image) {
     return 3 * static_cast<size_t>(image.width);
 }
 
-/// Row `to` of `result` becomes (1 - t) a + t b of the rows a and b of `image`.
+/// Sets row `to` of `result` to (1 - t) a + t b, where a and b are rows of `image`.
 void mix_rows(const TextureImage &image, int a, int b, float t, TextureImage &result, int to) {
     const size_t length = row_length(image);
     const float *first = image.floats.data() + static_cast<size_t>(a) * length;
@@ -66,15 +66,16 @@ TextureImage to_mitsuba_envmap(const TextureImage &image) {
     for (int row = 0; row < result.height; ++row) {
         const int above = std::max((row - 1) / 2, 0);
         const int below = std::min(row / 2, wide.height - 1);
-        mix_rows(wide, above, below, 0.5f, result, row);  // of equal rows that row itself
+        mix_rows(wide, above, below, 0.5f, result, row);  // exact where both rows are the same
     }
     return result;
 }
 
 TextureImage from_mitsuba_envmap(const TextureImage &image) {
     if (image.width < 2 || image.height < 3) {
-        throw input_error(fmt::format("an image of {}x{} texels: Mitsuba wants 2x3 at least",
-                                      image.width, image.height));
+        throw input_error(
+            fmt::format("environment image has {}x{} texels; Mitsuba requires at least 2x3",
+                        image.width, image.height));
     }
     const TextureImage rows = decoded(image);
     if (image.height % 2 == 1) {

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
+// Conversion of environment images between our layout and Mitsuba's.
+// Mitsuba's envmap (3.9, src/emitters/envmap.cpp, eval_spectrum) places the first image row at the
+// upper pole and the last one at the lower pole. Our rows (stores.h) have their centres half a row
+// away from the poles. Both layouts agree along u.
 #pragma once
 
 #include "renderer/scene/stores.h"
 
 namespace rtrays::mitsuba {
 
-/// Mitsuba's envmap (3.9, src/emitters/envmap.cpp, eval_spectrum) has the first row of its image at
-/// the upper pole and the last one at the lower pole, ours (stores.h) their centres half a row away
-/// from them. Along u both agree.
-///
-/// The same radiance of every direction in Mitsuba's form: 2 h + 1 rows, of which the odd ones are
-/// ours, those between them are their means and the ones at the poles repeat their neighbours. One
-/// column becomes two, as Mitsuba wants.
+/// Returns the image in Mitsuba's layout, with the same radiance in every direction. An image of h
+/// rows becomes one of 2 h + 1 rows. Odd rows are ours, even rows are means of their neighbours,
+/// and the rows at the poles repeat their neighbour. A single column becomes two, the minimum.
 TextureImage to_mitsuba_envmap(const TextureImage &image);
 
-/// From Mitsuba's form. What `to_mitsuba_envmap` made comes back as it was. Of any other image the
-/// rows, h of them, become 2 (h - 1) at a quarter and three quarters between each pair: linear
-/// interpolation between these is Mitsuba's everywhere but within a quarter of a row from one of
-/// Mitsuba's, where it is off by up to 1/8 of the second difference of rows. 8 bits are decoded by
-/// the sRGB curve, as there. Throws `Error` (bad input) for an image below 2 x 3 texels, which
-/// Mitsuba refuses.
+/// Returns the image converted from Mitsuba's layout. The result of `to_mitsuba_envmap` is restored
+/// exactly. The h rows of any other image become 2 (h - 1) rows, at one quarter and three quarters
+/// between each pair. Linear interpolation between these rows matches Mitsuba's, except within a
+/// quarter of a row from each of Mitsuba's rows. There it differs by up to 1/8 of the second
+/// difference of rows. 8-bit texels are decoded by the sRGB curve, as in Mitsuba. Throws `Error`
+/// (bad input) for an image below 2 x 3 texels, which Mitsuba rejects.
 TextureImage from_mitsuba_envmap(const TextureImage &image);
 
 }  // namespace rtrays::mitsuba

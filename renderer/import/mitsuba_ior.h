@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Named indices of refraction of Mitsuba scene files.
 #pragma once
 
 namespace rtrays::mitsuba {
@@ -8,8 +9,8 @@ struct IndexOfRefraction {
     double value;
 };
 
-/// What scene files may call instead of a number (Mitsuba 3.9, ior.h; most values are those of the
-/// Blender wiki and of Wikipedia's list of refractive indices, at 589 nm).
+/// The names that a scene file may give instead of a number (Mitsuba 3.9, ior.h). Most values come
+/// from the Blender wiki and from Wikipedia's list of refractive indices, at 589 nm.
 inline constexpr IndexOfRefraction indices_of_refraction[] = {
     {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},

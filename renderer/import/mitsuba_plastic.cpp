@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The part of diffuse light from inside that a coat of index `eta` > 1 reflects, by the fit of
-/// Egan and Hilgeman 1973 that Mitsuba uses (fresnel.h): for a coat of 1.5 it is 8e-4 above the
-/// integral (Walsh 1926). Ours is Mitsuba's so that the images agree.
+/// Fraction of diffuse light from inside that a coat of index `eta` > 1 reflects. This is the fit
+/// of Egan and Hilgeman 1973. For eta = 1.5 it is 8e-4 above the exact integral (Walsh 1926).
+/// Mitsuba uses the same fit (fresnel.h), so that the images agree.
 double internal_reflectance(double eta) {
     return 0.0636 * eta + 0.6681 + (0.7099 - 1.4399 / eta) / eta;
 }
@@ -53,15 +53,14 @@ void check(const ParameterSet &p) {
         if (texture != nullptr &&
             texture->largest_texel().cast<double>().cwiseProduct(p.vector3(name)).maxCoeff() > 1) {
             throw input_error(
-                fmt::format("{}: its texture '{}' has texels above 1", name, texture->name()));
+                fmt::format("{}: texture '{}' has texels above 1", name, texture->name()));
         }
     }
     if (p.get<bool>("nonlinear") && p.texture("diffuse_reflectance") != nullptr) {
         throw input_error(
-            "nonlinear: the base's colour is not a factor of what it reflects then, so it cannot "
-            "be a "
-            "texture; make "
-            "nonlinear false, or diffuse_reflectance one colour");
+            "nonlinear: unsupported with a texture as diffuse_reflectance, because the base's "
+            "reflection is not proportional to its colour; set nonlinear to false, or give "
+            "diffuse_reflectance as one colour");
     }
 }
 
@@ -78,17 +77,19 @@ const std::shared_ptr<const MaterialType> &plastic_type() {
         using rows::Need;
         auto made = std::make_shared<MaterialType>();
         made->name = "mitsuba_plastic";
-        // Towards 4 the fit passes 1.
+        // The fit exceeds 1 near eta = 4.
         constexpr Range eta{1, 3, false, true};
         made->parameters = {
-            rows::colour("diffuse_reflectance", "albedo of the base"),
-            rows::colour("specular_reflectance", "factor of the coat", Need::defaulted),
-            {"eta", "index of refraction of the coat over that outside", 1.5, Need::required, eta},
-            {"roughness", "0: ideally smooth", Eigen::Vector2d(0, 0), Need::defaulted,
-             ranges::unit},
+            rows::colour("diffuse_reflectance", "albedo of the diffuse base"),
+            rows::colour("specular_reflectance", "factor of the coat's reflection",
+                         Need::defaulted),
+            {"eta", "index of refraction of the coat relative to the outside", 1.5, Need::required,
+             eta},
+            {"roughness", "microfacet roughness, 0 if ideally smooth", Eigen::Vector2d(0, 0),
+             Need::defaulted, ranges::unit},
             rows::distribution("distribution"),
-            {"nonlinear",
-             "whether the base's colour deepens with each reflection between base and coat", false},
+            {"nonlinear", "whether reflections between base and coat saturate the base's colour",
+             false},
         };
         const ParameterTable &common = common_material_parameters();
         made->parameters.insert(made->parameters.end(), common.begin(), common.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mitsuba's "plastic": a diffuse base below a dielectric coat that sends part of what the base
-// reflects back to it, again and again (Jakob et al. 2022, Mitsuba 3.9, plastic.cpp).
+// Mitsuba's "plastic" (Jakob et al. 2022, Mitsuba 3.9, plastic.cpp): a diffuse base below a
+// dielectric coat. The inside of the coat repeatedly reflects part of the light back to the base.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,13 @@
 
 namespace rtrays::mitsuba {
 
-/// What a base of the colour `reflectance` becomes as the weight of a Lambert component below the
-/// coat, reflectance / (eta^2 (1 - F)) or, `nonlinear`, reflectance / (eta^2 (1 - reflectance F)),
-/// where F is what the inside of the coat reflects of diffuse light.
+/// Weight of the Lambert component for a base of colour `reflectance` below the coat. It is
+/// reflectance / (eta^2 (1 - F)), or reflectance / (eta^2 (1 - reflectance F)) if `nonlinear`. F is
+/// the fraction of diffuse light that the inside of the coat reflects.
 Eigen::Vector3d plastic_base_weight(const Eigen::Vector3d &reflectance, double eta, bool nonlinear);
 
-/// The type of such materials. Parameters: diffuse_reflectance, specular_reflectance, eta,
-/// roughness, distribution, nonlinear.
+/// Returns the material type of plastics. Its parameters are diffuse_reflectance,
+/// specular_reflectance, eta, roughness, distribution and nonlinear.
 const std::shared_ptr<const MaterialType> &plastic_type();
 
 }  // namespace rtrays::mitsuba

@@ -35,12 +35,12 @@ class SceneReader {
                 std::find_if(std::begin(handlers), std::end(handlers),
                              [&](const Handler &handler) { return tag == handler.tag; });
             if (found == std::end(handlers)) {
-                throw element.error("this element has no counterpart here");
+                throw element.error("unsupported element");
             }
             (this->*found->read)(element);
         }
         if (!replaced_.empty()) {
-            notice(fmt::format("{}: replaced by this renderer's own: {}", source_name_,
+            notice(fmt::format("{}: replaced by this renderer's own settings: {}", source_name_,
                                fmt::join(replaced_, ", ")));
         }
     }
@@ -53,12 +53,12 @@ class SceneReader {
             throw input_error(fmt::format("{}: {}", source_name_, error.what()));
         }
         if (cameras_.empty()) {
-            throw input_error(fmt::format("{}: the scene has no sensor", source_name_));
+            throw input_error(fmt::format("{}: the scene has no sensor; add one", source_name_));
         }
         scene_.set_active_camera(cameras_.front());
         if (cameras_.size() > 1) {
-            notice(fmt::format("{}: of the sensors {} the first one is used", source_name_,
-                               fmt::join(cameras_, ", ")));
+            notice(fmt::format("{}: the file has several sensors ({}); only the first one is used",
+                               source_name_, fmt::join(cameras_, ", ")));
         }
     }
 
@@ -79,7 +79,7 @@ class SceneReader {
         return node;
     }
 
-    /// BSDFs and textures are read where they are used.
+    /// Ignores an element that is read where another element refers to it.
     void pass(const Element &) {}
 
     void read_shape(const Element &element) {
@@ -89,7 +89,7 @@ class SceneReader {
         const std::vector<Element> bsdfs = object.objects("bsdf");
         object.finish();
         if (emitters.size() > 1 || bsdfs.size() > 1) {
-            throw element.error("a shape has one emitter and one BSDF at most");
+            throw element.error("a shape takes at most one emitter and one BSDF");
         }
         Node &node = add_node(element, shape.world_from_geometry);
         const std::shared_ptr<MaterialCore> material =
@@ -103,15 +103,16 @@ class SceneReader {
         if (!emitters.empty()) {
             if (!shape.can_emit) {
                 throw element.error(
-                    "this shape cannot emit here; a rectangle, disk, sphere, cube, obj or ply can");
+                    "emitters are unsupported on this shape; use a rectangle, disk, sphere, cube, "
+                    "obj or ply");
             }
             Object emitter(emitters[0], document_);
             node.set_core(read_area_light(emitter));
         }
     }
 
-    /// Spheres and cylinders have their front outside: flipped they must look the same from both
-    /// sides.
+    /// Throws unless the flipped shape looks the same from both sides. The front of our spheres and
+    /// cylinders is always their outside.
     static void check_flipped(const Element &element, const MaterialCore &material, bool emits) {
         const std::vector<MaterialComponent> components = material.components();
         const bool refracts =
@@ -121,10 +122,8 @@ class SceneReader {
             });
         if (emits || refracts || !material.two_sided()) {
             throw element.error(
-                "flip_normals: the front of this shape is outside here; use a two-sided BSDF "
-                "without an "
-                "emitter, or a "
-                "mesh");
+                "flip_normals: unsupported, the front of this shape is always its outside; use a "
+                "two-sided BSDF without an emitter, or a mesh");
         }
     }
 
@@ -154,15 +153,15 @@ class SceneReader {
                     fmt::format("{} {}", child.raw_attribute("name"), child.attribute("value")));
             }
             if (child.raw_attribute("name") == "max_depth") {
-                // One for the camera's own vertex.
+                // Mitsuba counts path edges, this renderer counts scattering events.
                 const std::vector<double> depth = parse_numbers(child, child.attribute("value"));
                 if (depth.size() == 1 && depth[0] >= 2) {
                     settings.push_back(
-                        fmt::format("here --set integrator.max_depth={}", depth[0] - 1));
+                        fmt::format("use --set integrator.max_depth={}", depth[0] - 1));
                 }
             }
         }
-        // One that the command line is to name is nothing to us either.
+        // An undefined parameter in the type is no error, because the integrator is ignored.
         std::string type = element.raw_attribute("type");
         try {
             type = element.attribute("type");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of our materials a BSDF is (Mitsuba 3.9, src/bsdfs/*.cpp: parameters and defaults).
+// Conversion of BSDFs to materials, with the parameters and defaults of Mitsuba 3.9
+// (src/bsdfs/*.cpp).
 #include "renderer/import/mitsuba_xml_bsdf.h"
 
 #include <fmt/format.h>
@@ -20,9 +21,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Beyond this roughness Mitsuba's base below a rough coat is darker than one below a smooth coat
-/// by more than a tenth (measured: 0.961 of it at 0.1, 0.915 at 0.2, 0.851 at 0.3, for an index
-/// of 1.5, away from grazing angles), so that the models cannot be said to agree.
+/// Maximum roughness of a plastic. Mitsuba's base below a rough coat is darker than our base, which
+/// is lit as through a smooth coat. Measured ratios are 0.961 at roughness 0.1, 0.915 at 0.2 and
+/// 0.851 at 0.3, for an index of 1.5 and away from grazing angles. Beyond 0.2 the two models
+/// disagree by more than a tenth.
 constexpr double roughest_plastic = 0.2;
 
 double index_of_refraction(Object &object, const char *name, double initial) {
@@ -37,11 +39,11 @@ double index_of_refraction(Object &object, const char *name, double initial) {
         }
         names += (names.empty() ? "" : ", ") + std::string(row.name);
     }
-    throw object.property(name).error(
-        fmt::format("'{}' is no index of refraction; give a number or one of: {}", wanted, names));
+    throw object.property(name).error(fmt::format(
+        "unknown index of refraction '{}'; give a number or one of: {}", wanted, names));
 }
 
-/// Of the inside over that of the outside.
+/// Returns the index of refraction of the inside relative to the outside.
 double relative_index(Object &object, double inside) {
     constexpr double air = 1.000277;
     const double interior = index_of_refraction(object, "int_ior", inside);
@@ -56,7 +58,7 @@ bool is_rough(const Object &object) {
     return object.type().rfind("rough", 0) == 0;
 }
 
-/// The metals by the names of Mitsuba that stand for the same measurements.
+/// Mitsuba's names of our metal presets. Both names refer to the same measurements.
 struct MetalName {
     const char *mitsuba;
     const char *ours;
@@ -65,7 +67,7 @@ constexpr MetalName metal_names[] = {{"Ag", "silver"}, {"Au", "gold"}, {"Cu", "c
 
 }  // namespace
 
-/// A material that is being put together.
+/// A material under construction.
 struct MaterialReader::Draft {
     UvConvention uv;
     std::shared_ptr<const MaterialType> type;
@@ -146,18 +148,18 @@ MaterialReader::Draft MaterialReader::read_bsdf(const Element &bsdf, UvConventio
         }
         names += (names.empty() ? "" : ", ") + std::string(type.name);
     }
-    throw bsdf.error(fmt::format("this BSDF has no counterpart here; there are: {}", names));
+    throw bsdf.error(fmt::format("unsupported BSDF type; supported types are: {}", names));
 }
 
 void MaterialReader::read_twosided(Object &object, Draft &draft) {
     const std::vector<Element> inner = object.objects("bsdf");
     if (inner.size() != 1) {
-        throw object.element().error(fmt::format(
-            "has {} BSDFs; only one, for both sides, has a counterpart here", inner.size()));
+        throw object.element().error(
+            fmt::format("has {} BSDFs; expected one, which is used for both sides", inner.size()));
     }
     const std::string type = inner[0].attribute("type");
     if (type == "twosided" || type == "dielectric" || type == "roughdielectric") {
-        throw inner[0].error("cannot be made two-sided: it is so by itself");
+        throw inner[0].error("already two-sided; remove the enclosing twosided BSDF");
     }
     draft = read_bsdf(inner[0], draft.uv);
     draft.values["two_sided"] = true;
@@ -188,7 +190,7 @@ void MaterialReader::read_conductor(Object &object, Draft &draft) {
     const std::optional<std::string> material = object.text("material");
     if (eta.has_value() != k.has_value() || (eta.has_value() && material.has_value())) {
         throw object.element().error(
-            "needs eta and k, or a material, or neither of them (an ideal mirror)");
+            "expected eta and k together, or a material, or neither for an ideal mirror");
     }
     if (eta.has_value()) {
         draft.values["eta"] = *eta;
@@ -201,8 +203,8 @@ void MaterialReader::read_conductor(Object &object, Draft &draft) {
                          [&](const MetalName &row) { return *material == row.mitsuba; });
         if (found == std::end(metal_names)) {
             throw object.property("material")
-                .error(fmt::format("'{}' has no constants here; give eta and k as <rgb>, or one "
-                                   "of: Ag, Au, Cu, none",
+                .error(fmt::format("unknown metal '{}'; give eta and k as <rgb>, or one of: Ag, "
+                                   "Au, Cu, none",
                                    *material));
         }
         draft.values["preset"] = std::string(found->ours);
@@ -227,16 +229,14 @@ void MaterialReader::read_plastic(Object &object, Draft &draft) {
         const double alpha = std::get<Vector2d>(draft.values.at("roughness")).maxCoeff();
         if (alpha > roughest_plastic) {
             throw object.element().error(
-                fmt::format("alpha {}: the diffuse base of so rough a plastic is darker in Mitsuba "
-                            "than here by more "
-                            "than a tenth; make it at most {}, or a plastic, or a diffuse",
+                fmt::format("alpha: {} is too rough, the diffuse base would be more than 10 % "
+                            "brighter than in Mitsuba; use at most {}, or type plastic or diffuse",
                             alpha, roughest_plastic));
         }
         notice(
             object.element()
-                .error(
-                    "the coat is rough for what it reflects and smooth for what it lets through to "
-                    "the diffuse base: up to a tenth brighter than in Mitsuba")
+                .error("only the coat's reflection is rough, the diffuse base is lit as through a "
+                       "smooth coat; it is up to 10 % brighter than in Mitsuba")
                 .what());
     }
 }
@@ -244,28 +244,29 @@ void MaterialReader::read_plastic(Object &object, Draft &draft) {
 void MaterialReader::read_roughness(Object &object, Draft &draft) {
     const bool both = object.has("alpha");
     if (both && (object.has("alpha_u") || object.has("alpha_v"))) {
-        throw object.element().error("has both alpha and alpha_u or alpha_v");
+        throw object.element().error(
+            "has both alpha and alpha_u or alpha_v; give alpha, or both alpha_u and alpha_v");
     }
     if (!both && object.has("alpha_u") != object.has("alpha_v")) {
         throw object.element().error("needs both alpha_u and alpha_v, or alpha");
     }
     const double alpha = object.number("alpha", 0.1);
     const Vector2d roughness(object.number("alpha_u", alpha), object.number("alpha_v", alpha));
-    object.ignore("sample_visible");  // decides about noise, not about the image
+    object.ignore("sample_visible");  // affects noise only
     const std::vector<std::string> names = {"beckmann", "ggx"};
     draft.values["roughness"] = roughness;
     draft.values["distribution"] = names[object.choice("distribution", names, 0)];
     if (roughness.minCoeff() < 1e-4 || roughness.maxCoeff() > 1) {
-        throw object.element().error(
-            fmt::format("alpha: [{}, {}] is not within [0.0001, 1]; a smooth surface is a {}",
-                        roughness[0], roughness[1], object.type().substr(5)));
+        throw object.element().error(fmt::format(
+            "alpha: [{}, {}] is not within [0.0001, 1]; for a smooth surface use type {}",
+            roughness[0], roughness[1], object.type().substr(5)));
     }
     if (roughness[0] != roughness[1]) {
         draft.depends_on_uv = true;
         if (draft.uv == UvConvention::none) {
             throw object.element().error(
-                "alpha_u and alpha_v differ, but this shape has no tangents in common with "
-                "Mitsuba's");
+                "alpha_u and alpha_v differ, but the tangents of this shape do not match "
+                "Mitsuba's; use one alpha");
         }
     }
 }
@@ -275,7 +276,8 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
     const std::vector<Element> textures = object.objects("texture", property);
     if (textures.empty()) {
         const Vector3d colour = object.colour(property).value_or(Vector3d::Constant(initial));
-        if (colour.minCoeff() < 0 || colour.maxCoeff() > 1) {  // said here, where the line is known
+        // Checked here already, because the line is known here.
+        if (colour.minCoeff() < 0 || colour.maxCoeff() > 1) {
             throw object.property(property).error(
                 fmt::format("[{}, {}, {}] is not within [0, 1]", colour[0], colour[1], colour[2]));
         }
@@ -283,7 +285,7 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
         return;
     }
     if (textures.size() > 1 || object.has(property)) {
-        throw object.element().error(fmt::format("'{}' is given twice", property));
+        throw object.element().error(fmt::format("duplicate property '{}'", property));
     }
     draft.values[parameter] = Vector3d(1, 1, 1);
     draft.textures[parameter] = texture(textures[0], draft);
@@ -292,7 +294,9 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
 std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &draft) {
     draft.depends_on_uv = true;
     if (draft.uv == UvConvention::none) {
-        throw element.error("this shape has no texture coordinates in common with Mitsuba's");
+        throw element.error(
+            "this shape has no texture coordinates that match Mitsuba's; use one colour, or a mesh "
+            "with texture coordinates");
     }
     std::shared_ptr<Texture> &texture = textures_[{element.hash(), draft.uv}];
     if (texture != nullptr) {
@@ -300,7 +304,7 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &
     }
     Object object(element, document_);
     if (object.type() != "bitmap") {
-        throw element.error("this texture has no counterpart here; there is: bitmap");
+        throw element.error("unsupported texture type; supported types are: bitmap");
     }
     const std::optional<std::string> file = object.text("filename");
     if (!file.has_value()) {
@@ -311,19 +315,21 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &
     ParameterValues values{{"filter", filters[object.choice("filter_type", filters, 0)]},
                            {"wrap", wraps[object.choice("wrap_mode", wraps, 0)]}};
     const bool raw = object.boolean("raw", false);
-    object.ignore("format");  // of the texels in memory there
+    object.ignore("format");  // of texels in Mitsuba's memory
     object.ignore("accel");
 
     const Eigen::Matrix4d to_uv = object.transform("to_uv");
     if (to_uv(0, 1) != 0 || to_uv(1, 0) != 0) {
-        throw object.property("to_uv").error("textures can be scaled and moved here, not turned");
+        throw object.property("to_uv").error(
+            "textures can only be scaled and translated; remove the rotation");
     }
     const Vector2d scale(to_uv(0, 0), to_uv(1, 1));
-    // Mitsuba looks up row scale v + offset from the top. With v = v' here that is 1 - scale v' -
-    // offset from the bottom, with v = 1 - v' it is scale v' + 1 - scale - offset.
+    // Mitsuba looks up row scale v + offset from the top. Let v' be our coordinate. If v = v', the
+    // row from the bottom is 1 - scale v' - offset. If v = 1 - v', it is
+    // scale v' + 1 - scale - offset.
     const bool flipped = draft.uv == UvConvention::flipped;
     values["uv_scale"] = Vector2d(scale[0], flipped ? scale[1] : -scale[1]);
-    // Of a matrix from the plane: its third column moves, too, where it is one of 3 by 3.
+    // The fourth column of the matrix translates.
     values["uv_offset"] =
         Vector2d(to_uv(0, 3), flipped ? 1 - scale[1] - to_uv(1, 3) : 1 - to_uv(1, 3));
     object.finish();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Conversion of Mitsuba BSDFs and textures to our materials and textures.
 #pragma once
 
 #include <map>
@@ -14,15 +15,15 @@
 
 namespace rtrays::mitsuba {
 
-/// How the texture coordinates of a geometry relate to Mitsuba's of the same one. An image has v =
-/// 0 at its top there and at its bottom here.
+/// Our texture coordinates of a geometry in terms of Mitsuba's coordinates (u, v). The top of an
+/// image has v = 0 in Mitsuba and v = 1 in this renderer.
 enum class UvConvention {
-    none,     ///< they have nothing in common
+    none,     ///< unrelated, or without coordinates
     same,     ///< (u, v)
     flipped,  ///< (u, 1 - v)
 };
 
-/// Names that are legal in our scenes and not taken: without dots, numbered where need be.
+/// Source of legal and unique object names. Dots are replaced, and repeated names are numbered.
 class NameList {
   public:
     std::string unique(const std::string &wanted);
@@ -31,18 +32,20 @@ class NameList {
     std::set<std::string> taken_;
 };
 
-/// Makes materials of BSDFs, each once.
+/// Converts BSDFs to materials, each of them once.
 class MaterialReader {
   public:
-    /// Shares what has an id with the graph of `scene`, for `--set scene.materials.ID.PROPERTY`.
+    /// Registers materials and textures that have an id in the graph of `scene`, so that
+    /// `--set scene.materials.ID.PROPERTY` finds them.
     MaterialReader(const Document &document, Scene &scene) : document_(document), scene_(scene) {}
 
-    /// The material of a "bsdf" element on a geometry with such coordinates; `default_name` if it
-    /// has no id. Throws `LocatedError` when it cannot be mapped.
+    /// Returns the material of a "bsdf" element on a geometry whose texture coordinates follow
+    /// `uv`. The material is named `default_name` if the element has no id. Throws `LocatedError`
+    /// if the BSDF is unsupported.
     std::shared_ptr<MaterialCore> read(const Element &bsdf, UvConvention uv,
                                        const std::string &default_name);
 
-    /// What a shape without a BSDF has: grey, and black if it emits.
+    /// Returns the material of a shape without a BSDF: black if the shape emits, otherwise grey.
     std::shared_ptr<MaterialCore> standard(bool emits);
 
     TextureFiles &files() { return files_; }
@@ -78,7 +81,7 @@ class MaterialReader {
     TextureFiles files_;
     NameList material_names_;
     NameList texture_names_;
-    std::map<size_t, std::vector<Material>> materials_;  ///< by element
+    std::map<size_t, std::vector<Material>> materials_;  ///< by hash of the element
     std::map<std::pair<size_t, UvConvention>, std::shared_ptr<Texture>> textures_;
     std::shared_ptr<MaterialCore> standard_[2];
 };

@@ -67,7 +67,7 @@ std::vector<Element> Element::children() const {
         if (child.type() == pugi::node_element) {
             all.emplace_back(child, *file_, *parameters_);
         } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-            throw error(fmt::format("text '{}' stands where only elements may", child.value()));
+            throw error(fmt::format("unexpected text '{}'; expected elements", child.value()));
         }
     }
     return all;
@@ -77,7 +77,7 @@ void Element::check_attributes(const std::vector<std::string> &known) const {
     std::vector<std::string> met;
     for (const pugi::xml_attribute attribute : node_.attributes()) {
         if (std::find(known.begin(), known.end(), attribute.name()) == known.end()) {
-            throw error(fmt::format("unknown attribute '{}'; known: {}", attribute.name(),
+            throw error(fmt::format("unknown attribute '{}'; attributes are: {}", attribute.name(),
                                     fmt::join(known, ", ")));
         }
         if (std::find(met.begin(), met.end(), attribute.name()) != met.end()) {
@@ -108,7 +108,7 @@ Document::Document(const std::string &text, const std::string &source_name,
 }
 
 void Document::add_file(SourceFile &file, int depth) {
-    // No document types: entities of them could grow without bound.
+    // Document types are not parsed, because their entities could grow without bound.
     const pugi::xml_parse_result result =
         file.xml.load_buffer(file.text.data(), file.text.size(), pugi::parse_default);
     const auto fail = [&](ptrdiff_t offset, const std::string &message) {
@@ -118,17 +118,18 @@ void Document::add_file(SourceFile &file, int depth) {
     if (!result) {
         throw fail(result.offset, fmt::format("not well-formed XML: {}", result.description()));
     }
-    // pugixml takes several roots, and text beside them.
+    // pugixml accepts several root elements.
     const pugi::xml_node root = file.xml.document_element();
     for (const pugi::xml_node node : file.xml.children()) {
         if (node != root && node.type() == pugi::node_element) {
-            throw fail(node.offset_debug(),
-                       fmt::format("<{}> stands beside the scene", node.name()));
+            throw fail(
+                node.offset_debug(),
+                fmt::format("second root element <{}>; a file has one <scene>", node.name()));
         }
     }
     if (std::string(root.name()) != "scene") {
         throw fail(root.offset_debug(),
-                   fmt::format("the root element is <{}>, not <scene>", root.name()));
+                   fmt::format("expected the root element <scene>, got <{}>", root.name()));
     }
     const Element scene(root, file, parameters_);
     scene.check_attributes({"version"});
@@ -137,8 +138,8 @@ void Document::add_file(SourceFile &file, int depth) {
     std::from_chars(version.data(), version.data() + version.size(), major);
     if (major != 2 && major != 3) {
         throw scene.error(fmt::format(
-            "version '{}' is not one of Mitsuba 2 or 3; older files name things otherwise: "
-            "convert them with Mitsuba's own tools",
+            "unsupported version '{}'; expected Mitsuba 2 or 3, convert older files with Mitsuba's "
+            "own tools",
             version));
     }
     for (const Element &element : scene.children()) {
@@ -155,14 +156,14 @@ void Document::add_element(const Element &element, int depth) {
             !std::all_of(name.begin(), name.end(), is_name_character)) {
             throw element.error("needs a name (letters, digits, - and _) and a value");
         }
-        parameters_.emplace(name, element.attribute("value"));  // the first one counts
+        parameters_.emplace(name, element.attribute("value"));  // the first definition wins
         return;
     }
     if (tag == "include") {
         element.check_attributes({"filename"});
         if (depth == deepest_include) {
             throw element.error(
-                fmt::format("files include each other more than {} deep", deepest_include));
+                fmt::format("includes are nested deeper than {} files", deepest_include));
         }
         const std::filesystem::path path = element.path(element.attribute("filename"));
         SourceFile &file = files_.emplace_back();
@@ -177,7 +178,7 @@ void Document::add_element(const Element &element, int depth) {
 }
 
 void Document::register_ids(const Element &element) {
-    // The whole element, its children included, without recursion: files decide how deep it is.
+    // Without recursion, because the file determines the depth of its elements.
     std::vector<std::pair<Element, int>> pending{{element, 0}};
     while (!pending.empty()) {
         const auto [next, level] = pending.back();
@@ -193,7 +194,7 @@ void Document::register_ids(const Element &element) {
             const std::string id = next.attribute("id");
             const auto [found, is_new] = ids_.emplace(id, next);
             if (!is_new) {
-                throw next.error(fmt::format("the id '{}' is taken", id));
+                throw next.error(fmt::format("duplicate id '{}'", id));
             }
         }
         for (const Element &child : next.children()) {
@@ -211,7 +212,7 @@ const Element &Document::referenced(const Element &reference) const {
             ids.push_back(entry.first);
         }
         throw reference.error(
-            fmt::format("there is no object with the id '{}'; there are: {}", id,
+            fmt::format("unknown id '{}'; ids are: {}", id,
                         ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", "))));
     }
     return found->second;

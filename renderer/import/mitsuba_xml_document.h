@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The XML of a Mitsuba scene: files, parameters ("$name") and identifiers.
+// The XML of a Mitsuba scene: its files, parameters ("$name") and identifiers.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace rtrays::mitsuba {
 
-/// An `Error` that already says where.
+/// An `Error` whose message already contains a location.
 struct LocatedError : Error {
     explicit LocatedError(const std::string &message) : Error(ExitCode::bad_input, message) {}
 };
@@ -23,13 +23,13 @@ struct LocatedError : Error {
 using Parameters = std::map<std::string, std::string>;
 
 struct SourceFile {
-    std::string name;  ///< in messages
+    std::string name;  ///< as shown in messages
     std::string text;
-    std::filesystem::path directory;  ///< that files are relative to
+    std::filesystem::path directory;  ///< base of relative file names
     pugi::xml_document xml;
 };
 
-/// An element and where it stands. Refers to its document.
+/// An element and its location. Refers to its document, which must outlive it.
 class Element {
   public:
     Element(pugi::xml_node node, const SourceFile &file, const Parameters &parameters)
@@ -38,14 +38,14 @@ class Element {
     std::string tag() const { return node_.name(); }
     bool has(const char *attribute) const { return !node_.attribute(attribute).empty(); }
 
-    /// The attribute with its parameters substituted; "" when there is none. Throws `LocatedError`
-    /// for a parameter that is not defined.
+    /// Returns the attribute with its parameters substituted, or "" if it is missing. Throws
+    /// `LocatedError` for an undefined parameter.
     std::string attribute(const char *name) const;
 
-    /// As it stands in the file.
+    /// Returns the attribute as written in the file, or "" if it is missing.
     std::string raw_attribute(const char *name) const { return node_.attribute(name).value(); }
 
-    /// The elements below. Throws `LocatedError` when there is text beside them.
+    /// Returns the child elements. Throws `LocatedError` if there is text between them.
     std::vector<Element> children() const;
 
     /// Throws `LocatedError` for an attribute that is not in `known`.
@@ -53,10 +53,10 @@ class Element {
 
     std::filesystem::path path(const std::string &file) const { return file_->directory / file; }
 
-    /// "scene.xml:12: <bsdf type="plastic" id="wall">: MESSAGE".
+    /// Returns the error "scene.xml:12: <bsdf type="plastic" id="wall">: MESSAGE".
     LocatedError error(const std::string &message) const;
 
-    /// Runs `body`; an `Error` from it that does not say where it comes from gets this element.
+    /// Runs `body`. Adds the location of this element to an `Error` that has none.
     template <typename Body>
     std::invoke_result_t<Body> located(const Body &body) const {
         try {
@@ -68,7 +68,7 @@ class Element {
         }
     }
 
-    /// What tells elements apart.
+    /// Returns a value that identifies the element.
     size_t hash() const { return node_.hash_value(); }
 
   private:
@@ -77,20 +77,21 @@ class Element {
     const Parameters *parameters_;
 };
 
-/// A scene file with all that it includes.
+/// A scene file together with all included files.
 class Document {
   public:
-    /// Throws `Error` (bad input) naming source and line when the text is no scene of Mitsuba 2
+    /// Throws `Error` (bad input) naming source and line unless the text is a scene of Mitsuba 2
     /// or 3.
     Document(const std::string &text, const std::string &source_name,
              const std::filesystem::path &directory);
     Document(const Document &) = delete;
     Document &operator=(const Document &) = delete;
 
-    /// The elements of the scene, those of included files in place.
+    /// Returns the elements of the scene. Elements of an included file replace the include.
     const std::vector<Element> &elements() const { return elements_; }
 
-    /// Throws `LocatedError` naming the identifiers there are when there is none such.
+    /// Returns the element that a "ref" names. Throws `LocatedError` that lists the known
+    /// identifiers if the reference is unknown.
     const Element &referenced(const Element &reference) const;
 
   private:
@@ -98,7 +99,7 @@ class Document {
     void add_element(const Element &element, int depth);
     void register_ids(const Element &element);
 
-    std::list<SourceFile> files_;  ///< stay where they are
+    std::list<SourceFile> files_;  ///< a list, because elements hold their addresses
     Parameters parameters_;
     std::vector<Element> elements_;
     std::map<std::string, Element> ids_;

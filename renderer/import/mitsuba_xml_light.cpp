@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of our lights an emitter is (Mitsuba 3.9, src/emitters/*.cpp: parameters and defaults).
+// Conversion of emitters to lights, with the parameters and defaults of Mitsuba 3.9
+// (src/emitters/*.cpp).
 #include "renderer/import/mitsuba_xml_light.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
-/// Mitsuba's emitters shine along +z, ours along -z.
+/// Returns the transform for our lights, which shine along -z. Mitsuba's emitters shine along +z.
 Matrix4d turned_about_y(const Matrix4d &to_world) {
     return to_world * scaling({-1, 1, -1});
 }
@@ -30,7 +31,7 @@ std::shared_ptr<LightCore> make_light(const Object &object, const char *type,
 PlacedLight read_point(Object &object, TextureFiles &) {
     const std::optional<Vector3d> position = object.vector("position");
     if (position.has_value() && object.has("to_world")) {
-        throw object.element().error("has both position and to_world");
+        throw object.element().error("has both position and to_world; give one");
     }
     return {make_light(object, "point", {{"intensity", object.emission("intensity", 1)}}),
             position.has_value() ? translation(*position) : object.transform()};
@@ -48,14 +49,14 @@ PlacedLight read_spot(Object &object, TextureFiles &) {
 PlacedLight read_directional(Object &object, TextureFiles &) {
     const std::optional<Vector3d> direction = object.vector("direction");
     if (direction.has_value() && object.has("to_world")) {
-        throw object.element().error("has both direction and to_world");
+        throw object.element().error("has both direction and to_world; give one");
     }
     Matrix4d world = turned_about_y(object.transform());
     if (direction.has_value()) {
         if (!(direction->stableNorm() > 0)) {
-            throw object.property("direction").error("has no direction");
+            throw object.property("direction").error("expected a direction of positive length");
         }
-        // Shines along -z; any turn about that is as good.
+        // The light shines along -z. Any rotation about z gives the same light.
         const Vector3d z = -direction->stableNormalized(), x = z.unitOrthogonal();
         world.topLeftCorner<3, 3>() << x, z.cross(x), z;
     }
@@ -75,7 +76,7 @@ PlacedLight read_envmap(Object &object, TextureFiles &files) {
     }
     const Vector3d scale = Vector3d::Constant(object.number("scale", 1));
     const Matrix4d to_world = nearest_similarity(object.transform(), "an environment");
-    pose_of(to_world, "an environment");  // neither can it be mirrored
+    pose_of(to_world, "an environment");  // throws for a mirroring transform
     const auto image = std::make_shared<TextureImage>(
         from_mitsuba_envmap(*files.load(object.element().path(*file), TextureEncoding::linear)));
     return {std::make_shared<LightCore>(object.id(), image, ParameterValues{{"scale", scale}}),
@@ -96,7 +97,8 @@ constexpr Type types[] = {{"point", read_point},
 
 std::shared_ptr<LightCore> read_area_light(Object &object) {
     if (object.type() != "area") {
-        throw object.element().error("this emitter has no counterpart at a shape; there is: area");
+        throw object.element().error(
+            "unsupported emitter type on a shape; supported types are: area");
     }
     return object.element().located([&] {
         const auto light =
@@ -119,7 +121,7 @@ PlacedLight read_light(Object &object, TextureFiles &files) {
         names += (names.empty() ? "" : ", ") + std::string(type.name);
     }
     throw object.element().error(fmt::format(
-        "this emitter has no counterpart here; there are: {}, and area at a shape", names));
+        "unsupported emitter type; supported types are: {}, and area on a shape", names));
 }
 
 }  // namespace rtrays::mitsuba

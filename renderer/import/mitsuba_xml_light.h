@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Conversion of Mitsuba emitters and sensors to our lights and cameras.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,27 +12,29 @@
 
 namespace rtrays::mitsuba {
 
+/// A light and its transform.
 struct PlacedLight {
     std::shared_ptr<LightCore> light;
     Eigen::Matrix4d world_from_light;
 };
 
-/// The emitter of a shape. Throws `LocatedError` unless it is an area light that maps.
+/// Converts the emitter of a shape. Throws `LocatedError` unless it is a supported area light.
 std::shared_ptr<LightCore> read_area_light(Object &emitter);
 
-/// An emitter by itself. Throws `LocatedError` when it cannot be mapped.
+/// Converts an emitter that belongs to no shape. Throws `LocatedError` if it is unsupported.
 PlacedLight read_light(Object &emitter, TextureFiles &files);
 
+/// A camera, its transform and its film size in pixels.
 struct PlacedCamera {
     std::shared_ptr<CameraCore> camera;
     Eigen::Matrix4d world_from_camera;
     int width;
     int height;
-    std::vector<std::string>
-        replaced;  ///< what its film, sampler and clipping planes say that we do otherwise
+    /// Settings of film, sampler and clipping planes that this renderer replaces by its own.
+    std::vector<std::string> replaced;
 };
 
-/// A sensor with its film. Throws `LocatedError` when it cannot be mapped.
+/// Converts a sensor and its film. Throws `LocatedError` if they are unsupported.
 PlacedCamera read_camera(Object &sensor, const Document &document);
 
 }  // namespace rtrays::mitsuba

@@ -25,9 +25,9 @@ bool contains(const Table &table, const std::string &value) {
     return std::find(std::begin(table), std::end(table), value) != std::end(table);
 }
 
-/// Equal energy at all wavelengths, CIE XYZ = (1, 1, 1), in linear Rec. 709 (IEC 61966-2-1): what a
-/// spectrum of the value 1 is as light. As a reflectance it is (1, 1, 1): those are relative to
-/// white.
+/// Illuminant E (equal energy at all wavelengths, CIE XYZ = (1, 1, 1)) in linear Rec. 709
+/// (IEC 61966-2-1). It is the emission of a spectrum of constant value 1. As a reflectance that
+/// spectrum is (1, 1, 1), because reflectances are relative to white.
 const Vector3d illuminant_e(1.204794, 0.948292, 0.908916);
 
 double srgb_channel(const Element &element, double value) {
@@ -38,13 +38,13 @@ double srgb_channel(const Element &element, double value) {
     return srgb_decoded(value);
 }
 
-/// "#rrggbb".
+/// Parses "#rrggbb".
 Vector3d hexadecimal(const Element &element, const std::string &text) {
     uint32_t value = 0;
     const char *end = text.data() + text.size();
     const auto [at, failure] = std::from_chars(text.data() + 1, end, value, 16);
     if (text.size() != 7 || failure != std::errc() || at != end) {
-        throw element.error(fmt::format("'{}' is no colour of the form #rrggbb", text));
+        throw element.error(fmt::format("expected a colour of the form #rrggbb, got '{}'", text));
     }
     Vector3d colour;
     for (int i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ std::vector<double> parse_numbers(const Element &element, const std::string &tex
         double value = 0;
         const auto [next, failure] = std::from_chars(at, end, value);
         if (failure != std::errc() || (next != end && !separates(*next)) || !std::isfinite(value)) {
-            throw element.error(fmt::format("'{}': expected finite numbers", text));
+            throw element.error(fmt::format("expected finite numbers, got '{}'", text));
         }
         numbers.push_back(value);
         at = next;
@@ -98,14 +98,14 @@ Object::Object(const Element &element, const Document &document)
                 throw child.error("needs a name");
             }
             if (!properties_.emplace(name, child).second) {
-                throw child.error(fmt::format("'{}' is given twice", name));
+                throw child.error(fmt::format("duplicate property '{}'", name));
             }
             if (tag != "transform" && !child.children().empty()) {
-                throw child.error("takes no elements");
+                throw child.error("this property must not contain elements");
             }
         } else {
             throw child.error(fmt::format(
-                "has no place in a <{}>; known are the properties {}, the objects {}, and ref",
+                "unexpected element in <{}>; expected a property ({}), an object ({}) or a ref",
                 element.tag(), fmt::join(property_tags, ", "), fmt::join(object_tags, ", ")));
         }
     }
@@ -169,7 +169,7 @@ bool Object::boolean(const std::string &name, bool initial) {
     }
     const std::string value = found->attribute("value");
     if (value != "true" && value != "false") {
-        throw found->error(fmt::format("'{}' is neither true nor false", value));
+        throw found->error(fmt::format("expected true or false, got '{}'", value));
     }
     return value == "true";
 }
@@ -189,7 +189,7 @@ size_t Object::choice(const std::string &name, const std::vector<std::string> &c
     const auto found = std::find(choices.begin(), choices.end(), value);
     if (found == choices.end()) {
         throw property(name).error(
-            fmt::format("'{}' is not one of: {}", value, fmt::join(choices, ", ")));
+            fmt::format("unknown value '{}'; values are: {}", value, fmt::join(choices, ", ")));
     }
     return static_cast<size_t>(found - choices.begin());
 }
@@ -230,8 +230,8 @@ std::optional<Vector3d> Object::colour(const std::string &name) {
     }
     if (tag == "spectrum" && value.find(':') != std::string::npos) {
         throw found->error(
-            "a spectrum by wavelengths has no place in a renderer of three channels; give it as "
-            "<rgb>");
+            "spectra given by wavelength are unsupported, because this renderer has three "
+            "channels; give the colour as <rgb>");
     }
     const std::vector<double> numbers = parse_numbers(*found, value);
     const bool is_colour = tag == "rgb" || tag == "srgb";
@@ -272,15 +272,15 @@ void Object::finish() const {
     for (const auto &[name, property] : properties_) {
         if (asked_.count(name) == 0) {
             throw property.error(fmt::format(
-                "a {} of type '{}' has no such property here; it has: {}", element_.tag(), type_,
+                "unknown property of {} type '{}'; properties are: {}", element_.tag(), type_,
                 asked_.empty() ? "none" : fmt::format("{}", fmt::join(asked_, ", "))));
         }
     }
     for (const Part &part : parts_) {
         const std::string tag = part.element.tag();
         if (asked_parts_.count({tag, ""}) == 0 && asked_parts_.count({tag, part.name}) == 0) {
-            throw part.place.error(fmt::format("a {} of type '{}' takes no {}{} here",
-                                               element_.tag(), type_, tag,
+            throw part.place.error(fmt::format("{} type '{}' accepts no {}{}", element_.tag(),
+                                               type_, tag,
                                                part.name.empty() ? "" : " as '" + part.name + "'"));
         }
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An object of a Mitsuba scene (a shape, a BSDF, ...): its typed properties and the objects within
-// it.
+// Typed properties and nested objects of an object of a Mitsuba scene (a shape, a BSDF, ...).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,19 +13,20 @@
 
 namespace rtrays::mitsuba {
 
-/// Gives out properties by name and type and remembers which: what nobody asked for is unknown.
+/// Returns properties by name and type, and records which names were requested. `finish` reports
+/// every other property as unknown.
 class Object {
   public:
-    /// Throws `LocatedError` when a property has no name, two have the same, or there is an element
-    /// that is neither a property nor an object.
+    /// Throws `LocatedError` if a property has no name, if two properties have the same name, or if
+    /// an element is neither a property nor an object.
     Object(const Element &element, const Document &document);
 
     const Element &element() const { return element_; }
     const std::string &type() const { return type_; }
     std::string id() const { return element_.attribute("id"); }
 
-    // Properties. All throw `LocatedError` naming the line when the value is of another type or
-    // malformed.
+    // Properties. Each function throws `LocatedError` naming the line if the value is malformed or
+    // has another type.
 
     bool has(const std::string &name);
     double number(const std::string &name, double initial);
@@ -36,41 +36,42 @@ class Object {
     std::optional<std::string> text(const std::string &name);
     std::optional<Eigen::Vector3d> vector(const std::string &name);
 
-    /// The value of a string property as its place in `choices`.
+    /// Returns the index in `choices` of a string property's value.
     size_t choice(const std::string &name, const std::vector<std::string> &choices, size_t initial);
 
-    /// A reflectance or another number per channel: a colour, or one number for all.
+    /// Returns a reflectance or another value per channel. The file gives a colour, or one number
+    /// for all channels.
     std::optional<Eigen::Vector3d> colour(const std::string &name);
 
-    /// What an emitter emits: likewise, but a spectrum of one value is that of illuminant E, which
-    /// is not white in Rec. 709.
+    /// Returns an emitted radiance or power per channel. Unlike in `colour`, a <spectrum> of one
+    /// number is that multiple of illuminant E, which is not white in Rec. 709.
     Eigen::Vector3d emission(const std::string &name, double initial);
 
-    /// World from object, or the identity.
+    /// Returns the transform from object to world space, or the identity if it is missing.
     Eigen::Matrix4d transform(const std::string &name = "to_world");
 
-    /// Whether the property's tag is `tag`.
+    /// Returns whether the property is present and its tag is `tag`.
     bool is(const std::string &name, const char *tag) const;
 
-    /// The element of a property that is there.
+    /// Returns the element of a property that must be present.
     const Element &property(const std::string &name) const { return properties_.at(name); }
 
-    /// The objects of one tag, references resolved; of those with a name only the ones that are
-    /// called `name`.
+    /// Returns the nested objects that have this tag, with references resolved. If `name` is not
+    /// empty, returns only those of that name.
     std::vector<Element> objects(const std::string &tag, const std::string &name = "");
 
-    /// Asks for a property whose value does not matter.
+    /// Accepts a property whose value has no effect.
     void ignore(const std::string &name) { asked_.insert(name); }
 
-    /// Throws `LocatedError` naming the first property or object that nobody asked for and those
-    /// that were.
+    /// Throws `LocatedError` if a property or nested object was never requested. The message lists
+    /// the known properties.
     void finish() const;
 
   private:
     struct Part {
-        Element element;  ///< with references resolved
+        Element element;  ///< the object, with references resolved
         std::string name;
-        Element place;
+        Element place;  ///< the element in this object: the object itself, or a reference
     };
 
     const Element *find(const std::string &name, const std::vector<const char *> &tags,
@@ -84,16 +85,16 @@ class Object {
     std::set<std::pair<std::string, std::string>> asked_parts_;
 };
 
-/// Numbers separated by commas or blanks. Throws `LocatedError` when one is malformed or not
-/// finite.
+/// Parses numbers separated by commas or white space. Throws `LocatedError` if one is malformed or
+/// not finite.
 std::vector<double> parse_numbers(const Element &element, const std::string &text);
 
-/// The similarity that the transform is but for the digits that a file leaves out (a part in 10^4):
-/// so moves what must stay round, or rigid. Throws `Error` (bad input) naming `what` when it shears
-/// or stretches.
+/// Returns the similarity that a transform equals up to rounding in the file (a part in 10^4).
+/// Round shapes and rigid objects require similarities. Throws `Error` (bad input) naming `what` if
+/// the transform shears or stretches.
 Eigen::Matrix4d nearest_similarity(const Eigen::Matrix4d &transform, const std::string &what);
 
-/// A "transform" element: its operations in the order written, the first one applied first.
+/// Parses a "transform" element. Its operations are applied in the order of the file.
 Eigen::Matrix4d parse_transform(const Element &element);
 
 }  // namespace rtrays::mitsuba

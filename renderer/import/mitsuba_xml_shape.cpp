@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of our geometries a shape is (Mitsuba 3.9, src/shapes/*.cpp: parameters, defaults,
-// parametrisations).
+// Conversion of shapes to geometry. Parameters, defaults and parametrisations are those of
+// Mitsuba 3.9, src/shapes/*.cpp.
 #include "renderer/import/mitsuba_xml_shape.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace {
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
-/// The other side becomes the front.
+/// Returns the geometry with front and back exchanged.
 MeshCore::Geometry turned(MeshCore::Geometry geometry) {
     for (Triangle &t : geometry.triangles) {
         std::swap(t[1], t[2]);
@@ -33,9 +33,9 @@ MeshCore::Geometry turned(MeshCore::Geometry geometry) {
     return geometry;
 }
 
-/// The cube -1 <= x, y, z <= 1 with Mitsuba's texture coordinates.
+/// Returns the cube -1 <= x, y, z <= 1 with Mitsuba's texture coordinates.
 MeshCore::Geometry cube() {
-    // Per side the corners at (u, v) = (0, 1), (1, 1), (1, 0), (0, 0).
+    // The corners of each side at (u, v) = (0, 1), (1, 1), (1, 0), (0, 0).
     constexpr double corners[6][4][3] = {
         {{1, -1, -1}, {1, -1, 1}, {-1, -1, 1}, {-1, -1, -1}},
         {{1, 1, -1}, {-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}},
@@ -57,8 +57,8 @@ MeshCore::Geometry cube() {
     return geometry;
 }
 
-/// Of a shape that must stay round: Mitsuba warns where it does not, and goes on with one of the
-/// radii.
+/// Returns the transform of a shape that must stay round. Throws if it does not. Mitsuba warns and
+/// continues with one of the radii.
 Matrix4d round_transform(Object &object) {
     const Matrix4d to_world = object.transform();
     return object.element().located(
@@ -73,8 +73,8 @@ double radius_of(Object &object) {
     return radius;
 }
 
-/// Columns s, t, n: the frame that Mitsuba builds around a unit vector (Duff et al. 2017, "Building
-/// an orthonormal basis, revisited"); the texture of a cylinder begins where it says.
+/// Returns the frame (columns s, t, n) that Mitsuba builds around a unit vector (Duff et al. 2017,
+/// "Building an orthonormal basis, revisited"). It sets where the texture of a cylinder begins.
 Eigen::Matrix3d frame_around(const Vector3d &n) {
     const double sign = std::copysign(1.0, n.z());
     const double a = -1 / (sign + n.z());  // |sign + z| >= 1
@@ -118,7 +118,7 @@ Shape ShapeReader::read(Object &object) {
         names += (names.empty() ? "" : ", ") + std::string(type.name);
     }
     throw object.element().error(
-        fmt::format("this shape has no counterpart here; there are: {}", names));
+        fmt::format("unsupported shape type; supported types are: {}", names));
 }
 
 Shape ShapeReader::read_rectangle(Object &object) {
@@ -160,7 +160,7 @@ Shape ShapeReader::read_disk(Object &object) {
     }
     Shape shape{core, object.transform()};
     if (object.boolean("flip_normals", false)) {
-        shape.world_from_geometry *= scaling({1, -1, -1});  // half a turn about x
+        shape.world_from_geometry *= scaling({1, -1, -1});  // rotation by 180 degrees about x
     }
     return shape;
 }
@@ -176,7 +176,7 @@ Shape ShapeReader::read_cylinder(Object &object) {
     const Vector3d p1 = object.vector("p1").value_or(Vector3d::UnitZ());
     const double length = (p1 - p0).stableNorm();
     if (!(length > 0)) {
-        throw object.element().error("p0 and p1 must be two points");
+        throw object.element().error("p0 and p1 must be different points");
     }
     const double radius = radius_of(object);
     Matrix4d frame = Matrix4d::Identity();
@@ -200,8 +200,9 @@ Shape ShapeReader::read_file(Object &object) {
     const bool flip_v = object.boolean("flip_tex_coords", is_obj);
     const std::filesystem::path path = object.element().path(*file);
 
-    // The file's own normals are transformed; where there are none Mitsuba makes them of the
-    // triangles in world space. That is the same for all similarities that do not mirror.
+    // Normals in the file are transformed. If there are none, Mitsuba computes them from the
+    // triangles in world space. The result is the same in object space if the transform is a
+    // similarity that does not mirror.
     const bool is_plain =
         similarity_scale(to_world) > 0 && to_world.topLeftCorner<3, 3>().determinant() > 0;
     const std::string key =

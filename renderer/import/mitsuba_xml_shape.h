@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Conversion of Mitsuba shapes to our geometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,20 +13,20 @@
 
 namespace rtrays::mitsuba {
 
-/// A shape without its BSDF and emitter.
+/// The geometry and transform of a shape, without its BSDF and emitter.
 struct Shape {
     std::shared_ptr<Core> geometry;
     Eigen::Matrix4d world_from_geometry;
     UvConvention uv = UvConvention::none;
     bool can_emit = true;
-    bool is_flipped = false;  ///< seen from behind, which our geometry cannot be
+    bool is_flipped = false;  ///< front and back are exchanged, which our geometry cannot express
 };
 
-/// Makes geometry of shapes; what several shapes have in common is shared.
+/// Converts shapes to geometry. Equal geometry of several shapes is shared.
 class ShapeReader {
   public:
-    /// Throws `LocatedError` when the shape cannot be mapped; BSDF and emitter are left in
-    /// `object`.
+    /// Converts a shape. Leaves its BSDF and emitter in `object`. Throws `LocatedError` if the
+    /// shape is unsupported.
     Shape read(Object &object);
 
   private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Parser of "transform" elements of Mitsuba scenes.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -35,14 +36,14 @@ Vector3d three_numbers(const Element &element, const char *attribute) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// value="1" or "1, 2, 3", or x, y and z.
+/// Parses value="1", value="1, 2, 3", or the attributes x, y and z.
 Vector3d coordinates(const Element &element, double initial) {
     if (!element.has("value")) {
         return {one_number(element, "x", initial), one_number(element, "y", initial),
                 one_number(element, "z", initial)};
     }
     if (element.has("x") || element.has("y") || element.has("z")) {
-        throw element.error("has both 'value' and x, y or z");
+        throw element.error("has both 'value' and x, y or z; give one");
     }
     const std::vector<double> numbers = parse_numbers(element, element.attribute("value"));
     if (numbers.size() == 1) {
@@ -54,7 +55,7 @@ Vector3d coordinates(const Element &element, double initial) {
 Matrix4d rotate(const Element &element) {
     element.check_attributes({"x", "y", "z", "value", "angle"});
     const Vector3d axis = coordinates(element, 0);
-    // Mitsuba does not normalise the axis: what another one does there is no rotation.
+    // Mitsuba does not normalise the axis, so an axis of another length gives no rotation.
     if (std::abs(axis.norm() - 1) > 1e-4) {
         throw element.error(fmt::format("the axis must have length 1, not {:.6g}", axis.norm()));
     }
@@ -75,12 +76,13 @@ Matrix4d matrix(const Element &element) {
             Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data());
     } else {
         throw element.error(
-            fmt::format("has {} numbers; a matrix has 16, or 9, row by row", numbers.size()));
+            fmt::format("has {} numbers; expected 16 or 9, row by row", numbers.size()));
     }
     return result;
 }
 
-/// Mitsuba's objects look along +z with +x to the left, ours along -z with +x to the right.
+/// Parses a "lookat" element. Mitsuba's objects look along +z with +x to the left. Ours look along
+/// -z with +x to the right.
 Matrix4d look_at_element(const Element &element) {
     element.check_attributes({"origin", "target", "up"});
     const Vector3d up = element.has("up") ? three_numbers(element, "up") : Vector3d::UnitY();
@@ -91,7 +93,7 @@ Matrix4d look_at_element(const Element &element) {
 Matrix4d operation(const Element &element) {
     const std::string tag = element.tag();
     if (!element.children().empty()) {
-        throw element.error("takes no elements");
+        throw element.error("a transform operation must not contain elements");
     }
     if (tag == "translate" || tag == "scale") {
         element.check_attributes({"x", "y", "z", "value"});
@@ -107,7 +109,8 @@ Matrix4d operation(const Element &element) {
     if (tag == "lookat") {
         return look_at_element(element);
     }
-    throw element.error("is no transform; there are: translate, rotate, scale, matrix, lookat");
+    throw element.error(
+        "unknown transform; transforms are: translate, rotate, scale, matrix, lookat");
 }
 
 }  // namespace
@@ -143,7 +146,7 @@ Matrix4d parse_transform(const Element &element) {
     Matrix4d transform = Matrix4d::Identity();
     for (const Element &child : element.children()) {
         transform = child.located([&] {
-            // Each by itself, so that the message names the one at fault.
+            // Checked one by one, so that the message names the faulty operation.
             return Matrix4d(TransformCore("", operation(child)).matrix() * transform);
         });
     }

@@ -27,7 +27,7 @@ bool is_ply(const std::filesystem::path &path) {
     return lower_extension(path) == ".ply";
 }
 
-/// One mesh per material.
+/// Adds the meshes of a PLY file to the scene, one per material.
 void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
                     ModelNotes &notes, bool quiet) {
     PlyFile file = read_ply(path, notes, quiet);
@@ -37,7 +37,7 @@ void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames 
                                  Eigen::Matrix4d::Identity());
     if (file.material.empty() || !std::filesystem::exists(mtl)) {
         if (!file.material.empty()) {
-            notes.add(fmt::format("there is no {} for its material_index: everything is grey",
+            notes.add(fmt::format("{} is missing, so material_index is ignored; everything is grey",
                                   mtl.filename().string()));
         }
         std::shared_ptr<MaterialCore> material = default_model_material();
@@ -51,7 +51,7 @@ void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames 
     for (auto &[index, geometry] : split_geometry(file.geometry, file.material)) {
         if (static_cast<size_t>(index) >= materials.size()) {
             throw input_error(
-                fmt::format("{}: there is a material_index {}, but {} has only {} materials",
+                fmt::format("{}: material_index {} is out of range; {} has only {} materials",
                             path.string(), index, mtl.filename().string(), materials.size()));
         }
         const std::shared_ptr<MaterialCore> &material = materials[static_cast<size_t>(index)];
@@ -62,8 +62,8 @@ void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames 
     }
 }
 
-/// A camera that looks down on the model a little from the side, its bounding sphere just inside
-/// the image.
+/// Adds a camera that looks down on the model slightly from the side. The image just contains the
+/// bounding sphere of the model.
 void add_camera(Scene &scene, ModelNames &names, ModelNotes &notes) {
     constexpr double fov = 40;
     const Eigen::AlignedBox3d bounds = scene.graph().bounds();
@@ -77,7 +77,7 @@ void add_camera(Scene &scene, ModelNames &names, ModelNotes &notes) {
                                 look_at(origin, bounds.center(), Eigen::Vector3d::UnitY()));
     node.set_core(std::make_shared<CameraCore>(
         name, "pinhole", ParameterValues{{"fov", fov}, {"fov_axis", std::string("smaller")}}));
-    notes.add(fmt::format("it has no camera: '{}' is added, which sees all of it", name));
+    notes.add(fmt::format("the file has no camera; added '{}', which sees the full model", name));
 }
 
 void add_dome(Scene &scene, ModelNames &names, ModelNotes &notes) {
@@ -85,20 +85,20 @@ void add_dome(Scene &scene, ModelNames &names, ModelNotes &notes) {
     Node &node = add_model_node(scene.graph().root(), name, Eigen::Matrix4d::Identity());
     node.set_core(std::make_shared<LightCore>(
         name, "dome", ParameterValues{{"radiance", Eigen::Vector3d(1, 1, 1)}}));
-    notes.add(fmt::format("it has no light: '{}' of radiance 1 is added", name));
+    notes.add(fmt::format("the file has no light; added the light '{}' of radiance 1", name));
 }
 
 }  // namespace
 
 bool is_model_file(const std::filesystem::path &path) {
     const std::string extension = lower_extension(path);
-    const bool is_scene =
-        extension == ".json" || extension == ".xml";  // Assimp knows other formats by these names
+    // Assimp associates other formats with these extensions.
+    const bool is_scene = extension == ".json" || extension == ".xml";
     return is_ply(path) || (extension.size() > 1 && !is_scene && assimp_reads(extension));
 }
 
 std::shared_ptr<MaterialCore> default_model_material() {
-    constexpr double grey = 0.6;  // as Assimp gives to OBJ files without materials
+    constexpr double grey = 0.6;  // Assimp's value for OBJ files without materials
     return std::make_shared<MaterialCore>(
         "default", "lambert", ParameterValues{{"reflectance", Eigen::Vector3d(grey, grey, grey)}});
 }
@@ -144,7 +144,7 @@ Scene load_model(const std::filesystem::path &path, bool quiet) {
     try {
         scene.update(0);
         if (scene.meshes().name.empty()) {
-            throw input_error("it has no triangles");
+            throw input_error("the file has no triangles");
         }
         if (scene.cameras().name.empty()) {
             add_camera(scene, names, notes);

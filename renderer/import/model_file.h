@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Model files: PLY by our own reader, OBJ, STL, glTF, FBX, Collada, 3DS and what else Assimp knows
-// by it.
+// Reader of model files. PLY files are read by our own reader. OBJ, STL, glTF, FBX, Collada, 3DS
+// and all other formats are read through Assimp.
 #pragma once
 
 #include <filesystem>
@@ -12,33 +12,35 @@
 
 namespace rtrays {
 
-/// Whether a file is a model file by its extension.
+/// Returns whether the extension is that of a model file.
 bool is_model_file(const std::filesystem::path &path);
 
+/// Options of `load_mesh_file`.
 struct MeshFileOptions {
+    /// Source of the shading normals.
     enum class Normals {
-        stored,  ///< the file's, if it has any
-        smooth,  ///< the file's, or else those of the triangles around each vertex, weighted by
-                 ///< angle
-        none,
+        stored,  ///< normals of the file, if it has any
+        smooth,  ///< normals of the file, or means of face normals weighted by angle
+        none,    ///< no shading normals
     };
     Normals normals = Normals::stored;
-    bool flip_v = false;  ///< v becomes 1 - v
-    bool quiet = true;    ///< no progress
+    bool flip_v = false;  ///< replace v by 1 - v
+    bool quiet = true;    ///< do not show progress
 };
 
-/// All triangles of a model file as one mesh in the coordinates of the file: placed by its nodes,
-/// polygons split, materials left out. Throws `Error` (bad input) naming the file and what is wrong
-/// with it.
+/// Reads all triangles of a model file as one mesh, in the coordinates of the file. Node transforms
+/// are applied, polygons are split and materials are ignored. Throws `Error` (bad input) naming the
+/// file and the fault.
 std::shared_ptr<MeshCore> load_mesh_file(const std::filesystem::path &path, const std::string &name,
                                          const MeshFileOptions &options = {});
 
-/// A model file as a scene, updated to time 0: its nodes with their transforms, meshes shared by
-/// cores where the file shares them, materials (see model_file_material.h; those of a PLY file with
-/// "material_index" are in the MTL file of the same name, by their order), lights and cameras. What
-/// is left out or changed is told by notices. A model without a camera gets one that sees all of
-/// it, one without light a dome of radiance 1. Throws `Error` (bad input) naming the file and what
-/// is wrong with it.
+/// Reads a model file as a scene and updates it to time 0. The scene has the nodes of the file with
+/// their transforms, and its meshes, materials, lights and cameras. Meshes that the file shares are
+/// shared cores. Materials are converted as described in model_file_material.h. The
+/// "material_index" of a PLY file is the index of a material in the MTL file of the same name.
+/// Notices report everything ignored or changed. A camera that sees the full model is added if the
+/// file has none, and a dome of radiance 1 if it has no light. Throws `Error` (bad input) naming
+/// the file and the fault.
 Scene load_model(const std::filesystem::path &path, bool quiet);
 
 }  // namespace rtrays

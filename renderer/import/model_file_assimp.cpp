@@ -28,13 +28,14 @@ namespace rtrays {
 
 namespace {
 
-/// What to do with an importer: read one thing or another.
+/// A function that reads a scene with an importer.
 using Read = std::function<const aiScene *(Assimp::Importer &)>;
 
-/// What the child writes: one byte of progress in percent at a time, then this byte and why it
-/// failed.
+/// Marker in the stream that the child writes. Bytes before it are progress in percent. The text
+/// after it is the reason of a failure.
 constexpr uint8_t failure = 255;
 
+/// Writes Assimp's progress in percent to a pipe.
 class PercentWriter : public Assimp::ProgressHandler {
   public:
     explicit PercentWriter(int pipe) : pipe_(pipe) {}
@@ -54,14 +55,15 @@ class PercentWriter : public Assimp::ProgressHandler {
     uint8_t last_ = 0;
 };
 
-/// A signal at `value`, the end at `last`.
+/// Sets a soft limit, which raises a signal, and a hard limit, which ends the process.
 void set_limit(decltype(RLIMIT_CPU) resource, rlim_t value, rlim_t last) {
     const rlimit limit{value, last};
     setrlimit(resource, &limit);
 }
 
-/// Half of the machine's memory beyond what the process has: what a reader needs more for is no
-/// model we could render. The address sanitizer reserves more than any limit; it has its own.
+/// Limits memory to the present use plus half of the machine's memory. A model that needs more to
+/// read could not be rendered. With the address sanitizer no limit is set, because it reserves more
+/// than any limit.
 void limit_memory() {
 #ifndef __SANITIZE_ADDRESS__
     size_t pages = 0;
@@ -72,19 +74,20 @@ void limit_memory() {
 #endif
 }
 
-/// Seconds of processor time for files of so many bytes: a tenth of the speed at which the slowest
-/// readers go.
+/// Limit of processor time in seconds for a file of this size. It allows a tenth of the speed of
+/// the slowest readers.
 rlim_t time_limit(uintmax_t bytes) {
     return 20 + static_cast<rlim_t>(bytes / 200000);
 }
 
 void configure(Assimp::Importer &importer) {
-    // Otherwise every node of an FBX file becomes a chain of them.
+    // Otherwise every node of an FBX file becomes a chain of nodes.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
 }
 
-/// Only async-signal-safe calls would be sure to work if other threads held locks; glibc makes its
-/// allocator safe across fork, and Assimp shares no other lock with us.
+/// Reads the file in the child process and reports through `pipe`. If other threads held locks at
+/// the fork, only async-signal-safe calls would be sure to work. But glibc makes its allocator safe
+/// across fork, and Assimp shares no other lock with this program.
 [[noreturn]] void read_in_child(const Read &read, rlim_t seconds, int pipe) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGXCPU}) {
@@ -106,12 +109,12 @@ void configure(Assimp::Importer &importer) {
         reason = importer.GetErrorString();
         importer.SetProgressHandler(nullptr);
         if (ok) {
-            // Taking the scene apart is part of what can go wrong.
+            // Destroying the scene can fail, too.
             importer.FreeScene();
             _exit(0);
         }
     } catch (const std::bad_alloc &) {
-        reason = "it needs more memory than there is";
+        reason = "not enough memory";
     } catch (const std::exception &error) {
         reason = error.what();
     } catch (...) {
@@ -121,7 +124,7 @@ void configure(Assimp::Importer &importer) {
     _exit(write(pipe, reason.data(), reason.size()) < 0 ? 2 : 1);
 }
 
-/// Reads what the child has to say until it ends; the reason of its failure.
+/// Shows the progress of the child until it ends. Returns the reason of its failure, if any.
 std::string listen(int pipe, Progress &progress) {
     std::string reason;
     bool failed = false;
@@ -146,12 +149,13 @@ std::string listen(int pipe, Progress &progress) {
     }
 }
 
-/// Throws unless a child process can read it.
+/// Throws unless a child process can read the file.
 void try_in_child(const Read &read, const std::filesystem::path &path, bool quiet) {
     const rlim_t seconds = time_limit(std::filesystem::file_size(path));
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
-        throw run_error(fmt::format("{}: no pipe: {}", path.string(), std::strerror(errno)));
+        throw run_error(
+            fmt::format("{}: cannot create a pipe: {}", path.string(), std::strerror(errno)));
     }
     const pid_t child = fork();
     if (child == 0) {
@@ -170,21 +174,21 @@ void try_in_child(const Read &read, const std::filesystem::path &path, bool quie
     }
     if (child < 0 || waited < 0) {
         throw run_error(
-            fmt::format("{}: no process to read it in: {}", path.string(), std::strerror(errno)));
+            fmt::format("{}: cannot start a process: {}", path.string(), std::strerror(errno)));
     }
     if (interrupted()) {
         throw Error(ExitCode::interrupted, "interrupted");
     }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-        reason = fmt::format("the reader (Assimp) came to no end within {} s of processor time",
+        reason = fmt::format("the reader (Assimp) did not finish within {} s of processor time",
                              seconds);
     } else if (WIFSIGNALED(status) || (WEXITSTATUS(status) != 0 && reason.empty())) {
         reason = fmt::format(
-            "the reader (Assimp) broke down on it{}; the file is damaged",
+            "the reader (Assimp) crashed{}; the file is damaged",
             WIFSIGNALED(status) ? fmt::format(" ({})", strsignal(WTERMSIG(status))) : "");
     }
     if (status != 0) {
-        throw input_error(fmt::format("{}: cannot be read: {}", path.string(), reason));
+        throw input_error(fmt::format("{}: cannot read the model: {}", path.string(), reason));
     }
 }
 
@@ -198,8 +202,8 @@ std::shared_ptr<const aiScene> read_fenced(const Read &read, const std::filesyst
     configure(*importer);
     const aiScene *scene = read(*importer);
     if (scene == nullptr) {
-        throw input_error(
-            fmt::format("{}: cannot be read: {}", path.string(), importer->GetErrorString()));
+        throw input_error(fmt::format("{}: cannot read the model: {}", path.string(),
+                                      importer->GetErrorString()));
     }
     return {importer, scene};
 }
@@ -207,7 +211,7 @@ std::shared_ptr<const aiScene> read_fenced(const Read &read, const std::filesyst
 }  // namespace
 
 bool assimp_reads(const std::string &extension) {
-    // Assimp's own binary dump trusts every byte of itself (one damaged file in ten kills it).
+    // Assimp's reader of its own binary format checks nothing. One damaged file in ten crashes it.
     return extension != ".assbin" && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
@@ -218,7 +222,7 @@ std::shared_ptr<const aiScene> read_by_assimp(const std::filesystem::path &path,
 }
 
 std::shared_ptr<const aiScene> read_mtl_by_assimp(const std::filesystem::path &path) {
-    // An OBJ file of one triangle, in memory, that names the MTL file.
+    // Assimp reads MTL files only through an OBJ file. This one is in memory and has one triangle.
     const std::string model = fmt::format("mtllib {}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
                                           std::filesystem::absolute(path).string());
     return read_fenced(

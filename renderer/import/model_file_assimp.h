@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Reading files by Assimp, fenced in. Assimp 5.2.5 dies of a segmentation fault or an abort on
-// about one in a thousand damaged files (X, Collada, X3D, 3MF: one in five) and allocates what a
-// header demands. So a child process reads the file first, under limits of time and memory: only
-// what it survived is read here.
+// Isolated reading of files through Assimp.
+// Assimp 5.2.5 crashes on about one in a thousand damaged files (on one in five for X, Collada, X3D
+// and 3MF). It also allocates any amount of memory that a header requests. A child process
+// therefore reads each file first, under limits of time and memory. This process reads the file
+// only if the child succeeds.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +13,12 @@ struct aiScene;
 
 namespace rtrays {
 
-/// Reads a model file as it is, without any post-processing. Throws `Error` (bad input) naming the
-/// file and the reason.
+/// Reads a model file without any post-processing. Throws `Error` (bad input) naming the file and
+/// the reason.
 std::shared_ptr<const aiScene> read_by_assimp(const std::filesystem::path &path, bool quiet);
 
-/// Reads the materials of an MTL file, in its order: those of the result.
+/// Reads an MTL file. The materials of the result are those of the file, in its order. Assimp's
+/// default material may precede them. Throws `Error` (bad input) naming the file and the reason.
 std::shared_ptr<const aiScene> read_mtl_by_assimp(const std::filesystem::path &path);
 
 }  // namespace rtrays

@@ -20,24 +20,25 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Geometry = MeshCore::Geometry;
 
-/// Whether a direction can be made of it.
+/// Returns whether the vector can be normalised.
 bool has_direction(const Vector3d &v) {
     return v.allFinite() && v.stableNorm() > 0;
 }
 
-/// The unit vector, or zero where there is none.
+/// Returns the normalised vector, or zero if the vector cannot be normalised.
 Vector3d direction(const Vector3d &v) {
     return has_direction(v) ? Vector3d(v.stableNormalized()) : Vector3d::Zero();
 }
 
 Vector3d face_normal(const Geometry &geometry, const Triangle &t) {
     const Vector3d &origin = geometry.vertices[t[0]];
-    // Of unit edges: the product of two long (or short) ones leaves the range of double.
+    // Edges are normalised first, because the product of two long or short ones may exceed the
+    // range of double.
     return direction(direction(geometry.vertices[t[1]] - origin)
                          .cross(direction(geometry.vertices[t[2]] - origin)));
 }
 
-/// All of a vertex; no padding, so that bytes can be compared.
+/// All attributes of a vertex. Without padding, so that bytes can be compared.
 struct VertexKey {
     double values[8] = {};
 
@@ -80,7 +81,7 @@ void append_vertex(const Geometry &from, size_t i, Geometry &to) {
     }
 }
 
-/// Gives every triangle three vertices of its own, with its normal.
+/// Gives every triangle three vertices of its own that have its normal.
 void make_faceted(Geometry &geometry) {
     Geometry faceted;
     for (const Triangle &t : geometry.triangles) {
@@ -88,7 +89,7 @@ void make_faceted(Geometry &geometry) {
         const Vector3d normal = face_normal(geometry, t);
         for (const uint32_t corner : t) {
             append_vertex(geometry, corner, faceted);
-            // A triangle without area is never seen; any direction will do for it.
+            // A triangle of zero area is never hit, so its normal may be arbitrary.
             faceted.normals.push_back(normal.isZero() ? Vector3d::UnitZ() : normal);
         }
         faceted.triangles.push_back({first, first + 1, first + 2});
@@ -107,13 +108,13 @@ size_t add_face(const uint32_t *corners, size_t count, size_t face, const std::s
                 Geometry &geometry, ModelNotes &notes) {
     for (size_t i = 0; i < count; ++i) {
         if (corners[i] >= geometry.vertices.size()) {
-            throw input_error(
-                fmt::format("mesh '{}': face {} has vertex {}, but there are only {} vertices",
-                            mesh, face, corners[i], geometry.vertices.size()));
+            throw input_error(fmt::format(
+                "mesh '{}': face {} has vertex index {}, but there are only {} vertices", mesh,
+                face, corners[i], geometry.vertices.size()));
         }
     }
     if (count < 3) {
-        notes.add("points and lines are left out", fmt::format("face {} of {}", face, mesh));
+        notes.add("points and lines are ignored", fmt::format("face {} of {}", face, mesh));
         return 0;
     }
     if (count == 3) {
@@ -124,7 +125,7 @@ size_t add_face(const uint32_t *corners, size_t count, size_t face, const std::s
     try {
         parts = triangulate(geometry.vertices, {corners, corners + count});
     } catch (const Error &) {
-        notes.add("polygons that cross themselves become fans of triangles",
+        notes.add("polygons that cross themselves are split into fans of triangles",
                   fmt::format("face {} of {}", face, mesh));
         for (size_t i = 1; i + 1 < count; ++i) {
             parts.push_back({corners[0], corners[i], corners[i + 1]});
@@ -135,15 +136,15 @@ size_t add_face(const uint32_t *corners, size_t count, size_t face, const std::s
 }
 
 void join_vertices(Geometry &geometry) {
-    // Open addressing, at most half full: a map of nodes takes ten times as long for millions of
-    // vertices.
+    // A hash table with open addressing, at most half full. A node-based map takes ten times as
+    // long for millions of vertices.
     size_t slots = 16;
     while (slots < 2 * geometry.vertices.size()) {
         slots *= 2;
     }
     std::vector<uint32_t> table(slots, no_index);
     std::vector<uint32_t> joined(geometry.vertices.size(), no_index);
-    std::vector<VertexKey> keys;  // of the vertices kept
+    std::vector<VertexKey> keys;  // keys of the vertices kept
     Geometry kept;
     for (Triangle &t : geometry.triangles) {
         for (uint32_t &corner : t) {
@@ -179,7 +180,7 @@ void make_smooth_normals(Geometry &geometry) {
         }
     }
     for (Vector3d &normal : geometry.normals) {
-        // Where its triangles have no area or cancel there is nothing to be right about.
+        // The normal is arbitrary if the triangles have zero area or their normals cancel.
         normal = has_direction(normal) ? direction(normal) : Vector3d::UnitZ();
     }
 }
@@ -197,7 +198,7 @@ void repair_normals(Geometry &geometry, const std::string &mesh, ModelNotes &not
     std::vector<Vector3d> normals = geometry.normals;
     make_smooth_normals(geometry);
     for (const size_t i : broken) {
-        notes.add("normals without direction are replaced by those of the triangles",
+        notes.add("normals that are zero or not finite are replaced by normals of the triangles",
                   fmt::format("vertex {} of {}", i, mesh));
         normals[i] = geometry.normals[i];
     }
@@ -206,8 +207,8 @@ void repair_normals(Geometry &geometry, const std::string &mesh, ModelNotes &not
 
 void append_geometry(Geometry &geometry, Geometry part, const Eigen::Matrix4d &transform) {
     const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
-    // The rows of the inverse transpose are those of the cofactor matrix up to the determinant,
-    // whose sign counts.
+    // The inverse transpose is the cofactor matrix divided by the determinant. Only the sign of the
+    // determinant matters, because normals are normalised.
     Eigen::Matrix3d cofactors;
     for (int i = 0; i < 3; ++i) {
         cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
@@ -237,7 +238,7 @@ void append_geometry(Geometry &geometry, Geometry part, const Eigen::Matrix4d &t
     }
     const size_t first = geometry.vertices.size();
     if (first + part.vertices.size() >= no_index) {
-        throw input_error("it has more than 2^32 vertices");
+        throw input_error("the file has more than 2^32 vertices");
     }
     append(geometry.vertices, part.vertices);
     append(geometry.normals, part.normals);
@@ -256,8 +257,8 @@ std::map<int64_t, Geometry> split_geometry(const Geometry &geometry,
     }
     std::map<int64_t, Geometry> parts;
     std::vector<uint32_t> moved(geometry.vertices.size());
-    std::vector<int64_t> moved_by(geometry.vertices.size(),
-                                  -1);  // place of the group that `moved` is of
+    // Index of the group for which `moved` is valid.
+    std::vector<int64_t> moved_by(geometry.vertices.size(), -1);
     int64_t place = 0;
     for (const auto &[group, triangles] : members) {
         Geometry &part = parts[group];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What files of all formats need before their faces are a mesh of ours.
+// Geometry operations shared by the readers of all model formats.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +12,31 @@
 
 namespace rtrays {
 
-/// Appends the triangles of a face to `geometry`, whose vertices are there, and returns how many
-/// they are. What has fewer than three corners is left out and a polygon that crosses itself
-/// becomes a fan, both with a note. Throws `Error` (bad input) naming the mesh and the face when a
-/// corner is no vertex.
+/// Appends the triangles of a face to `geometry`, which already has its vertices. Returns the
+/// number of triangles. Ignores a face of fewer than three corners, and splits a self-intersecting
+/// polygon into a fan, each with a note. Throws `Error` (bad input) naming the mesh and the face if
+/// a vertex index is out of range.
 size_t add_face(const uint32_t *corners, size_t count, size_t face, const std::string &mesh,
                 MeshCore::Geometry &geometry, ModelNotes &notes);
 
-/// Makes vertices one that are equal bit by bit in position, normal and texture coordinates; drops
-/// those that no triangle uses. Triangles keep their order, vertices that of their first use.
+/// Merges vertices with equal position, normal and texture coordinates, and drops unused ones.
+/// Triangles keep their order. Vertices are in the order of their first use.
 void join_vertices(MeshCore::Geometry &geometry);
 
-/// Gives every vertex the normal of its triangles, weighted by their angles there (Thuermer and
-/// Wuethrich, "Computing vertex normals from polygonal facets", 1998).
+/// Sets the normal of every vertex to the mean normal of its triangles, weighted by their angles at
+/// the vertex (Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998).
 void make_smooth_normals(MeshCore::Geometry &geometry);
 
-/// Replaces normals that have no direction by such smooth ones, with a note.
+/// Replaces normals that are zero or not finite by smooth normals, with a note.
 void repair_normals(MeshCore::Geometry &geometry, const std::string &mesh, ModelNotes &notes);
 
-/// Appends `part`, transformed. Where only one of the two has normals the other gets those of its
-/// triangles; texture coordinates that one of them lacks are zero.
+/// Appends `part`, transformed. If only one of the two has normals, the other one gets the normals
+/// of its triangles. If only one has texture coordinates, those of the other one are zero.
 void append_geometry(MeshCore::Geometry &geometry, MeshCore::Geometry part,
                      const Eigen::Matrix4d &transform);
 
-/// The triangles of each group, with the vertices that they use; `groups` has one number per
-/// triangle.
+/// Returns the triangles of each group with the vertices that they use. `groups` has the group
+/// number of each triangle.
 std::map<int64_t, MeshCore::Geometry> split_geometry(const MeshCore::Geometry &geometry,
                                                      const std::vector<int64_t> &groups);
 

@@ -24,7 +24,7 @@ namespace rtrays {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// What a file says of a material, whatever its format.
+/// The parameters of a material, independent of the file format.
 struct ModelSurface {
     Vector3d diffuse;
     Vector3d specular;
@@ -37,7 +37,7 @@ struct ModelSurface {
     double eta = 1;
     double metalness = 0;
     double alpha = 0;
-    bool is_physical = false;  ///< by metalness and roughness
+    bool is_physical = false;  ///< described by metalness and roughness
     bool refracts = false;
     bool only_reflects = false;
 
@@ -47,7 +47,7 @@ struct ModelSurface {
 
 namespace {
 
-/// Below this a surface is taken for ideally smooth: its highlight is narrower than a pixel.
+/// A surface of lower alpha is ideally smooth. Its highlight would be narrower than a pixel.
 constexpr double smooth_alpha = 0.01;
 constexpr double glass_eta = 1.5;
 constexpr double grey = 0.6;  // Assimp's default
@@ -57,19 +57,19 @@ struct UnusedMap {
     const char *note;
 };
 constexpr UnusedMap unused_maps[] = {
-    {aiTextureType_HEIGHT, "bump and normal maps are left out"},
-    {aiTextureType_NORMALS, "bump and normal maps are left out"},
-    {aiTextureType_NORMAL_CAMERA, "bump and normal maps are left out"},
-    {aiTextureType_DISPLACEMENT, "displacement maps are left out"},
-    {aiTextureType_OPACITY, "opacity masks are left out: what they would hide is seen"},
-    {aiTextureType_SHININESS, "maps of shininess are left out"},
-    {aiTextureType_AMBIENT, "ambient and occlusion maps are left out"},
-    {aiTextureType_LIGHTMAP, "ambient and occlusion maps are left out"},
-    {aiTextureType_AMBIENT_OCCLUSION, "ambient and occlusion maps are left out"},
-    {aiTextureType_REFLECTION, "reflection maps are left out"},
-    {aiTextureType_SHEEN, "sheen and clear coats are left out"},
-    {aiTextureType_CLEARCOAT, "sheen and clear coats are left out"},
-    {aiTextureType_TRANSMISSION, "maps of transmission are left out"},
+    {aiTextureType_HEIGHT, "bump and normal maps are ignored"},
+    {aiTextureType_NORMALS, "bump and normal maps are ignored"},
+    {aiTextureType_NORMAL_CAMERA, "bump and normal maps are ignored"},
+    {aiTextureType_DISPLACEMENT, "displacement maps are ignored"},
+    {aiTextureType_OPACITY, "opacity masks are ignored; masked parts are visible"},
+    {aiTextureType_SHININESS, "shininess maps are ignored"},
+    {aiTextureType_AMBIENT, "ambient and occlusion maps are ignored"},
+    {aiTextureType_LIGHTMAP, "ambient and occlusion maps are ignored"},
+    {aiTextureType_AMBIENT_OCCLUSION, "ambient and occlusion maps are ignored"},
+    {aiTextureType_REFLECTION, "reflection maps are ignored"},
+    {aiTextureType_SHEEN, "sheen and clear coats are ignored"},
+    {aiTextureType_CLEARCOAT, "sheen and clear coats are ignored"},
+    {aiTextureType_TRANSMISSION, "transmission maps are ignored"},
 };
 
 Vector3d colour(const aiMaterial &source, const char *key, const Vector3d &otherwise) {
@@ -78,7 +78,8 @@ Vector3d colour(const aiMaterial &source, const char *key, const Vector3d &other
                                                             : otherwise;
 }
 
-/// Numbers too are (key, type, index) in Assimp; the last two are zero for all that is no texture.
+/// Returns whether a material has a number. Assimp identifies it by (key, type, index), where type
+/// and index are zero unless it belongs to a texture.
 bool has_number(const aiMaterial &source, const char *key) {
     ai_real value = 0;
     return source.Get(key, 0, 0, value) == aiReturn_SUCCESS;
@@ -107,7 +108,7 @@ aiTextureType colour_map(const aiMaterial &source) {
                                                      : aiTextureType_DIFFUSE;
 }
 
-/// A file that goes when the object does, for readers that know no other source.
+/// A file that the destructor removes, for readers that accept only files.
 class TemporaryFile {
   public:
     TemporaryFile(const void *bytes, size_t count, const std::string &extension) {
@@ -126,7 +127,7 @@ class TemporaryFile {
             close(file);
         }
         if (count > 0) {
-            throw run_error(fmt::format("{}: cannot be written", path_));
+            throw run_error(fmt::format("{}: cannot write the file", path_));
         }
     }
     ~TemporaryFile() { unlink(path_.c_str()); }
@@ -139,14 +140,14 @@ class TemporaryFile {
     std::string path_;
 };
 
-/// The path of an image as the file says it, whatever system that is from.
+/// Returns the path of an image as given in the model file. Accepts backslashes as separators.
 std::filesystem::path image_path(std::string file) {
     std::replace(file.begin(), file.end(), '\\', '/');
     return file;
 }
 
-/// Where an image may be: as the file says, or, when that is a path of another machine, beside the
-/// model.
+/// Returns the location of an image. If the path in the model file does not exist here, an image of
+/// that name beside the model is used.
 std::filesystem::path find_image(const std::filesystem::path &directory,
                                  const std::filesystem::path &file) {
     const std::filesystem::path stated = directory / file;
@@ -165,10 +166,10 @@ bool holds_floats(const std::string &file) {
     return extension == ".hdr" || extension == ".exr" || extension == ".pfm";
 }
 
-/// Components and their parameters, one by one.
+/// Builds a composite material from components and their parameters.
 class CompositeBuilder {
   public:
-    /// Begins the next component and returns the beginning of its parameters' names.
+    /// Adds a component and returns the prefix of its parameter names.
     std::string add(const char *bxdf, const char *fresnel, const Vector3d &weight,
                     const std::shared_ptr<Texture> &texture = nullptr) {
         const std::string prefix = part_prefix(parts_.size());
@@ -180,7 +181,7 @@ class CompositeBuilder {
         return prefix;
     }
 
-    /// A mirror or a rough one, as alpha says.
+    /// Adds an ideal or a microfacet reflection, depending on `alpha`.
     std::string add_reflection(double alpha, const char *fresnel, const Vector3d &weight,
                                const std::shared_ptr<Texture> &texture = nullptr) {
         if (alpha < smooth_alpha) {
@@ -206,7 +207,7 @@ ParameterTextures textured(const char *parameter, const std::shared_ptr<Texture>
     return texture != nullptr ? ParameterTextures{{parameter, texture}} : ParameterTextures{};
 }
 
-/// Scales the colours so that no channel of them adds up to more than one; whether that was needed.
+/// Scales the colours so that no channel sums to more than one. Returns whether they were scaled.
 bool conserve_energy(ModelSurface &s) {
     const Vector3d highlight = s.has_highlight() ? s.specular : Vector3d::Zero();
     const double most = s.is_plain() ? (s.diffuse + highlight).maxCoeff()
@@ -241,7 +242,7 @@ std::shared_ptr<MaterialCore> make_plain(const ModelSurface &s, const std::strin
     return std::make_shared<MaterialCore>(name, "lambert_blinn", values, textures);
 }
 
-/// Metal and coated base, mixed by metalness.
+/// Adds a mixture by metalness of a metal and a coated base.
 void add_physical(const ModelSurface &s, double share, CompositeBuilder &composite) {
     const double metal = std::min(std::max(s.metalness, 0.0), 1.0);
     if (metal > 0) {
@@ -268,8 +269,7 @@ std::shared_ptr<MaterialCore> make_composite(const ModelSurface &s, const std::s
     if (s.is_physical) {
         add_physical(s, share, composite);
     } else if (s.only_reflects) {
-        // An exponent of zero is a mirror here: the model asks for reflections, not for a
-        // highlight.
+        // An exponent of zero means a mirror. The material requests reflections, not a highlight.
         const std::string part = composite.add_reflection(
             s.exponent > 0 ? s.alpha : 0, "schlick", Vector3d::Constant(share), s.specular_texture);
         composite.values[part + "fresnel_reflectance"] = s.specular;
@@ -306,7 +306,7 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
     if (image != nullptr) {
         return image;
     }
-    if (inside->mHeight == 0) {  // a file as it is; the width counts its bytes
+    if (inside->mHeight == 0) {  // an image file of `mWidth` bytes
         const std::string format = inside->achFormatHint;
         const TemporaryFile copy(inside->pcData, inside->mWidth,
                                  format.empty() ? "" : "." + format);
@@ -314,7 +314,7 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
             image = load_texture_file(copy.path(), encoding);
         } catch (const Error &error) {
             throw Error(error.exit_code(),
-                        fmt::format("the embedded image '{}', as {}", file, error.what()));
+                        fmt::format("embedded image '{}': {}", file, error.what()));
         }
         return image;
     }
@@ -356,16 +356,16 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
         return nullptr;
     }
     if (mapping != aiTextureMapping_UV) {
-        notes_.add("textures that are projected are left out", name);
+        notes_.add("projected textures are ignored", name);
         return nullptr;
     }
     if (source.GetTextureCount(type) > 1) {
-        notes_.add("of several layers of textures only the first is kept", name);
+        notes_.add("only the first of several texture layers is used", name);
     }
     aiUVTransform placement;
     source.Get(_AI_MATKEY_UVTRANSFORM_BASE, type_number, 0, placement);
     if (placement.mRotation != 0) {
-        notes_.add("rotations of textures are left out", name);
+        notes_.add("texture rotations are ignored", name);
     }
     for (int axis = 0; axis < 2; ++axis) {
         if (modes[axis] != aiTextureMapMode_Wrap && modes[axis] != aiTextureMapMode_Clamp) {
@@ -374,7 +374,7 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
     }
     const bool clamps = modes[0] == aiTextureMapMode_Clamp;
     if (clamps != (modes[1] == aiTextureMapMode_Clamp)) {
-        notes_.add("textures that wrap differently along u and v do as along u", name);
+        notes_.add("textures with different wrap modes along u and v use the mode along u", name);
     }
     const Vector2d scale(placement.mScaling.x, placement.mScaling.y);
     const Vector2d offset(placement.mTranslation.x, placement.mTranslation.y);
@@ -417,7 +417,7 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
 
     const std::string alpha_mode = text(source, "$mat.gltf.alphaMode");
     if (alpha_mode == "MASK") {
-        notes_.add("opacity masks are left out: what they would hide is seen", name);
+        notes_.add("opacity masks are ignored; masked parts are visible", name);
     }
     if (alpha_mode == "MASK" || alpha_mode == "OPAQUE") {
         surface.opacity = 1;
@@ -430,15 +430,15 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
                        number(source, "$mat.emissiveIntensity", 1);
     for (const aiTextureType type : {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR}) {
         if (has_map(source, type) && !surface.emission.isZero()) {
-            notes_.add("maps of emission are replaced by their mean", name);
+            notes_.add("emission maps are replaced by their mean", name);
             surface.emission = surface.emission.cwiseProduct(mean_of(source, type, true));
             break;
         }
     }
     if (surface.is_physical && has_map(source, aiTextureType_METALNESS)) {
-        notes_.add("maps of metalness and roughness are replaced by their mean", name);
-        const Vector3d mean = mean_of(source, aiTextureType_METALNESS,
-                                      false);  // glTF: roughness green, metalness blue
+        notes_.add("metalness and roughness maps are replaced by their mean", name);
+        // glTF stores roughness in the green channel and metalness in the blue one.
+        const Vector3d mean = mean_of(source, aiTextureType_METALNESS, false);
         roughness *= mean.y();
         surface.metalness *= mean.z();
     }
@@ -457,10 +457,11 @@ std::shared_ptr<MaterialCore> ModelMaterials::material(const aiMaterial &source,
     try {
         ModelSurface surface = read(source, name);
         if (surface.is_plain() && surface.specular.maxCoeff() > 0 && !surface.has_highlight()) {
-            notes_.add("specular colours without an exponent are left out", name);
+            notes_.add("specular colours without an exponent are ignored", name);
         }
         if (!surface.refracts && conserve_energy(surface)) {
-            notes_.add("colours that reflect more than they receive are scaled", name);
+            notes_.add("colours that would reflect more light than they receive are scaled down",
+                       name);
         }
         if (surface.refracts) {
             return make_glass(surface, name);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Conversion of the materials of model files to our materials.
 #pragma once
 
 #include <filesystem>
@@ -18,30 +19,31 @@ namespace rtrays {
 
 struct ModelSurface;
 
-/// Turns the materials of a model file into ours, the first row that holds:
+/// Converts the materials of a model file. The first matching rule applies:
 ///
-///   metalness and roughness (glTF)         transmission above a half: glass. Else a metal
-///   (Schlick) and, under a
-///                                          dielectric coat, Lambert, mixed by metalness; alpha =
-///                                          roughness^2, GGX
-///   illum 4, 6, 7, 9 (MTL)                 glass of Ni and Tf
-///   illum 3, 5 without diffuse colour      metal (Schlick) of reflectance Ks; alpha^2 = 2 / (Ns +
-///   2), GGX specular colour Ks and exponent Ns     lambert_blinn, scaled where it would reflect
-///   more than it receives any                                    lambert
+///   1. Transmission above one half (glTF), or illum 4, 6, 7 or 9 (MTL, with index Ni and
+///      transmittance Tf): glass.
+///   2. Metalness and roughness (glTF): a mixture by metalness of a metal (Schlick) and a coated
+///      base (Lambert below a dielectric). The distribution is GGX with alpha = roughness^2.
+///   3. illum 3 or 5 (MTL) without diffuse colour: metal (Schlick) of reflectance Ks. The
+///      distribution is GGX with alpha^2 = 2 / (Ns + 2).
+///   4. Specular colour Ks and exponent Ns: lambert_blinn.
+///   5. Otherwise: lambert.
 ///
-/// An opacity below one lets that share of the light be scattered and the rest pass straight on.
-/// What is emitted is radiance. Images of colours are sRGB, unless they hold floats.
+/// Colours are scaled down where a material would reflect more light than it receives. With an
+/// opacity below one, that fraction of the light is scattered, and the rest passes straight
+/// through. Emission is radiance. Colour images are sRGB, unless they store floats.
 class ModelMaterials {
   public:
-    /// `model` holds the embedded images; files are relative to `directory`.
+    /// `model` has the embedded images. File names are relative to `directory`.
     ModelMaterials(std::shared_ptr<const aiScene> model, std::filesystem::path directory,
                    ModelNotes &notes);
 
-    /// The material, with the name given. Throws `Error` (bad input) naming the material and what
-    /// is wrong with it, an image that is missing among them.
+    /// Converts a material and gives it this name. Throws `Error` (bad input) naming the material
+    /// and the fault, for example a missing image.
     std::shared_ptr<MaterialCore> material(const aiMaterial &source, const std::string &name);
 
-    /// The textures made so far, by file and placement.
+    /// Returns the textures created so far, by file and placement.
     const std::map<std::string, std::shared_ptr<Texture>> &textures() const { return textures_; }
 
   private:
@@ -59,10 +61,10 @@ class ModelMaterials {
     std::map<std::string, std::shared_ptr<Texture>> textures_;
 };
 
-/// The channel of texture coordinates that a material's colour is looked up by.
+/// Returns the channel of texture coordinates that a material's colour map uses.
 unsigned uv_channel(const aiMaterial &source);
 
-/// The name of a material in its file; may be empty.
+/// Returns the name of a material in its file, which may be empty.
 std::string material_name(const aiMaterial &source);
 
 }  // namespace rtrays

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// File name extensions and object names of model files.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 namespace rtrays {
 
-/// The extension of a file in small letters: ".obj".
+/// Returns the extension of a file in lower case, such as ".obj".
 inline std::string lower_extension(const std::filesystem::path &path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -18,10 +19,10 @@ inline std::string lower_extension(const std::filesystem::path &path) {
     return extension;
 }
 
-/// Makes the names of a model file names of ours: unique, not empty, without dots.
+/// Source of legal object names: unique, not empty and without dots.
 class ModelNames {
   public:
-    /// `wanted`, or `fallback` where that is empty, with a number behind it when it is taken.
+    /// Returns `wanted`, or `fallback` if that is empty. Appends a number to a repeated name.
     std::string unique(const std::string &wanted, const std::string &fallback) {
         std::string name = wanted.empty() ? fallback : wanted;
         for (char &letter : name) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Notices of a model import.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +9,16 @@
 
 namespace rtrays {
 
-/// What an import leaves out or changes: each kind is told once, however many objects it happened
-/// to.
+/// Collects what an import ignores or changes. Each kind of change is reported once, with the
+/// number of objects concerned.
 class ModelNotes {
   public:
     explicit ModelNotes(std::string file) : file_(std::move(file)) {}
 
-    /// `name` is the object concerned; empty when the text says it all.
+    /// Adds a note about the object `name`, or about the full file if `name` is empty.
     void add(const std::string &text, const std::string &name = {});
 
-    /// Sends a `notice` for every kind: "FILE: TEXT (3: a, b, c)".
+    /// Sends one `notice` per text, such as "FILE: TEXT (3: a, b, c)".
     void tell() const;
 
   private:

@@ -41,7 +41,7 @@ constexpr ScalarName scalars[] = {
 struct PlyProperty {
     std::string name;
     Scalar scalar = Scalar::float32;
-    std::optional<Scalar> list_count;  ///< a list, preceded by its length
+    std::optional<Scalar> list_count;  ///< type of the length of a list, empty for a scalar
 };
 
 struct PlyElement {
@@ -55,10 +55,10 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct PlyHeader {
     Encoding encoding = Encoding::ascii;
     std::vector<PlyElement> elements;
-    size_t size = 0;  ///< bytes up to the data
+    size_t size = 0;  ///< offset of the data in bytes
 };
 
-/// Text of a file that may be damaged, for messages.
+/// Returns text of a possibly damaged file in printable and short form, for messages.
 std::string shown(std::string text) {
     constexpr size_t longest = 40;
     for (char &letter : text) {
@@ -73,11 +73,13 @@ Scalar scalar_of(const std::string &name) {
             return row.scalar;
         }
     }
-    throw input_error(fmt::format("header: '{}' is no type of a PLY file", shown(name)));
+    throw input_error(
+        fmt::format("header: unknown type '{}'; types are: char, uchar, short, "
+                    "ushort, int, uint, float, double",
+                    shown(name)));
 }
 
-/// The property of a line "property TYPE NAME" or "property list TYPE TYPE NAME" after its first
-/// word.
+/// Parses a line "property TYPE NAME" or "property list TYPE TYPE NAME" after its first word.
 PlyProperty parse_property(std::istringstream &words) {
     PlyProperty property;
     std::string type;
@@ -86,7 +88,7 @@ PlyProperty parse_property(std::istringstream &words) {
         words >> type;
         property.list_count = scalar_of(type);
         if (*property.list_count == Scalar::float32 || *property.list_count == Scalar::float64) {
-            throw input_error("header: the length of a list is no integer");
+            throw input_error("header: the length of a list must have an integer type");
         }
         words >> type;
     }
@@ -105,7 +107,8 @@ PlyHeader parse_header(const std::string &content) {
     for (size_t line_number = 1;; ++line_number) {
         const size_t end = content.find('\n', at);
         if (end == std::string::npos || end > longest) {
-            throw input_error(line_number == 1 ? "is not a PLY file" : "the header has no end");
+            throw input_error(line_number == 1 ? "is not a PLY file"
+                                               : "header: missing end_header");
         }
         std::string line = content.substr(at, end - at);
         at = end + 1;
@@ -126,7 +129,9 @@ PlyHeader parse_header(const std::string &content) {
             const auto *const found = std::find(std::begin(formats), std::end(formats), format);
             if (found == std::end(formats)) {
                 throw input_error(
-                    fmt::format("header: '{}' is no format of a PLY file", shown(format)));
+                    fmt::format("header: unknown format '{}'; formats are: ascii, "
+                                "binary_little_endian, binary_big_endian",
+                                shown(format)));
             }
             header.encoding = static_cast<Encoding>(found - std::begin(formats));
             has_format = true;
@@ -139,42 +144,41 @@ PlyHeader parse_header(const std::string &content) {
             if (count.empty() || parsed.ec != std::errc() ||
                 parsed.ptr != count.data() + count.size()) {
                 throw input_error(
-                    fmt::format("header: '{}' is no number of elements", shown(count)));
+                    fmt::format("header: expected a number of elements, got '{}'", shown(count)));
             }
             for (const PlyElement &before : header.elements) {
                 if (before.name == element.name) {
                     throw input_error(
-                        fmt::format("header: there are two elements '{}'", shown(element.name)));
+                        fmt::format("header: duplicate element '{}'", shown(element.name)));
                 }
             }
             header.elements.push_back(element);
         } else if (keyword == "property") {
             if (header.elements.empty()) {
-                throw input_error("header: a property comes before the first element");
+                throw input_error("header: property before the first element");
             }
             std::vector<PlyProperty> &properties = header.elements.back().properties;
             properties.push_back(parse_property(words));
             for (size_t i = 0; i + 1 < properties.size(); ++i) {
                 if (properties[i].name == properties.back().name) {
-                    throw input_error(fmt::format("header: there are two properties '{}'",
-                                                  shown(properties[i].name)));
+                    throw input_error(
+                        fmt::format("header: duplicate property '{}'", shown(properties[i].name)));
                 }
             }
         } else if (keyword == "end_header") {
             break;
         } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-            throw input_error(
-                fmt::format("header: '{}' is no keyword of a PLY file", shown(keyword)));
+            throw input_error(fmt::format("header: unknown keyword '{}'", shown(keyword)));
         }
     }
     if (!has_format) {
-        throw input_error("the header states no format");
+        throw input_error("header: missing format");
     }
     header.size = at;
     return header;
 }
 
-/// The numbers of the data, one after the other.
+/// Reads the numbers of an ASCII file in sequence.
 class AsciiData {
   public:
     explicit AsciiData(std::string_view data) : at_(data.data()), end_(data.data() + data.size()) {}
@@ -187,33 +191,35 @@ class AsciiData {
         double value = 0;
         const auto parsed = std::from_chars(at_, end_, value);
         if (parsed.ec == std::errc::result_out_of_range) {
-            value = 0;  // as small as no float is; one as large is caught below, with its vertex
+            // Too small numbers become zero. Too large ones become infinite, and the check of
+            // vertices reports them.
+            value = 0;
             const std::string_view digits(at_, static_cast<size_t>(parsed.ptr - at_));
             if (digits.find("e-") == std::string_view::npos &&
                 digits.find("E-") == std::string_view::npos) {
                 value = HUGE_VAL;
             }
         } else if (parsed.ec != std::errc()) {
-            throw input_error(at_ == end_ ? "the file ends too early" : "a number was expected");
+            throw input_error(at_ == end_ ? "unexpected end of file" : "expected a number");
         }
         at_ = parsed.ptr;
         return value;
     }
 
-    /// A row takes at least a digit per number and what is between them.
+    /// Minimum size of a row in bytes: one digit and one separator per number.
     static uint64_t smallest_row(const PlyElement &element) {
         return 2 * element.properties.size();
     }
 
-    size_t left() const {
-        return static_cast<size_t>(end_ - at_) + 1;
-    }  // the last row may lack its end of line
+    /// Number of bytes left, plus one because the last row may lack its end of line.
+    size_t left() const { return static_cast<size_t>(end_ - at_) + 1; }
 
   private:
     const char *at_;
     const char *end_;
 };
 
+/// Reads the numbers of a binary file in sequence. `swapped` is true for big-endian files.
 template <bool swapped>
 class BinaryData {
   public:
@@ -257,7 +263,7 @@ class BinaryData {
     template <typename T>
     T take() {
         if (left() < sizeof(T)) {
-            throw input_error("the file ends too early");
+            throw input_error("unexpected end of file");
         }
         char bytes[sizeof(T)];
         std::memcpy(bytes, at_, sizeof(T));
@@ -276,17 +282,17 @@ class BinaryData {
 
 uint32_t index_of(double value, const char *what) {
     if (!(value >= 0 && value < no_index) || value != std::floor(value)) {
-        throw input_error(fmt::format("{} is no {}", value, what));
+        throw input_error(fmt::format("{} is not a valid {}", value, what));
     }
     return static_cast<uint32_t>(value);
 }
 
-/// What the rows of the file fill before there are triangles.
+/// The data of a file before its faces are split into triangles.
 struct Rows {
     MeshCore::Geometry geometry;
-    std::vector<uint32_t> corners;  ///< of all faces
-    std::vector<uint32_t> corner_count;
-    std::vector<int64_t> material;  ///< per face
+    std::vector<uint32_t> corners;       ///< vertex indices of all faces
+    std::vector<uint32_t> corner_count;  ///< number of corners of each face
+    std::vector<int64_t> material;       ///< material index of each face
 };
 
 enum Coordinate { x, y, z, nx, ny, nz, u, v, coordinate_count, unknown = coordinate_count };
@@ -295,6 +301,7 @@ constexpr std::pair<const char *, Coordinate> coordinate_names[] = {
     {"nz", nz},       {"u", u},         {"v", v},         {"s", u},        {"t", v},
     {"texture_u", u}, {"texture_v", v}, {"texture_s", u}, {"texture_t", v}};
 
+/// Reads the data that follow the header.
 template <typename Data>
 class BodyReader {
   public:
@@ -304,11 +311,11 @@ class BodyReader {
     Rows read(const PlyHeader &header) {
         for (const PlyElement &element : header.elements) {
             if (element.properties.empty()) {
-                continue;  // whatever its count, there is nothing of it
+                continue;  // rows without properties have no data
             }
             if (element.count > data_.left() / Data::smallest_row(element)) {
                 throw input_error(
-                    fmt::format("it is too short for the {} rows of '{}' that the header states",
+                    fmt::format("the file is too short for the {} rows of '{}' of its header",
                                 element.count, element.name));
             }
             if (element.name == "vertex") {
@@ -316,7 +323,7 @@ class BodyReader {
             } else if (element.name == "face") {
                 read_faces(element);
             } else {
-                notes_.add("elements that mean nothing here are left out", shown(element.name));
+                notes_.add("unknown elements are ignored", shown(element.name));
                 rows_of(element, [&] {
                     for (const PlyProperty &property : element.properties) {
                         skip(property);
@@ -355,8 +362,7 @@ class BodyReader {
     }
 
     void note_unused(const PlyElement &element, const PlyProperty &property) {
-        notes_.add("properties that mean nothing here are left out",
-                   shown(element.name + " " + property.name));
+        notes_.add("unknown properties are ignored", shown(element.name + " " + property.name));
     }
 
     void read_vertices(const PlyElement &element) {
@@ -376,10 +382,10 @@ class BodyReader {
             meaning.push_back(found);
         }
         if (!has[x] || !has[y] || !has[z]) {
-            throw input_error("vertices have no x, y and z");
+            throw input_error("vertices require the properties x, y and z");
         }
         if (element.count >= no_index) {
-            throw input_error("it has more than 2^32 vertices");
+            throw input_error("the file has more than 2^32 vertices");
         }
         const bool has_normals = has[nx] && has[ny] && has[nz];
         const bool has_uvs = has[u] && has[v];
@@ -414,9 +420,9 @@ class BodyReader {
         const auto is_material = [](const PlyProperty &property) {
             return !property.list_count && property.name == "material_index";
         };
-        if (std::count_if(element.properties.begin(), element.properties.end(), is_corners) !=
-            1) {  // or both names
-            throw input_error("faces have no list 'vertex_indices'");
+        // A file with lists of both names is ambiguous.
+        if (std::count_if(element.properties.begin(), element.properties.end(), is_corners) != 1) {
+            throw input_error("faces require one list 'vertex_indices' or 'vertex_index'");
         }
         for (const PlyProperty &property : element.properties) {
             if (!is_corners(property) && !is_material(property)) {
@@ -430,8 +436,8 @@ class BodyReader {
                 if (is_corners(property)) {
                     read_corners(property);
                 } else if (is_material(property)) {
-                    rows_.material.push_back(
-                        static_cast<int64_t>(index_of(data_.next(property.scalar), "material")));
+                    rows_.material.push_back(static_cast<int64_t>(
+                        index_of(data_.next(property.scalar), "material index")));
                 } else {
                     skip(property);
                 }
@@ -442,7 +448,7 @@ class BodyReader {
     void read_corners(const PlyProperty &property) {
         const uint32_t count = index_of(data_.next(*property.list_count), "number of corners");
         for (uint32_t i = 0; i < count; ++i) {
-            rows_.corners.push_back(index_of(data_.next(property.scalar), "vertex"));
+            rows_.corners.push_back(index_of(data_.next(property.scalar), "vertex index"));
         }
         rows_.corner_count.push_back(count);
     }
@@ -495,7 +501,7 @@ PlyFile read_ply(const std::filesystem::path &path, ModelNotes &notes, bool quie
             }
         }
         if (file.geometry.triangles.empty()) {
-            throw input_error("it has no faces");
+            throw input_error("the file has no faces");
         }
         repair_normals(file.geometry, name, notes);
         return file;

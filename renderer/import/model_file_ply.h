@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Our own reader of PLY (Turk, "The PLY polygon file format", 1994): Assimp's drops the materials
-// of faces and does not come to an end on some damaged files.
+// Our own reader of PLY files (Turk, "The PLY polygon file format", 1994). Assimp's reader drops
+// the materials of faces and does not terminate on some damaged files.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,18 @@
 
 namespace rtrays {
 
+/// The contents of a PLY file.
 struct PlyFile {
     MeshCore::Geometry geometry;
-    std::vector<int64_t>
-        material;  ///< per triangle: "material_index" of its face; empty when the file has none
+    /// "material_index" of each triangle's face, or empty if the file has none.
+    std::vector<int64_t> material;
 };
 
-/// Reads a PLY file, ASCII or binary of either byte order: vertices x, y, z, normals nx, ny, nz,
-/// texture coordinates (u, v), (s, t), (texture_u, texture_v) or (texture_s, texture_t), faces
-/// vertex_indices or vertex_index. Throws `Error` (bad input) naming the file and what is wrong
-/// with it, before memory is taken for counts that the size of the file belies.
+/// Reads a PLY file in ASCII or in binary of either byte order. Reads vertices x, y, z, normals nx,
+/// ny, nz, and faces vertex_indices or vertex_index. Texture coordinates may be named (u, v),
+/// (s, t), (texture_u, texture_v) or (texture_s, texture_t). Throws `Error` (bad input) naming the
+/// file and the fault. Counts that exceed the size of the file are rejected before memory is
+/// allocated for them.
 PlyFile read_ply(const std::filesystem::path &path, ModelNotes &notes, bool quiet);
 
 }  // namespace rtrays

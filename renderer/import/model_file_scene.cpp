@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Conversion of Assimp nodes, meshes, lights and cameras, with corrections for Assimp 5.2.5.
 #include "renderer/import/model_file_scene.h"
 
 #include <assimp/scene.h>
@@ -42,24 +43,27 @@ Matrix4d matrix(const aiMatrix4x4 &m) {
     return result;
 }
 
-/// What there is of a file: the scene and what its format means by it.
+/// An Assimp scene and the conventions of its file format.
 struct ModelSource {
     std::shared_ptr<const aiScene> scene;
     std::filesystem::path path;
 
     bool is(const char *extension) const { return lower_extension(path) == extension; }
     bool is_gltf() const { return is(".gltf") || is(".glb"); }
-    /// STL has no materials and states the normals of triangles once more.
+    /// STL has no materials, and its normals repeat those of the triangles.
     bool is_stl() const { return is(".stl"); }
-    /// glTF states the cones of spots from the axis, everyone else from side to side.
+    /// Factor from the cone angles of a file to half angles. glTF measures the cones of spot lights
+    /// from the axis, all other formats from side to side.
     double half_angle() const { return is_gltf() ? 1 : 0.5; }
-    /// Assimp 5.2.5 gives a glTF camera the translation of its node, which it has already.
+    /// Returns the position of a camera in its node. Assimp 5.2.5 adds the translation of the node
+    /// to a glTF camera, although the node already applies it.
     Vector3d position(const aiCamera &camera) const {
         return is_gltf() ? Vector3d(Vector3d::Zero()) : vector(camera.mPosition);
     }
-    /// The angle of view along x. Assimp 5.2.5 multiplies that along y of glTF by the aspect ratio,
-    /// which is no angle of anything, and loses that of Collada cameras without a name: 45 degrees,
-    /// made radians twice.
+    /// Returns the angle of view along x in radians, or 0 if it is unknown. Two errors of Assimp
+    /// 5.2.5 are corrected. It multiplies the angle along y of glTF by the aspect ratio, which is
+    /// not an angle of view. It loses the angle of Collada cameras without a name and returns
+    /// 45 degrees, converted to radians twice.
     double fov(const aiCamera &camera) const {
         const double stated = static_cast<double>(camera.mHorizontalFOV);
         const double aspect = camera.mAspect > 0 ? static_cast<double>(camera.mAspect) : 1;
@@ -74,12 +78,12 @@ struct ModelSource {
 ModelSource open_model(const std::filesystem::path &path, bool quiet) {
     ModelSource source{read_by_assimp(path, quiet), path};
     if (source.scene->mRootNode == nullptr || source.scene->mNumMeshes == 0) {
-        throw input_error(fmt::format("{}: it has no geometry", path.string()));
+        throw input_error(fmt::format("{}: the file has no geometry", path.string()));
     }
     return source;
 }
 
-/// The triangles of one mesh; none when it consists of points and lines.
+/// Returns the triangles of one mesh, or none if it consists of points and lines.
 MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
                                const std::string &name, unsigned channel, ModelNotes &notes) {
     MeshCore::Geometry geometry;
@@ -100,12 +104,12 @@ MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
                  notes);
     }
     if (mesh.HasVertexColors(0)) {
-        notes.add("colours of vertices are left out", name);
+        notes.add("vertex colours are ignored", name);
     }
     if (mesh.HasBones() || mesh.mNumAnimMeshes > 0) {
-        notes.add("skeletons and morphs are left out: the mesh keeps its pose", name);
+        notes.add("skeletons and morph targets are ignored; meshes keep their stored pose", name);
     }
-    // Most readers give every corner of every face a vertex of its own.
+    // Most of Assimp's readers give every corner of every face its own vertex.
     join_vertices(geometry);
     repair_normals(geometry, name, notes);
     return geometry;
@@ -145,12 +149,12 @@ class SceneWriter {
             scene_.graph().share("textures." + entry.second->name(), entry.second);
         }
         if (model_.mNumAnimations > 0) {
-            notes_.add("animations are left out: everything stands where its node does");
+            notes_.add("animations are ignored; nodes keep their stored transforms");
         }
     }
 
   private:
-    /// Nodes by way of a list: a chain of them may be longer than the call stack.
+    /// Adds all nodes. Without recursion, because a chain of nodes may exceed the call stack.
     void write_nodes() {
         std::vector<std::pair<const aiNode *, Node *>> pending{
             {model_.mRootNode, &scene_.graph().root()}};
@@ -164,13 +168,13 @@ class SceneWriter {
                                        matrix(from->mTransformation));
             } catch (const Error &) {
                 notes_.add(
-                    "nodes whose transform cannot be inverted are left out, with all below them",
+                    "nodes whose transform cannot be inverted are ignored, with their children",
                     wanted);
                 continue;
             }
             nodes_.emplace(wanted, node);
             for (unsigned i = 0; i < from->mNumMeshes; ++i) {
-                // A node has one geometry.
+                // Our nodes have one geometry each, so several meshes get a child node each.
                 Node &holder = from->mNumMeshes == 1
                                    ? *node
                                    : add_model_node(*node, names_.unique(node->name(), "mesh"),
@@ -193,7 +197,7 @@ class SceneWriter {
             MeshCore::Geometry geometry =
                 geometry_of(source_, mesh, name, uv_channel(material), notes_);
             if (geometry.triangles.empty()) {
-                notes_.add("meshes without triangles are left out", name);
+                notes_.add("meshes without triangles are ignored", name);
                 return;
             }
             core = std::make_shared<MeshCore>(name, std::move(geometry));
@@ -213,13 +217,13 @@ class SceneWriter {
         node.set_core(made);
     }
 
-    /// The node that a light or a camera belongs to: of the same name.
+    /// Returns the node of the same name as a light or a camera, or the root.
     Node &owner(const aiString &name) {
         const auto found = nodes_.find(name.C_Str());
         return found != nodes_.end() ? *found->second : scene_.graph().root();
     }
 
-    /// A node of its own for a light or a camera, placed in that of its name.
+    /// Adds a node for a light or a camera as a child of the node of its name.
     Node &placed(const aiString &name, const char *what, const Matrix4d &transform) {
         Node &node = owner(name);
         return add_model_node(node, names_.unique(fmt::format("{} {}", name.C_Str(), what), what),
@@ -245,16 +249,15 @@ class SceneWriter {
         if ((!is_pointing && light.mType != aiLightSource_POINT) ||
             (is_pointing && !(direction.norm() > 0)) ||
             (is_area && !(light.mSize.x > 0 && light.mSize.y > 0))) {
-            notes_.add("ambient lights and those without direction or size are left out", name);
+            notes_.add("ambient lights and lights without direction or size are ignored", name);
             return;
         }
         const bool falls_off =
             light.mType == aiLightSource_POINT || light.mType == aiLightSource_SPOT;
         if (falls_off && (light.mAttenuationConstant != 0 || light.mAttenuationLinear != 0)) {
             notes_.add(
-                "lights fall off with the square of the distance, whatever the file says; their "
-                "colours are "
-                "taken as W/sr",
+                "attenuation of lights is ignored; they fall off with the square of the distance, "
+                "and their colours are in W/sr",
                 name);
         }
         if (light.mType == aiLightSource_POINT) {
@@ -263,7 +266,7 @@ class SceneWriter {
                                                       ParameterValues{{"intensity", colour}}));
             return;
         }
-        // An area light faces +z, the others shine along -z.
+        // An area light shines along +z, the others along -z.
         Matrix4d transform =
             pose(position, is_area ? Vector3d(-direction) : direction, vector(light.mUp));
         if (is_area) {
@@ -286,12 +289,13 @@ class SceneWriter {
 
     ParameterValues spot(const aiLight &light, const Vector3d &colour) {
         constexpr double widest = 90;
-        constexpr double softest =
-            0.99;  // the light falls off between the cones: they cannot be one
+        // Maximum ratio of the inner angle to the outer one. The light falls off between the cones,
+        // so that they must differ.
+        constexpr double softest = 0.99;
         const double to_degrees = source_.half_angle() * 180 / pi;
         double outer = to_degrees * light.mAngleOuterCone;
         if (outer > widest) {
-            notes_.add("cones of spots end at 90 degrees", light.mName.C_Str());
+            notes_.add("spot light cones are limited to 90 degrees", light.mName.C_Str());
             outer = widest;
         }
         const double inner = std::min(to_degrees * light.mAngleInnerCone, softest * outer);
@@ -303,7 +307,10 @@ class SceneWriter {
         const double fov = source_.fov(camera);
         const Vector3d direction = vector(camera.mLookAt);
         if (camera.mOrthographicWidth > 0 || !(fov > 0 && fov < pi) || !(direction.norm() > 0)) {
-            notes_.add("cameras without an angle of view are left out", name);
+            notes_.add(
+                "orthographic cameras and cameras without direction or angle of view are "
+                "ignored",
+                name);
             return;
         }
         Node &node = placed(camera.mName, "camera",
@@ -312,7 +319,7 @@ class SceneWriter {
             node.name(), "pinhole",
             ParameterValues{{"fov", fov * 180 / pi}, {"fov_axis", std::string("x")}}));
         if (has_camera_) {
-            notes_.add("of several cameras the first is used; the others are kept", name);
+            notes_.add("only the first camera is used; the others remain in the scene", name);
         } else if (camera.mAspect > 0) {
             const double height =
                 std::round(scene_.film_width() / static_cast<double>(camera.mAspect));
@@ -335,7 +342,7 @@ class SceneWriter {
     bool has_camera_ = false;
 };
 
-/// Runs `body`; its errors get the file in front.
+/// Runs `body` and prefixes its errors with the file.
 template <typename Body>
 auto with_file(const std::filesystem::path &path, const Body &body) {
     try {
@@ -388,7 +395,7 @@ std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::files
         for (unsigned i = 0; i < file->mNumMaterials; ++i) {
             const aiMaterial &source = *file->mMaterials[i];
             if (i == 0 && material_name(source) == AI_DEFAULT_MATERIAL_NAME) {
-                continue;  // that of the triangle the file was read by
+                continue;  // the material of the triangle in the OBJ file
             }
             made.push_back(
                 materials.material(source, names.unique(material_name(source), "material")));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From what Assimp reads to what a scene consists of. A build without Assimp has only the errors of
-// model_file_without_assimp.cpp.
+// Conversion of Assimp scenes to our scenes. A build without Assimp has the errors of
+// model_file_without_assimp.cpp instead.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@
 
 namespace rtrays {
 
-/// Whether Assimp has a reader of files with this extension (".obj").
+/// Returns whether Assimp reads files with this extension, such as ".obj".
 bool assimp_reads(const std::string &extension);
 
-/// All triangles of the file, placed by its nodes.
+/// Reads all triangles of the file, transformed by its nodes.
 MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &notes,
                                        bool quiet);
 
@@ -27,14 +27,15 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
 void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
                       ModelNotes &notes, bool quiet);
 
-/// The materials of an MTL file, in its order, shared by the scene.
+/// Reads the materials of an MTL file in its order and registers them in the scene's graph.
 std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path,
                                                                 Scene &scene, ModelNotes &notes);
 
-/// The material of what has none: grey.
+/// Returns the grey material of meshes without a material.
 std::shared_ptr<MaterialCore> default_model_material();
 
-/// Adds a node with its transform and visibility; throws `Error` (bad input) as `TransformCore`.
+/// Adds a node with a transform and visibility. Throws `Error` (bad input) if the transform is
+/// not finite, affine and invertible.
 Node &add_model_node(Node &parent, const std::string &name, const Eigen::Matrix4d &transform);
 
 }  // namespace rtrays

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a build without Assimp says to model files other than PLY.
+// Errors of a build without Assimp for model files other than PLY.
 #include <fmt/format.h>
 
 #include "renderer/base/error.h"
@@ -10,14 +10,15 @@ namespace rtrays {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path &path) {
-    throw input_error(fmt::format(
-        "{}: this build reads no such file; configure with -DRTRAYS_MODELS=ON (needs Assimp)",
-        path.string()));
+    throw input_error(
+        fmt::format("{}: model files other than PLY are unsupported by this build; configure with "
+                    "-DRTRAYS_MODELS=ON (requires Assimp)",
+                    path.string()));
 }
 
 }  // namespace
 
-/// Which it would be is not known here; the refusal says how to find out.
+/// Accepts every extension, because the list of formats is Assimp's. Reading reports the remedy.
 bool assimp_reads(const std::string &) {
     return true;
 }

@@ -26,8 +26,8 @@ namespace rtrays {
 
 namespace {
 
-/// Builds the graph from a document that the schema has accepted; what a schema cannot say is
-/// checked here.
+/// Builds the graph from a document that the schema has accepted. Checks the constraints that a
+/// schema cannot express.
 class SceneReader {
   public:
     SceneReader(const Json &document, SceneSource source, Scene &scene)
@@ -51,7 +51,7 @@ class SceneReader {
         read_nodes(document_.at("nodes"), "/nodes", scene_.graph().root());
     }
 
-    /// Writes the arrays and checks the scene as a whole.
+    /// Updates the arrays and checks the full scene.
     void finish() {
         source_.located("", [&] {
             scene_.update(0);
@@ -64,14 +64,14 @@ class SceneReader {
                 scene_.set_active_camera(document_.at("camera"));
             } else if (cameras.size() > 1) {
                 throw input_error(
-                    fmt::format("the scene has several cameras; choose one by \"camera\": {}",
+                    fmt::format("the scene has several cameras; select one by \"camera\": {}",
                                 fmt::join(cameras, ", ")));
             }
         });
     }
 
   private:
-    /// Reads the objects that a section of the document shares by name.
+    /// Reads the named objects of a section of the document, which nodes may share.
     template <typename Map, typename Read>
     void read_section(const std::string &section, Map &shared, const Read &read) {
         if (!document_.contains(section)) {
@@ -94,7 +94,7 @@ class SceneReader {
                 names.push_back(entry.first);
             }
             throw input_error(
-                fmt::format("no {} '{}'; there are: {}", what, name,
+                fmt::format("unknown {} '{}'; the scene defines: {}", what, name,
                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
         }
         return found->second;
@@ -160,7 +160,7 @@ class SceneReader {
                     at, [&]() -> std::shared_ptr<Core> { return build(value.at(key), at); }));
             }
         };
-        // Every node gets these two, so that each can be moved and hidden by name.
+        // Every node has a transform and a visibility, so that settings can move and hide it.
         node.set_core(read_transform(value, name, source_, path));
         node.set_core(std::make_shared<VisibilityCore>(name, value.value("visible", true)));
         with("material", [&](const Json &v, const std::string &at) {

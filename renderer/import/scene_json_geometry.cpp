@@ -22,9 +22,9 @@ void add_polygon(const Json &polygon, size_t index, const std::string &name,
     for (const Json &item : polygon) {
         const auto corner = item.get<uint64_t>();
         if (corner >= geometry.vertices.size()) {
-            throw input_error(
-                fmt::format("mesh '{}': polygon {} has vertex {}, but there are only {} vertices",
-                            name, index, corner, geometry.vertices.size()));
+            throw input_error(fmt::format(
+                "mesh '{}': polygon {} has vertex index {}, but there are only {} vertices", name,
+                index, corner, geometry.vertices.size()));
         }
         corners.push_back(static_cast<uint32_t>(corner));
     }
@@ -79,7 +79,7 @@ std::shared_ptr<Core> read_morph(const Json &value, const std::string &name,
         if (mesh == nullptr || mesh->is_animated()) {
             source.located(at, [&]() -> void {
                 throw input_error(fmt::format(
-                    "mesh '{}': keyframe {} is no mesh, file, rectangle or box", name, i));
+                    "mesh '{}': keyframe {} must be a mesh, file, rectangle or box", name, i));
             });
         }
         keys.push_back({keyframes[i].at("time"),

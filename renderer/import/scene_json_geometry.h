@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Reader of the geometries of a scene file.
 #pragma once
 
 #include <memory>
@@ -9,8 +10,8 @@
 
 namespace rtrays {
 
-/// Geometry of any type: a mesh or a shape. Throws `Error` (bad input) naming source, line and
-/// path.
+/// Reads geometry of any type, either a mesh or a shape. Throws `Error` (bad input) naming source,
+/// line and path.
 std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name,
                                     const SceneSource &source, const std::string &path);
 

@@ -13,8 +13,8 @@ namespace {
 
 const std::string texture_suffix = "_texture";
 
-/// The "NAME_texture" members of `object` by the parameter NAME of the table, and their keys into
-/// `keys`.
+/// Reads the "NAME_texture" members of `object`, where NAME is a parameter of the table. Appends
+/// all such keys to `keys`.
 ParameterTextures read_textures(const Json &object, const ParameterTable &table,
                                 const std::string &prefix, const std::string &name,
                                 const std::string &path, const TextureLookup &lookup,
@@ -34,7 +34,7 @@ ParameterTextures read_textures(const Json &object, const ParameterTable &table,
     return textures;
 }
 
-/// The rows of the table whose names begin with `prefix`, without it.
+/// Returns the rows of the table whose names begin with `prefix`, with the prefix removed.
 ParameterTable without_prefix(const ParameterTable &table, const std::string &prefix) {
     ParameterTable rows;
     for (const Parameter &parameter : table) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Reader of the materials and textures of a scene file.
 #pragma once
 
 #include <functional>
@@ -11,17 +12,16 @@
 
 namespace rtrays {
 
-/// A texture of the scene file. Throws `Error` (bad input) naming source, line, path and image
-/// file.
+/// Reads a texture. Throws `Error` (bad input) naming source, line, path and image file.
 std::shared_ptr<Texture> read_texture(const Json &value, const std::string &name,
                                       const SceneSource &source, const std::string &path,
                                       TextureFiles &files);
 
-/// Finds or reads what stands where a texture may: its name or itself.
+/// Function that returns the texture that `value` names or defines inline.
 using TextureLookup = std::function<std::shared_ptr<Texture>(
     const Json &value, const std::string &name, const std::string &path)>;
 
-/// A material of any type. Throws `Error` (bad input) naming source, line and path.
+/// Reads a material of any type. Throws `Error` (bad input) naming source, line and path.
 std::shared_ptr<MaterialCore> read_material(const Json &value, const std::string &name,
                                             const SceneSource &source, const std::string &path,
                                             const TextureLookup &textures);

@@ -30,7 +30,7 @@ Eigen::Matrix4d operation(const Json &value) {
         return look_at(vector3(argument.at("origin")), vector3(argument.at("target")),
                        vector3(argument.at("up")));
     }
-    Eigen::Matrix4d matrix;  // the schema leaves no other operation
+    Eigen::Matrix4d matrix;  // the only other operation that the schema permits
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 4; ++column) {
             matrix(row, column) = argument[row][column];
@@ -39,13 +39,13 @@ Eigen::Matrix4d operation(const Json &value) {
     return matrix;
 }
 
-/// The product of a list of operations.
+/// Returns the product of a list of operations, the first one applied first.
 Eigen::Matrix4d read_operations(const Json &operations, const SceneSource &source,
                                 const std::string &path) {
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     for (size_t i = 0; i < operations.size(); ++i) {
         source.located(fmt::format("{}/{}", path, i), [&] {
-            // Each by itself, so that the message names the one at fault.
+            // Checked one by one, so that the message names the faulty operation.
             const TransformCore checked("", operation(operations[i]));
             matrix = checked.matrix() * matrix;
         });
@@ -72,8 +72,8 @@ std::shared_ptr<TransformCore> read_transform(const Json &node, const std::strin
         if (node.contains("transform")) {
             source.located(path, [&]() -> void {
                 throw input_error(fmt::format(
-                    "'{}' has a transform and an animation: an animated node stands where its "
-                    "keyframes put it; give the transform to a node above or below",
+                    "'{}' has both a transform and an animation; move the transform to a parent or "
+                    "child node",
                     name));
             });
         }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Reader of the transforms and animations of a scene file.
 #pragma once
 
 #include <memory>
@@ -9,8 +10,8 @@
 
 namespace rtrays {
 
-/// The "transform" or the "animation" of a node, the identity when it has neither. Throws `Error`
-/// (bad input) naming source, line and path.
+/// Reads the "transform" or the "animation" of a node, or returns the identity if it has neither.
+/// Throws `Error` (bad input) naming source, line and path.
 std::shared_ptr<TransformCore> read_transform(const Json &node, const std::string &name,
                                               const SceneSource &source, const std::string &path);
 

@@ -10,7 +10,7 @@ namespace rtrays {
 
 namespace {
 
-/// Replaces the alternative it visits by what the JSON says; false when that is of another type.
+/// Visitor that sets the alternative to the JSON value. Returns false if the types differ.
 struct FromJson {
     const Json &json;
 
@@ -19,7 +19,7 @@ struct FromJson {
     bool operator()(std::string &value) const {
         return json.is_string() && (json.get_to(value), true);
     }
-    bool operator()(Eigen::Matrix4d &) const { return false; }  // no table has one
+    bool operator()(Eigen::Matrix4d &) const { return false; }  // unused by all tables
     template <int size>
     bool operator()(Eigen::Matrix<double, size, 1> &value) const {
         if (json.is_number()) {

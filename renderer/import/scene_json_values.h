@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parts of the scene reader share: where they are in the document, and values by a table.
+// Error locations and table-driven values, shared by the parts of the scene reader.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +19,11 @@ namespace rtrays {
 /// The document that a scene is read from.
 struct SceneSource {
     const std::string &text;
-    const std::string &name;          ///< in messages
-    std::filesystem::path directory;  ///< that files are relative to
+    const std::string &name;          ///< as shown in messages
+    std::filesystem::path directory;  ///< base of relative file names
 
-    /// Runs `body`; an `Error` from it gets source, line and path, the innermost one that is known.
+    /// Runs `body`. Adds source, line and path to an `Error` that has no location yet, so that
+    /// messages show the innermost path.
     template <typename Body>
     std::invoke_result_t<Body> located(const std::string &path, const Body &body) const {
         try {
@@ -39,7 +40,7 @@ struct SceneSource {
     }
 
   private:
-    /// An error that already says where.
+    /// An error whose message already contains a location.
     struct LocatedError : Error {
         explicit LocatedError(const std::string &message) : Error(ExitCode::bad_input, message) {}
     };
@@ -47,21 +48,20 @@ struct SceneSource {
 
 Eigen::Vector3d vector3(const Json &value);
 
-/// `value` as the type of the parameter; one number stands for all of two or three equal ones.
-/// Throws `Error` (bad input) when it is of another type.
+/// Converts `value` to the type of the parameter. A single number sets all components of a vector
+/// of two or three. Throws `Error` (bad input) if the type does not match.
 PropertyValue parameter_value(const Json &value, const Parameter &parameter);
 
-/// The members of `object` as values of the parameters of the same name; "type" and those in
-/// `others` are somebody else's. Throws `Error` (bad input) with source, line and path for a key
-/// that the table does not have, naming `type` and the keys that it has, and for a value that is
-/// illegal.
+/// Reads the members of `object` as values of the parameters of the same name. Skips "type" and the
+/// keys in `others`. Throws `Error` (bad input) with source, line and path for an illegal value or
+/// an unknown key. The message for an unknown key lists the keys of `type`.
 ParameterValues parameter_values(const Json &object, const std::string &type,
                                  const ParameterTable &table,
                                  const std::vector<std::string> &others, const SceneSource &source,
                                  const std::string &path);
 
-/// Throws `Error` (bad input) naming `type` and the key when `object` lacks one of `required` or
-/// has one that is neither of them nor in `optional`.
+/// Throws `Error` (bad input) naming `type` and the key if `object` lacks a required key, or if it
+/// has a key that is neither required nor optional. The key "type" is always allowed.
 void check_keys(const Json &object, const std::string &type,
                 const std::vector<std::string> &required, const std::vector<std::string> &optional);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ear clipping: Meisters, "Polygons have ears", American Mathematical Monthly 82(6), 1975.
+// Ear clipping (Meisters, "Polygons have ears", American Mathematical Monthly 82(6), 1975).
 #include "renderer/import/triangulate.h"
 
 #include <fmt/format.h>
@@ -14,13 +14,13 @@ namespace {
 
 using Vector2d = Eigen::Vector2d;
 
-/// Twice the signed area of a triangle, positive when counter-clockwise.
+/// Returns twice the signed area of a triangle, positive if it is counter-clockwise.
 double turn(const Vector2d &a, const Vector2d &b, const Vector2d &c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// The corners in the plane of the polygon, scaled to its size and counter-clockwise; empty when it
-/// has no area.
+/// Returns the corners projected to a coordinate plane, scaled to the size of the polygon and
+/// counter-clockwise. Returns nothing for a polygon of zero area.
 std::vector<Vector2d> project(const std::vector<Eigen::Vector3d> &vertices,
                               const std::vector<uint32_t> &corners) {
     const size_t n = corners.size();
@@ -32,7 +32,7 @@ std::vector<Vector2d> project(const std::vector<Eigen::Vector3d> &vertices,
     if (size == 0) {
         return {};
     }
-    // Newell's normal: the vector area, defined for any polygon.
+    // Newell's normal is the vector area, which is defined for any polygon.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     const auto scaled = [&](size_t i) -> Eigen::Vector3d {
         return (vertices[corners[i % n]] - origin) / size;
@@ -62,8 +62,8 @@ bool is_convex(const std::vector<Vector2d> &points) {
             return false;
         }
     }
-    // Turning left throughout is not enough: a pentagram does too. Every diagonal of the fan must
-    // turn left.
+    // Left turns at all corners are not sufficient, as a pentagram shows. Every triangle of the fan
+    // must turn left, too.
     for (size_t i = 1; i + 1 < n; ++i) {
         if (turn(points[0], points[i], points[i + 1]) < 0) {
             return false;
@@ -72,8 +72,8 @@ bool is_convex(const std::vector<Vector2d> &points) {
     return true;
 }
 
-/// Whether the corner at `at` of what is left can be cut off: it turns left (or not at all) and no
-/// other corner lies in its triangle.
+/// Returns whether corner `at` of the remaining corners `left` can be cut off. Such a corner does
+/// not turn right, and no other corner is in its triangle.
 bool is_ear(const std::vector<Vector2d> &points, const std::vector<uint32_t> &left, size_t at) {
     const size_t n = left.size();
     const Vector2d &a = points[left[(at + n - 1) % n]];
@@ -97,12 +97,12 @@ bool is_ear(const std::vector<Vector2d> &points, const std::vector<uint32_t> &le
 std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d> &vertices,
                                   const std::vector<uint32_t> &corners) {
     if (corners.size() < 3) {
-        throw input_error(fmt::format("has {} corners, at least 3 are needed", corners.size()));
+        throw input_error(fmt::format("has {} corners; expected at least 3", corners.size()));
     }
     for (const uint32_t corner : corners) {
         if (corner >= vertices.size()) {
-            throw input_error(fmt::format("has corner {}, but there are only {} vertices", corner,
-                                          vertices.size()));
+            throw input_error(fmt::format("has vertex index {}, but there are only {} vertices",
+                                          corner, vertices.size()));
         }
     }
     const std::vector<Vector2d> points =
@@ -124,7 +124,7 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d> &vertices,
             ++ear;
         }
         if (ear == left.size()) {
-            throw input_error("crosses itself");
+            throw input_error("crosses itself; split it into simple polygons");
         }
         const size_t n = left.size();
         triangles.push_back(

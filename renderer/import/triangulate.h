@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Triangulation of polygons.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,10 +10,10 @@
 
 namespace rtrays {
 
-/// Splits a simple polygon (in the order of its corners, nearly planar) into `corners.size() - 2`
-/// triangles of the same orientation: a fan from the first corner when it is convex, ears
-/// otherwise. A polygon without area becomes a fan of triangles without area. Throws `Error` (bad
-/// input) when it crosses itself, has fewer than three corners or an index is out of range.
+/// Splits a simple, nearly planar polygon into `corners.size() - 2` triangles of the same
+/// orientation. A convex polygon becomes a fan from its first corner, any other is split by ear
+/// clipping. A polygon of zero area becomes a fan of triangles of zero area. Throws `Error` (bad
+/// input) if the polygon crosses itself, has fewer than three corners, or has an invalid index.
 std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d> &vertices,
                                   const std::vector<uint32_t> &corners);
 

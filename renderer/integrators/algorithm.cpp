@@ -33,7 +33,8 @@ std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask fea
     if (algorithm != "light_tracing") {
         passes = path_tracing_passes(camera, light_count, apart);
     }
-    // Truncated bidirectional path tracing (thesis 2.8) is both: their weights know of each other.
+    // Truncated bidirectional path tracing (thesis 2.8) has both passes. The MIS weights of each
+    // pass account for the strategies of the other.
     if (algorithm != "path_tracing" && features.has(Feature::lights)) {
         passes.push_back({"light", light, light_tracing_round(light)});
     }

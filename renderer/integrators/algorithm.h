@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Algorithms as passes, and passes as rounds of stages.
 #pragma once
 
 #include <string>
@@ -12,33 +13,44 @@ namespace rtrays {
 /// A stage in a round.
 struct RoundStage {
     std::string name;
-    uint32_t chosen = SELECT_LIGHT;  ///< light of sample_light, vertex of connect_vertices
-    uint32_t rounds = 0;  ///< launched in the first so many rounds of a chunk of work; 0: in all
+    /// Index of the light of sample_light (SELECT_LIGHT: one is selected at random), or of the
+    /// light vertex of connect_vertices.
+    uint32_t chosen = SELECT_LIGHT;
+    /// The stage is launched in the first `rounds` rounds of a chunk of work, 0: in every round.
+    uint32_t rounds = 0;
 };
 
-/// Paths from one end, round after round until all have ended; in every round each of them advances
-/// by one vertex. The image is the sum over the passes of an algorithm. They need nothing of each
-/// other, unless they have `vertex_joins`: then the work is cut into chunks of as many paths as the
-/// streams hold, in each of which one pass follows on the other. All paths of a chunk start in its
-/// first round, so that round number and depth are the same.
+/// A pass traces paths from one end, the camera or the lights. Each round advances every path in
+/// flight by one vertex, and rounds repeat until all paths have ended. An algorithm's image is the
+/// sum over its passes.
+///
+/// Passes are independent of each other unless they have `vertex_joins`. With that feature the work
+/// is cut into chunks of as many paths as the streams hold, and the passes follow one another
+/// within each chunk. All paths of a chunk start in its first round, so that a path's depth equals
+/// the round's index.
 struct Pass {
-    std::string name;  ///< "camera" or "light"; of one strategy: "implicit", "explicit", "joins"
-    FeatureMask features;  ///< of its kernels and path states
-    std::vector<RoundStage>
-        round;              ///< in order; stages that the features do not call for are absent
-    bool adds_hits = true;  ///< what its paths hit counts; else another pass sees to that
-    bool streams =
-        true;  ///< of paths between its stages; else it has one, which runs once and ends all paths
-    /// The round of the last few paths, which takes each of them far; empty where they go on as
-    /// before.
+    /// "camera" or "light"; with separate strategies also "implicit", "explicit" or "joins".
+    std::string name;
+    /// Features of the pass's kernels and path states.
+    FeatureMask features;
+    /// Stages in order, without those that the features do not require.
+    std::vector<RoundStage> round;
+    /// Whether this pass adds the emission that its paths hit; otherwise another pass adds it.
+    bool adds_hits = true;
+    /// Whether streams of paths connect the pass's stages; otherwise its only stage runs once and
+    /// traces all paths to their ends.
+    bool streams = true;
+    /// Round for the last few paths, which advances each of them by many vertices. Empty if they
+    /// use the normal round to the end.
     std::vector<RoundStage> last_paths = {};
 };
 
-/// The passes of an algorithm (settings.h names them) for a scene and settings with these features.
-/// `light_count`: each light is sampled in turn where the features say so. `light_vertices`: as
-/// many are kept of light paths where the algorithm joins them. `apart`: the paths from the camera
-/// are traced once for each strategy that ends them, with the weights of them all: the images of
-/// the passes are what each contributes (thesis, figures 4.8 to 4.17).
+/// Returns the passes of an algorithm (settings.h lists the names) for a scene and settings with
+/// these features. `light_count` is the number of lights, each of which is sampled separately if
+/// `independent_lights` is on. `light_vertices` is the number of vertices stored per light path if
+/// the algorithm connects them to camera paths. With `apart`, paths from the camera are traced once
+/// for each strategy that ends them, weighted against all strategies: each pass's image is the
+/// contribution of its strategy (thesis, figures 4.8 to 4.17).
 std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features,
                                    uint32_t light_count, uint32_t light_vertices,
                                    bool apart = false);

@@ -10,7 +10,8 @@ namespace rtrays {
 
 namespace {
 
-/// A round whose paths all start in the first, with more stages before its paths are extended.
+/// Returns `round` with its first stage, which starts paths, limited to the first round, and with
+/// `stages` inserted before extend_path.
 std::vector<RoundStage> with_stages(std::vector<RoundStage> round,
                                     const std::vector<RoundStage> &stages) {
     round.front().rounds = 1;
@@ -26,8 +27,8 @@ std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t li
                               uint32_t light_vertices, bool apart) {
     std::vector<RoundStage> joins;
     for (uint32_t vertex = 0; vertex < light_vertices; ++vertex) {
-        // Both ends together have as many scattering events as the longest path that all strategies
-        // find.
+        // In these rounds a connected path has at most `light_vertices` + 1 scattering events, the
+        // number up to which all strategies sample paths (shared/integrator_settings.h).
         const uint32_t rounds = light_vertices - vertex;
         joins.push_back({"connect_vertices", vertex, rounds});
         joins.push_back({"intersect_any", SELECT_LIGHT, rounds});

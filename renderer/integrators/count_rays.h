@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
+// Ray counts by depth for the rounds of any algorithm.
 #pragma once
 
 #include "renderer/integrators/algorithm.h"
 
 namespace rtrays {
 
-/// The same rounds with stages that count their rays by depth (thesis table 4.2 gives rays after
-/// one bounce), where the totals are counted.
+/// Returns the passes with stages added that count rays by depth, at the points where the totals
+/// are counted (thesis table 4.2 lists rays after one bounce). The stages for the last few paths
+/// are removed, because they do not count by depth.
 std::vector<Pass> counting_passes(std::vector<Pass> passes);
 
 }  // namespace rtrays

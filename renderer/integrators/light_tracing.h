@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
+// Rounds of light tracing.
 #pragma once
 
 #include "renderer/integrators/algorithm.h"
 
 namespace rtrays {
 
-/// The stages of one round of light tracing (thesis 2.8): every vertex, the one on the light
-/// included, is joined to the camera.
+/// Returns the stages of one round of light tracing (thesis 2.8). Every vertex of a light path,
+/// including the one on the light, is connected to the camera.
 std::vector<RoundStage> light_tracing_round(FeatureMask features);
 
 }  // namespace rtrays

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
+// Path tracing with a single kernel instead of a wavefront of stages.
 #pragma once
 
 #include "renderer/integrators/algorithm.h"
 
 namespace rtrays {
 
-/// The passes of path tracing, each by one stage that traces whole paths: no streams, no rounds.
+/// Returns the passes of path tracing with all stages of each pass replaced by one that traces
+/// complete paths, without streams or rounds.
 std::vector<Pass> megakernel_passes(std::vector<Pass> path_tracing);
 
 }  // namespace rtrays

@@ -11,8 +11,8 @@ std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_
                           features.has(Feature::shape_lights) ||
                           features.has(Feature::infinite_lights);
     if ((emitters && adds_hits) || features.has(Feature::light_strategy)) {
-        round.push_back(
-            {"evaluate_emission"});  // implicit paths, and emitters seen directly; the ratio R_0
+        // Adds implicit paths and emitters seen directly, and sets the ratio R_0 of light/mis.h.
+        round.push_back({"evaluate_emission"});
     }
     if (features.has(Feature::explicit_light)) {
         const bool independent = features.has(Feature::independent_lights);

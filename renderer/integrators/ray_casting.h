@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
+// The round of ray casting.
 #pragma once
 
 #include "renderer/integrators/algorithm.h"
 
 namespace rtrays {
 
-/// The stages of the one round of ray casting: those of path tracing with the block of secondary
-/// rays switched off (thesis 3.3.1). What the camera sees first is shown with the light it emits
-/// and that which reaches it from every light.
+/// Returns the stages of ray casting's only round: those of path tracing without secondary rays
+/// (thesis 3.3.1). The image shows the first surfaces that the camera sees, with the light they
+/// emit and the light that reaches them directly from every light.
 std::vector<RoundStage> ray_casting_round(FeatureMask features, uint32_t light_count);
 
 }  // namespace rtrays

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// One event of a path by the functions of the stages of its round and in their order, for the
-// kernels in which a work-item follows a path on its own (trace_paths.cl, finish_paths.cl): the
-// image has the bits of the wavefront's. Such paths lie in the work-item's own memory.
+// One event of a path, for kernels in which a work-item follows a path on its own (trace_paths.cl,
+// finish_paths.cl).
+//
+// It calls the functions of the wavefront stages in the order of a round, so the image has the same
+// bits. The path is in the work-item's private memory.
 #pragma once
 
 #define PATH_STATES_PRIVATE 1
 
-// A header is pasted where it is named first, so that must not be a block that is off: what more
-// than one stage needs comes before the blocks of some features.
+// The include resolver expands a header where it is first named. That place must not be in a
+// disabled block, so headers of more than one stage come before the blocks of single features.
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/extend_path.cl"
 #include "renderer/kernels/intersect_nearest.cl"
@@ -32,13 +34,13 @@
 #include "renderer/kernels/splat_unblocked.cl"
 #endif
 
-/// Rays that a work-item traced.
+/// Numbers of rays that a work-item traced.
 typedef struct RayCounts {
     uint nearest;
     uint shadow;
 } RayCounts;
 
-/// They are added to those of all.
+/// Adds the rays of a work-item to the stream's counters.
 DEVICE void count_rays(GLOBAL StreamCounters *counters, RayCounts rays) {
     if (rays.nearest > 0u) {
         film_add_word((volatile GLOBAL long *)&counters->nearest_rays, rays.nearest);
@@ -48,7 +50,8 @@ DEVICE void count_rays(GLOBAL StreamCounters *counters, RayCounts rays) {
 
 #if JOINS_LIGHT
 
-/// Joins the path's hit to a light, or to each of them.
+/// Connects the path's hit to one light, or to each light with FEATURE_independent_lights, and adds
+/// unblocked light samples to the path.
 DEVICE void add_light_samples(PathStates paths,
                               TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
                                   LIGHT_PARAMETERS IntegratorSettings settings,
@@ -67,8 +70,8 @@ DEVICE void add_light_samples(PathStates paths,
 
 #endif
 
-/// Takes the path in slot 0 one event on; that of a light path is not its first, which the camera
-/// may see, too. False when it ends there.
+/// Advances the path in slot 0 by one event. Returns false if the path ends there. The connection
+/// of a light path's start to the camera is not part of it.
 DEVICE bool advance_path(PathStates paths,
                          TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
                              LIGHT_PARAMETERS MAYBE_UNUSED CameraRecord camera,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Stages that keep the counters of the streams. They know nothing of paths, so one program serves
-// all scenes.
+// Stages that maintain the counters of the streams. They do not depend on path states, so one
+// program serves all scenes.
 
 #include "renderer/kernels/stream.h"
 
-/// Stage reset_streams: all slots free, work taken up to `first_work`. Ray counts and errors are
-/// kept.
+/// Stage reset_streams: frees all slots and starts work at item `first_work`. Ray counts and error
+/// counts are kept.
 __kernel void reset_streams(uint first_work, STREAM_PARAMETERS) {
     const uint i = get_global_id(0);
     if (i < capacity) {
@@ -21,7 +21,8 @@ __kernel void reset_streams(uint first_work, STREAM_PARAMETERS) {
     }
 }
 
-/// Stage begin_round (one work-item): the free slots were handed out; counts the rays of the round.
+/// Stage begin_round (one work-item): marks the free slots as handed out and counts the nearest-hit
+/// rays of the round.
 __kernel void begin_round(GLOBAL StreamCounters *counters) {
     if (get_global_id(0) == 0u) {
         const uint active = active_count(counters);
@@ -31,7 +32,7 @@ __kernel void begin_round(GLOBAL StreamCounters *counters) {
     }
 }
 
-/// Stage end_shadow_rays (one work-item): they were traced.
+/// Stage end_shadow_rays (one work-item): counts the traced shadow rays and empties their queue.
 __kernel void end_shadow_rays(GLOBAL StreamCounters *counters) {
     if (get_global_id(0) == 0u) {
         counters->shadow_rays += counters->shadow;
@@ -39,7 +40,7 @@ __kernel void end_shadow_rays(GLOBAL StreamCounters *counters) {
     }
 }
 
-/// Stage end_round (one work-item): the other active queue, filled meanwhile, is next.
+/// Stage end_round (one work-item): swaps the active queues. The round has filled the other one.
 __kernel void end_round(GLOBAL StreamCounters *counters) {
     if (get_global_id(0) == 0u) {
         counters->active[counters->parity] = 0u;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stage carry_film: normalises the film's sums. One work-item per channel of a pixel and kind of
-// sum. Reads and writes: film. Runs where the sums might leave their words, and before they are
-// read.
+// Stage carry_film: propagates the carries of the film's sums.
+//
+// One work-item per sum. Runs before a word of a sum could overflow, and before the sums are read.
+//
+// Reads and writes: film.
 
 #include "renderer/kernels/film/film.h"
 

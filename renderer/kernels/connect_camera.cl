@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Stage connect_camera: joins the hit of each light path to a point of the lens ("light" paths of
-// thesis 2.8). Reads: hit, ray_origin, ray_direction, throughput, pdf_w, log_ratio, log_strategies,
-// active queue. Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance,
-// splat_pixel; log_arrival. To: the shadow queue.
+// Stage connect_camera: connects the hit of each light path to a point on the lens (light paths of
+// the thesis, section 2.8).
+//
+// Reads: hit, ray_origin, ray_direction, throughput, depth, pixel, sample, pdf_w, light, log_ratio,
+// log_arrival, log_strategies, active queue.
+// Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance, splat_pixel,
+// log_arrival.
+// Enqueues: shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -20,8 +24,8 @@
 
 #if FEATURE_emission_density
 
-/// At the first hit: log2 of p_o,explicit / (p_o E), E being the density per area with which the
-/// path arrives.
+/// Returns log2 of p_o,explicit / (p_o E) at the first hit of a light path, where E is the density
+/// per area with which the path arrives (light/mis.h).
 DEVICE float explicit_over_light(PathStates paths, uint slot,
                                  SURFACE_PARAMETERS LIGHT_PARAMETERS SurfaceHit hit) {
     const LightRecord light = lights[get_light(paths, slot)];
@@ -44,7 +48,8 @@ DEVICE float explicit_over_light(PathStates paths, uint slot,
 
 #endif
 
-/// Prepares the shadow ray. False when there is nothing to gain.
+/// Connects a hit to the camera and prepares the shadow ray. Returns false if the connection
+/// contributes nothing.
 DEVICE bool join_hit(PathStates paths, uint slot,
                      SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
                      IntegratorSettings settings, ulong first_sample) {
@@ -94,23 +99,23 @@ DEVICE bool join_hit(PathStates paths, uint slot,
     if (!(cos_wo > 0.0f && cos_wi > 0.0f)) {
         return false;
     }
-    // Radiance from wi to wo, as a camera path would have it. f_cos holds the cosine with the
-    // shading normal where the path's area measure has that with the geometric one (Veach
-    // 1997, 5.3).
+    // The BSDF is that of radiance from wi to wo, as for a camera path. f_cos contains the cosine
+    // with the shading normal, while the path's area measure has the cosine with the geometric
+    // normal (Veach 1997, section 5.3).
     const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
                                          shading_frame(MATERIAL_ARGUMENTS hit, wo), wi);
     if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
         return false;
     }
-    const float camera_pdf_a =
-        join.pdf_w * cos_wo / squared;  // P_1, the density of camera paths here
+    // P_1, the density of camera paths per area at the hit.
+    const float camera_pdf_a = join.pdf_w * cos_wo / squared;
     const float light_paths = (float)settings.light_paths;
     float3 radiance =
         get_throughput(paths, slot) * bsdf.f_cos * (camera_pdf_a / cos_wi / light_paths);
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        // p_I / p_L and p_E / p_L: what the vertices before gave, and this one's densities
-        // (kernels/light/mis.h).
+        // p_I / p_L and p_E / p_L: the product of the contribution of the previous vertices and the
+        // densities at this one (light/mis.h).
         const float log_first = log2_quotient(camera_pdf_a, light_paths);
         const float log_back = log2_quotient(bsdf.pdf_w, cos_wi);
         const float log_arrival = get_log_arrival(paths, slot);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Stage connect_emitter: joins the start of each new light path to the camera (emitters seen
-// directly). Reads: pixel, sample, active queue. Writes: shadow_vector, shadow_radiance,
-// splat_pixel; ray_origin of the shadow ray is that of the path. To: the shadow queue.
+// Stage connect_emitter: connects the start of each new light path to the camera, for emitters that
+// the camera sees directly.
+//
+// The origin of the shadow ray is that of the path, so ray_origin is not written.
+//
+// Reads: depth, pixel, sample, active queue.
+// Writes: shadow_vector, shadow_radiance, splat_pixel.
+// Enqueues: shadow queue.
 
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/light/mis.h"
@@ -18,7 +23,8 @@
 #define SEEN_BY_CAMERA_ALONE false
 #endif
 
-/// Prepares the shadow ray. False when the camera does not look there.
+/// Connects the start of a light path to the camera and prepares the shadow ray. Returns false if
+/// the camera does not see it or light paths do not show it.
 DEVICE bool join_start(PathStates paths, uint slot,
                        SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
                        IntegratorSettings settings, ulong first_sample) {
@@ -37,17 +43,18 @@ DEVICE bool join_start(PathStates paths, uint slot,
         join_camera(camera, start.point.position, uniform_float(words.x), uniform_float(words.y));
     const float3 way = join.lens_point - start.point.position;
     const float squared = dot(way, way);
-    const float facing = dot(start.point.normal, way);  // cos times distance
+    const float facing = dot(start.point.normal, way);  // cosine times distance
     if (!(join.pdf_w > 0.0f && facing > 0.0f)) {
         return false;
     }
-    // P_1, the density of camera paths per area here; L P_1 / (p_o n_L) is what the path adds.
+    // P_1, the density of camera paths per area at the start. The path contributes L P_1 / (p_o
+    // n_L).
     const float camera_pdf_a = join.pdf_w * (facing / sqrt(squared)) / squared;
     const float light_pdf_a = start.pdf_origin * (float)settings.light_paths;  // p_o n_L
     float3 radiance = light_radiance(lights[start.light]) * (camera_pdf_a / light_pdf_a);
 #if FEATURE_light_emitters
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        // p_I / p_L of a path of one edge, kernels/light/mis.h.
+        // p_I / p_L = P_1 / (n_L p_o) of a path with one edge (light/mis.h).
         radiance *=
             camera_path_weight(0.0f, log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
     }

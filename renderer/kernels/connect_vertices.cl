@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Stage connect_vertices: joins the hit of each camera path to vertex `chosen` of the light path of
-// the same number. Reads: hit, ray_direction, throughput, depth, log_arrival, log_strategies, light
-// vertices, active queue. Writes: ray_origin (now that of the shadow ray), shadow_vector,
-// shadow_radiance. To: the shadow queue.
+// Stage connect_vertices: connects the hit of each camera path to vertex `chosen` of the light path
+// with the same index.
+//
+// Reads: hit, ray_direction, throughput, depth, pixel, sample, log_arrival, log_strategies, light
+// vertices, active queue.
+// Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance.
+// Enqueues: shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -16,16 +19,20 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// What one end of a join has to do with it.
+/// One end of a connection: its BSDF and its densities.
 typedef struct JoinEnd {
-    float3 f_cos;  ///< of radiance towards the camera: f |cos(ns)| of the direction from the light
-    float pdf_w;   ///< per solid angle, with which a path from this end goes to the other
-    float log_strategies;  ///< log2 of what this side adds to p_others / p_own, but for p_arrive
-                           ///< (light/mis.h)
+    /// f |cos(ns)| for radiance towards the camera, with the cosine of the direction towards the
+    /// light.
+    float3 f_cos;
+    /// Density per solid angle with which a path from this end continues to the other end.
+    float pdf_w;
+    /// log2 of this side's contribution to p_others / p_own, without the factor p_arrive
+    /// (light/mis.h).
+    float log_strategies;
 } JoinEnd;
 
-/// The end at `hit` of a path that came from direction `before` and is joined to what lies in
-/// direction `other`; both unit, away from it.
+/// Returns the end of a connection at `hit`. The path came from direction `before` and is connected
+/// along direction `other`; both are unit vectors away from the surface.
 DEVICE JoinEnd join_end(MATERIAL_PARAMETERS SurfaceHit hit, float3 before, float3 other,
                         bool from_camera, float log_arrival, float log_strategies, float beta) {
     const BsdfValue onwards = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
@@ -44,7 +51,8 @@ DEVICE bool is_black(float3 value) {
     return !(value.x > 0.0f || value.y > 0.0f || value.z > 0.0f);
 }
 
-/// Prepares the shadow ray. False when there is nothing to gain.
+/// Connects a hit to a light vertex and prepares the shadow ray. Returns false if the connection
+/// contributes nothing.
 DEVICE bool join_to_vertex(PathStates paths, uint slot,
                            SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS
                                IntegratorSettings settings,
@@ -85,8 +93,8 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot,
     const float cos_here = fabs(dot(hit.point.normal, wi)),
                 cos_there = fabs(dot(lit.point.normal, wi));
     const float cos_arrived = fabs(dot(lit.point.normal, from_light));
-    // The same point twice is compared so that it counts as no join, and so is a hit in the plane
-    // of its surface.
+    // Two coinciding points are no connection, nor is a hit in the plane of its surface. The
+    // comparisons also fail for NaN.
     if (!(squared > 0.0f && cos_here > 0.0f && cos_there > 0.0f && cos_arrived > 0.0f &&
           fabs(dot(hit.point.normal, wo)) > 0.0f)) {
         return false;
@@ -102,14 +110,14 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot,
     if (is_black(there.f_cos)) {
         return false;
     }
-    // With which a path from either end arrives at the other, per area.
+    // log2 of the densities per area with which a path from either end arrives at the other.
     const float log_here = log2_quotient(there.pdf_w, squared) + log2_of(cos_here);
     const float log_there = log2_quotient(here.pdf_w, squared) + log2_of(cos_there);
     const float weight = join_weight(log_here + here.log_strategies,
                                      log_there + there.log_strategies, settings.beta);
-    // As in connect_camera: f_cos there holds the cosine with the shading normal where the area
-    // measure of the light path has that with the geometric one (Veach 1997, 5.3). Where the way is
-    // short its weight, falling with d^(2 beta), comes before the quotient by d^2.
+    // At the light vertex f_cos contains the cosine with the shading normal. The area measure of
+    // the light path has the cosine with the geometric normal instead (Veach 1997, section 5.3).
+    // The weight comes before the quotient by d^2: on short connections it falls with d^(2 beta).
     const float3 light =
         vertex.throughput * there.f_cos * (weight * cos_there / cos_arrived / squared);
     const float3 origin = offset_ray_origin(hit.point, wi);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stages count_nearest_rays and count_shadow_rays: count the rays of the active paths, and of the
-// shadow queue, by depth. Reads: depth; active queue or shadow queue. Writes: ray counts.
+// Stages count_nearest_rays and count_shadow_rays: count by depth the rays of the active paths and
+// of the shadow queue.
+//
+// Reads: depth, active queue or shadow queue.
+// Writes: ray counts.
 
 #include "renderer/kernels/film/film.h"
 #include "renderer/kernels/stream.h"
@@ -8,7 +11,7 @@
 #include "renderer/shared/ray_counts.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// `counts`: RAY_DEPTHS of each kind.
+/// Counts one ray. `counts` has RAY_DEPTHS entries of each kind.
 DEVICE void count_ray(GLOBAL long *counts, uint kind, uint depth) {
     film_add_word(counts + kind * RAY_DEPTHS + min(depth, RAY_DEPTHS - 1u), 1);
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stage end_paths: ends each active path where it is and adds it to the film.
-// Reads: pixel, radiance, active queue. Writes: film. To: the free queue.
+// Stage end_paths: ends all active paths and adds them to the film.
+//
+// Reads: pixel, radiance, active queue.
+// Writes: film.
+// Enqueues: free queue.
 
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/stream.h"

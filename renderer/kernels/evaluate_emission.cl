@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Stage evaluate_emission: adds what the hit of each active path, or the light at infinity, emits
-// towards it: emitters seen directly, and implicit paths. Reads: hit, ray_origin, ray_direction,
-// throughput, pdf_w, log_ratio, log_strategies, depth, active queue. Writes: radiance, log_arrival;
-// at the first hit log_ratio.
+// Stage evaluate_emission: adds the light that the hit of each active path, or the light at
+// infinity, emits towards it. This covers emitters seen directly and implicit paths.
+//
+// Reads: hit, ray_origin, ray_direction, throughput, radiance, pdf_w, log_ratio, log_strategies,
+// depth, active queue.
+// Writes: radiance, log_arrival; log_ratio at the first hit.
 
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
@@ -13,18 +15,20 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// What a path meets: radiance towards it, and how else it might have been found.
+/// Emission that a path meets, with the densities of the other techniques that could have sampled
+/// the path.
 typedef struct Emission {
     float3 radiance;
-    float explicit_pdf_w;  ///< density per solid angle with which light sampling at the vertex
-                           ///< before would have found it
+    /// Density per solid angle with which light sampling at the previous vertex samples this
+    /// direction.
+    float explicit_pdf_w;
 #if FEATURE_light_strategy
-    float line_pdf;  ///< p_o p_d of kernels/light/mis.h; of what the camera sees directly, p_o
+    float line_pdf;  ///< p_o p_d of kernels/light/mis.h; p_o for emitters seen directly
 #endif
 } Emission;
 
-/// False when nothing is emitted this way. The densities are set where the path may have been found
-/// otherwise: `by_light_sampling`, `by_light_path`.
+/// Returns false if nothing is emitted towards the path. Sets the density of light sampling if
+/// `by_light_sampling`, and that of light paths if `by_light_path`.
 DEVICE bool emission_met(PathStates paths, uint slot,
                          SURFACE_PARAMETERS LIGHT_PARAMETERS bool by_light_sampling,
                          MAYBE_UNUSED bool by_light_path, PRIVATE Emission *met) {
@@ -44,7 +48,7 @@ DEVICE bool emission_met(PathStates paths, uint slot,
         }
 #if FEATURE_light_strategy
         if (by_light_path) {
-            // What is infinitely far is not joined to the camera.
+            // Light at infinity that the camera sees directly is not connected to the camera.
             met->line_pdf = get_depth(paths, slot) > 0u
                                 ? infinite_line_pdf(LIGHT_ARGUMENTS from, direction)
                                 : 0.0f;
@@ -82,8 +86,8 @@ DEVICE bool emission_met(PathStates paths, uint slot,
 
 #if FEATURE_light_strategy
 
-/// Sets R_0 of kernels/light/mis.h at the first hit, A_i at every hit. There `pdf_w` is that of the
-/// ray.
+/// Sets R_0 of kernels/light/mis.h at the first hit and, for vertex connections, A_i at every hit.
+/// At the first hit `pdf_w` is the density of the camera ray.
 DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings) {
     const uint primitive = get_hit_primitive(paths, slot);
     const bool first = get_depth(paths, slot) == 0u;
@@ -106,6 +110,7 @@ DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSet
 
 #endif
 
+/// Adds emission to a path, with the MIS weight of its technique.
 DEVICE void add_emission(PathStates paths, uint slot,
                          SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
     bool by_light_sampling = false, by_light_path = false;
@@ -127,8 +132,8 @@ DEVICE void add_emission(PathStates paths, uint slot,
 #if FEATURE_scattering
     if (get_depth(paths, slot) > 0u) {
 #if FEATURE_direction_density
-        // After a delta event light sampling had no chance: only implicit paths find this light,
-        // whatever the strategy.
+        // Light sampling is impossible after a delta event. Only implicit paths find this light, so
+        // they count whatever the strategy.
         if (get_pdf_w(paths, slot) < INFINITY) {
             if ((settings.strategies & STRATEGY_IMPLICIT) == 0u) {
                 return;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stage extend_path: samples the next direction of each active path, or ends the path and adds it
-// to the film. Reads: hit, ray_direction, throughput, radiance, active queue. Writes: ray,
-// throughput, pdf_w, log_ratio, log_strategies, depth; film, half film. To: the active queue of the
-// next round, or the free queue.
+// to the film.
+//
+// Reads: hit, ray_direction, throughput, radiance, depth, pixel, sample, roulette_scale, log_ratio,
+// log_arrival, log_strategies, active queue.
+// Writes: ray_origin, ray_direction, throughput, depth, roulette_scale, pdf_w, log_ratio,
+// log_strategies; film, half film.
+// Enqueues: active queue of the next round, or free queue.
 
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/geometry/prefetch_hit.h"
@@ -20,7 +24,7 @@
 
 #include "renderer/kernels/bsdf/reverse.h"
 
-/// Samples the scattering at the hit and moves the path's ray on. False when the path ends here.
+/// Samples scattering at the hit and moves the path's ray there. Returns false if the path ends.
 DEVICE bool scatter(PathStates paths, uint slot,
                     SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
                     ulong first_sample) {
@@ -30,8 +34,9 @@ DEVICE bool scatter(PathStates paths, uint slot,
         return false;
     }
 #if FEATURE_depth_limit
-    // The ray of the last scattering event counts only where it may find light: implicit paths, or
-    // after a delta event. That event of a light path is the one that is joined to the camera.
+    // The ray of the last scattering event counts only if it can find light: in implicit paths, or
+    // after a delta event. A light path needs no such ray, since its last event is the one
+    // connected to the camera.
 #if FEATURE_from_light
     const uint last_ray = 1u;
 #else
@@ -58,7 +63,8 @@ DEVICE bool scatter(PathStates paths, uint slot,
 #endif
 #if FEATURE_from_light
     float3 throughput = get_throughput(paths, slot) * both.importance;
-    const float scale_change = 1.0f;  // importance crosses boundaries unchanged
+    // Importance crosses boundaries unchanged.
+    const float scale_change = 1.0f;
 #else
     float3 throughput = get_throughput(paths, slot) * sample.weight;
     const float scale_change = sample.scale;
@@ -69,12 +75,13 @@ DEVICE bool scatter(PathStates paths, uint slot,
     }
 #if FEATURE_roulette
     if (settings.termination == TERMINATION_ROULETTE) {
-        // Thesis 2.7.2: from the first bounce, continuation proportional to throughput. The bound
-        // below 1 ends paths between surfaces that absorb nothing; it is close to 1 because the
-        // variance is infinite where the squared albedo exceeds it. Left out of all MIS densities,
-        // kept in the contribution. Inside glass radiance is larger by eta^2, which the path loses
-        // again on its way out: that part is left out (PBRT 4th ed., 13.2.2). What a light path
-        // carries is measured by what it began with.
+        // Thesis, section 2.7.2: from the first bounce on, the continuation probability is
+        // proportional to throughput. The bound below 1 ends paths between surfaces that absorb
+        // nothing. It is close to 1 because the variance is infinite if the squared albedo exceeds
+        // it. The probability is part of the contribution, but not of the MIS densities.
+        // Inside glass radiance is larger by eta^2, a factor that the path loses on its way out.
+        // Roulette excludes this factor (PBRT 4th ed., section 13.2.2). The throughput of a light
+        // path is measured relative to its initial value.
 #if FEATURE_roulette_scale
         const float scale = get_roulette_scale(paths, slot) * scale_change;
         set_roulette_scale(paths, slot, scale);

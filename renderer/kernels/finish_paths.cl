@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Stage finish_paths: the round of the last few paths of a batch, in which a work-item takes one
-// path FINISH_EVENTS events on. Light caught in glass goes on for thousands of events, and then the
-// launches of a round cost more than its paths. Reads and writes: path states, active queue.
-// Writes: film; ray counts. To: the active queue of the next round.
+// Stage finish_paths: the round of the last few paths of a batch. A work-item advances one path by
+// up to FINISH_EVENTS events.
+//
+// Light trapped in glass scatters for thousands of events. With few such paths left, the launches
+// of ordinary rounds would cost more than the paths themselves.
+//
+// Reads and writes: path states, active queue.
+// Writes: film; ray counts.
+// Enqueues: active queue of the next round.
 
 #include "renderer/kernels/advance_path.h"
 #include "renderer/shared/finish_paths.h"

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Stage follow_branches: moves each active path on by ideal reflection or refraction: no direction
-// is drawn, every such component of every vertex has its turn. Where a path ends it comes back to
-// the last vertex of which components are left; the path is the tree of Whitted 1980, "An improved
-// illumination model for shaded display", depth first, and what its branches find adds up in one
-// radiance. Departure: adaptive termination (Hall and Greenberg 1983) is a setting. Reads: hit,
-// ray_direction, throughput, depth, pending, active queue, branches. Writes: ray, throughput,
-// pdf_w, depth, pending, branches; film. To: the active queue of the next round, or the free queue.
+// Stage follow_branches: continues each active path by ideal reflection or refraction.
+//
+// No direction is sampled: every ideal component of every vertex is followed. A path that ends
+// returns to the last vertex that has components left. It thus traverses the tree of Whitted 1980,
+// "An improved illumination model for shaded display", depth first. The light of all branches adds
+// up in one radiance. Departure: adaptive termination (Hall and Greenberg 1983) is a setting.
+//
+// Reads: hit, ray_direction, throughput, depth, pending, active queue, branches.
+// Writes: ray_origin, ray_direction, throughput, pdf_w, depth, pending, branches; film.
+// Enqueues: active queue of the next round, or free queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -20,7 +23,8 @@
 
 #if FEATURE_delta && FEATURE_from_camera
 
-/// The hit of a path as a vertex of which no component was followed. False where none can be.
+/// Makes the hit of a path a vertex, with all components still to follow. Returns false if the path
+/// cannot scatter there.
 DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settings,
                           PRIVATE Branch *vertex) {
     vertex->hit_primitive = get_hit_primitive(paths, slot);
@@ -39,8 +43,8 @@ DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settin
     return true;
 }
 
-/// Follows the vertex' next ideal component that leads anywhere, and keeps the vertex if there are
-/// more. False when nothing is left.
+/// Follows the next ideal component of the vertex with a nonzero contribution, and stores the
+/// vertex if it has more components. Returns false if no component is left.
 DEVICE bool follow(PathStates paths, uint slot,
                    SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS IntegratorSettings
                        settings,
@@ -68,7 +72,8 @@ DEVICE bool follow(PathStates paths, uint slot,
 #endif
 #if FEATURE_branches
         if (i + 1u < material.component_count) {
-            // Depths grow along the stack: it holds at most one vertex for each below the limit.
+            // Depths increase along the stack, so it holds at most one vertex per depth below the
+            // limit.
             const uint pending = get_pending(paths, slot);
             vertex.component = i + 1u;
             store_branch(record_place(branch_words, BRANCH_WORDS, paths.capacity,
@@ -90,7 +95,7 @@ DEVICE bool follow(PathStates paths, uint slot,
     return false;
 }
 
-/// Moves the path on, from its hit or from a vertex before. False when its tree is done.
+/// Continues the path from its hit or from a stored vertex. Returns false if its tree is finished.
 DEVICE bool next_branch(PathStates paths, uint slot,
                         SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS IntegratorSettings
                             settings) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Stage generate_camera_rays: starts a camera path in every free slot while samples of the batch
-// are left. Reads: free queue, list of live pixels. Writes: path states. To: the active queue of
-// this round.
+// are left.
+//
+// Reads: free queue, list of live pixels.
+// Writes: path states.
+// Enqueues: active queue of this round.
 
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/sampling/sampler.h"
@@ -11,7 +14,7 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// Starts sample `sample` of the batch in a pixel.
+/// Starts sample `sample` of the batch in pixel `pixel`.
 DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera,
                        IntegratorSettings settings, ulong first_sample, uint pixel, uint sample) {
     const uint4 words = path_sample(settings, pixel, first_sample + sample, BLOCK_CAMERA);
@@ -41,9 +44,9 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera,
 #endif
 }
 
-/// Starts item `item` of a batch of `work`: the samples of a pixel follow each other, so that the
-/// sums of the film that they end in are in a cache. Paths that are joined to light paths go over
-/// all pixels sample by sample, as those do.
+/// Starts item `item` of a batch of `work` items. The samples of a pixel are consecutive items, so
+/// that the pixel's film sums stay in a cache. Paths that are connected to light vertices instead
+/// cover all pixels sample by sample, as light paths do.
 DEVICE void start_item(PathStates paths, uint slot, CameraRecord camera,
                        IntegratorSettings settings, ulong first_sample,
                        LIVE_PIXELS_PARAMETERS uint item, MAYBE_UNUSED uint work) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Stage generate_light_paths: starts a light path in every free slot while light paths of the batch
-// are left. Reads: free queue. Writes: path states; rows of the light vertices, emptied. To: the
-// active queue of this round.
+// are left.
+//
+// Reads: free queue.
+// Writes: path states; light vertices (clears the path's row).
+// Enqueues: active queue of this round.
 
 #include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/light/mis.h"
@@ -15,7 +18,7 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// Starts light path `path` of a sample of the batch.
+/// Starts light path `path` of sample `sample` of the batch.
 DEVICE void start_path(PathStates paths, uint slot,
                        SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
                        ulong first_sample, uint path, uint sample) {
@@ -35,8 +38,8 @@ DEVICE void start_path(PathStates paths, uint slot,
 #endif
 #if FEATURE_emission_density
     set_light(paths, slot, emission.light);
-    // Directions leave surfaces in proportion to the cosine: p_d per projected solid angle is 1 /
-    // pi there. What cannot be hit no implicit path finds.
+    // Surfaces emit in proportion to the cosine, so p_d per projected solid angle is 1 / pi there.
+    // A delta light cannot be hit by an implicit path.
     const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
     const float log_ratio =
         emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
@@ -44,10 +47,8 @@ DEVICE void start_path(PathStates paths, uint slot,
 #if FEATURE_vertex_joins
     set_log_strategies(paths, slot, log_ratio);
 #endif
-    set_log_arrival(
-        paths, slot,
-        log2_quotient(
-            1.0f, emission.pdf_direction));  // distance and cosine of the first hit follow there
+    // At the first hit, its distance and cosine complete this factor.
+    set_log_arrival(paths, slot, log2_quotient(1.0f, emission.pdf_direction));
 #endif
 }
 

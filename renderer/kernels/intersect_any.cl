@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Stage intersect_any: adds the light samples that nothing blocks.
-// Reads: ray_origin, shadow_vector, shadow_radiance, shadow queue. Writes: radiance.
+// Stage intersect_any: traces the shadow rays of camera paths and adds the connections that nothing
+// blocks.
+//
+// Reads: ray_origin, shadow_vector, shadow_radiance, radiance, shadow queue.
+// Writes: radiance.
 
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/shadow_ray.h"
 #include "renderer/shared/path_state.h"
 
-/// Adds the light sample of a path unless something is in the way.
+/// Adds the shadow radiance of a path unless its shadow ray is blocked.
 DEVICE void add_unblocked(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin,
                           float3 way) {
     if (!is_blocked(GEOMETRY_ARGUMENTS origin, way)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Stage intersect_nearest: finds what the rays of the active paths hit first.
-// Reads: ray_origin, ray_direction, active queue. Writes: hit_primitive, hit_u, hit_v, hit_w.
+// Stage intersect_nearest: finds the nearest hits of the rays of the active paths.
+//
+// Reads: ray_origin, ray_direction, active queue.
+// Writes: hit_primitive, hit_u, hit_v, hit_w.
 
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/stream.h"
@@ -9,7 +11,8 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-/// Triangles through the hierarchy, then the few shapes one after the other.
+/// Finds the nearest hit of a ray: triangles through the hierarchy, then the few shapes one after
+/// the other.
 DEVICE void find_hit(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin,
                      float3 direction) {
     uint primitive = NO_HIT;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The list of the pixels that have not stopped, in ascending order: a stable compaction, which does
-// not depend on the order of work-items. Blocks of pixels are counted, the counts summed up, the
-// blocks written one behind the other.
+// Stages that list the live pixels, which have not stopped, in ascending order.
+//
+// The list is a stable compaction, so it does not depend on the order of work-items. The stages
+// count the live pixels of each block, sum the counts, and write the blocks one after the other.
 
 #include "renderer/shared/live_pixels.h"
 
-/// Pixels of block `block` as a loop over `pixel`.
+/// Loops `pixel` over the pixels of a block.
 #define FOR_EACH_PIXEL(pixel, block, pixels)                                               \
     for (uint pixel = (block)*LIVE_BLOCK, pixel##_end = min(pixel + LIVE_BLOCK, (pixels)); \
          pixel < pixel##_end; ++pixel)
 
-/// Stage count_live_pixels: one work-item per block. Reads: stopping counts. Writes: the block's
-/// number of live pixels.
+/// Stage count_live_pixels: counts the live pixels of each block. One work-item per block. Reads:
+/// stopping counts. Writes: counts of the blocks.
 __kernel void count_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
                                 GLOBAL uint *live_blocks) {
     const uint block = get_global_id(0);
@@ -25,8 +26,8 @@ __kernel void count_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
     live_blocks[block] = live;
 }
 
-/// Stage place_live_blocks (one work-item): turns the blocks' numbers into where they begin in the
-/// list. Writes: its length.
+/// Stage place_live_blocks (one work-item): replaces the counts of the blocks by their offsets in
+/// the list. Writes: offsets of the blocks; length of the list.
 __kernel void place_live_blocks(uint pixels, GLOBAL uint *live_blocks, GLOBAL uint *live_count) {
     if (get_global_id(0) != 0u) {
         return;
@@ -40,8 +41,8 @@ __kernel void place_live_blocks(uint pixels, GLOBAL uint *live_blocks, GLOBAL ui
     *live_count = begin;
 }
 
-/// Stage list_live_pixels: one work-item per block. Reads: stopping counts, the blocks' places.
-/// Writes: the list.
+/// Stage list_live_pixels: writes the list. One work-item per block. Reads: stopping counts,
+/// offsets of the blocks. Writes: list of live pixels.
 __kernel void list_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
                                GLOBAL const uint *live_blocks, GLOBAL uint *live_pixels) {
     const uint block = get_global_id(0);

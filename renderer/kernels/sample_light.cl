@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Stage sample_light: joins the hit of each active path to a point sampled on a light (explicit
-// paths). Reads: hit, ray_direction, throughput, log_ratio, log_arrival, log_strategies, active
-// queue. Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance. To: the
-// shadow queue.
+// Stage sample_light: connects the hit of each active path to a point sampled on a light (explicit
+// paths).
+//
+// Reads: hit, ray_direction, throughput, depth, pixel, sample, log_ratio, log_arrival,
+// log_strategies, active queue.
+// Writes: ray_origin (now that of the shadow ray), shadow_vector, shadow_radiance.
+// Enqueues: shadow queue.
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
@@ -19,13 +22,13 @@
 
 #if FEATURE_light_strategy
 
-/// log2 of p_L / p_E of kernels/light/mis.h; where vertices are joined, of all that light paths
-/// take part in.
+/// Returns log2 of p_L / p_E (light/mis.h). If light vertices are stored, p_L stands for all
+/// strategies that involve light paths.
 DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETERS SurfaceHit hit,
                                  float3 wo, LightSample light, IntegratorSettings settings) {
     const uint depth = get_depth(paths, slot);
     const float cos_wo = fabs(dot(hit.point.normal, wo));
-    // What is subtracted below is finite, and no infinity from another.
+    // A zero cosine would make log_back +INFINITY, and its sum with -INFINITY is NaN.
     if (!(cos_wo > 0.0f)) {
         return -INFINITY;
     }
@@ -56,8 +59,8 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETER
 
 #endif
 
-/// Prepares the shadow ray of a path to the light `chosen` or SELECT_LIGHT. False when there is
-/// nothing to gain.
+/// Connects the hit of a path to light `chosen`, or to a light selected at random for SELECT_LIGHT,
+/// and prepares the shadow ray. Returns false if the connection contributes nothing.
 DEVICE bool join_to_light(PathStates paths, uint slot,
                           SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings
                               settings,
@@ -78,7 +81,7 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
         return false;
     }
 #endif
-    // Lights that are sampled one after the other have numbers of their own.
+    // Lights that are sampled one after the other have their own random streams.
     const uint stream = chosen == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(chosen);
     const uint4 words = sample_words(settings, stream, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
@@ -93,7 +96,7 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
     if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
         return false;
     }
-    // f cos L / p_E, thesis (2.62).
+    // f cos L / p_E of thesis (2.62).
     float3 radiance = get_throughput(paths, slot) * bsdf.f_cos * light.radiance / light.pdf_w;
 #if FEATURE_implicit_light
     // p_I / p_E of thesis (2.73), both per solid angle.

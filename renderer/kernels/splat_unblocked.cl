@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Stage splat_unblocked: adds the light paths that nothing hides from the camera to the film.
-// Reads: ray_origin, shadow_vector, shadow_radiance, splat_pixel, shadow queue. Writes: film.
+// Stage splat_unblocked: traces the shadow rays of light paths and adds the paths visible to the
+// camera to the film.
+//
+// Reads: ray_origin, shadow_vector, shadow_radiance, splat_pixel, shadow queue.
+// Writes: film.
 
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/shadow_ray.h"
 #include "renderer/shared/path_state.h"
 
-/// Adds what a light path brings to the film unless something is in the way.
+/// Adds the shadow radiance of a light path to the film unless its shadow ray is blocked.
 DEVICE void splat(PathStates paths, uint slot, GEOMETRY_PARAMETERS GLOBAL long *film,
                   GLOBAL StreamCounters *counters) {
     const uint pixel = get_splat_pixel(paths, slot);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Stage stop_converged: writes down the number of samples at which a live pixel has converged. One
-// work-item per live pixel. Reads: film (carried), list of live pixels. Reads and writes: half film
-// (carried here), stopping counts. Runs between batches, at the checks of convergence control.
+// Stage stop_converged: records the number of samples at which a live pixel has converged.
+//
+// One work-item per live pixel. Runs between batches, at the checks of convergence control.
+//
+// Reads: film (carries propagated), list of live pixels.
+// Reads and writes: half film (carries propagated here), stopping counts.
 
 #include "renderer/kernels/film/convergence.h"
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stage store_vertex: keeps the hit of each light path where camera paths can be joined to it.
-// Reads: hit, ray_direction, throughput, log_arrival, log_strategies, active queue. Writes: light
-// vertices.
+// Stage store_vertex: stores the hit of each light path if camera paths can be connected to it.
+//
+// Reads: hit, ray_direction, throughput, depth, pixel, sample, log_arrival, log_strategies, active
+// queue.
+// Writes: light vertices.
 
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
@@ -13,6 +15,7 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
+/// Stores the hit of a light path as a light vertex, unless its material has only delta components.
 DEVICE void keep_hit(PathStates paths, uint slot,
                      SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS IntegratorSettings
                          settings) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Stage trace_paths: path tracing in one kernel ("megakernel"). Each work-item traces paths of the
-// batch one after the other, each from the camera to its end. It stands in for OptiX 3.0 in the
-// comparison of thesis 4.4.3 (figure 4.22), which built such kernels: what separates the two is
-// what streams between stages cost and gain. Writes: film; ray counts.
+// Stage trace_paths: path tracing in a single kernel ("megakernel").
+//
+// Each work-item traces paths of the batch one after the other, each from the camera to its end. In
+// the comparison of the thesis (section 4.4.3, figure 4.22) it replaces OptiX 3.0, which built such
+// kernels. The difference between it and the wavefront shows what streams between stages cost and
+// gain.
+//
+// Writes: film; ray counts.
 
 #include "renderer/kernels/advance_path.h"
 #include "renderer/kernels/generate_camera_rays.cl"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compiles environment images into texels and selection tables.
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +30,7 @@ double compile_environment(const TextureImage &image, CompiledScene &compiled) {
     std::vector<double> rows;
     std::vector<uint32_t> columns;
     for (size_t row = 0; row <= height; ++row) {
-        // Row `row` of cells lies between texel rows row - 1 and row.
+        // Row `row` of cells is between texel rows row - 1 and row.
         const size_t above = row == 0 ? 0 : row - 1;
         const size_t below = std::min(row, height - 1);
         const double solid_angle = 2.0 * pi / static_cast<double>(width) *
@@ -43,8 +44,8 @@ double compile_environment(const TextureImage &image, CompiledScene &compiled) {
         }
         rows.push_back(sum);
         if (sum == 0.0) {
-            std::fill(cells.begin(), cells.end(),
-                      1.0);  // never chosen; its table must be one nevertheless
+            // This row is never selected, but its table must still be valid.
+            std::fill(cells.begin(), cells.end(), 1.0);
         }
         const SelectionTable table = selection_table(cells);
         columns.insert(columns.end(), table.end.begin(), table.end.end());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compiles lights into records with selection probabilities.
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -24,14 +25,14 @@ double triangle_area(const MeshArrays &meshes, uint32_t triangle) {
     return 0.5 * e1.cross(e2).norm();
 }
 
-/// A sphere around all bounded surfaces.
+/// Sphere around all bounded surfaces.
 struct Extent {
     Eigen::Vector3d centre;
     double radius;
 };
 
 Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
-    // Centre and reach of every bounded shape.
+    // Centre and radius of every bounded shape.
     std::vector<Extent> shapes;
     for (size_t i = 0; i < scene.shapes.kind.size(); ++i) {
         const ShapeRecord &record = compiled.shapes[i];
@@ -58,7 +59,8 @@ Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
         box.extend(shape.centre - Eigen::Vector3d::Constant(shape.radius));
     }
     if (box.isEmpty()) {
-        // Planes alone: what light from infinity is traced to lies about the camera.
+        // The scene has only planes: light paths from infinity are traced towards the surroundings
+        // of the camera.
         return {Eigen::Vector3f(compiled.camera.position).cast<double>(), 1.0};
     }
     Extent extent = {box.center(), 0};
@@ -93,8 +95,8 @@ void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &li
     }
 }
 
-/// One light's record, without selection, and its power in W (mean of the channels), which drives
-/// selection. A power of 0: it is no light.
+/// A light's record without its selection probability, and its power in W (mean of the channels),
+/// which drives selection. A light of power 0 is omitted.
 struct Compiled {
     LightRecord record{};
     double power = 0;
@@ -113,7 +115,8 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
     copy3(Eigen::Vector3d(world.block<3, 1>(0, 2)), record.axis_z);
     copy3(Eigen::Vector3d(world.block<3, 1>(0, 3)), record.position);
     const double mean = static_cast<double>(lights.radiance[i].mean());
-    const double disc = pi * extent.radius * extent.radius;  // of the scene, seen from infinity
+    // projected area of the scene's sphere, seen from infinity
+    const double disc = pi * extent.radius * extent.radius;
     if (!(lights.radiance[i].maxCoeff() > 0.0f)) {
         return light;
     }
@@ -147,13 +150,13 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
             record.kind = LIGHT_SPOT;
             const double inner = lights.inner_angle[i], outer = lights.outer_angle[i];
             record.outer_angle = static_cast<float>(outer);
-            // Differences of cosines as products of sines, without cancellation.
+            // Differences of cosines are written as products of sines to avoid cancellation.
             record.versine_outer = static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2));
             record.versine_range = static_cast<float>(2.0 * std::sin(0.5 * (outer + inner)) *
                                                       std::sin(0.5 * (outer - inner)));
             record.angle_scale = static_cast<float>(1.0 / (outer - inner));
-            // The integral of the linear fall: 2 pi (1 - sinc-like mean of the cosines between the
-            // cones).
+            // Integral over directions of an intensity that falls linearly with the angle between
+            // the cones: 2 pi (1 - mean cosine between the cones).
             light.power =
                 2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner)) * mean;
             compiled.features = compiled.features.with(Feature::spot_lights);
@@ -168,7 +171,7 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
         case Kind::environment: {
             if (compiled.lighting.infinite_light != NO_EMITTER) {
                 throw input_error(fmt::format(
-                    "light '{}': the scene has another dome or environment; there can be one",
+                    "light '{}': the scene has another dome or environment; only one is allowed",
                     lights.name[i]));
             }
             const bool dome = lights.kind[i] == Kind::dome;
@@ -186,9 +189,9 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
     return light;
 }
 
-/// Selection probabilities: uniform, by power, the mean of both (which bounds the loss of either),
-/// or 1 for each. Light paths start at one light each: where all are sampled in turn, at one by the
-/// mean of both.
+/// Sets the selection probabilities of next-event estimation: uniform, in proportion to power, the
+/// mean of both (which bounds the loss against either), or 1 for each light. A light path starts at
+/// a single light; with `independent`, that light is selected by the mean of both.
 void select_lights(const std::vector<double> &powers, LightSelection selection,
                    std::vector<LightRecord> &lights) {
     const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
@@ -209,8 +212,8 @@ void select_lights(const std::vector<double> &powers, LightSelection selection,
     }
 }
 
-/// A point light at the camera: a white surface at the middle of the scene that faces it has
-/// radiance 1.
+/// Returns a point light at the camera. A white diffuse surface at the centre of the scene that
+/// faces it has radiance 1.
 Compiled headlight(const Extent &extent, CompiledScene &compiled) {
     const double away =
         (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
@@ -229,7 +232,7 @@ Compiled headlight(const Extent &extent, CompiledScene &compiled) {
 void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
                     CompiledScene &compiled) {
     Extent extent = extent_of(scene, compiled);
-    // A margin for the rounding of points on these surfaces, and never nothing.
+    // Adds a margin for the rounding of points on these surfaces, and keeps the radius above 0.
     extent.radius =
         std::max(extent.radius * (1.0 + 0x1p-10) + extent.centre.norm() * 0x1p-20, 1e-15);
     LightingRecord &lighting = compiled.lighting;
@@ -239,8 +242,9 @@ void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
     const auto &kinds = scene.shapes.kind;
     const auto last_plane = std::find(kinds.rbegin(), kinds.rend(), ShapeArrays::Kind::plane);
     lighting.plane_end = static_cast<uint32_t>(kinds.rend() - last_plane);
-    // Beyond any point of the scene, planes apart, whose horizon is cut a million radii away; in
-    // lengths of such a shadow ray hits keep their relative precision.
+    // Beyond every point of the scene, except on planes, whose horizon is cut off at about a
+    // million radii. Shadow rays to infinity have this length; hits measured in units of it keep
+    // their relative precision.
     const double camera =
         (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compiles materials and textures into records, and collects the features that they use.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -14,7 +15,7 @@ struct KindRow {
     Feature feature;
 };
 
-/// In the order of BxdfComponent::Kind.
+/// Rows are in the order of BxdfComponent::Kind.
 constexpr std::array<KindRow, 9> kinds = {{
     {BXDF_LAMBERT, Feature::lambert},
     {BXDF_OREN_NAYAR, Feature::oren_nayar},
@@ -32,7 +33,7 @@ struct FresnelRow {
     Feature feature;
 };
 
-/// In the order of BxdfComponent::Fresnel.
+/// Rows are in the order of BxdfComponent::Fresnel.
 constexpr std::array<FresnelRow, 5> fresnels = {{
     {FRESNEL_IDEAL, Feature::fresnel},  // needs no code
     {FRESNEL_DIELECTRIC, Feature::fresnel_dielectric},
@@ -128,7 +129,7 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
         for (uint32_t c = 0; c < materials.component_count[i]; ++c) {
             const BxdfComponent &component = materials.component[materials.first_component[i] + c];
             if (!(component.weight.maxCoeff() > 0.0f)) {
-                continue;  // what reflects nothing needs no code
+                continue;  // a component without reflectance needs no code
             }
             const BxdfRecord compiled_component = compile_component(component, features);
             record.flags |= refracts(compiled_component.kind) ? MATERIAL_BOUNDARY : 0u;

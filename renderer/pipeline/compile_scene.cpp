@@ -13,8 +13,8 @@ namespace rtrays {
 
 namespace {
 
-/// Corner normals of all triangles. A vertex without one, in a triangle that has others, has the
-/// geometric normal.
+/// Compiles the corner normals of all triangles. A corner without a normal gets the geometric
+/// normal if other corners of its triangle have one.
 void compile_normals(const MeshArrays &meshes, CompiledScene &compiled) {
     compiled.triangle_normals.resize(meshes.triangle.size());
     for (size_t i = 0; i < meshes.triangle.size() && !meshes.normal.empty(); ++i) {
@@ -41,7 +41,7 @@ SelectionTable selection_table(const std::vector<double> &weights) {
     double previous = 0;
     for (size_t i = 0; i < weights.size(); ++i) {
         sum += weights[i];
-        // Every end but the last stays below 2^32; the last stands for 2^32 itself.
+        // All ends except the last stay below 2^32. The last end is 2^32, stored as 2^32 - 1.
         const double end = i + 1 == weights.size()
                                ? scale
                                : std::min(std::round(sum / total * scale), scale - 1.0);
@@ -61,7 +61,7 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     const FovAxis axis = cameras.fov_axis[index];
     const bool along_x = axis == FovAxis::x || (axis == FovAxis::smaller && width <= height) ||
                          (axis == FovAxis::larger && width >= height);
-    // Pixels are square: one size, on the plane at unit distance.
+    // Pixels are square; `pixel` is their size on the plane at unit distance.
     const double pixel = 2.0 * std::tan(0.5 * cameras.fov[index]) / (along_x ? width : height);
 
     CameraRecord camera{};
@@ -76,7 +76,8 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     copy3(right, camera.axis_x);
     copy3(up, camera.axis_y);
     camera.aperture_radius = static_cast<float>(cameras.aperture_radius[index]);
-    // All of a pinhole's image is in focus; with 1 the lens code gives the pinhole's bits.
+    // A pinhole's image is in focus everywhere; with distance 1 the lens code gives the same bits
+    // as a pinhole.
     camera.focus_distance =
         camera.aperture_radius > 0.0f ? static_cast<float>(cameras.focus_distance[index]) : 1.0f;
     return camera;
@@ -134,7 +135,7 @@ CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings)
     compile_triangles(scene.arrays(), settings.every_array, compiled);
     compiled.shapes = compile_shapes(scene.arrays().shapes);
     for (ShapeRecord &shape : compiled.shapes) {
-        shape.light = NO_EMITTER;  // compile_lights says which of them emit
+        shape.light = NO_EMITTER;  // compile_lights sets it for shapes that emit
     }
     compiled.shape_bounds = bound_shapes(compiled.shapes);
     compiled.features = compiled.features | shape_features(scene.arrays().shapes);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compiles a scene into the records and arrays that the device reads.
 #pragma once
 
 #include <string>
@@ -10,23 +11,24 @@
 
 namespace rtrays {
 
-/// How a light is chosen for an explicit path (thesis 2.7.3). `independent`: all of them, one after
-/// the other.
+/// Selection of a light for next-event estimation (thesis 2.7.3). With `independent`, every light
+/// is sampled, one after the other.
 enum class LightSelection { uniform, power, mixed, independent };
 
-/// What of the settings decides records.
+/// Settings that decide the compiled scene.
 struct CompileSettings {
-    int width = 0;  ///< of the film, pixels
-    int height = 0;
+    int width = 0;   ///< film width in pixels
+    int height = 0;  ///< film height in pixels
     LightSelection light_selection = LightSelection::mixed;
-    bool spheres_by_area =
-        false;  ///< sphere lights are sampled by area instead of by the cone they subtend
-    bool every_array = false;  ///< corner normals and coordinates even if the scene has none
-    bool headlight = false;    ///< a scene without lights is lit from the camera
+    /// Sphere lights are sampled by area instead of in the cone that they subtend.
+    bool spheres_by_area = false;
+    /// Corner normals and texture coordinates are compiled even if the scene has none.
+    bool every_array = false;
+    /// A scene without lights is lit by a point light at the camera.
+    bool headlight = false;
 };
 
-/// A scene as the device reads it, and the structural facts about it. Arrays are named as in
-/// shared/scene_buffers.h.
+/// A scene in the form that the device reads. Arrays have the names of shared/scene_buffers.h.
 struct CompiledScene {
     CameraRecord camera{};
     std::vector<SurfaceTriangle> surface_triangles;
@@ -43,36 +45,39 @@ struct CompiledScene {
     std::vector<float> environment_texels;
     std::vector<uint32_t> environment_ends;
     LightingRecord lighting{};
-    FeatureMask features;  ///< of the scene; the integrator adds its own
+    FeatureMask features;  ///< features of the scene, without those of the integrator
 };
 
-/// Translates the scene's arrays at its current time. Throws `Error` (bad input) for a scene that
-/// the device cannot hold.
+/// Compiles the scene at its current time. Throws `Error` (bad input) for a scene that the device
+/// cannot represent.
 CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings);
 
-/// The camera's record for a film of that size.
+/// Returns the record of camera `index` for a film of the given size in pixels.
 CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width, int height);
 
-// The parts of `compile_scene`, in the order in which they are called; each adds its features.
+// Parts of `compile_scene`, in the order of their calls. Each adds its features to `compiled`.
 void compile_materials(const SceneArrays &scene, CompiledScene &compiled);
 void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene &compiled);
 void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
                     CompiledScene &compiled);
 
-/// Texels and tables of an environment (kernels/light/environment.h), and the integral of its
-/// radiance over all directions, mean of the channels, each cell taken for the mean of its corners:
-/// what selection goes by.
+/// Compiles the texels and selection tables of an environment (kernels/light/environment.h).
+/// Returns the integral of its radiance over all directions, averaged over the channels. Each cell
+/// counts with the mean of its corners, as in the selection tables.
 double compile_environment(const TextureImage &image, CompiledScene &compiled);
 
-/// Ends of a table searched by 32-bit words, and the probability each entry then has, for weights
-/// >= 0 that are not all zero. Probabilities are exact multiples of 2^-32 and add up to 1.
+/// Selection table of entries with given weights. `end` holds the upper end of each entry's range
+/// of random 32-bit words, `probability` the resulting probability of each entry.
 struct SelectionTable {
     std::vector<uint32_t> end;
     std::vector<double> probability;
 };
+
+/// Returns the table of weights that are at least 0 and not all 0. Probabilities are exact
+/// multiples of 2^-32 and add up to 1.
 SelectionTable selection_table(const std::vector<double> &weights);
 
-/// Copies three numbers into a record.
+/// Copies three numbers to an array of a record, as floats.
 template <typename Vector>
 void copy3(const Vector &from, float (&to)[3]) {
     for (int i = 0; i < 3; ++i) {

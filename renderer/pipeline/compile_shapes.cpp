@@ -16,11 +16,11 @@ namespace {
 
 using Kind = ShapeArrays::Kind;
 
-constexpr float unbounded = INFINITY;  ///< no clipping in z
-/// Of bound2, so that rounding never clips what the bound only encloses.
+constexpr float unbounded = INFINITY;  ///< z is not clipped
+/// Factor on bound2. Without it, rounding could clip surfaces that the bound touches.
 constexpr double margin = 1.0 + 0x1p-10;
 
-/// What the device needs of a canonical quadric; a hyperboloid's b and bounds depend on its flare.
+/// Device parameters of a canonical quadric. A hyperboloid's b and bounds depend on its flare.
 struct Quadric {
     float a, b, c, d;
     float z_lower, z_upper;
@@ -34,10 +34,12 @@ Quadric quadric_of(Kind kind, double flare) {
             return {1, 1, 0, -1, -unbounded, unbounded, margin, SHAPE_UV_SPHERE};
         case Kind::cylinder:
             return {1, 0, 0, -1, 0, 1, 2 * margin, SHAPE_UV_HEIGHT};
-        case Kind::cone:  // its apex in the origin: nothing cancels near it
+        // The apex is at the origin, so that nothing cancels near it.
+        case Kind::cone:
             return {1, -1, 0, 0, -1, 0, 2 * margin, SHAPE_UV_DEPTH};
-        case Kind::paraboloid:  // nothing of it is below 0; rounding must not make a hole in the
-                                // apex
+        // The surface has no points below 0. By rounding, a clip there could make a hole at the
+        // apex.
+        case Kind::paraboloid:
             return {1, 0, -1, 0, -unbounded, 1, 2 * margin, SHAPE_UV_HEIGHT};
         case Kind::hyperboloid:
             return {1,
@@ -60,8 +62,8 @@ Quadric quadric_of(Kind kind, double flare) {
 
 void set_transform(const Eigen::Matrix4d &world_from_object, ShapeRecord &record) {
     const Eigen::Matrix<float, 3, 4> world = world_from_object.topRows<3>().cast<float>();
-    // The inverse of the rounded matrix, so that the two differ from inverses by the rounding of
-    // one of them only.
+    // Inverts the rounded matrix, so that only the rounding of the inverse separates the two from
+    // exact inverses.
     const Eigen::Matrix3d linear = world.leftCols<3>().cast<double>();
     const Eigen::Matrix3d exact_inverse = linear.inverse();
     const Eigen::Matrix3f inverse = exact_inverse.cast<float>();
@@ -72,17 +74,17 @@ void set_transform(const Eigen::Matrix4d &world_from_object, ShapeRecord &record
     record.error2 = static_cast<float>(
         std::pow(16 * std::ldexp(1.0, -24) * linear.norm() * exact_inverse.norm(), 2));
     if (!world.allFinite() || !inverse.allFinite()) {
-        throw input_error("its transform cannot be inverted in single precision");
+        throw input_error("the transform cannot be inverted in single precision");
     }
 }
 
-/// The surface |z_n| = 4: |z_k+1| <= r needs |z_k|^2 <= r + |c|, from the last iterate back to the
-/// first.
+/// Sets the parameters of the surface |z_n| = 4. Its bound follows from the last iterate back to
+/// the first: |z_k+1| <= r requires |z_k|^2 <= r + |c|.
 void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iterations,
                ShapeRecord &record) {
     const double modulus = constant.norm();
     if (!(modulus <= 1e6)) {
-        throw input_error("the modulus of its Julia constant exceeds 1e6");
+        throw input_error("the modulus of the Julia constant must be at most 1e6");
     }
     double radius = 4;
     for (uint32_t i = 0; i < iterations; ++i) {
@@ -90,7 +92,7 @@ void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iteration
     }
     const double bound2 = radius * radius - slice * slice;
     if (!(bound2 > 1e-6 * radius * radius)) {
-        throw input_error(fmt::format("its Julia set does not reach the slice {}", slice));
+        throw input_error(fmt::format("the Julia set does not reach slice {}", slice));
     }
     record.iterations = iterations;
     record.a = static_cast<float>(constant[0]);
@@ -98,7 +100,7 @@ void set_julia(const Eigen::Vector4d &constant, double slice, uint32_t iteration
     record.c = static_cast<float>(constant[2]);
     record.d = static_cast<float>(constant[3]);
     record.z_lower = static_cast<float>(slice);
-    // r^2 - |c| >= r from here on: |z| >= r stays.
+    // From this radius on r^2 - |c| >= r, so that |z| stays at least r.
     record.z_upper = static_cast<float>(
         std::max(4.0, (1.0 + 1e-6) * (1.0 + std::sqrt(1.0 + 4.0 * modulus)) / 2.0));
     record.bound2 = static_cast<float>(bound2 * margin);
@@ -157,8 +159,8 @@ std::vector<ShapeBounds> bound_shapes(const std::vector<ShapeRecord> &shapes) {
                 linear(row, column) = shape.world_from_object[row][column];
             }
         }
-        // (R + e)^2 <= 1.05 R^2 + 21 e^2, where the largest stretch of the transform makes R of the
-        // object's radius.
+        // (R + e)^2 <= 1.05 R^2 + 21 e^2, where R is the object's radius times the largest stretch
+        // of the transform.
         const double stretch = linear.jacobiSvd().singularValues()[0];
         const bool bounded = shape.bound2 < SHAPE_UNBOUNDED;
         to.bound2[lane] =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compiles shapes that are not triangles into records and bounding spheres.
 #pragma once
 
 #include <vector>
@@ -9,16 +10,17 @@
 
 namespace rtrays {
 
-/// The shapes as the device reads them, in their order. `light` is still the index into LightArrays
-/// (`no_index`, which is NO_EMITTER, for none).
-/// @throws Error (input_error) for a transform that float cannot hold or invert, and for a Julia
-/// set whose surface is empty or beyond float; the message names the node.
+/// Returns the records of the shapes, in their order. `light` is still the index into LightArrays
+/// (`no_index`, which equals NO_EMITTER, for shapes that do not emit). Throws `Error` (bad input)
+/// that names the shape if float cannot represent or invert its transform, or if a Julia set's
+/// surface is empty or too large for float.
 std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes);
 
-/// Balls around them, in eights (kernels/geometry/shape_bounds.h).
+/// Returns bounding spheres of the shapes, in groups of SHAPE_LANES
+/// (kernels/geometry/shape_bounds.h).
 std::vector<ShapeBounds> bound_shapes(const std::vector<ShapeRecord> &shapes);
 
-/// Which of `shapes`, `quadrics`, `julia` the scene has.
+/// Returns which of the features `shapes`, `quadrics` and `julia` the scene has.
 FeatureMask shape_features(const ShapeArrays &shapes);
 
 }  // namespace rtrays

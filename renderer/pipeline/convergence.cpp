@@ -34,7 +34,7 @@ nlohmann::json convergence_report(const ConvergenceState &state, uint64_t sample
                              {"start", state.rule.start},
                              {"camera_paths", state.camera_paths(samples)},
                              {"checks", nlohmann::json::array()}};
-    std::map<uint64_t, uint64_t> stops;  // pixels by the check at which they stopped
+    std::map<uint64_t, uint64_t> stops;  // number of pixels by the check at which they stopped
     for (const uint64_t at : state.stopped_at) {
         ++stops[at];
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Convergence control on the device.
 #pragma once
 
 #include <cstdint>
@@ -10,33 +11,39 @@
 
 namespace rtrays {
 
-/// Convergence control on the device: the half film, the pixels' stopping counts and the list of
-/// those that are live. The host learns no more than how many these are.
+/// Convergence control on the device: the half film, the sample counts at which pixels stopped, and
+/// the list of live pixels. The host reads back only the number of live pixels.
 class ConvergenceControl {
   public:
-    /// `camera`: features of the camera pass, whose film `check` is given. All `pixels` are live.
+    /// Creates the state with all `pixels` live. `camera` is the feature mask of the camera pass,
+    /// whose film is passed to `check`.
     ConvergenceControl(DeviceContext &device, const ConvergenceRule &rule, uint32_t pixels,
                        FeatureMask camera, uint32_t group_size, const SourceOverlays &overlays);
 
     const ConvergenceRule &rule() const { return rule_; }
     uint32_t live_count() const { return live_count_; }
-    const Buffer<uint32_t> &live_pixels() const {
-        return live_pixels_;
-    }  ///< ascending; the first `live_count` count
-    /// The half film and the list, as the stages of the pass take them: to be bound anew after each
-    /// call that changes them.
+    /// Returns the live pixels in ascending order; only the first `live_count()` entries are valid.
+    const Buffer<uint32_t> &live_pixels() const { return live_pixels_; }
+
+    /// Returns the half film and the list as arguments for the stages of the pass. They must be
+    /// bound again after every call that changes them.
     StageArguments arguments() const;
 
-    /// All pixels live again, no samples.
+    /// Makes all pixels live and removes all samples.
     void reset();
 
-    /// Stops the pixels that have converged after `samples` samples. `film` is carried.
+    /// Stops the pixels that have converged after `samples` samples. `film` must be normalised by
+    /// carry propagation.
     void check(const Buffer<int64_t> &film, uint64_t samples);
 
+    /// Reads the state back from the device.
     ConvergenceState state() const;
+
+    /// Replaces the state.
     void restore(const ConvergenceState &state);
 
-    const std::map<std::string, Program> &programs() const { return programs_; }  ///< by file
+    /// Returns the programs by file.
+    const std::map<std::string, Program> &programs() const { return programs_; }
 
     template <class Visitor>
     void visit_buffers(const Visitor &visit) const {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Feature masks: names, requirements, and the layouts of records that depend on them.
 #include "renderer/shared/features.h"
 
 #include <array>
@@ -19,7 +20,7 @@ constexpr std::array<std::pair<Feature, const char *>, static_cast<size_t>(Featu
 #undef ROW
     }};
 
-/// What a feature's code is built upon: without the second the first is off.
+/// Pairs of a feature and one that its code requires. Without the second, the first is off.
 constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::smooth_normals, Feature::triangles},
     {Feature::texture_coordinates, Feature::triangles},
@@ -67,8 +68,8 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::environment, Feature::infinite_lights},
 };
 
-/// What exists only to serve others: off unless one of them is on.
-constexpr std::pair<Feature, std::array<Feature, 2>> servants[] = {
+/// Features that only serve others. Each is off unless one of the features that it serves is on.
+constexpr std::pair<Feature, std::array<Feature, 2>> supporting_features[] = {
     {Feature::scattering, {Feature::triangles, Feature::shapes}},
     {Feature::shapes, {Feature::quadrics, Feature::julia}},
     {Feature::infinite_lights, {Feature::dome, Feature::environment}},
@@ -76,7 +77,8 @@ constexpr std::pair<Feature, std::array<Feature, 2>> servants[] = {
     {Feature::refraction, {Feature::ideal_refraction, Feature::microfacet_refraction}},
     {Feature::ggx, {Feature::microfacet_reflection, Feature::microfacet_refraction}},
     {Feature::beckmann, {Feature::microfacet_reflection, Feature::microfacet_refraction}},
-    // Nothing hits these lights, and hits need no tables: they matter where lights are sampled.
+    // Paths cannot hit these lights, and hits use no selection tables. Both matter only when lights
+    // are sampled.
     {Feature::light_triangles, {Feature::explicit_light, Feature::from_light}},
     {Feature::point_lights, {Feature::explicit_light, Feature::from_light}},
     {Feature::spot_lights, {Feature::explicit_light, Feature::from_light}},
@@ -108,7 +110,7 @@ std::map<std::string, std::string> FeatureMask::defines() const {
 FeatureMask FeatureMask::closed() const {
     FeatureMask mask = *this;
     const auto drop = [&] {
-        for (const auto &[feature, served] : servants) {
+        for (const auto &[feature, served] : supporting_features) {
             mask = mask.with(feature,
                              mask.has(feature) && (mask.has(served[0]) || mask.has(served[1])));
         }
@@ -116,12 +118,12 @@ FeatureMask FeatureMask::closed() const {
             mask = mask.with(feature, mask.has(feature) && mask.has(needed));
         }
     };
-    // Until nothing is dropped any more: each turn drops at least one of finitely many.
+    // Repeats until nothing changes; each repetition drops at least one of finitely many features.
     for (FeatureMask before = FeatureMask::all(); before.bits() != mask.bits();) {
         before = mask;
         drop();
     }
-    // What follows from the others.
+    // Features that follow from the others.
     const bool from_light = mask.has(Feature::from_light),
                strategy = mask.has(Feature::light_strategy);
     const bool joins = mask.has(Feature::vertex_joins);
@@ -139,7 +141,8 @@ FeatureMask FeatureMask::closed() const {
 
 namespace {
 
-/// Fields of a record (shared/path_state.h, shared/light_vertex.h) as they are declared.
+/// Fields of a record (shared/path_state.h, shared/light_vertex.h, shared/branch.h), in the order
+/// of their declaration.
 class FieldList {
   public:
     void add(bool present, const std::string &type, const char *name) {

@@ -24,15 +24,15 @@ size_t pixel_words(const FilmState &film) {
     return FILM_PIXEL_WORDS(film.variance);
 }
 
-/// Of one pass.
+/// Returns the number of words of one pass.
 size_t word_count(const FilmState &film) {
     return static_cast<size_t>(film.width) * static_cast<size_t>(film.height) * pixel_words(film);
 }
 
-/// The value of one sum, whose words are `stride` apart: words times their units. Carried words
-/// below the top one are non-negative and smaller than the unit above, so that adding from the top
-/// cancels only where it is exact; the twelve roundings of 2^-53 keep the error below 2^-49 of the
-/// result.
+/// Returns the value of one sum whose words are `stride` apart: the sum of its words times their
+/// units. After carry propagation, all words except the top one are non-negative and smaller than
+/// the unit above. Adding from the top therefore cancels only where the result is exact, and the
+/// twelve roundings of 2^-53 keep the error below 2^-49 of the result.
 double sum_value(const int64_t *words, size_t stride, int lowest, int step) {
     double value = 0;
     for (int k = FILM_WORDS - 1; k >= 0; --k) {
@@ -59,7 +59,7 @@ void FilmState::add_range(SampleRange range) {
     for (const SampleRange &present : ranges) {
         if (range.begin < present.end && present.begin < range.end) {
             throw input_error(fmt::format(
-                "samples {}:{} overlap {}:{}, which the film holds already: render others",
+                "samples {}:{} overlap {}:{}, which are in the film already; render others",
                 range.begin, range.end, present.begin, present.end));
         }
     }
@@ -113,8 +113,8 @@ Image develop_film(const FilmState &film) {
     for (size_t c = 0; c < FILM_CHANNELS; ++c) {
         std::vector<double> mean(image.pixel_count()), mean_variance(image.pixel_count());
         for (size_t pass = 0; pass < film.passes.size(); ++pass) {
-            // A sample of the camera's is one of n; a sample of the light pass is the sum over its
-            // paths.
+            // A sample of a camera pass is one path per pixel. A sample of a light pass is the sum
+            // over `light_paths` paths.
             const bool splats = film.passes[pass] == "light";
             const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
             const bool stops = !splats && film.convergence;
@@ -131,9 +131,9 @@ Image develop_film(const FilmState &film) {
                     (*layer)[pixel] = static_cast<float>(own);
                 }
                 if (film.variance && n * paths > 1) {
-                    // Squares are rounded by up to 2^-21 each: where all samples are equal the
-                    // difference may come out below zero by that much of the mean's square; 0 is
-                    // then the nearest variance.
+                    // Each square is rounded by up to 2^-21. If all samples are equal, the
+                    // difference may fall below zero by that fraction of the mean's square, and 0
+                    // is the nearest variance.
                     const double square = sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST,
                                                     FILM_SQUARE_STEP) /
                                           n;
@@ -158,19 +158,18 @@ void merge_film(FilmState &film, const FilmState &other) {
         }
     };
     require(film.width == other.width && film.height == other.height, "size");
-    require(film.variance == other.variance, "their layers");
+    require(film.variance == other.variance, "layers");
     require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1),
-            "their passes");
+            "passes");
     require(film.seed == other.seed, "seed");
     require(film.config == other.config, "scene or settings");
     FilmState merged = film;
     const bool other_pass = film.passes != other.passes;
     if (other_pass) {
-        require(film.ranges == other.ranges, "samples, and are different passes,");
+        require(film.ranges == other.ranges, "samples, which different passes must share,");
     } else if (film.convergence || other.convergence) {
         throw input_error(
-            "films whose pixels were stopped as they converged hold what their first samples "
-            "decided; only another "
+            "films with convergence control depend on the order of their samples; only another "
             "pass can be merged into them");
     } else {
         for (const SampleRange &range : other.ranges) {
@@ -245,18 +244,18 @@ FilmState load_film(const std::filesystem::path &path) {
         return input_error(fmt::format("{}: {}", path.string(), why));
     };
     if (file.compare(std::min(hash_digits, file.size()), magic.size(), magic) != 0) {
-        throw fail("not a film state: name a file that --state wrote");
+        throw fail("not a film state; expected a file that --state wrote");
     }
     const std::string content = file.substr(hash_digits);
     if (content_hash(content) != file.substr(0, hash_digits)) {
-        throw fail("film state is truncated or damaged (checksum): render it again");
+        throw fail("film state is truncated or damaged (checksum); render it again");
     }
     const size_t header_begin = magic.size() + 1;
     const size_t header_end = content.find('\n', header_begin);
     const Json header =
         parse_json(content.substr(header_begin, header_end - header_begin), path.string());
     if (header.at("version").get<int>() != state_version) {
-        throw fail("film state of another version of the program: render it again");
+        throw fail("film state of another version of the program; render it again");
     }
     FilmState film;
     film.width = header.at("width");
@@ -286,7 +285,7 @@ FilmState load_film(const std::filesystem::path &path) {
     const auto take = [&](auto &values) {
         const size_t bytes = values.size() * sizeof values[0];
         if (bytes > content.size() - at) {
-            throw fail("film state has the wrong length: render it again");
+            throw fail("film state has the wrong length; render it again");
         }
         std::memcpy(values.data(), content.data() + at, bytes);
         at += bytes;
@@ -297,10 +296,10 @@ FilmState load_film(const std::filesystem::path &path) {
         take(film.convergence->half_words);
     }
     if (at != content.size()) {
-        throw fail("film state has the wrong length: render it again");
+        throw fail("film state has the wrong length; render it again");
     }
     if (film.convergence && !film.convergence->is_consistent(film.samples())) {
-        throw fail("film state has pixels that stopped between checks: render it again");
+        throw fail("film state has pixels that stopped between checks; render it again");
     }
     return film;
 }

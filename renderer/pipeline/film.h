@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The film's state on the host: development to an image, merging, and files.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace rtrays {
 
-/// A half-open range of sample indices.
+/// Half-open range of sample indices.
 struct SampleRange {
     uint64_t begin;
     uint64_t end;
@@ -22,57 +23,66 @@ struct SampleRange {
     }
 };
 
-/// The exact sums of a render on the host (shared/film_layout.h): what is saved, resumed and merged
-/// bit by bit.
+/// Exact sums of a render (shared/film_layout.h), and their origin. They can be saved, resumed and
+/// merged without changing a bit of the result.
 struct FilmState {
     int width = 0;
     int height = 0;
-    bool variance = true;  ///< squares are kept
-    std::vector<std::string> passes = {
-        "camera"};             ///< of the algorithm, whose images add up: "camera", "light"
-    uint64_t light_paths = 0;  ///< of the light pass, per sample
+    bool variance = true;  ///< whether sums of squares are stored
+    /// Names of the rendered passes, whose images add up: "camera", "light".
+    std::vector<std::string> passes = {"camera"};
+    /// Light paths per sample of the image, 0 without a light pass.
+    uint64_t light_paths = 0;
     uint32_t seed = 0;
-    std::string config;  ///< hash of scene and settings: films of different configs never mix
-    std::vector<SampleRange>
-        ranges;                 ///< of samples in the film, sorted, disjoint, adjacent ones joined
-    double device_seconds = 0;  ///< of the stages
+    /// Hash of scene and settings. Films of different configurations cannot be merged.
+    std::string config;
+    /// Ranges of samples in the film: sorted, disjoint, and with adjacent ranges merged.
+    std::vector<SampleRange> ranges;
+    /// Device time of the stages and of the pilot, if there was one.
+    double device_seconds = 0;
     double wall_seconds = 0;
-    uint64_t non_finite = 0;     ///< samples that were not added
-    uint64_t out_of_range = 0;   ///< likewise, of 2^40 or more in magnitude
-    std::vector<int64_t> words;  ///< carried; pass by pass, per pixel FILM_PIXEL_WORDS
-    std::optional<ConvergenceState> convergence;  ///< of the camera pass, where pixels are stopped
+    /// Samples that were not finite; they are not in the sums.
+    uint64_t non_finite = 0;
+    /// Samples of magnitude 2^40 or more; they are not in the sums.
+    uint64_t out_of_range = 0;
+    /// Words of the sums after carry propagation: pass by pass, FILM_PIXEL_WORDS per pixel.
+    std::vector<int64_t> words;
+    /// State of convergence control in the camera pass, if it is on.
+    std::optional<ConvergenceState> convergence;
 
-    /// Number of samples per pixel; where pixels are stopped: of those that were not, and of the
-    /// light pass.
+    /// Returns the number of samples per pixel. A pixel that convergence control has stopped has
+    /// fewer from the camera pass.
     uint64_t samples() const;
 
-    /// Adds a range; throws `Error` (bad input) when it overlaps one that is there.
+    /// Adds a range. Throws `Error` (bad input) when it overlaps a range of the film.
     void add_range(SampleRange range);
 };
 
-/// Throws `Error` (run failed) naming the number of samples that were not finite or out of the
-/// film's range.
+/// Throws `Error` (run failed) with the numbers of samples that were not finite or out of the
+/// film's range, if there are any.
 void require_valid(const FilmState &film);
 
-/// R, G, B; variance.R, .G, .B (of the mean, from the squares); samples, camera paths of each
-/// pixel; and camera.R, ..., light.R, ... where there are two passes. Sums are taken in double from
-/// the exact integers: the mean's relative error is that of its rounding to float.
+/// Returns an image with these channels: R, G, B; variance.R, .G, .B (variance of the mean, from
+/// the squares); samples (camera paths of each pixel); and the images of the passes (camera.R, ...,
+/// light.R, ...) if there are several. Means are computed in double from the exact integers, so
+/// that their relative error is that of the rounding to float.
 ///
-/// A light path adds to many pixels: its variances are those of the pixels by themselves, and
-/// neighbours go together.
+/// A light path adds to many pixels. The variances of a light pass are those of single pixels;
+/// neighbouring pixels are correlated.
 Image develop_film(const FilmState &film);
 
-/// Adds `other` into `film`: other samples of the same passes, or another pass of the same samples.
-/// Throws `Error` (bad input) when size, seed, config or layout differ, or what is there already
-/// would be added again. Where convergence control stops a pixel depends on all its samples from
-/// the first on: of such films only passes can be merged.
+/// Adds `other` to `film`: other samples of the same passes, or another pass of the same samples.
+/// Throws `Error` (bad input) when size, seed, configuration or layers differ, or when samples are
+/// already in the film. With convergence control, all samples from the first on decide where a
+/// pixel stops, so that only passes can be merged.
 void merge_film(FilmState &film, const FilmState &other);
 
-/// The film's file: a checksum, a line that names the format, a line of JSON and the words; written
-/// whole or not at all. Throws `Error` (run failed) naming the path.
+/// Writes the film to a file: a checksum, a line that names the format, a line of JSON and the
+/// words. The write is atomic. Throws `Error` (run failed) that names the path.
 void save_film(const FilmState &film, const std::filesystem::path &path);
 
-/// Throws `Error` (bad input) naming the path when it is missing, not a film, truncated or damaged.
+/// Reads a film that `save_film` wrote. Throws `Error` (bad input) that names the path when the
+/// file is missing, not a film, truncated or damaged.
 FilmState load_film(const std::filesystem::path &path);
 
 }  // namespace rtrays

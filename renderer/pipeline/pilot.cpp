@@ -14,9 +14,12 @@ namespace {
 constexpr uint64_t pilot_samples = 16;
 constexpr double pilot_pixels = 128 * 128;
 constexpr double most_per_pixel = 256;
-constexpr double worth_going_on = 0.9;  ///< of the cost before: more trials are costly themselves
+/// A trial must cost less than this fraction of the one before; otherwise further trials cost more
+/// than they gain.
+constexpr double worth_going_on = 0.9;
 
-/// Renders sample by sample; their scatter gives the variance. Adds to `seconds`.
+/// Renders one setting, sample by sample, and estimates its variance from the scatter of the
+/// samples. Adds the device time to `seconds`.
 PilotTrial attempt(const Scene &scene, const RenderSettings &settings, DeviceContext &device,
                    double &seconds) {
     RenderSession session(scene, settings, device);

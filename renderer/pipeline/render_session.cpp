@@ -56,9 +56,9 @@ void RenderSession::restart(uint32_t seed) {
 void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
     if (state_->settings.max_depth == 0 || max_depth == 0 ||
         state_->features.has(Feature::branches)) {
-        throw input_error(fmt::format("{}: integrator.max_depth={} cannot become {} in a session",
-                                      state_->settings.algorithm, state_->settings.max_depth,
-                                      max_depth));
+        throw input_error(
+            fmt::format("{}: integrator.max_depth={} cannot become {}; start a new session",
+                        state_->settings.algorithm, state_->settings.max_depth, max_depth));
     }
     state_->numbers.max_depth = state_->settings.max_depth = max_depth;
     state_->config = content_hash(state_->scene_hash + image_settings(state_->settings).dump());
@@ -95,7 +95,8 @@ void RenderSession::restore(const FilmState &film) {
         film.passes != header.passes ||
         film.convergence.has_value() != (state_->convergence != nullptr)) {
         throw input_error(
-            "the film state belongs to another scene, other settings, another seed or size");
+            "the film state belongs to another scene, other settings, another seed or size; "
+            "resume with those of the film");
     }
     state_->reset_film();
     for (size_t pass = 0; pass < film.passes.size(); ++pass) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// A render of one scene on one device.
 #pragma once
 
 #include <cstdint>
@@ -15,66 +16,75 @@ namespace rtrays {
 class Scene;
 class DeviceContext;
 
-/// Seconds and counts of one session.
+/// Times and counts of one session.
 struct RenderStats {
-    double compile_seconds =
-        0;                   ///< programs built or loaded, and the first enqueue of every kernel
-    double bvh_seconds = 0;  ///< device time of the BVH build, or its last update
-    double device_seconds =
-        0;  ///< device time of all stages of `render` so far, and of the pilot, if there was one
-    double wall_seconds =
-        0;  ///< wall time of `render` so far; compilation and BVH build come before it
-    uint64_t samples = 0;  ///< camera paths; where pixels are stopped: that were traced
-    uint64_t rays = 0;     ///< closest-hit and shadow rays of `render` so far
+    /// Building or loading programs, and the first enqueue of every kernel.
+    double compile_seconds = 0;
+    /// Device time of the BVH build or of its last update.
+    double bvh_seconds = 0;
+    /// Device time of all stages of `render` so far, and of the pilot, if there was one.
+    double device_seconds = 0;
+    /// Wall time of `render` so far, without compilation and BVH build.
+    double wall_seconds = 0;
+    /// Number of pixel samples: one per pixel and sample of the image, without those of pixels that
+    /// convergence control has stopped.
+    uint64_t samples = 0;
+    /// Closest-hit and shadow rays of `render` so far.
+    uint64_t rays = 0;
 };
 
-/// One scene on one device: compiles the scene and the kernels it needs, accumulates sample ranges
-/// in a film and develops it. The image has the same bits whatever the group size, the stream
-/// capacity, and however the samples are split into ranges, sessions or merged films.
+/// A render of one scene on one device. It compiles the scene and the kernels, accumulates ranges
+/// of samples in a film and develops the film. The image has the same bits for every group size and
+/// stream capacity, and for every split of the samples into ranges, sessions or merged films.
 class RenderSession {
   public:
-    /// Throws `Error` when settings contradict each other or the device lacks memory.
+    /// Compiles the scene and the kernels. Throws `Error` when settings contradict each other or
+    /// the device has too little memory.
     RenderSession(const Scene &scene, const RenderSettings &settings, DeviceContext &device);
     ~RenderSession();
     RenderSession(RenderSession &&) noexcept;
 
     /// Adds the samples [begin, end) of every pixel to the film. Returns early, at a batch
-    /// boundary, once `interrupted()`; the return value is the end of what was rendered.
-    /// `on_batch`, where given, is called with that end after each batch. Under convergence control
-    /// `begin` is the end of what is there: throws `Error` (bad input) otherwise.
+    /// boundary, once `interrupted()` is true. The return value is the end of the rendered range.
+    /// `on_batch`, if given, is called with that end after each batch. With convergence control,
+    /// `begin` must be the end of the film's samples; otherwise throws `Error` (bad input).
     uint64_t render(uint64_t begin, uint64_t end,
                     const std::function<void(uint64_t)> &on_batch = {});
 
-    /// Whether no path is left to trace: convergence control has stopped all pixels of an image
-    /// without light paths.
+    /// Returns whether no path is left to trace: convergence control has stopped all pixels, and
+    /// the algorithm traces no light paths.
     bool is_complete() const;
 
-    /// Empties the film and the stats of rendering, and sets another seed; kernels, buffers and BVH
-    /// are kept.
+    /// Empties the film, resets the stats of rendering, and sets another seed. Kernels, buffers and
+    /// BVH are kept.
     void restart(uint32_t seed);
 
-    /// Likewise, with another limit of scattering events. Throws `Error` (bad input) unless there
-    /// is one and is to be one, which kernels know, and of whitted, whose memory depends on it.
+    /// Restarts with another seed and another maximum depth. Throws `Error` (bad input) if the old
+    /// or the new depth is unlimited, because kernels are compiled for one of the two cases, and
+    /// for whitted, whose memory depends on the depth.
     void restart(uint32_t seed, uint32_t max_depth);
 
-    /// Goes on with `scene` as it is now, on an empty film. Kernels are kept; the hierarchy is
-    /// built anew or refitted (device.bvh_update). A scene that needs other kernels, or to be
-    /// refitted has other numbers of triangles, begins anew.
+    /// Empties the film and continues with the current state of `scene`. Kernels are kept. The BVH
+    /// is rebuilt or refitted (device.bvh_update); it is also rebuilt if the old tree does not fit
+    /// the new triangles. The session starts from scratch if the scene requires other features or
+    /// has another number of lights.
     void update(const Scene &scene);
 
-    /// The film so far; and its replacement by one that was saved. `restore` throws `Error` (bad
-    /// input) when it belongs to another scene, other settings, seed or size.
+    /// Returns the film so far.
     FilmState film() const;
+
+    /// Replaces the film by a saved one. Throws `Error` (bad input) when it belongs to another
+    /// scene, other settings, another seed or size.
     void restore(const FilmState &film);
 
-    /// The developed film with its metadata. Throws `Error` (run failed) when samples were not
-    /// finite or out of the film's range.
+    /// Returns the developed film with its metadata. Throws `Error` (run failed) when samples were
+    /// not finite or out of the film's range.
     Image develop() const;
 
     RenderStats stats() const;
 
-    /// What `--stats` writes: device, feature mask, programs, stages with seconds and launches,
-    /// rays, buffers, bytes per path.
+    /// Returns the document that `--stats` writes: device, features, programs, stages with seconds
+    /// and launches, rays, buffers, bytes per path.
     nlohmann::json report() const;
 
   private:
@@ -82,8 +92,8 @@ class RenderSession {
     std::unique_ptr<State> state_;
 };
 
-/// The attributes of an image developed from `film`: standard names, and `rtrays:` ones for its
-/// origin.
+/// Sets the attributes of an image developed from `film`: standard names, and `rtrays:` names for
+/// its provenance.
 void describe_image(Image &image, const FilmState &film);
 
 }  // namespace rtrays

@@ -3,7 +3,7 @@
 
 namespace rtrays {
 
-// The tables name features as the kernels do: FEATURE_x. Here they are variables.
+// The tables name features FEATURE_x, as in kernels. Here these names are variables.
 #define FEATURE_VARIABLE(name, text) \
     [[maybe_unused]] const bool FEATURE_##name = features.has(Feature::name);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The compiled scene in device memory, as buffers and kernel arguments.
 #pragma once
 
 #include "renderer/bvh/bvh.h"
@@ -9,15 +10,15 @@
 
 namespace rtrays {
 
-/// A compiled scene in the device's memory: one buffer per row of shared/scene_buffers.h whose
+/// A compiled scene in device memory: one buffer for each row of shared/scene_buffers.h whose
 /// feature is on.
 class SceneBuffers {
   public:
     SceneBuffers() = default;
     SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
 
-    /// Arguments for the stage inputs surfaces, materials, lights; and for geometry and traversal,
-    /// given the hierarchy (which is read where there are triangles).
+    /// Returns the arguments of the stage inputs surfaces, materials and lights, and with the given
+    /// BVH those of geometry and traversal. The BVH is read only if the scene has triangles.
     StageArguments arguments(const Bvh &bvh) const;
 
     /// Calls visit(buffer) for every buffer.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The document that `--stats` writes.
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/commit.h"
@@ -91,7 +92,8 @@ nlohmann::json RenderSession::report() const {
         }
         largest_path = std::max(largest_path, path_bytes);
     }
-    // In memory: the passes take turns, but for the light vertices that one keeps for the other.
+    // Passes reuse the memory of path states, so that only the largest counts. Light vertices are
+    // kept from one pass to the next.
     const uint32_t vertex_bytes =
         s.vertex_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
     const uint32_t branch_bytes =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Batches of samples, passes over them, and rounds of stages until no path is in flight.
+// Batches of samples, passes over a batch, and rounds of stages until no path is in flight.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,25 +13,26 @@ namespace rtrays {
 
 namespace {
 
-/// Paths of one batch: few enough that progress shows and an interrupt is heeded within seconds,
-/// and many times as many as are in flight, for the last paths of a batch leave a device nearly
-/// idle. The work counter has 32 bits.
+/// Returns the number of paths of one batch. It is small enough to show progress and to react to an
+/// interrupt within seconds. It is also many times the number of paths in flight, because the last
+/// paths of a batch leave a device nearly idle. The work counter has 32 bits.
 uint64_t batch_paths(const DeviceInfo &device) {
     return device.is_cpu ? 1u << 21 : 1u << 26;
 }
 
-/// Rounds enqueued between two looks at the counters.
+/// Number of rounds that are enqueued between two reads of the counters.
 constexpr int rounds_per_check = 8;
 
-/// Such looks between two collections of the profile, which keeps an event of every launch until
-/// then.
+/// Number of counter reads between two collections of the profile, which keeps an event of every
+/// launch until then.
 constexpr int checks_per_profile = 64;
 
-/// Rounds of the last few paths of a batch after which a kernel that takes them far in one launch
-/// is worth compiling.
+/// Number of rounds of a batch's last few paths after which a kernel that advances them by many
+/// vertices per launch is worth its compilation.
 constexpr int many_rounds = 512;
 
-/// Stages share what is chosen: it is bound where the next to take it asks for another.
+/// Binds the light or vertex of a stage. All stages share this argument, so it is bound only when
+/// the value changes for a stage that reads it.
 void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
     const auto &inputs = stage_description(stage.name).inputs;
     if (stage.chosen != pass.chosen &&
@@ -57,10 +58,10 @@ uint64_t RenderSession::State::batch_size(uint64_t begin, uint64_t end) const {
 void RenderSession::State::require_next(uint64_t begin, uint64_t end) const {
     const uint64_t done = ranges.samples();
     if (convergence != nullptr && begin < end && begin != done) {
-        throw input_error(
-            fmt::format("convergence control decides by all samples from 0 on, of which there are "
-                        "{}: the next is {}, not {}",
-                        done, done, begin));
+        throw input_error(fmt::format(
+            "convergence control needs all samples from 0 on in order; the film has {}: "
+            "expected sample {}, got {}",
+            done, done, begin));
     }
 }
 
@@ -85,13 +86,13 @@ void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, 
 void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
     for (CompiledPass &pass : passes) {
         if (count == 0) {
-            carry_film(pass);  // compiles it
+            carry_film(pass);  // the first enqueue compiles the kernel
         }
         make_room(pass, count);
     }
     if (features.has(Feature::vertex_joins)) {
-        // One path of each pass for every pixel: chunk by chunk, so that both find the same light
-        // vertices.
+        // Each pass traces one path per pixel, chunk by chunk, so that both passes use the same
+        // light vertices.
         const auto work = static_cast<uint32_t>(count * pixels());
         for (uint32_t begin = 0; begin == 0 || begin < work; begin += layout.capacity) {
             for (CompiledPass &pass : passes) {
@@ -172,8 +173,7 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
     enqueue(pass, "reset_streams");
     uint64_t in_flight = layout.capacity;
     int rounds_of_few = 0;
-    // The counters are read one check behind, so that the device is never idle while the host
-    // looks.
+    // The host waits for the counters of the previous check, so that the device stays busy.
     std::array<StreamCounters, 2> seen{};
     std::array<ClEvent, 2> read;
     for (int check = 0;; ++check) {
@@ -184,8 +184,8 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
         }
         const bool takes_far = few && pass.has_last_stages();
         for (int i = 0; i < rounds_per_check; ++i) {
-            // A camera path ends with one addition to its pixel, which run_batch counts; splats of
-            // all light paths may go to one.
+            // A camera path ends with one addition to its pixel, which run_batch counts. The splats
+            // of all light paths may go to the same pixel.
             make_room(pass, pass.splats * in_flight * (takes_far ? FINISH_EVENTS : 1));
             for (const RoundStage &stage : takes_far ? pass.last_paths : pass.round) {
                 if (stage.rounds > 0 &&

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Construction of a session: settings, passes, BVH, buffers and bindings.
 #include "renderer/pipeline/session_state.h"
 
 #include <fmt/format.h>
@@ -18,9 +19,10 @@ namespace rtrays {
 
 namespace {
 
-/// On a CPU the path states should stay in cache and a work-item should do enough to be worth its
-/// call; a GPU needs enough paths to hide latency, though no more than its second cache holds, and
-/// neighbouring work-items that read neighbouring words.
+/// Returns the layout of streams for a device. On a CPU, path states should stay in cache, and a
+/// work-item should do enough work to be worth its call. A GPU needs enough paths to hide latency,
+/// though no more than its second-level cache holds, and neighbouring work-items should read
+/// neighbouring words.
 StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &info) {
     const BvhLayout bvh = BvhBuildParameters::for_device(info).layout;
     StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh}
@@ -28,7 +30,7 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
     layout.group_size = settings.group_size > 0 ? settings.group_size : layout.group_size;
     layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
     if (has_light_pass(settings)) {
-        // In a round each light path may splat twice, all of them to one pixel.
+        // In a round each light path may splat twice, and all splats may go to the same pixel.
         layout.capacity = std::min(layout.capacity, FILM_ADDITIONS_BETWEEN_CARRIES / 2);
     }
     layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
@@ -66,12 +68,13 @@ RenderSettings complete(RenderSettings settings, const Scene &scene) {
         static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
     if (pixels > (1u << 30)) {
         throw input_error(
-            fmt::format("{} x {} pixels are more than 2^30", settings.width, settings.height));
+            fmt::format("{} x {} pixels: expected at most 2^30", settings.width, settings.height));
     }
     return settings;
 }
 
-/// Replaces LIGHT_PATHS_AUTO by what a pilot chooses.
+/// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses. Returns the pilot, which is empty
+/// if none was needed.
 Pilot settle_light_paths(RenderSettings &settings, const Scene &scene, DeviceContext &device) {
     if (settings.light_paths != LIGHT_PATHS_AUTO) {
         return {};
@@ -177,7 +180,7 @@ void RenderSession::State::build_bvh(const MeshArrays &meshes) {
 void RenderSession::State::allocate() {
     const uint64_t capacity = layout.capacity;
     scene_buffers = SceneBuffers(device, compiled, features);
-    uint32_t words = 0;  // the passes take turns
+    uint32_t words = 0;  // passes reuse the memory one after the other
     for (const CompiledPass &pass : passes) {
         words = std::max(words, path_state_words(pass.features));
     }

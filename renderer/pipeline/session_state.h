@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a RenderSession holds: the passes of its algorithm, compiled, and all buffers they share.
+// The state of a RenderSession: the compiled passes of its algorithm and the buffers they share.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A pass of the algorithm, compiled, with the film it adds to.
+/// A compiled pass of the algorithm, with the film that it adds to.
 struct CompiledPass {
     CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout,
                  const RenderSettings &settings)
@@ -61,18 +61,18 @@ struct CompiledPass {
         return names;
     }
 
-    /// Whether the stages of the last few paths of a batch are compiled.
+    /// Returns whether the stages for the last few paths of a batch are compiled.
     bool has_last_stages() const {
         return !last_paths.empty() && stages.has(last_paths.front().name);
     }
 
-    /// The integrator's numbers for this pass.
+    /// Returns the integrator's settings for this pass.
     IntegratorSettings numbers(IntegratorSettings of_all) const {
         of_all.strategies |= adds_hits ? 0u : STRATEGY_HITS_ELSEWHERE;
         return of_all;
     }
 
-    /// Empties what rendering added to.
+    /// Empties film, ray counts and profile.
     void clear() {
         film.fill(0);
         if (ray_counts.size() > 0) {
@@ -82,7 +82,7 @@ struct CompiledPass {
         profile.clear();
     }
 
-    /// Rays of one kind (RAY_*) by depth, up to the last depth that has any.
+    /// Returns the rays of one kind (RAY_*) by depth, up to the last depth that has any.
     std::vector<int64_t> rays_by_depth(size_t kind) const {
         const std::vector<int64_t> all = ray_counts.read();
         const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * RAY_DEPTHS);
@@ -99,13 +99,14 @@ struct CompiledPass {
     bool adds_hits;
     bool streams;
     std::vector<RoundStage> last_paths;
-    uint64_t splats;  ///< that a path in flight adds in a round, at most
+    uint64_t splats;  ///< maximum number of splats per path in flight and round
     StageSet stages;
     Buffer<int64_t> film;
     Buffer<int64_t> ray_counts;
-    uint32_t chosen = SELECT_LIGHT;                  ///< what StageInput::chosen is bound to
-    uint64_t additions = 0;                          ///< to one pixel since the last carry, at most
-    std::map<std::string, Profiler::Stage> profile;  ///< of the stages of `render`
+    uint32_t chosen = SELECT_LIGHT;  ///< value to which StageInput::chosen is bound
+    /// Maximum number of additions to one pixel since the last carry propagation.
+    uint64_t additions = 0;
+    std::map<std::string, Profiler::Stage> profile;  ///< profile of the stages in `render`
 };
 
 struct RenderSession::State {
@@ -117,34 +118,35 @@ struct RenderSession::State {
 
     // session_state.cpp
 
-    /// Takes over what has moved; false where the scene needs other kernels.
+    /// Updates the session to a scene that has moved. Returns false if the scene requires other
+    /// features or has another number of lights.
     bool update(const Scene &scene);
 
     void build_bvh(const MeshArrays &meshes);
 
-    /// By device.bvh_update.
+    /// Rebuilds or refits the BVH, depending on device.bvh_update.
     void update_bvh(const MeshArrays &meshes);
     void allocate();
     void bind();
 
-    /// The first enqueue of a kernel compiles it for its group size: a batch without work does
-    /// that.
+    /// Runs a batch without work: the first enqueue of a kernel compiles it for its group size.
     void warm_up();
 
     void reset_film();
     double device_seconds() const;
 
-    /// Metadata of the film without its words.
+    /// Returns the film's metadata, without its words.
     FilmState film_header() const;
 
-    /// 4-byte words of the light vertices that are kept for every path in flight.
+    /// Returns the number of 4-byte words of stored light vertices per path in flight.
     uint32_t vertex_words_per_path() const {
         return features.has(Feature::vertex_joins)
                    ? numbers.light_vertices * light_vertex_words(features)
                    : 0;
     }
 
-    /// Likewise of the vertices to which each path in flight may come back.
+    /// Returns the number of 4-byte words, per path in flight, of the vertices to which the path
+    /// may return to follow further branches.
     uint32_t branch_words_per_path() const {
         return features.has(Feature::branches) ? numbers.max_depth * branch_words(features) : 0;
     }
@@ -152,15 +154,17 @@ struct RenderSession::State {
     uint64_t film_words() const { return pixels() * FILM_PIXEL_WORDS(settings.variance); }
     uint64_t film_sums() const { return film_words() / FILM_WORDS; }
 
-    /// Paths of a pass in one sample of the image.
+    /// Returns the number of paths of a pass in one sample of the image.
     uint64_t paths_per_sample(const CompiledPass &pass) const {
         return pass.name == "light" ? numbers.light_paths : pixels();
     }
-    /// Of these, those that are still traced.
+    /// Returns the number of paths of a pass in one sample of the image that convergence control
+    /// has not stopped.
     uint64_t live_paths_per_sample(const CompiledPass &pass) const {
         return pass.features.has(Feature::convergence) ? convergence->live_count()
                                                        : paths_per_sample(pass);
     }
+    /// Returns the number of live paths of all passes.
     uint64_t live_paths_per_sample() const {
         uint64_t paths = 0;
         for (const CompiledPass &pass : passes) {
@@ -171,47 +175,55 @@ struct RenderSession::State {
 
     // session_rounds.cpp
 
-    /// How many of the samples from `begin` on are rendered next: a batch, up to the next check.
+    /// Returns the number of samples from `begin` on that are rendered next: one batch, but not
+    /// beyond the next convergence check.
     uint64_t batch_size(uint64_t begin, uint64_t end) const;
 
-    /// Where convergence control stops a pixel depends on all samples before. Throws `Error` (bad
-    /// input).
+    /// Throws `Error` (bad input) when `begin` is not the next sample, if convergence control is
+    /// on: all earlier samples decide where it stops a pixel.
     void require_next(uint64_t begin, uint64_t end) const;
 
-    /// Renders `count` samples of the image from `first` on.
+    /// Renders `count` samples of the image from sample `first` on; with `count` 0, only compiles
+    /// all kernels.
     void run_batch(uint64_t first, uint64_t count);
 
-    /// Traces the paths from `begin` to `end` of the batch that starts at sample `first`.
+    /// Traces the paths with indices [begin, end) of the batch that starts at sample `first`.
     void run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end);
 
-    /// Compiles the stages of the last few paths of a batch, of which `in_flight` are left, and
+    /// Compiles the stages for the last few paths of a batch, of which `in_flight` are left, and
     /// runs their first round.
     void add_last_stages(CompiledPass &pass, uint64_t in_flight);
 
-    /// `paths`: what a stage that traces whole paths is to trace.
+    /// Enqueues a stage. `paths` is the number of paths that a stage of complete paths
+    /// (Items::paths) traces.
     void enqueue(CompiledPass &pass, const std::string &name, uint64_t paths = 0);
+
+    /// Propagates carries in the film's sums.
     void carry_film(CompiledPass &pass);
 
-    /// Carries the film's sums if so many additions to one pixel would not fit any more.
+    /// Reserves room for `additions` more additions to one pixel: propagates carries first if they
+    /// might overflow.
     void make_room(CompiledPass &pass, uint64_t additions);
 
-    /// The words of a pass' film, carried.
+    /// Returns the words of a pass's film after carry propagation.
     std::vector<int64_t> read_film(CompiledPass &pass);
+
+    /// Waits for the device and adds its profile to that of the pass.
     void collect_profile(CompiledPass &pass);
 
     DeviceContext &device;
     RenderSettings settings;
-    Pilot pilot;  ///< by which the number of light paths was chosen, if one was
+    Pilot pilot;  ///< pilot that chose the number of light paths, if there was one
     StreamLayout layout;
     IntegratorSettings numbers;
     CompiledScene compiled;
-    FeatureMask features;  ///< of all passes
+    FeatureMask features;  ///< union over all passes
     std::vector<CompiledPass> passes;
     std::string scene_hash;
     std::string config;
 
     std::unique_ptr<BvhBuilder> bvh_builder;
-    std::unique_ptr<BvhRefitter> bvh_refitter;  ///< since the hierarchy was last refitted
+    std::unique_ptr<BvhRefitter> bvh_refitter;  ///< set once the BVH has been refitted
     Bvh bvh;
     std::map<std::string, Profiler::Stage> bvh_stages;
     SceneBuffers scene_buffers;
@@ -220,14 +232,16 @@ struct RenderSession::State {
     Buffer<uint32_t> branch_vertices;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
-    std::unique_ptr<ConvergenceControl>
-        convergence;  ///< of the camera pass, where pixels are stopped
+    /// Convergence control of the camera pass, if it is on.
+    std::unique_ptr<ConvergenceControl> convergence;
 
     double compile_seconds = 0;
     double bvh_wall_seconds = 0;
     double wall_seconds = 0;
     uint64_t samples = 0;
-    FilmState ranges;  ///< ranges, seconds and errors of films restored or rendered; no words
+    FilmState
+        /// Ranges, seconds and error counts of restored or rendered films, without words.
+        ranges;
 };
 
 }  // namespace rtrays

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <variant>
 
 #include "renderer/base/error.h"
@@ -18,7 +19,7 @@ namespace rtrays {
 
 namespace {
 
-// One row per setting serves parsing, printing, help and errors.
+// Each setting has one row, from which parsing, printing, help and error messages derive.
 struct TextSetting {
     std::string RenderSettings::*field;
     std::vector<std::string> values;
@@ -26,13 +27,13 @@ struct TextSetting {
 struct CountSetting {
     uint32_t RenderSettings::*field;
     uint32_t largest;
-    std::map<std::string, uint32_t> names = {};  // of special values
+    std::map<std::string, uint32_t> names = {};  // names of special values
 };
 struct NumberSetting {
     float RenderSettings::*field;
-    float above;  // exclusive bounds
-    float below;
-    bool or_zero = false;  // which then turns something off
+    float above;           // exclusive lower bound
+    float below;           // exclusive upper bound
+    bool or_zero = false;  // 0 is allowed in addition and turns a feature off
 };
 
 struct Setting {
@@ -43,7 +44,7 @@ struct Setting {
 
 constexpr uint32_t largest_count = 0x7fffffff;
 
-/// The names of a table, after those given.
+/// Returns `names` followed by the names of a table's rows.
 template <typename Table>
 std::vector<std::string> names_of(const Table &table, std::vector<std::string> names = {}) {
     for (const auto &row : table) {
@@ -56,76 +57,109 @@ const std::vector<Setting> &setting_table() {
     using S = RenderSettings;
     static const std::vector<Setting> table = {
         {"integrator.strategies", TextSetting{&S::strategies, {"implicit", "explicit", "mis"}},
-         "how light is found"},
+         "how path_tracing samples light; implicit: paths that hit emitters; explicit: next-event "
+         "estimation; mis: both, with multiple importance sampling"},
         {"integrator.sampler", TextSetting{&S::sampler, {"independent", "sobol", "regular"}},
-         "random numbers; sobol: stratified over the samples of a pixel, and over light paths; "
-         "regular: the same points in "
-         "every pixel, the first in its centre, for ray_casting and whitted, which take no others"},
+         "random numbers; independent: pseudorandom; sobol: scrambled Sobol points, stratified "
+         "over the samples of a pixel and over light paths; regular: the same points in every "
+         "pixel, the first at its centre (always used by ray_casting and whitted, and only by "
+         "them)"},
         {"integrator.seen_emitters", TextSetting{&S::seen_emitters, {"mis", "camera"}},
-         "bdpt, truncated_bdpt: emitters seen directly by both passes, or by camera paths alone"},
+         "bdpt, truncated_bdpt: passes that contribute emitters seen directly by the camera; mis: "
+         "the camera pass and the light pass, with multiple importance sampling; camera: the "
+         "camera pass only"},
         {"integrator.light_paths",
          CountSetting{&S::light_paths,
                       1u << 30,
                       {{"pixels", LIGHT_PATHS_LIKE_PIXELS}, {"auto", LIGHT_PATHS_AUTO}}},
-         "per sample of the image; pixels: as many as those; auto, of truncated_bdpt: as many as "
-         "pay, or none, by a pilot"},
+         "number of light paths for one sample of every pixel; pixels: as many as the image has "
+         "pixels; auto (truncated_bdpt only): a short pilot render chooses the most efficient "
+         "number, possibly 0"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
-         "of bdpt: vertices kept of each light path; paths of more scattering events than that and "
-         "one have the strategies "
-         "of truncated_bdpt"},
-        {"integrator.beta", NumberSetting{&S::beta, 0.0f, 1e3f}, "exponent of the power heuristic"},
+         "bdpt: number N of vertices stored per light path; paths of more than N + 1 scattering "
+         "events are sampled by the strategies of truncated_bdpt only"},
+        {"integrator.beta", NumberSetting{&S::beta, 0.0f, 1e3f},
+         "exponent of the power heuristic of multiple importance sampling"},
         {"integrator.termination", TextSetting{&S::termination, {"roulette", "fixed", "adaptive"}},
-         "how paths end; fixed (at max_depth) and adaptive are biased; whitted takes roulette for "
-         "fixed"},
+         "how paths end; roulette: Russian roulette (unbiased); fixed: after max_depth scattering "
+         "events (biased); adaptive: when the throughput falls below adaptive_threshold (biased); "
+         "ray_casting and whitted use fixed instead of roulette"},
         {"integrator.max_depth", CountSetting{&S::max_depth, largest_count},
-         "scattering events, 0: no limit (of whitted: 8)"},
+         "maximum number of scattering events of a path, 0: no limit (whitted: 8; ray_casting "
+         "always uses 1)"},
         {"integrator.max_continuation", NumberSetting{&S::max_continuation, 0.0f, 1.0f},
-         "largest continuation probability of roulette"},
+         "largest probability with which Russian roulette continues a path"},
         {"integrator.adaptive_threshold", NumberSetting{&S::adaptive_threshold, 0.0f, 1e3f},
-         "throughput below which adaptive termination stops"},
+         "throughput below which adaptive termination ends a path"},
         {"integrator.light_selection",
          TextSetting{&S::light_selection, {"uniform", "power", "mixed", "independent"}},
-         "probability of a light; independent: all of them at every vertex, as always in "
-         "ray_casting and whitted"},
+         "selection of a light for next-event estimation or the start of a light path; uniform: "
+         "equal probabilities; power: in proportion to the light's power; mixed: mean of both; "
+         "independent: next-event estimation samples every light at every vertex, as ray_casting "
+         "and whitted always do"},
         {"integrator.sphere_sampling", TextSetting{&S::sphere_sampling, {"cone", "area"}},
-         "how sphere lights are sampled from a point; area is the thesis' choice"},
+         "how points on sphere lights are sampled; cone: uniformly in the solid angle that the "
+         "sphere subtends; area: uniformly on its surface (as in the thesis)"},
         {"integrator.convergence.error", NumberSetting{&S::convergence_error, 0.0f, 1e3f, true},
-         "path_tracing, truncated_bdpt: pixels whose mean changes by less, in proportion, from N "
-         "to 2N samples get no more "
-         "camera paths (biased; thesis 3.3.7: 0.01 to 0.03); 0: all go on"},
+         "path_tracing, truncated_bdpt: a pixel gets no more camera paths when its mean over half "
+         "of its samples differs from its mean over all by less than this relative error (biased; "
+         "thesis 3.3.7 uses 0.01 to 0.03), 0: no pixel stops"},
         {"integrator.convergence.interval",
          CountSetting{&S::convergence_interval, FILM_ADDITIONS_BETWEEN_CARRIES},
-         "samples between two checks of that"},
+         "samples between two convergence checks, an even number"},
         {"integrator.convergence.start",
          CountSetting{&S::convergence_start, FILM_ADDITIONS_BETWEEN_CARRIES},
-         "samples of the first check"},
+         "samples before the first convergence check, an even number"},
         {"device.group_size", CountSetting{&S::group_size, 4096},
-         "work-items per group, 0: by device"},
+         "work-items per work-group, 0: chosen for the device"},
         {"device.stream_capacity", CountSetting{&S::stream_capacity, 1u << 26},
-         "paths in flight, 0: by device; 131072 at most where light paths are traced"},
+         "paths in flight, 0: chosen for the device; at most 131072 if light paths are traced"},
         {"device.stream_chunk", CountSetting{&S::stream_chunk, 256},
-         "queue entries per work-item, 0: by device"},
+         "queue entries that a work-item processes, 0: chosen for the device"},
         {"device.path_layout", TextSetting{&S::path_layout, {"auto", "interleaved", "arrays"}},
-         "path states in memory"},
+         "layout of path states in memory; interleaved: array of structures; arrays: structure of "
+         "arrays; auto: chosen for the device"},
         {"device.bvh_layout", TextSetting{&S::bvh_layout, names_of(bvh_layouts, {"auto"})},
-         "nodes of two children, traversed with a stack or without, or of eight; auto: by device"},
+         "layout of BVH nodes; bvh2: two children, traversed with a stack; bvh2_stackless: two "
+         "children, traversed without a stack; wide8: eight children; auto: chosen for the device"},
         {"device.bvh_builder", TextSetting{&S::bvh_builder, names_of(bvh_methods)},
-         "binned_sah: top down, by bins; hploc: bottom up, by clustering, faster to build"},
+         "how the BVH is built; binned_sah: top-down by the binned surface area heuristic; hploc: "
+         "bottom-up by clustering (H-PLOC), faster to build"},
         {"device.bvh_bins", TextSetting{&S::bvh_bins, {"4", "8", "16", "32"}},
-         "on an axis, of binned_sah"},
+         "binned_sah: number of bins per axis"},
         {"device.bvh_axes", TextSetting{&S::bvh_axes, {"all", "widest"}},
-         "that are binned, of binned_sah; widest: the one along which the triangles of a node lie "
-         "widest"},
+         "binned_sah: axes that are binned; widest: only the axis along which a node's centroids "
+         "extend furthest"},
         {"device.bvh_update", TextSetting{&S::bvh_update, {"rebuild", "refit"}},
-         "what a scene that has moved does to its hierarchy; refit: that of time 0 is fitted to "
-         "the time of --at"},
+         "how the BVH follows an animated scene; rebuild: it is built at the time of --at; refit: "
+         "it is built at time 0 and its bounds are refitted to the time of --at"},
         {"device.pipeline", TextSetting{&S::pipeline, {"wavefront", "megakernel"}},
-         "a kernel for every block, or one that traces whole paths, of path_tracing"},
+         "wavefront: one kernel per stage; megakernel: one kernel that traces complete paths "
+         "(path_tracing only)"},
         {"device.count_rays", TextSetting{&S::count_rays, {"in_all", "by_depth"}},
-         "what --stats says of rays; by_depth: also by the scattering events before, pass by pass"},
-        {"device.features", TextSetting{&S::features, {"scene", "all"}}, "what is compiled in"},
+         "ray counts in the file of --stats; in_all: totals; by_depth: also for each pass by the "
+         "number of scattering events before the ray"},
+        {"device.features", TextSetting{&S::features, {"scene", "all"}},
+         "code that is compiled into the kernels; scene: the features that scene and settings use; "
+         "all: every feature"},
     };
     return table;
+}
+
+/// Breaks a help text into indented lines of at most 100 columns.
+std::string wrapped(const std::string &text) {
+    constexpr size_t width = 100;
+    const std::string indent(6, ' ');
+    std::istringstream words(text);
+    std::string lines, line = indent, word;
+    while (words >> word) {
+        if (line.size() > indent.size() && line.size() + 1 + word.size() > width) {
+            lines += line + "\n";
+            line = indent;
+        }
+        line += (line.size() > indent.size() ? " " : "") + word;
+    }
+    return lines + line + "\n";
 }
 
 std::string value_text(const RenderSettings &settings, const Setting &setting) {
@@ -153,18 +187,18 @@ T parse_number(const std::string &assignment, const std::string &text, T low, T 
         !(inside || (or_zero && value == 0))) {
         throw input_error(fmt::format(
             "{}: the value must be {}a number {} {} and {} {}", assignment, or_zero ? "0 or " : "",
-            exclusive ? "above" : "from", low, exclusive ? "below" : "to", high));
+            exclusive ? "above" : "of at least", low, exclusive ? "below" : "at most", high));
     }
     return value;
 }
 
-/// What an algorithm is made of.
+/// Properties of an algorithm.
 struct Algorithm {
     std::string name;
-    bool from_camera;
-    bool from_light;
-    bool draws;  ///< random numbers
-    bool stops;  ///< pixels that have converged, if asked to
+    bool from_camera;  ///< it traces paths from the camera
+    bool from_light;   ///< it traces paths from the lights
+    bool draws;        ///< it draws random numbers
+    bool stops;        ///< it supports convergence control
 };
 
 const std::vector<Algorithm> &algorithm_table() {
@@ -182,16 +216,17 @@ const Algorithm &algorithm_of(const RenderSettings &settings) {
         return a.name == settings.algorithm;
     });
     if (found == table.end()) {
-        throw input_error(fmt::format("no algorithm '{}'; there are: {}", settings.algorithm,
-                                      fmt::join(algorithm_names(), ", ")));
+        throw input_error(fmt::format("unknown algorithm '{}'; algorithms are: {}",
+                                      settings.algorithm, fmt::join(algorithm_names(), ", ")));
     }
     return *found;
 }
 
 void require_value(const Setting &setting, const TextSetting &text, const std::string &value) {
     if (std::find(text.values.begin(), text.values.end(), value) == text.values.end()) {
-        throw input_error(fmt::format("{}={}: the values of {} are {}", setting.name, value,
-                                      setting.name, fmt::join(text.values, ", ")));
+        throw input_error(fmt::format("{}={}: unknown value; the values of {} are: {}",
+                                      setting.name, value, setting.name,
+                                      fmt::join(text.values, ", ")));
     }
 }
 
@@ -206,22 +241,21 @@ void require_consistent_convergence(const RenderSettings &settings) {
                 names.push_back(algorithm.name);
             }
         }
-        throw input_error(
-            fmt::format("integrator.convergence.error={}: {} does not stop pixels; {} do",
-                        settings.convergence_error, settings.algorithm, fmt::join(names, " and ")));
+        throw input_error(fmt::format(
+            "integrator.convergence.error={}: {} does not support convergence control; {} do",
+            settings.convergence_error, settings.algorithm, fmt::join(names, " and ")));
     }
     if (settings.strategies_apart) {
         throw input_error(
-            "integrator.convergence.error: pixels are stopped by their image, which layers of "
-            "strategies do not hold whole");
+            "integrator.convergence.error: convergence is decided by the full image, which layers "
+            "of strategies split; use one of the two");
     }
     for (const auto &[name, samples] : {std::pair("interval", settings.convergence_interval),
                                         std::pair("start", settings.convergence_start)}) {
         if (samples == 0 || samples % 2 != 0) {
             throw input_error(
-                fmt::format("integrator.convergence.{}={}: must be even and not 0, since half of "
-                            "the samples are compared "
-                            "with all",
+                fmt::format("integrator.convergence.{}={}: must be even and not 0, because half of "
+                            "the samples are compared with all",
                             name, samples));
         }
     }
@@ -247,8 +281,14 @@ void apply_setting(RenderSettings &settings, const std::string &assignment) {
     const auto found =
         std::find_if(table.begin(), table.end(), [&](const Setting &s) { return s.name == name; });
     if (equals == std::string::npos || found == table.end()) {
-        throw input_error(fmt::format("'{}' is no setting; settings are NAME=VALUE with:\n{}",
-                                      assignment, describe_settings()));
+        std::vector<std::string> names;
+        for (const Setting &setting : table) {
+            names.push_back(setting.name);
+        }
+        throw input_error(fmt::format(
+            "{} '{}'; settings are: {}",
+            equals == std::string::npos ? "expected NAME=VALUE, got" : "unknown setting",
+            equals == std::string::npos ? assignment : name, fmt::join(names, ", ")));
     }
     const std::string value = assignment.substr(equals + 1);
     if (const auto *text = std::get_if<TextSetting>(&found->kind)) {
@@ -275,66 +315,72 @@ void require_consistent(const RenderSettings &settings) {
         }
     }
     if (settings.algorithm != "path_tracing" && settings.strategies != "mis") {
-        throw input_error(fmt::format("integrator.strategies={}: {} has strategies of its own",
-                                      settings.strategies, settings.algorithm));
+        throw input_error(fmt::format(
+            "integrator.strategies={}: {} has fixed strategies; this setting is for path_tracing",
+            settings.strategies, settings.algorithm));
     }
     if (draws && settings.sampler == "regular") {
-        throw input_error(
-            fmt::format("integrator.sampler=regular: {} needs random numbers, independent or sobol",
-                        settings.algorithm));
+        throw input_error(fmt::format(
+            "integrator.sampler=regular: {} needs random numbers; use independent or sobol",
+            settings.algorithm));
     }
     if (!draws && settings.sampler == "sobol") {
-        throw input_error(fmt::format(
-            "integrator.sampler=sobol: {} draws no random numbers; its samples are regular",
-            settings.algorithm));
+        throw input_error(
+            fmt::format("integrator.sampler=sobol: {} draws no random numbers; use regular",
+                        settings.algorithm));
     }
     if (!draws && (settings.light_selection == "uniform" || settings.light_selection == "power")) {
         throw input_error(fmt::format(
-            "integrator.light_selection={}: {} draws no light, it joins every point to all of them",
+            "integrator.light_selection={}: {} samples every light at every point; use independent",
             settings.light_selection, settings.algorithm));
     }
     if (settings.algorithm == "bdpt" && settings.light_paths != LIGHT_PATHS_LIKE_PIXELS) {
         throw input_error(
-            "integrator.light_paths: bdpt joins every camera path to a light path of its own");
+            "integrator.light_paths: bdpt traces one light path per camera path; use pixels");
     }
     if (settings.light_paths == LIGHT_PATHS_AUTO && settings.algorithm != "truncated_bdpt") {
         throw input_error(
-            fmt::format("integrator.light_paths=auto: {} has no choice; truncated_bdpt has",
+            fmt::format("integrator.light_paths=auto: not supported by {}; use pixels, a number or "
+                        "truncated_bdpt",
                         settings.algorithm));
     }
     if (settings.light_paths == 0 && settings.algorithm == "light_tracing") {
-        throw input_error("integrator.light_paths=0: light_tracing has nothing else");
+        throw input_error(
+            "integrator.light_paths=0: light_tracing needs light paths; use pixels or a number "
+            "above 0");
     }
     if (settings.algorithm == "bdpt" && settings.passes != "all") {
         throw input_error(fmt::format(
-            "the passes of bdpt share their light paths and are not rendered apart: '{}'",
-            settings.passes));
+            "passes={}: the passes of bdpt share their light paths; use all", settings.passes));
     }
     if (settings.strategies_apart && (settings.variance || settings.passes != "all")) {
         throw input_error(
-            "layers of strategies go with all passes and without variance: the strategies share "
+            "layers of strategies: render all passes and omit the layer 'variance'; the strategies "
+            "share "
             "their paths");
     }
     if (settings.pipeline == "megakernel" && settings.algorithm != "path_tracing") {
         throw input_error(
-            fmt::format("device.pipeline=megakernel traces path_tracing alone; {} needs "
+            fmt::format("device.pipeline=megakernel: supports path_tracing only; {} needs "
                         "device.pipeline=wavefront",
                         settings.algorithm));
     }
     if (settings.pipeline == "megakernel" && settings.count_rays == "by_depth") {
         throw input_error(
-            "device.count_rays=by_depth counts what is in the streams of "
+            "device.count_rays=by_depth: counts rays in the streams between stages; use "
             "device.pipeline=wavefront");
     }
     if (settings.pipeline == "megakernel" && settings.strategies_apart) {
-        throw input_error("layers of strategies need device.pipeline=wavefront");
+        throw input_error(
+            "layers of strategies: not supported by megakernel; use device.pipeline=wavefront");
     }
     if (settings.strategies_apart && !draws) {
-        throw input_error(fmt::format("layers of strategies: {} has but one", settings.algorithm));
+        throw input_error(
+            fmt::format("layers of strategies: {} has only one strategy", settings.algorithm));
     }
     if (draws && settings.termination == "fixed" && settings.max_depth == 0) {
         throw input_error(
-            "integrator.termination=fixed needs a limit: --set integrator.max_depth=N");
+            "integrator.termination=fixed: needs a limit; use --set integrator.max_depth=N");
     }
     require_consistent_convergence(settings);
 }
@@ -384,8 +430,9 @@ std::string describe_settings() {
     for (const Setting &setting : setting_table()) {
         const auto *text = std::get_if<TextSetting>(&setting.kind);
         description += fmt::format(
-            "  {} = {}  {}{}\n", setting.name, value_text(defaults, setting), setting.meaning,
-            text == nullptr ? "" : fmt::format(" ({})", fmt::join(text->values, " | ")));
+            "  {} = {}{}\n{}", setting.name, value_text(defaults, setting),
+            text == nullptr ? "" : fmt::format("  ({})", fmt::join(text->values, " | ")),
+            wrapped(setting.meaning));
     }
     return description;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The table of all stages, and their compilation, binding and launch.
 #include "renderer/pipeline/stages.h"
 
 #include <fmt/format.h>
@@ -101,7 +102,7 @@ const StageDescription &stage_description(const std::string &name) {
     const auto found = std::find_if(table.begin(), table.end(),
                                     [&](const StageDescription &s) { return s.name == name; });
     if (found == table.end()) {
-        throw run_error(fmt::format("the pipeline has no stage '{}'", name));
+        throw run_error(fmt::format("unknown stage '{}'", name));
     }
     return *found;
 }

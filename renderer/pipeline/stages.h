@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Stages of the pipeline: their kernels, inputs and launches.
 #pragma once
 
 #include <map>
@@ -11,8 +12,7 @@
 
 namespace rtrays {
 
-/// What a stage takes, in the order of its parameters; each stands for one or more kernel
-/// parameters.
+/// Inputs of a stage, in the order of its parameters. Each input is one or more kernel parameters.
 enum class StageInput {
     geometry,
     traversal,
@@ -36,58 +36,59 @@ enum class StageInput {
     ray_counts
 };
 
-/// One block of the pipeline: one kernel.
+/// One stage of the pipeline, which is one kernel.
 struct StageDescription {
-    std::string name;  ///< of the kernel, in source, profile and results
+    std::string name;  ///< name of the kernel, also used in profiles and results
     std::string file;
     std::vector<StageInput> inputs;
-    /// What its work-items stand for: chunks of a queue's entries, slots, chunks of the work's
-    /// paths, the last few paths, sums of the film, or just one.
+    /// Meaning of a work-item: a chunk of a queue's entries, a slot, a chunk of the work's paths,
+    /// one of the last few paths, a sum of the film, or the only work-item.
     enum class Items { entries, slots, paths, few_paths, film_sums, one } items;
 };
 
-/// All stages there are.
+/// Returns the descriptions of all stages.
 const std::vector<StageDescription> &stage_table();
 
-/// The description of one stage; throws `Error` when there is none of that name.
+/// Returns the description of one stage. Throws `Error` (run failed) when no stage has that name.
 const StageDescription &stage_description(const std::string &name);
 
-/// The kernel arguments that stand for each input.
+/// The kernel arguments of each input.
 using StageArguments = std::map<StageInput, std::vector<KernelArgument>>;
 
-/// How streams and the hierarchy are laid out on a device. None of it changes a bit of the image,
-/// but for the layout of the hierarchy where a ray hits two triangles at the same distance.
+/// Layout of streams and BVH on a device. The layout does not change a bit of the image, with one
+/// exception: the BVH's layout decides which triangle a ray hits when two are at the same distance.
 struct StreamLayout {
     uint32_t group_size;  ///< work-items per group
     uint32_t capacity;    ///< paths in flight
     uint32_t chunk;       ///< entries of a queue per work-item
-    bool interleaved;     ///< the words of a path lie together
+    bool interleaved;     ///< the words of a path are adjacent
     BvhLayout bvh = BvhLayout::bvh2;
 };
 
-/// What the stages' programs are specialised by.
+/// Returns the defines by which programs are specialised.
 Defines stage_defines(FeatureMask features, const StreamLayout &layout);
 
-/// The compiled programs and kernels of some stages under one feature mask.
+/// Compiled programs and kernels of some stages under one feature mask.
 class StageSet {
   public:
-    /// Builds one program per file.
+    /// Builds one program per file and one kernel per stage.
     StageSet(DeviceContext &device, const std::vector<std::string> &names, FeatureMask features,
              const StreamLayout &layout, const SourceOverlays &overlays);
 
-    /// Compiles more stages, with the arguments that the others have. Their first launch compiles
-    /// once more.
+    /// Compiles more stages and binds the arguments that the others have. The first launch of each
+    /// takes longer, because the driver compiles the kernel.
     void add(const std::vector<std::string> &names);
 
     bool has(const std::string &name) const { return stages_.count(name) > 0; }
 
-    /// Binds what `arguments` holds; inputs that it does not name keep their binding.
+    /// Binds `arguments`. Inputs that it does not contain keep their arguments.
     void bind(const StageArguments &arguments);
 
-    /// Launches a stage over that many work-items.
+    /// Launches a stage with at least `items` work-items.
     void enqueue(const std::string &name, uint64_t items);
 
-    const std::map<std::string, Program> &programs() const { return programs_; }  ///< by file
+    /// Returns the programs by file.
+    const std::map<std::string, Program> &programs() const { return programs_; }
     double build_seconds() const;
 
   private:
@@ -104,7 +105,7 @@ class StageSet {
     SourceOverlays overlays_;
     std::map<std::string, Program> programs_;
     std::map<std::string, Stage> stages_;
-    StageArguments arguments_;  ///< all that were bound
+    StageArguments arguments_;  ///< all bound arguments
 };
 
 }  // namespace rtrays

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes: what accumulates from the root of the scene graph to its leaves (thesis 3.2.3).
+// Attributes: values that accumulate from the root of the scene graph to its leaves (thesis 3.2.3).
 #pragma once
 
 #include <memory>
@@ -7,24 +7,25 @@
 
 namespace rtrays {
 
-/// One accumulating quantity ("attribute" in the thesis). The three operations are the thesis'; how
-/// two values combine is up to the type: transforms multiply, visibility is a logical AND, a
+/// An accumulating quantity ("attribute" in the thesis, which defines the three operations). The
+/// type decides how two values combine: transforms multiply, visibility is a logical AND, a
 /// material replaces the inherited one.
 class NodeAttribute {
   public:
     virtual ~NodeAttribute() = default;
 
-    /// What a root without any value of this type starts from.
+    /// Returns the value that accumulation starts with at the root.
     virtual std::unique_ptr<NodeAttribute> default_value() const = 0;
 
     virtual std::unique_ptr<NodeAttribute> clone() const = 0;
 
-    /// Makes this (inherited) value the one below a node that contributes `own`, of the same type.
+    /// Merges into this inherited value the value `own` that a node contributes, which has the same
+    /// type. The result is the value below that node.
     virtual void merge(const NodeAttribute &own) = 0;
 };
 
-/// Implements all but the combination for a type with a default constructor. `Derived` has
-/// `void combine(const Derived &own)`.
+/// Implementation of the operations for a type with a default constructor. `Derived` must have
+/// `void combine(const Derived &own)`, which merges a value into an inherited one.
 template <typename Derived>
 class AttributeOf : public NodeAttribute {
   public:
@@ -40,14 +41,14 @@ class AttributeOf : public NodeAttribute {
     const Derived &self() const { return static_cast<const Derived &>(*this); }
 };
 
-/// The accumulated attributes of one node, at most one of each type. Values that a node does not
-/// change are shared with its parent, so a set costs a pointer per attribute.
+/// The accumulated attributes of a node, at most one of each type. Values that a node does not
+/// change are shared with its parent, so a set costs one pointer per attribute.
 class AttributeSet {
   public:
-    /// Accumulates what a node contributes. Never touches values shared with other nodes.
+    /// Merges a value that a node contributes. Never modifies values shared with other nodes.
     void merge(const NodeAttribute &own);
 
-    /// The value of one type: the accumulated one, or the default.
+    /// Returns the accumulated value of one type, or the default.
     template <typename T>
     const T &get() const {
         for (const auto &value : values_) {

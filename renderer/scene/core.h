@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cores hold what a scene consists of: cameras, lights, geometry, transforms, materials. Nodes only
-// place them (thesis 3.2.2; "kernel" there, renamed because a kernel is an OpenCL function here).
+// Cores hold the content of a scene: cameras, lights, geometry, transforms, materials. Nodes only
+// place them (thesis 3.2.2, where they are called "kernels"; here a kernel is an OpenCL function).
 #pragma once
 
 #include <cstddef>
@@ -16,21 +16,20 @@ namespace rtrays {
 
 class Node;
 
-/// What a core is to its node, which has at most one core of each role. (The thesis gives a node
-/// one core and several attributes; with roles a lamp is one node with a transform, a mesh, a
+/// Role of a core at its node, which has at most one core of each role. (The thesis gives a node
+/// one core and several attributes. With roles a lamp is one node with a transform, a mesh, a
 /// material and a light.)
 enum class CoreRole { transform, visibility, material, geometry, light, camera };
 constexpr size_t core_role_count = 6;
 
-/// What a change of a core outdates.
+/// The records that a change of a core makes outdated.
 enum class Dirty : uint8_t {
-    nothing,  ///< all is written
+    nothing,  ///< all records are current
     object,   ///< the records of the node itself
-    subtree,  ///< the accumulated attributes and records of the node and everything below it
+    subtree,  ///< the attributes and records of the node and of everything below it
 };
 
-/// The base of all cores. A core may be shared by any number of nodes; it lives as long as one of
-/// them.
+/// Base of all cores. Any number of nodes may share a core, which lives as long as one of them.
 class Core : public PropertyHolder {
   public:
     using PropertyHolder::PropertyHolder;
@@ -39,20 +38,20 @@ class Core : public PropertyHolder {
 
     virtual CoreRole role() const = 0;
 
-    /// What the core contributes to the attributes of its nodes, if anything.
+    /// Returns the attribute that the core contributes to its nodes, or nullptr.
     virtual const NodeAttribute *attribute() const { return nullptr; }
 
-    /// Whether `update` is to be called whenever the time changes.
+    /// Returns whether `update` must be called whenever the time changes.
     virtual bool is_animated() const { return false; }
 
-    /// Brings the core to scene time `time` (seconds), through its setters.
+    /// Advances the core to scene time `time` (seconds), through its setters.
     virtual void update(double) {}
 
-    /// Grows with every change: a record written at the same version is up to date.
+    /// Counter that grows with every change. A record written at the same version is current.
     uint64_t version() const { return version_; }
 
   protected:
-    /// Every setter ends here: marks the nodes that hold the core.
+    /// Marks the nodes that hold the core as dirty. Every setter must end with this call.
     void changed(Dirty outdated);
 
   private:

@@ -16,7 +16,7 @@ namespace rtrays {
 
 namespace {
 
-/// Some of the names, for messages: scenes have up to millions.
+/// Returns some of the names, for messages: scenes have up to millions.
 std::string some(std::vector<std::string> names) {
     constexpr size_t most = 20;
     std::sort(names.begin(), names.end());
@@ -38,6 +38,7 @@ std::vector<Property> properties_of(const Node &node) {
     return all;
 }
 
+/// Returns the line of `list_properties` for one property.
 std::string described(const std::string &owner, const Property &property) {
     return fmt::format("{}.{} = {}  # {}: {}\n", owner, property.name, property.text(),
                        property.type(), property.help);
@@ -55,8 +56,7 @@ SceneGraph::SceneGraph()
 }
 
 SceneGraph::~SceneGraph() {
-    // Nodes let go of their cores as they are destroyed; none of that needs to be recorded any
-    // more.
+    // Destroyed nodes release their cores; the graph need not be notified any more.
     visit_subtree(*root_, [](Node &node) { node.graph_ = nullptr; });
 }
 
@@ -75,7 +75,7 @@ void SceneGraph::attach(Node &subtree) {
                 names_.erase(added[j]->name());
             }
             throw input_error(
-                fmt::format("two nodes are called '{}'; give one another name", name));
+                fmt::format("two nodes have the name '{}'; rename one of them", name));
         }
     }
     for (Node *node : added) {
@@ -152,7 +152,7 @@ std::vector<Node *> SceneGraph::nodes_to_write() {
     std::vector<Node *> nodes;
     for (Node *node : dirty_) {
         if (covered(*node)) {
-            continue;  // the node above brings this one along
+            continue;  // the subtree of a node above includes this one
         }
         if (node->dirty_ == Dirty::subtree) {
             visit_subtree(*node, [&](Node &below) {
@@ -257,7 +257,8 @@ void SceneGraph::set_origin(const Eigen::Vector3d &origin) {
 
 void SceneGraph::share(const std::string &address, std::shared_ptr<PropertyHolder> holder) {
     if (!shared_.emplace(address, std::move(holder)).second) {
-        throw input_error(fmt::format("two shared objects are called '{}'", address));
+        throw input_error(
+            fmt::format("two shared objects have the name '{}'; rename one of them", address));
     }
 }
 
@@ -283,8 +284,8 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
         for (const auto &named : shared_) {
             names.push_back(named.first);
         }
-        throw input_error(
-            fmt::format("'{}': the scene has no '{}'; it has: {}", address, owner, some(names)));
+        throw input_error(fmt::format("'{}': unknown node or shared object '{}'; the scene has: {}",
+                                      address, owner, some(names)));
     }
     std::vector<std::string> names;
     for (const Property &property : properties) {
@@ -298,8 +299,8 @@ void SceneGraph::set_property(const std::string &address, const std::string &tex
         }
         names.push_back(property.name);
     }
-    throw input_error(fmt::format("'{}': '{}' has no property '{}'; it has: {}", address, owner,
-                                  name, some(names)));
+    throw input_error(fmt::format("'{}': '{}' has no property '{}'; properties are: {}", address,
+                                  owner, name, some(names)));
 }
 
 std::string SceneGraph::list_properties() const {

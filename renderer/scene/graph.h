@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The scene graph: its tree of nodes, its shared objects and the stores that it serializes into.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,8 +19,8 @@
 
 namespace rtrays {
 
-/// The scene graph and its serialized form (thesis 3.2.2). Users edit nodes and cores; `update`
-/// brings the stores up to date from a list of what was edited, so its cost does not depend on the
+/// The scene graph and its serialized form (thesis 3.2.2). Users edit nodes and cores. `update`
+/// brings the stores up to date from a list of the edited nodes, so its cost does not depend on the
 /// rest of the graph.
 class SceneGraph {
   public:
@@ -28,53 +29,54 @@ class SceneGraph {
 
     Node &root() { return *root_; }
 
-    /// The node of that name, or nullptr. Names are unique; nameless nodes are not found.
+    /// Returns the node of that name, or nullptr. Names are unique; nodes without a name are not
+    /// found.
     Node *find(const std::string &name) const;
 
-    /// Registers a core or a texture under an address like "materials.white", for `set_property`
-    /// and listings.
+    /// Registers a core or a texture under an address such as "materials.white", for `set_property`
+    /// and listings. Throws `Error` (bad input) if the address is taken.
     void share(const std::string &address, std::shared_ptr<PropertyHolder> holder);
 
     /// Sets "NODE.PROPERTY" or "SECTION.NAME.PROPERTY" from text. A core shared by several nodes
     /// changes for all of them. Throws `Error` (bad input) naming the address and the alternatives.
     void set_property(const std::string &address, const std::string &text);
 
-    /// One line per property: address, value, type and meaning, nodes in the order of the tree.
+    /// Returns one line per property: address, value, type and meaning. Nodes are in tree order.
     std::string list_properties() const;
 
-    /// Brings animated cores to `time` (seconds) and writes what is dirty. Throws `Error` (bad
-    /// input) when an object cannot be represented; it stays dirty, and the arrays are not to be
-    /// read until an update has succeeded.
+    /// Advances animated cores to `time` (seconds) and writes all dirty records. Throws `Error`
+    /// (bad input) if an object cannot be represented. The object then stays dirty, and the arrays
+    /// must not be read until an update has succeeded.
     void update(double time);
 
     /// The scene time of the last update, seconds.
     double time() const { return time_; }
 
-    /// What the last update did, by store.
+    /// Numbers of objects that the last update changed, by store.
     const StoreCounts &camera_counts() const { return cameras_.counts(); }
     const StoreCounts &material_counts() const { return materials_.counts(); }
     const StoreCounts &mesh_counts() const { return meshes_.counts(); }
     const StoreCounts &shape_counts() const { return shapes_.counts(); }
     const StoreCounts &light_counts() const { return lights_.counts(); }
 
-    /// How many nodes the last update visited.
+    /// Number of nodes that the last update visited.
     size_t visited_nodes() const { return visited_nodes_; }
 
-    /// What the graph serializes into; current after `update`.
+    /// The arrays that the graph serializes into. They are current after `update`.
     const SceneArrays &arrays() const { return arrays_; }
 
-    /// Box around all bounded geometry in the coordinates of the scene file (walks the whole
-    /// graph).
+    /// Returns the bounding box of all bounded geometry, in the coordinates of the scene file.
+    /// Walks the entire graph.
     Eigen::AlignedBox3d bounds() const;
 
-    /// Makes this point the origin of the baked world; everything is rewritten by the next update.
+    /// Makes `origin` the origin of the baked world. The next update rewrites everything.
     void set_origin(const Eigen::Vector3d &origin);
     const Eigen::Vector3d &origin() const { return meshes_.origin; }
 
   private:
     friend class Node;
 
-    // Told by nodes of this graph.
+    // Called by the nodes of this graph.
     void attach(Node &subtree);
     void detach(Node &subtree);
     void core_added(const Node &node, CoreRole role);
@@ -91,11 +93,11 @@ class SceneGraph {
     MeshStore meshes_;
     ShapeStore shapes_;
     LightStore lights_;
-    std::array<Store *, 5> stores_;  ///< in the order in which they are to be written
+    std::array<Store *, 5> stores_;  ///< in the order in which they must be written
 
     std::unordered_map<std::string, Node *> names_;
     std::map<std::string, std::shared_ptr<PropertyHolder>> shared_;
-    std::vector<Core *> animated_;  ///< once per node that holds it
+    std::vector<Core *> animated_;  ///< one entry per node that holds the core
     std::vector<Node *> dirty_;
     double time_ = 0;
     size_t visited_nodes_ = 0;

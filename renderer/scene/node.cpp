@@ -21,7 +21,7 @@ Node::~Node() {
     for (size_t role = 0; role < core_role_count; ++role) {
         let_go(static_cast<CoreRole>(role));
     }
-    // Left to itself the deletion of a long chain would recurse once per node.
+    // The default destruction of a long chain would recurse once per node.
     std::vector<std::unique_ptr<Node>> pending = std::move(children_);
     while (!pending.empty()) {
         const std::unique_ptr<Node> node = std::move(pending.back());
@@ -83,7 +83,7 @@ void Node::remove_core(CoreRole role) {
 void Node::let_go(CoreRole role) {
     const HeldCore own = std::exchange(held(role), {});
     if (own.core != nullptr) {
-        // The last node takes the vacant place.
+        // The last node moves to the vacant position.
         std::vector<Node *> &nodes = own.core->nodes_;
         nodes[own.position] = nodes.back();
         nodes[own.position]->held(role).position = own.position;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Nodes of the scene tree.
 #pragma once
 
 #include <array>
@@ -13,8 +14,9 @@ namespace rtrays {
 
 class SceneGraph;
 
-/// A node of the scene tree: a name, children and cores, nothing else (thesis 3.2.3). Its owner is
-/// its parent, so it cannot be in the graph twice; what is to appear twice is a shared core.
+/// A node of the scene tree: a name, children and cores, nothing else (thesis 3.2.3). A node is
+/// owned by its parent, so it appears in the graph only once. Content that appears more than once
+/// is a shared core.
 class Node {
   public:
     explicit Node(std::string name) : name_(std::move(name)) {}
@@ -26,31 +28,30 @@ class Node {
     Node *parent() const { return parent_; }
     const std::vector<std::unique_ptr<Node>> &children() const { return children_; }
 
-    /// Appends a child (with all below it). Throws `Error` when one of the names is taken in this
-    /// graph.
+    /// Appends a child with its subtree. Throws `Error` if one of the names is taken in this graph.
     Node &add_child(std::unique_ptr<Node> child);
 
-    /// Takes a child out of the graph, frees what it had in the stores and hands it to the caller.
+    /// Removes a child from the graph, frees its records in the stores and returns it to the
+    /// caller.
     std::unique_ptr<Node> remove_child(Node &child);
 
-    /// The core of one role, or nullptr.
+    /// Returns the core of one role, or nullptr.
     Core *core(CoreRole role) const { return held(role).core.get(); }
 
-    /// The core of one role if it is a `T`, or nullptr.
+    /// Returns the core of one role if it is a `T`, or nullptr.
     template <typename T>
     T *core_of(CoreRole role) const {
         return dynamic_cast<T *>(core(role));
     }
 
-    /// Gives the node a core, in place of the one of the same role it may have had.
+    /// Gives the node a core, which replaces the core of the same role if there is one.
     void set_core(std::shared_ptr<Core> core);
     void remove_core(CoreRole role);
 
-    /// What had accumulated from the root to this node (this included) at the last update.
+    /// Attributes accumulated from the root to this node, including its own, at the last update.
     const AttributeSet &attributes() const { return attributes_; }
 
-    /// Puts the node on its graph's list of what is to be rewritten. Costs the same wherever it
-    /// stands.
+    /// Adds the node to its graph's list of dirty nodes, in constant time.
     void mark(Dirty dirty);
 
   private:
@@ -58,8 +59,8 @@ class Node {
 
     struct HeldCore {
         std::shared_ptr<Core> core;
-        size_t position =
-            0;  ///< of this node in core->nodes_, so that letting go takes constant time
+        /// Index of this node in core->nodes_, so that the core is released in constant time.
+        size_t position = 0;
     };
 
     HeldCore &held(CoreRole role) { return cores_[static_cast<size_t>(role)]; }
@@ -75,8 +76,8 @@ class Node {
     Dirty dirty_ = Dirty::nothing;
 };
 
-/// Calls `visit(node)` for `root` and all nodes below it, parents first, children in order. Depth
-/// is not limited by the call stack.
+/// Calls `visit(node)` for `root` and all nodes below it, parents first, children in order. The
+/// call stack does not limit the depth.
 template <typename Visit>
 void visit_subtree(Node &root, const Visit &visit) {
     std::vector<Node *> pending{&root};

@@ -38,8 +38,8 @@ std::string Range::text() const {
 
 void Parameter::validate(const PropertyValue &value) const {
     if (value.index() != initial.index()) {
-        throw input_error(
-            fmt::format("{}: {} is not {}", name, property_text(value), property_type(initial)));
+        throw input_error(fmt::format("{}: {} is not a value of type {}", name,
+                                      property_text(value), property_type(initial)));
     }
     if (!choices.empty() &&
         std::find(choices.begin(), choices.end(), std::get<std::string>(value)) == choices.end()) {
@@ -71,7 +71,8 @@ ParameterSet::ParameterSet(const std::string &type, const ParameterTable &table,
     }
     for (const auto &named : textures_) {
         if (!table[index(named.first)].textured || named.second == nullptr) {
-            throw input_error(fmt::format("the {} of a {} takes no texture", named.first, type_));
+            throw input_error(fmt::format("{}: this parameter of {} does not support a texture",
+                                          named.first, type_));
         }
     }
 }
@@ -85,8 +86,8 @@ size_t ParameterSet::index(const std::string &name) const {
         for (const Parameter &parameter : *table_) {
             names.push_back(parameter.name);
         }
-        throw input_error(
-            fmt::format("a {} has no '{}'; it has: {}", type_, name, fmt::join(names, ", ")));
+        throw input_error(fmt::format("{}: unknown parameter '{}'; parameters are: {}", type_, name,
+                                      fmt::join(names, ", ")));
     }
     return static_cast<size_t>(found - table_->begin());
 }
@@ -122,9 +123,9 @@ std::vector<Property> ParameterSet::properties(
         }
     }
     for (const auto &[name, texture] : textures_) {
-        all.push_back(
-            make_property<std::string>(name + "_texture", "texture that scales it",
-                                       [texture_name = texture->name()] { return texture_name; }));
+        all.push_back(make_property<std::string>(
+            name + "_texture", "texture that scales the value over the surface",
+            [texture_name = texture->name()] { return texture_name; }));
     }
     return all;
 }

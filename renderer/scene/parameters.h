@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parameters that a table declares: one row serves construction, validation, properties, scene
-// files and messages.
+// Parameters declared by tables. One row defines a parameter for construction, validation,
+// properties, scene files and messages.
 #pragma once
 
 #include <functional>
@@ -17,15 +17,15 @@ namespace rtrays {
 
 class Texture;
 
-/// The legal values of a number, or of each of several.
+/// The legal values of a number, or of each component of a vector or matrix.
 struct Range {
     double min = -std::numeric_limits<double>::max();
     double max = std::numeric_limits<double>::max();
     bool with_min = true;
     bool with_max = true;
 
-    bool contains(double value) const;  ///< false for NaN
-    std::string text() const;           ///< "[0, 1)"
+    bool contains(double value) const;  ///< returns false for NaN
+    std::string text() const;           ///< returns text such as "[0, 1)"
 };
 
 namespace ranges {
@@ -36,45 +36,46 @@ inline constexpr Range not_negative{0, largest_float, true, true};
 inline constexpr Range any{-largest_float, largest_float, true, true};
 }  // namespace ranges
 
-/// One row of a table.
+/// A row of a table: one parameter.
 struct Parameter {
     enum class Need {
-        required,  ///< without a value the object cannot be
-        defaulted,
-        optional,  ///< may have none
+        required,   ///< a value must be given
+        defaulted,  ///< the default applies if no value is given
+        optional,   ///< the parameter may have no value
     };
 
     std::string name;
     std::string help;       ///< meaning and unit
-    PropertyValue initial;  ///< its alternative is the type; the default where there is one
+    PropertyValue initial;  ///< its alternative is the type; the default value if defaulted
     Need need = Need::defaulted;
     Range range = ranges::any;
-    std::vector<std::string> choices{};  ///< the legal values of a choice, else empty
-    bool textured = false;               ///< "NAME_texture" may scale it over the surface
+    std::vector<std::string> choices{};  ///< the legal values if the parameter is a choice
+    bool textured = false;               ///< a texture "NAME_texture" may scale it over the surface
 
-    /// Throws `Error` (bad input) naming the parameter, its range or choices and its meaning.
+    /// Throws `Error` (bad input) for an illegal value, naming the parameter, its range or choices
+    /// and its meaning.
     void validate(const PropertyValue &value) const;
 };
 
 using ParameterTable = std::vector<Parameter>;
 using ParameterValues = std::map<std::string, PropertyValue>;
-using ParameterTextures =
-    std::map<std::string, std::shared_ptr<Texture>>;  ///< by name of the parameter
+/// Textures by the name of the parameter that they scale.
+using ParameterTextures = std::map<std::string, std::shared_ptr<Texture>>;
 
-/// The values of a table's parameters, each within its range.
+/// Values of the parameters of a table, each within its range.
 class ParameterSet {
   public:
-    /// `type` stands in messages. Throws `Error` (bad input) for an unknown name, a value out of
-    /// range or a missing one. `table` must outlive the set.
+    /// `type` is the name of the type in messages. Throws `Error` (bad input) for an unknown name,
+    /// a value out of range or a missing value. `table` must outlive the set.
     ParameterSet(const std::string &type, const ParameterTable &table,
                  const ParameterValues &values, const ParameterTextures &textures = {});
 
-    /// Throws `Error` (bad input) as above.
+    /// Sets one value. Throws `Error` (bad input) for an unknown name or an illegal value.
     void set(const std::string &name, const PropertyValue &value);
 
     bool has(const std::string &name) const { return at(name).has_value(); }
 
-    /// The value of a parameter that has one, of its type `T`.
+    /// Returns the value of a parameter that has one, as its type `T`.
     template <typename T>
     const T &get(const std::string &name) const {
         return std::get<T>(at(name).value());
@@ -85,18 +86,18 @@ class ParameterSet {
     }
     const std::string &text(const std::string &name) const { return get<std::string>(name); }
 
-    /// The value of a choice as its place in the list, which is that of the enumerator.
+    /// Returns the value of a choice. Its index in the list is the value of the enumerator.
     template <typename Enum>
     Enum choice(const std::string &name) const {
         return static_cast<Enum>(choice_index(name));
     }
 
-    /// nullptr where there is none.
+    /// Returns the texture of a parameter, or nullptr.
     std::shared_ptr<Texture> texture(const std::string &name) const;
     const ParameterTextures &textures() const { return textures_; }
 
-    /// The parameters that have a value as properties that end in `setter(name, value)`. They refer
-    /// to this set.
+    /// Returns properties for the parameters that have a value. Setting one calls `setter(name,
+    /// value)`. The properties refer to this set.
     std::vector<Property> properties(
         const std::function<void(const std::string &, const PropertyValue &)> &setter) const;
 

@@ -14,6 +14,7 @@ namespace rtrays {
 
 namespace {
 
+/// Appends all numbers of nested arrays; clears `only_numbers` if there is any other value.
 void flatten(const Json &value, std::vector<double> &numbers, bool &only_numbers) {
     if (value.is_array()) {
         for (const Json &item : value) {
@@ -26,7 +27,8 @@ void flatten(const Json &value, std::vector<double> &numbers, bool &only_numbers
     }
 }
 
-/// Exactly `count` numbers, bracketed or not; an empty vector when the text is anything else.
+/// Returns exactly `count` numbers, with or without brackets, or an empty vector for any other
+/// text.
 std::vector<double> parse_numbers(const std::string &text, size_t count) {
     std::vector<double> numbers;
     bool only_numbers = true;
@@ -55,7 +57,7 @@ struct ToText {
     std::string operator()(const std::string &value) const { return value; }
 };
 
-/// Replaces the alternative it visits by what the text says; false when the text is of another
+/// Replaces the visited alternative by the value of the text. Returns false if the text has another
 /// type.
 struct FromText {
     const std::string &text;
@@ -120,7 +122,7 @@ std::string Property::text() const {
 
 void Property::set_text(const std::string &text) const {
     if (!set) {
-        throw input_error("can only be read");
+        throw input_error("the property is read-only");
     }
     PropertyValue value = get();
     const bool is_choice =

@@ -15,34 +15,35 @@ namespace rtrays {
 using PropertyValue = std::variant<bool, double, Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector4d,
                                    Eigen::Matrix4d, std::string>;
 
-/// The value as `Property::set_text` reads it.
+/// Returns the value as text that `Property::set_text` can read.
 std::string property_text(const PropertyValue &value);
 
-/// "boolean", "number", "two numbers", ..., "4x4 matrix" or "text".
+/// Returns "boolean", "number", "two numbers", ..., "4x4 matrix" or "text".
 const char *property_type(const PropertyValue &value);
 
-/// One parameter of one core. Values go through the core's own setter, which validates them and
-/// marks the nodes concerned as dirty.
+/// One parameter of a core. Values are set through the core's own setter, which validates them and
+/// marks the affected nodes as dirty.
 struct Property {
     std::string name;
     std::string help;                  ///< meaning and unit
-    std::vector<std::string> choices;  ///< the legal values of a choice, else empty
+    std::vector<std::string> choices;  ///< the legal values if the property is a choice
     std::function<PropertyValue()> get;
-    std::function<void(const PropertyValue &)> set;  ///< empty when the property can only be read
+    std::function<void(const PropertyValue &)> set;  ///< empty if the property is read-only
 
-    /// As `property_type`; a choice lists its alternatives.
+    /// Returns the type by `property_type`, or the alternatives of a choice.
     std::string type() const;
 
-    /// The value as `set_text` reads it.
+    /// Returns the value as text that `set_text` can read.
     std::string text() const;
 
-    /// Parses and sets: `true`; `1.5`; `1,2,3` or `[1, 2, 3]`; 16 numbers, row by row; plain text;
-    /// one number where two are equal. Throws `Error` (bad input) when the text is of another type,
-    /// the value is illegal or the property read-only.
+    /// Parses text and sets the value. Accepts `true`; `1.5`; `1,2,3` or `[1, 2, 3]`; a matrix as
+    /// 16 numbers, row by row; plain text. One number sets both components of a pair. Throws
+    /// `Error` (bad input) if the text has another type, the value is illegal or the property is
+    /// read-only.
     void set_text(const std::string &text) const;
 };
 
-/// A property by getter and setter of the value's own type `T`, one of the alternatives of
+/// Makes a property from a getter and a setter of type `T`, which must be an alternative of
 /// `PropertyValue`.
 template <typename T, typename Get, typename Set>
 Property make_property(std::string name, std::string help, Get get, Set set) {
@@ -53,7 +54,7 @@ Property make_property(std::string name, std::string help, Get get, Set set) {
             [set](const PropertyValue &value) { set(std::get<T>(value)); }};
 }
 
-/// A property that can only be read.
+/// Makes a read-only property.
 template <typename T, typename Get>
 Property make_property(std::string name, std::string help, Get get) {
     return {std::move(name), std::move(help), {}, [get] { return PropertyValue(T(get())); }, {}};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The base of cores and textures: objects with properties.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace rtrays {
 
-/// Anything with a name, a type and properties: what listings and `set_property` work upon.
+/// An object with a name, a type and properties, for listings and `set_property`.
 class PropertyHolder {
   public:
     explicit PropertyHolder(std::string name) : name_(std::move(name)) {}
@@ -19,7 +20,7 @@ class PropertyHolder {
 
     const std::string &name() const { return name_; }
 
-    /// The type as scene files call it.
+    /// Returns the name of the type in scene files.
     virtual const char *type_name() const = 0;
 
     virtual std::vector<Property> properties() = 0;

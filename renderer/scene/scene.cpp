@@ -63,7 +63,7 @@ class ByteCollector {
         add(image.bytes);
         add(image.floats);
     }
-    /// Begins a section that only some scenes have.
+    /// Begins a section that is present only in some scenes.
     void begin(const std::string &name) { bytes_ += name; }
     const std::string &bytes() const { return bytes_; }
 
@@ -71,7 +71,8 @@ class ByteCollector {
     std::string bytes_ = "rtrays scene 2";
 };
 
-/// What only some scenes have, so that the others keep their hash when scenes learn something new.
+/// Adds the sections that are present only in some scenes, so that the hashes of other scenes do
+/// not change when scenes gain a feature.
 void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
     const MeshArrays &meshes = arrays.meshes;
     if (!meshes.normal.empty() || !meshes.uv.empty()) {
@@ -129,8 +130,9 @@ Scene &Scene::operator=(Scene &&) noexcept = default;
 void Scene::set_film_size(int width, int height) {
     constexpr int largest = 1 << 16;
     if (width < 1 || height < 1 || width > largest || height > largest) {
-        throw input_error(fmt::format("film: {} x {} pixels is not within 1 to {} a side", width,
-                                      height, largest));
+        throw input_error(
+            fmt::format("film: {} x {} pixels are out of range; each side must be from 1 to {}",
+                        width, height, largest));
     }
     film_width_ = width;
     film_height_ = height;
@@ -143,9 +145,7 @@ void Scene::set_property(const std::string &address, const std::string &text) {
 std::string Scene::describe() const {
     return fmt::format(
         "scene '{}': {} triangles in {} meshes, {} shapes, {} materials, {} textures, {} lights, "
-        "{} cameras, "
-        "film {} x "
-        "{}\n{}",
+        "{} cameras, film {} x {}\n{}",
         name_, meshes().triangle.size(), meshes().name.size(), arrays().shapes.name.size(),
         materials().name.size(), arrays().textures.name.size(), lights().name.size(),
         cameras().name.size(), film_width_, film_height_, graph_->list_properties());
@@ -162,12 +162,12 @@ const SceneArrays &Scene::arrays() const {
 int Scene::active_camera() const {
     const std::vector<std::string> &names = cameras().name;
     if (names.empty()) {
-        throw input_error(fmt::format("scene '{}' has no camera", name_));
+        throw input_error(fmt::format("scene '{}' has no camera; add one", name_));
     }
     const auto found =
         camera_node_.empty() ? names.begin() : std::find(names.begin(), names.end(), camera_node_);
     if (found == names.end()) {
-        throw input_error(fmt::format("scene '{}' has no camera '{}'; it has: {}", name_,
+        throw input_error(fmt::format("scene '{}': unknown camera '{}'; cameras are: {}", name_,
                                       camera_node_, fmt::join(names, ", ")));
     }
     return static_cast<int>(found - names.begin());
@@ -184,8 +184,8 @@ void Scene::set_active_camera(const std::string &node_name) {
 }
 
 void Scene::recentre() {
-    // A centre that many times the scene's size away: by then four bits of every coordinate are
-    // lost to the distance.
+    // Distance of the centre as a multiple of the scene's radius. At this distance every coordinate
+    // has lost four bits.
     constexpr double far_away = 16;
     const Eigen::AlignedBox3d bounds = graph_->bounds();
     if (!bounds.isEmpty() && bounds.center().norm() > far_away * 0.5 * bounds.diagonal().norm()) {

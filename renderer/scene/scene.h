@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// A scene: the scene graph, its arrays, the film size and the active camera.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +15,8 @@ class SceneGraph;
 /// A loaded scene: the graph and the arrays it serializes into.
 class Scene {
   public:
-    /// An empty scene; its graph is to be filled and `update` called before the arrays are read.
+    /// Makes an empty scene. Its graph must be filled and `update` called before the arrays are
+    /// read.
     Scene();
     ~Scene();
     Scene(Scene &&) noexcept;
@@ -30,14 +32,15 @@ class Scene {
     SceneGraph &graph() { return *graph_; }
     const SceneGraph &graph() const { return *graph_; }
 
-    /// Sets a property from text: "NODE.PROPERTY" or "materials.NAME.PROPERTY" (the ROOT.PATH of
-    /// `--set scene.` without the root). Takes effect with the next `update`.
+    /// Sets a property from text. The address is "NODE.PROPERTY" or "materials.NAME.PROPERTY",
+    /// which is the address in `--set scene.ADDRESS=VALUE`. Takes effect with the next `update`.
     void set_property(const std::string &address, const std::string &text);
 
-    /// The text of `--print-scene`: what the scene consists of and every property with its value.
+    /// Returns the text of `--print-scene`: the numbers of objects, then every property with its
+    /// value.
     std::string describe() const;
 
-    /// Brings the arrays to scene time `time` (seconds), rewriting only what is dirty. Throws
+    /// Updates the arrays to scene time `time` (seconds); only dirty records are rewritten. Throws
     /// `Error` (bad input) naming what is wrong with the scene.
     void update(double time);
 
@@ -47,35 +50,36 @@ class Scene {
     const MaterialArrays &materials() const { return arrays().materials; }
     const LightArrays &lights() const { return arrays().lights; }
 
-    /// Index of the camera to render from, into `cameras()`.
+    /// Returns the index in `cameras()` of the camera to render from.
     int active_camera() const;
 
-    /// Chooses it by node name; throws `Error` (bad input) listing the cameras when there is none
-    /// such.
+    /// Selects the camera by node name. Throws `Error` (bad input) listing the cameras if there is
+    /// no camera of that name.
     void set_active_camera(const std::string &node_name);
 
-    /// Makes the middle of all geometry the origin of the baked world, where it is so far from the
-    /// origin of the scene file that rounding to float would cost anything that matters, and
-    /// updates. To be called once, after the first update.
+    /// Moves the origin of the baked world to the centre of all geometry and updates the arrays, if
+    /// the geometry is so far from the origin of the scene file that rounding to float would lose
+    /// relevant digits. Must be called once, after the first update.
     void recentre();
 
-    /// Where the origin of the baked world is in the coordinates of the scene file (see stores.h).
+    /// Returns the origin of the baked world in the coordinates of the scene file (see stores.h).
     Eigen::Vector3d origin() const;
 
-    /// `content_hash` of everything that decides the image: arrays and camera. Names and the film
-    /// size are left out.
+    /// Returns the `content_hash` of everything that determines the image: arrays and camera, but
+    /// not names or the film size.
     std::string hash() const;
 
   private:
     std::unique_ptr<SceneGraph> graph_;
     std::string name_;
-    std::string camera_node_;  ///< empty: the first
+    std::string camera_node_;  ///< empty for the first camera
     int film_width_ = 256;
     int film_height_ = 256;
 };
 
-/// Loads a scene (our JSON, or a model file: see model_file.h) and updates it to time 0, with
-/// progress on stderr unless `quiet`. Throws `Error` (bad input) naming file, line and remedy.
+/// Loads a scene, from JSON or from a model file (see model_file.h), and updates it to time 0.
+/// Prints progress on stderr unless `quiet`. Throws `Error` (bad input) naming file, line and
+/// remedy.
 Scene load_scene(const std::string &path, bool quiet = true);
 
 }  // namespace rtrays

@@ -87,7 +87,7 @@ std::vector<uint32_t> Store::compact() {
 
 void remap(std::vector<uint32_t> &indices, const std::vector<uint32_t> &new_index) {
     for (uint32_t &index : indices) {
-        // A record about to be rewritten may still point behind the end.
+        // A record that is about to be rewritten may still have an index beyond the end.
         index = index < new_index.size() ? new_index[index] : no_index;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stores: the serialized form of the scene graph, one per serializable type (thesis 3.2.4).
+// Stores: the serialized form of the scene graph, one store per serializable type (thesis 3.2.4).
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@
 
 namespace rtrays {
 
-/// What one update did to one store, in objects.
+/// Numbers of objects that one update changed in a store.
 struct StoreCounts {
     size_t allocated = 0;
     size_t freed = 0;
     size_t written = 0;
-    size_t moved = 0;  ///< records that changed their index because others were freed
+    size_t moved = 0;  ///< records whose index changed because others were freed
 };
 
-/// The part common to all stores: which objects there are and at which index ("slot") each has its
-/// record.
+/// The common part of all stores: the registered objects and the index ("slot") of the record of
+/// each.
 ///
-/// An object is a node's core that the store holds. It is added when the core joins the graph, gets
-/// a record when it is allocated, and loses it again when it is freed (hidden) or removed. Freed
-/// records leave holes; `compact` closes them, so that readers of the arrays after an update never
-/// meet one.
+/// An object is a core of a node, of a type that the store holds. It is added when the core enters
+/// the graph. It gets a record when it is allocated, and loses the record when it is freed (hidden)
+/// or removed. Freed records leave holes. `compact` closes them, so that readers of the arrays
+/// after an update never see one.
 class Store {
   public:
     Store() = default;
@@ -36,52 +36,52 @@ class Store {
 
     virtual const char *type_name() const = 0;
 
-    /// Whether a node with this core may have a record here.
+    /// Returns whether a node with this core may have a record here.
     virtual bool holds(const Core &core) const = 0;
 
-    /// Whether one of the node's cores may have a record here.
+    /// Returns whether one of the node's cores may have a record here.
     virtual bool concerns(const Node &node) const = 0;
 
-    /// Whether the object of a node that the store concerns is to have a record.
+    /// Returns whether the object of a node that the store concerns must have a record.
     virtual bool wants_record(const Node &node, const AttributeSet &attributes) const = 0;
 
-    /// Registers the object of `node`, once for each of its cores that the store holds; no record
-    /// is allocated.
+    /// Registers the object of `node`, once for each of its cores that the store holds. Does not
+    /// allocate a record.
     void add_object(const Node &node);
 
-    /// Takes back one `add_object`; the last one frees the record if there is one.
+    /// Undoes one `add_object`. The last one frees the record if there is one.
     void remove_object(const Node &node);
 
-    /// Appends a record for the object, unless it has one of the right size.
+    /// Appends a record for the object, unless it already has one of the right size.
     void allocate_object(const Node &node);
 
-    /// Writes the object's record, `attributes` applied. Throws `Error` (bad input) naming the node
-    /// when it cannot be represented.
+    /// Writes the record of the object with `attributes` applied. Throws `Error` (bad input) naming
+    /// the node if the object cannot be represented.
     void write_object(const Node &node, const AttributeSet &attributes);
 
-    /// Gives up the object's record; the object stays registered.
+    /// Frees the record of the object; the object stays registered.
     void free_object(const Node &node);
 
-    /// Index of the object's record, `no_index` when it has none.
+    /// Returns the index of the object's record, or `no_index` if it has none.
     uint32_t slot(const Node &node) const;
 
-    /// Moves the records behind freed ones down, in order. Returns the new index of every old one,
-    /// empty when nothing moved. Costs as much as the store is large, but only after something was
-    /// freed.
+    /// Moves records down, in order, to close the holes of freed records. Returns the new index of
+    /// every old record, or an empty vector if nothing was freed. The cost is linear in the size of
+    /// the store, but only after records were freed.
     std::vector<uint32_t> compact();
 
-    /// What was done between the last two calls of `finish_update`.
+    /// Numbers of changes between the last two calls of `finish_update`.
     const StoreCounts &counts() const { return finished_counts_; }
     void finish_update();
 
   protected:
-    /// What tells objects apart: the node, or whatever nodes share.
+    /// Returns the identity of the object: the node, or the object that nodes share.
     virtual const void *identity(const Node &node) const { return &node; }
 
-    /// Whether the record of an allocated object still has the right size.
+    /// Returns whether the record of an allocated object still has the right size.
     virtual bool fits(uint32_t, const Node &) const { return true; }
 
-    /// Whether the record is known to hold what `write` would write.
+    /// Returns whether the record is known to equal the one that `write` would write.
     virtual bool is_current(uint32_t, const Node &) const { return false; }
 
     virtual void append(const Node &node) = 0;
@@ -95,20 +95,20 @@ class Store {
   private:
     struct Object {
         uint32_t slot = no_index;
-        size_t uses = 0;  ///< by nodes and their cores
+        size_t uses = 0;  ///< number of nodes and cores that use it
     };
 
     void release(Object &object);
 
     std::unordered_map<const void *, Object> objects_;
-    std::vector<Object *> owners_;  ///< of each slot, nullptr for a hole
+    std::vector<Object *> owners_;  ///< owner of each slot, nullptr for a hole
     bool has_holes_ = false;
     StoreCounts counts_;
     StoreCounts finished_counts_;
 };
 
-/// Keeps the elements at these ascending indices: `Store::keep` for one array with an element per
-/// record.
+/// Keeps the elements at these ascending indices. Implements `Store::keep` for one array with an
+/// element per record.
 template <typename T>
 void keep_elements(std::vector<T> &elements, const std::vector<uint32_t> &indices) {
     for (size_t i = 0; i < indices.size(); ++i) {
@@ -117,7 +117,7 @@ void keep_elements(std::vector<T> &elements, const std::vector<uint32_t> &indice
     elements.resize(indices.size());
 }
 
-/// Applies the result of `Store::compact` to indices into that store.
+/// Updates indices into a store by the result of `Store::compact`.
 void remap(std::vector<uint32_t> &indices, const std::vector<uint32_t> &new_index);
 
 }  // namespace rtrays

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Vertices to which a camera path comes back to follow components that are left, declared once as
-// in light_vertex.h. Each path has a stack of them, at most one for every scattering event that a
-// path may have.
+// The stack of vertices to which a camera path returns to follow components not followed yet.
+//
+// The table declares the record once, like that of light_vertex.h. A stack holds at most one vertex
+// for each scattering event that its path may have.
 #pragma once
 
 #include "compat.h"
@@ -9,16 +10,17 @@
 #include "path_state.h"
 #include "word_place.h"
 
-// X(feature, type, name), as in path_state.h.
-#define BRANCH_FIELDS(X)                                                \
-    X(ALWAYS, uint, hit_primitive)                                      \
-    X(ALWAYS, float, hit_u)                                             \
-    X(ALWAYS, float, hit_v)                                             \
-    X(FEATURE_shapes, float, hit_w)                                     \
-    X(ALWAYS, float3, direction)  /* unit, in which the path arrived */ \
-    X(ALWAYS, float3, throughput) /* with which it did */               \
-    X(ALWAYS, uint, depth)        /* scattering events before */        \
-    X(ALWAYS, uint, component)    /* of the material: the next */
+// X(feature, type, name), as in path_state.h. `direction` and `throughput` are those with which the
+// path arrived at the vertex.
+#define BRANCH_FIELDS(X)                                      \
+    X(ALWAYS, uint, hit_primitive)                            \
+    X(ALWAYS, float, hit_u)                                   \
+    X(ALWAYS, float, hit_v)                                   \
+    X(FEATURE_shapes, float, hit_w)                           \
+    X(ALWAYS, float3, direction) /* unit */                   \
+    X(ALWAYS, float3, throughput)                             \
+    X(ALWAYS, uint, depth)     /* scattering events before */ \
+    X(ALWAYS, uint, component) /* index of the material's next component */
 
 #ifdef __OPENCL_VERSION__
 
@@ -64,7 +66,7 @@ DEVICE void store_branch(WordPlace place, Branch branch) {
 
 namespace rtrays {
 
-/// 4-byte words of such a vertex under a feature mask that has `branches`.
+/// Returns the size of a branch vertex, in words of 4 bytes, under a feature mask with `branches`.
 uint32_t branch_words(FeatureMask mask);
 
 }  // namespace rtrays

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The layouts of a hierarchy. A program is compiled for one of them, BVH_LAYOUT.
+// The memory layouts of a bounding volume hierarchy. A program is compiled for one of them,
+// BVH_LAYOUT.
 #pragma once
 
 #include "renderer/shared/bvh_node.h"
@@ -15,7 +16,7 @@
 #define BVH_LAYOUT BVH_LAYOUT_BVH2
 #endif
 
-// What a layout consists of, and the function that traverses it.
+// The node and triangle records of the layout, and the function that traverses it.
 #if BVH_LAYOUT == BVH_LAYOUT_WIDE8
 #define BVH_NODE WideNode
 #define BVH_TRIANGLES TriangleBlock

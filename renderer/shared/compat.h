@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The common subset of OpenCL C 1.2 and C++17 in which all device functions are written: the tests
-// compile the shipped code for the host.
+// The common subset of OpenCL C 1.2 and C++17 in which all device functions are written.
 //
-// Rules of the subset (scripts/lint holds them): vectors are made by make_float2/3/4, never by
-// literals (in C++ `(float4)(1, 2, 3, 4)` silently yields 4, 4, 4, 4); components are .x .y .z .w,
-// no swizzles; no double literals; no implicit conversion between address spaces.
+// Tests compile the shipped kernel code for the host. Rules of the subset, enforced by
+// scripts/lint:
+// - Vectors are made by make_float2/3/4, never by literals: in C++ `(float4)(1, 2, 3, 4)` silently
+//   yields 4, 4, 4, 4.
+// - Components are accessed as .x .y .z .w, without swizzles.
+// - There are no double literals and no implicit conversions between address spaces.
 //
-// Floating-point contraction is off everywhere, so that both compilers give the same bits and the
-// edge functions of the triangle test keep their exact antisymmetry. Where a fused operation is
-// wanted, it is written as fma().
+// Floating-point contraction is off everywhere. Both compilers therefore produce the same bits, and
+// the edge functions of the triangle test keep their exact antisymmetry. Where a fused operation is
+// intended, the code calls fma().
 #pragma once
 
-// Asks a CPU for the cache line of what will be read soon. A GPU has other work to do while it
-// waits.
+// Prefetches a cache line on a CPU. A GPU hides memory latency by switching to other work-items.
 #define CACHE_LINE 64u
 #if defined(__x86_64__) || defined(__aarch64__)
 #define HAS_PREFETCH 1
@@ -41,17 +42,17 @@
 #define PI M_PI_F
 #define INV_PI M_1_PI_F
 
-/// Index of the lowest bit that is set; x must not be 0.
+/// Returns the index of the lowest set bit; x must not be 0.
 DEVICE uint lowest_bit(uint x) {
     return popcount(~x & (x - 1u));
 }
 
-/// The upper four lanes before the lower four.
+/// Returns the vector with its upper four lanes before its lower four.
 DEVICE float8 swap_halves(float8 v) {
     return (float8)(v.hi, v.lo);
 }
 
-/// One bit per lane of a comparison's result, lane 0 the lowest.
+/// Returns one bit per lane of a comparison result; lane 0 is the lowest bit.
 DEVICE uint lane_bits(int8 mask) {
 #if defined(__AVX__) && defined(__clang__)
     return (uint)__builtin_ia32_movmskps256(as_float8(mask));
@@ -70,14 +71,15 @@ DEVICE uint lane_bits(int8 mask) {
 #include <stdint.h>
 #include <string.h>
 
-// Vectors of eight travel between inline functions only, where no calling convention matters.
+// Vectors of eight are passed between inline functions only, where no calling convention matters.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 #define DEVICE [[maybe_unused]] static inline
 #define GLOBAL
 #define PRIVATE
 #define CONSTANT static const
-#define MAYBE_UNUSED [[maybe_unused]]  // for parameters that only some features read
+// Marks parameters that only some features read.
+#define MAYBE_UNUSED [[maybe_unused]]
 
 using uint = unsigned int;
 using ulong = unsigned long;
@@ -95,8 +97,8 @@ struct uint4 {
     uint x, y, z, w;
 };
 
-// Eight lanes with the operators of OpenCL C: arithmetic, comparisons to 0 or -1 by lane, and
-// selection by ?:.
+// Vectors of eight lanes with the operators of OpenCL C: arithmetic, comparisons that yield 0 or -1
+// per lane, and selection by ?:.
 using float8 = float __attribute__((vector_size(32)));
 using int8 = int __attribute__((vector_size(32)));
 
@@ -243,7 +245,7 @@ DEVICE uint lane_bits(int8 mask) {
     return bits;
 }
 
-// Atomics as the tests need them; orders as in OpenCL 1.2 (relaxed).
+// The atomics that tests use. Memory order is relaxed, as in OpenCL 1.2.
 DEVICE uint atomic_add(volatile uint *p, uint v) {
     return __atomic_fetch_add(p, v, __ATOMIC_RELAXED);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Expands a table row only where its feature is compiled in: WHEN(feature)(row), where the feature
-// is FEATURE_<name> (0 or 1) or 1. The row is one argument, whatever commas it expands to: OpenCL C
-// has no macros of many (1.2, 6.9.e).
+// Conditional expansion of table rows, for tables whose rows depend on features.
+//
+// WHEN(feature)(row) expands to `row` if `feature` is 1 and to nothing if it is 0. `feature` is
+// FEATURE_<name> (0 or 1) or ALWAYS. The row is a single macro argument, whatever commas it expands
+// to, because OpenCL C has no variadic macros (OpenCL C 1.2, section 6.9.e).
 #pragma once
 
 #define ALWAYS 1

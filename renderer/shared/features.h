@@ -1,39 +1,41 @@
 // SPDX-License-Identifier: MIT
-// Structural facts of a scene and its settings. They decide which code is compiled, which fields of
-// the path state exist, which buffers are allocated and which stages are launched; numbers are
-// arguments, never baked in.
+// The features: structural facts about a scene and its settings.
 //
-// Declared once: the host derives the mask, the names and the generated defines FEATURE_<name> (0
-// or 1) from this table.
+// Features decide which code is compiled, which fields the path state has, which buffers are
+// allocated and which stages are launched. Numeric settings are kernel arguments and are never
+// compiled in.
+//
+// This table is the only declaration. The host derives from it the mask, the names and the
+// generated defines FEATURE_<name> (0 or 1).
 #pragma once
 
-// X(name, what it says)
+// X(name, description)
 #define RTRAYS_FEATURES(X)                                                                    \
     /* strategies and termination */                                                          \
-    X(implicit_light, "paths that hit an emitter count (strategies implicit, mis)")           \
-    X(explicit_light, "paths are joined to light samples (strategies explicit, mis)")         \
-    X(light_strategy, "light paths that are joined to the camera share the weights")          \
-    X(vertex_joins, "light vertices are kept and joined to those of camera paths")            \
-    X(light_emitters, "they show emitters that the camera sees directly, too")                \
+    X(implicit_light, "emitters that paths hit contribute (strategies implicit, mis)")        \
+    X(explicit_light, "paths are connected to light samples (strategies explicit, mis)")      \
+    X(light_strategy, "light paths connected to the camera take part in the MIS weights")     \
+    X(vertex_joins, "light vertices are stored and connected to camera path vertices")        \
+    X(light_emitters, "light paths also show emitters that the camera sees directly")         \
     X(from_camera, "this pass traces paths from the camera")                                  \
     X(from_light, "this pass traces paths from the lights")                                   \
-    X(shadow_rays, "vertices are joined to light samples or to the camera")                   \
-    X(branches, "paths come back to vertices of which several components are followed")       \
+    X(shadow_rays, "vertices are connected to lights, light vertices or the camera")          \
+    X(branches, "paths return to vertices to follow several components")                      \
     X(roulette, "Russian roulette ends paths")                                                \
-    X(roulette_scale, "roulette measures the throughput by something of the path's own")      \
+    X(roulette_scale, "roulette divides the throughput by a scale stored per path")           \
     X(adaptive, "paths end below a throughput threshold (biased)")                            \
     X(depth_limit, "max_depth is finite")                                                     \
-    X(sobol, "samples are stratified, or regular")                                            \
+    X(sobol, "samples are stratified or regular")                                             \
     /* geometry */                                                                            \
     X(triangles, "the scene has triangles: a hierarchy is built and traversed")               \
     X(shapes, "the scene has surfaces that are not made of triangles")                        \
-    X(quadrics, "some of them are quadrics, discs or planes")                                 \
-    X(julia, "some of them are quaternion Julia sets")                                        \
+    X(quadrics, "a shape is a quadric, a disc or a plane")                                    \
+    X(julia, "a shape is a quaternion Julia set")                                             \
     X(smooth_normals, "vertices have shading normals")                                        \
-    X(texture_coordinates, "a texture or a tangent is looked up on a mesh with (u, v)")       \
+    X(texture_coordinates, "a texture or a tangent uses the (u, v) coordinates of a mesh")    \
     X(tangents, "a BxDF is anisotropic")                                                      \
     /* materials */                                                                           \
-    X(scattering, "a material reflects or refracts: paths go beyond the first hit")           \
+    X(scattering, "a material reflects or refracts: paths continue after the first hit")      \
     X(composite, "a material has more than one component")                                    \
     X(one_sided, "a material is black from behind")                                           \
     X(delta, "a BxDF is a delta distribution")                                                \
@@ -52,16 +54,16 @@
     X(fresnel, "a weight has a Fresnel term")                                                 \
     X(fresnel_dielectric, "exact dielectric")                                                 \
     X(fresnel_conductor, "exact conductor")                                                   \
-    X(fresnel_conductor_approximate, "the thesis' conductor")                                 \
-    X(fresnel_schlick, "Schlick's")                                                           \
+    X(fresnel_conductor_approximate, "approximate conductor of the thesis")                   \
+    X(fresnel_schlick, "Schlick's approximation")                                             \
     X(textures, "a weight has a texture")                                                     \
     /* lights */                                                                              \
     X(lights, "the scene has emitters")                                                       \
-    X(direction_density, "paths carry the density of their direction")                        \
-    X(emission_density, "light paths carry the density of their start")                       \
-    X(arrival_density, "paths carry the density of their arrival at a vertex")                \
+    X(direction_density, "paths store the density of their direction")                        \
+    X(emission_density, "light paths store the density of their start")                       \
+    X(arrival_density, "paths store the density of their arrival at a vertex")                \
     X(many_lights, "more than one light: a selection table is searched")                      \
-    X(independent_lights, "every vertex is joined to every light, one after the other")       \
+    X(independent_lights, "every vertex is connected to every light, one after the other")    \
     X(area_lights, "emitting triangles")                                                      \
     X(light_triangles, "a mesh light has more than one triangle: its area table is searched") \
     X(shape_lights, "emitting discs and spheres")                                             \
@@ -73,9 +75,9 @@
     X(environment, "radiance from infinity by an image")                                      \
     /* camera and film */                                                                     \
     X(lens, "the camera has an aperture")                                                     \
-    X(convergence, "camera paths are left out of pixels that have converged (biased)")        \
+    X(convergence, "converged pixels receive no further camera paths (biased)")               \
     X(variance, "the film holds second moments")                                              \
-    X(int64_atomics, "the device adds 64-bit integers atomically")
+    X(int64_atomics, "the device has 64-bit integer atomics")
 
 #ifndef __OPENCL_VERSION__
 
@@ -94,7 +96,7 @@ enum class Feature : uint32_t {
 };
 static_assert(static_cast<uint32_t>(Feature::count) < 64, "a mask has 64 bits");
 
-/// A set of features.
+/// A set of features, as bits of a 64-bit mask.
 class FeatureMask {
   public:
     constexpr FeatureMask() = default;
@@ -115,14 +117,14 @@ class FeatureMask {
     }
     constexpr uint64_t bits() const { return bits_; }
 
-    /// Without the features whose requirement is missing (explicit_light needs lights and
-    /// scattering, ...).
+    /// Returns the set without the features whose requirements are missing. For example,
+    /// explicit_light requires lights and scattering.
     FeatureMask closed() const;
 
-    /// Names of the features in the set, in table order.
+    /// Returns the names of the features in the set, in table order.
     std::vector<std::string> names() const;
 
-    /// "FEATURE_<name>" -> "0" or "1" for every feature.
+    /// Returns the defines "FEATURE_<name>" -> "0" or "1" of all features.
     std::map<std::string, std::string> defines() const;
 
   private:

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The film's exact sums. A sum is held in several 64-bit integers ("words") at staggered scales:
-// word k counts multiples of 2^(lowest + k step). A float is added whole to the lowest word whose
-// limit it does not reach, so it keeps its 24 bits there (rounded to nearest below the range, at
-// 2^lowest) and the sum of any number of floats in any order is the same integer. Carries are moved
-// up before a word could overflow, and before it is read.
+// The layout of the film: exact sums that do not depend on the order of additions.
 //
-//   radiance: limits 2^-60 2^-40 2^-20 1 2^20 2^40, units 2^-104 ... 2^-4; below 2^44 units per
-//   addition, so
-//             2^19 additions fit between two carries. A value of 2^40 or more is out of range:
-//             counted, reported.
-//   squares:  limits 2^-40 2^-16 2^8 2^32 2^56 2^80, units 2^-84 ... 2^36; below 2^44 units
-//   likewise; the relative
-//             rounding of one square of 2^-60 or more is at most 2^-21, at the bottom of a word.
+// A sum is stored in several 64-bit integers ("words") at staggered scales. Word k counts multiples
+// of 2^(lowest + k step), its unit. A float is added as a whole to the lowest word whose limit it
+// does not reach, rounded to a multiple of the unit. A radiance keeps all of its 24 bits; only
+// values below the range are rounded, at 2^lowest. What a float adds depends on the float alone.
+// Therefore the sum of any number of floats in any order is the same integer. Carries are
+// propagated to the next word before a word can overflow, and before a sum is read.
+//
+// - Radiance: limits 2^-60 2^-40 2^-20 1 2^20 2^40, units 2^-104 ... 2^-4. One addition is below
+//   2^44 units, so 2^19 additions fit between two carry propagations. A value of 2^40 or more is
+//   out of range; it is counted and reported.
+// - Squares: limits 2^-40 2^-16 2^8 2^32 2^56 2^80, units 2^-84 ... 2^36. One addition is below
+//   2^44 units. The relative rounding error of a square of 2^-60 or more is at most 2^-21, which is
+//   reached at the lower end of a word's range.
 #pragma once
 
 #include "compat.h"
@@ -25,27 +27,28 @@
 #define FILM_SQUARE_STEP 24
 
 #define FILM_UNITS_PER_ADDITION 44                /* log2, exclusive */
-#define FILM_ADDITIONS_BETWEEN_CARRIES (1u << 18) /* half of what fits */
+#define FILM_ADDITIONS_BETWEEN_CARRIES (1u << 18) /* half of the limit */
 
-/// Sums of one pixel: R, G, B, then their squares where they are kept.
+/// Number of sums of one pixel: R, G, B, and their squares if the film keeps them.
 #define FILM_PIXEL_SUMS(variance) (FILM_CHANNELS * ((variance) ? 2 : 1))
 
-/// Words of one pixel. Word k of sum s is at k * FILM_PIXEL_SUMS + s: the sums of one magnitude,
-/// which a sample adds to together, share a cache line.
+/// Number of words of one pixel. Word k of sum s is at k * FILM_PIXEL_SUMS + s. The sums of one
+/// magnitude, to which a sample adds together, thus share a cache line.
 #define FILM_PIXEL_WORDS(variance) (FILM_WORDS * FILM_PIXEL_SUMS(variance))
 
-/// The same of the film of every other sample (kernels/film/convergence.h), which keeps no squares.
+/// Number of sums and words of a pixel of the half film, which holds every other sample
+/// (kernels/film/convergence.h) and no squares.
 #define HALF_FILM_SUMS FILM_PIXEL_SUMS(0)
 #define HALF_FILM_PIXEL_WORDS FILM_PIXEL_WORDS(0)
 
-/// Moves what exceeds a word's own range up to the next, so that equal sums have equal words: all
-/// but the top word end in [0, 2^step), the top word keeps the sign. `sum` numbers one of the
-/// `sums` (FILM_PIXEL_SUMS) of the pixel.
+/// Propagates the carries of one sum, so that equal sums have equal words. Afterwards all words
+/// except the top one are in [0, 2^step), and the top word keeps the sign. `sum` is the index of
+/// the sum among the pixel's `sums` (FILM_PIXEL_SUMS).
 DEVICE void film_carry_sum(GLOBAL long *pixel_words, uint sums, uint sum) {
     const int step = sum < FILM_CHANNELS ? FILM_SUM_STEP : FILM_SQUARE_STEP;
     for (uint word = 0; word + 1 < FILM_WORDS; ++word) {
         GLOBAL long *low = pixel_words + word * sums + sum;
-        const long carry = *low >> step;  // arithmetic: rounds down
+        const long carry = *low >> step;  // arithmetic shift: rounds down
         *low -= carry * (1L << step);
         low[sums] += carry;
     }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The numbers of an integrator, passed to its stages by value.
+// The numeric settings of an integrator, passed to its stages by value.
 #pragma once
 
 #include "compat.h"
 
-// Bits of IntegratorSettings::strategies. Code for a strategy is compiled in when its feature is
-// on, and runs when its bit is set, so that a program with everything compiled in behaves as the
-// settings say.
+// Bits of IntegratorSettings::strategies. The code of a strategy is compiled in if its feature is
+// on, and runs if its bit is set. A program with all features compiled in therefore still follows
+// the settings.
 #define STRATEGY_IMPLICIT 1u
 #define STRATEGY_EXPLICIT 2u
 #define STRATEGY_LIGHT 4u
-#define STRATEGY_LIGHT_EMITTERS \
-    8u  // with STRATEGY_LIGHT: light paths show emitters, too, that the camera sees directly
-#define STRATEGY_HITS_ELSEWHERE 16u  // what paths hit is weighed, but added by another pass
+// With STRATEGY_LIGHT: light paths also show emitters that the camera sees directly.
+#define STRATEGY_LIGHT_EMITTERS 8u
+// Emission hit by paths has its MIS weight, but another pass adds it to the film.
+#define STRATEGY_HITS_ELSEWHERE 16u
 
 #define TERMINATION_FIXED 0u
 #define TERMINATION_ROULETTE 1u
@@ -24,22 +25,24 @@
 
 #define UNLIMITED_DEPTH 0xffffffffu
 
+/// The settings of an integrator.
 typedef struct IntegratorSettings {
     uint seed;
-    uint strategies;           ///< STRATEGY_* bits
-    uint termination;          ///< TERMINATION_*
-    uint max_depth;            ///< scattering events, UNLIMITED_DEPTH for none
-    float beta;                ///< exponent of the power heuristic
-    float max_continuation;    ///< largest probability that roulette lets a path go on, below 1
-    float adaptive_threshold;  ///< adaptive termination: paths end below this throughput
-    uint light_paths;          ///< per sample of the image
-    uint light_vertices;       ///< kept of each light path where they are joined to camera paths
-    uint sampler;              ///< SAMPLER_*
+    uint strategies;         ///< STRATEGY_* bits
+    uint termination;        ///< TERMINATION_*
+    uint max_depth;          ///< maximum number of scattering events; UNLIMITED_DEPTH for no limit
+    float beta;              ///< exponent of the power heuristic
+    float max_continuation;  ///< largest continuation probability of roulette, below 1
+    float adaptive_threshold;  ///< throughput below which adaptive termination ends a path
+    uint light_paths;          ///< number of light paths per sample of the image
+    /// Number of vertices stored per light path, if they are connected to camera paths.
+    uint light_vertices;
+    uint sampler;  ///< SAMPLER_*
 } IntegratorSettings;
 
-/// Whether paths of so many scattering events are found by all strategies of full bidirectional
-/// path tracing, where light vertices are kept: joined to the camera's first, the last of them
-/// makes paths of one event more.
+/// Returns whether all strategies of full bidirectional path tracing exist for paths of `events`
+/// scattering events, if light vertices are stored. A connection of the last stored light vertex to
+/// the first hit of a camera path makes a path of `light_vertices` + 1 events.
 DEVICE bool all_strategies(IntegratorSettings settings, uint events) {
     return events <= settings.light_vertices + 1u;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The vertices of light paths that full bidirectional path tracing keeps, declared once: layout,
-// access and byte count derive from this table. The paths of the chunk of work under way have a row
-// each, of `light_vertices` (IntegratorSettings); vertex i of it is the hit after i scattering
-// events.
+// The vertices of light paths that full bidirectional path tracing stores.
+//
+// The table declares the record once: layout, access and size derive from it. Each path of the
+// current chunk of work has a row of `light_vertices` vertices (IntegratorSettings). Vertex i of a
+// row is the hit after i scattering events.
 #pragma once
 
 #include "compat.h"
@@ -10,15 +11,17 @@
 #include "path_state.h"
 #include "word_place.h"
 
-// X(feature, type, name), as in path_state.h.
-#define LIGHT_VERTEX_FIELDS(X)                                                         \
-    X(ALWAYS, uint, hit_primitive) /* NO_VERTEX: nothing there that could be joined */ \
-    X(ALWAYS, float, hit_u)                                                            \
-    X(ALWAYS, float, hit_v)                                                            \
-    X(FEATURE_shapes, float, hit_w)                                                    \
-    X(ALWAYS, float3, direction)  /* unit, in which the path arrived */                \
-    X(ALWAYS, float3, throughput) /* with which it did */                              \
-    X(ALWAYS, float, log_arrival) /* kernels/light/mis.h */                            \
+// X(feature, type, name), as in path_state.h. `hit_primitive` is NO_VERTEX if there is no vertex to
+// connect. `direction` and `throughput` are those with which the path arrived. kernels/light/mis.h
+// defines the logarithms.
+#define LIGHT_VERTEX_FIELDS(X)              \
+    X(ALWAYS, uint, hit_primitive)          \
+    X(ALWAYS, float, hit_u)                 \
+    X(ALWAYS, float, hit_v)                 \
+    X(FEATURE_shapes, float, hit_w)         \
+    X(ALWAYS, float3, direction) /* unit */ \
+    X(ALWAYS, float3, throughput)           \
+    X(ALWAYS, float, log_arrival)           \
     X(ALWAYS, float, log_strategies)
 
 #define NO_VERTEX 0xffffffffu
@@ -43,13 +46,14 @@ typedef struct LightVertex {
 #undef FIELD_MEMBER
 } LightVertex;
 
-/// The row of a path of the batch: its number among all of them, `paths` in every sample, within
-/// the chunk. Camera paths and light paths of the same number share it.
+/// Returns the row of a path: its index among all paths of the batch, with `paths` paths per
+/// sample, modulo the rows of a chunk. A camera path and the light path of the same index share a
+/// row.
 DEVICE uint light_vertex_row(uint path, uint sample, uint paths, uint rows) {
     return (sample * paths + path) % rows;
 }
 
-/// Vertex `i` of the `per_path` in a row.
+/// Returns the location of vertex `i` among the `per_path` vertices of a row.
 DEVICE WordPlace light_vertex_place(GLOBAL uint *vertex_words, uint rows, uint per_path, uint row,
                                     uint i) {
     return record_place(vertex_words, LIGHT_VERTEX_WORDS, rows, per_path, row, i);
@@ -86,7 +90,8 @@ DEVICE void store_light_vertex(WordPlace place, LightVertex vertex) {
 
 namespace rtrays {
 
-/// 4-byte words of a vertex under a feature mask that has `vertex_joins`.
+/// Returns the size of a light vertex, in words of 4 bytes, under a feature mask with
+/// `vertex_joins`.
 uint32_t light_vertex_words(FeatureMask mask);
 
 }  // namespace rtrays

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The pixels that convergence control has not stopped, as the stages of camera paths take them:
-// where it is off there is no list, and all pixels are live.
+// The list of live pixels, which convergence control has not stopped, as parameters of the stages.
+// Without convergence control there is no list, and all pixels are live.
 #pragma once
 
 #include "compat.h"
 #include "declare.h"
 
-/// Pixels that one work-item counts and lists.
+/// Number of pixels that one work-item counts and lists.
 #define LIVE_BLOCK 64u
 #define LIVE_BLOCKS(pixels) (((pixels) + LIVE_BLOCK - 1u) / LIVE_BLOCK)
 
-// Parameters of a stage; each ends in a comma.
+// Stage parameters and the matching arguments. Each expansion ends in a comma.
 #define LIVE_LIST_PARAMETER GLOBAL const uint *live_pixels, uint live_count,
 #define LIVE_PIXELS_PARAMETERS WHEN(FEATURE_convergence)(LIVE_LIST_PARAMETER)
 #define LIVE_LIST_ARGUMENT live_pixels, live_count,
@@ -20,7 +20,8 @@
 #define HALF_FILM_ARGUMENT half_film,
 #define HALF_FILM_ARGUMENTS WHEN(FEATURE_convergence)(HALF_FILM_ARGUMENT)
 
-/// The number of live pixels of so many, and the pixel at a place of their list.
+/// LIVE_COUNT is the number of live pixels among `pixels`, LIVE_PIXEL the pixel at an index of the
+/// list.
 #ifdef __OPENCL_VERSION__
 #if FEATURE_convergence
 #define LIVE_COUNT(pixels) live_count

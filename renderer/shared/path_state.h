@@ -1,54 +1,54 @@
 // SPDX-License-Identifier: MIT
-// The state of a path between stages, declared once: layout, accessors and byte count derive from
-// this table. Word w of path `slot` lies at words[w * capacity + slot], so that neighbouring
-// work-items read neighbouring words, or, with PATH_STATE_INTERLEAVED, at words[slot *
-// PATH_STATE_WORDS + w], so that a CPU finds a path in two cache lines.
+// The state of a path between stages.
+//
+// The table declares it once: layout, accessors and size derive from it. Word w of path `slot` is
+// at words[w * capacity + slot], so that neighbouring work-items read neighbouring words. With
+// PATH_STATE_INTERLEAVED it is at words[slot * PATH_STATE_WORDS + w], so that a CPU finds a path in
+// two cache lines.
 #pragma once
 
 #include "compat.h"
 #include "declare.h"
 
-// X(feature, type, name): a field exists where its feature does. Types: uint, float, float3 (three
-// words).
-#define PATH_STATE_FIELDS(X)                                                                      \
-    X(ALWAYS, uint, pixel)                   /* of a light path: its number within the sample */  \
-    X(ALWAYS, uint, sample)                  /* index within the batch */                         \
-    X(ALWAYS, uint, depth)                   /* scattering events so far */                       \
-    X(ALWAYS, float3, ray_origin)            /* of the path's ray, then of its shadow ray */      \
-    X(ALWAYS, float3, ray_direction)         /* unit; the path's ray */                           \
-    X(FEATURE_from_camera, float3, radiance) /* gathered so far, W / (sr m^2) */                  \
-    X(ALWAYS, uint, hit_primitive)           /* NO_HIT, a triangle, or SHAPE_BIT and a shape */   \
-    X(ALWAYS, float, hit_u)                  /* barycentrics; of a shape: the point in its */     \
-    X(ALWAYS, float, hit_v)                  /* object space */                                   \
-    X(FEATURE_shapes, float, hit_w)                                                               \
-    X(FEATURE_scattering, float3, throughput)                                                     \
-    X(FEATURE_roulette_scale, float,                                                              \
-      roulette_scale) /* throughput over this is what roulette goes by */                         \
-    X(FEATURE_direction_density, float,                                                           \
-      pdf_w) /* of ray_direction, per solid angle; INFINITY: delta */                             \
-    X(FEATURE_light_strategy, float,                                                              \
-      log_ratio) /* of densities along the path: kernels/light/mis.h */                           \
-    X(FEATURE_arrival_density, float, log_arrival)  /* likewise, of the last ray */               \
-    X(FEATURE_vertex_joins, float, log_strategies)  /* likewise, of all strategies */             \
-    X(FEATURE_emission_density, uint, light)        /* where the path began */                    \
-    X(FEATURE_branches, uint, pending)              /* vertices it will come back to: branch.h */ \
-    X(FEATURE_shadow_rays, float3, shadow_vector)   /* from ray_origin to what is joined */       \
-    X(FEATURE_shadow_rays, float3, shadow_radiance) /* added unless the way is blocked */         \
-    X(FEATURE_from_light, uint, splat_pixel)        /* to which it is added */
+// X(feature, type, name): a field exists if its feature is on. Types are uint, float and float3
+// (three words). (hit_u, hit_v) are the barycentrics of a triangle; (hit_u, hit_v, hit_w) is the
+// hit on a shape in its object space. kernels/light/mis.h defines R, Q, S and A.
+#define PATH_STATE_FIELDS(X)                                                                    \
+    X(ALWAYS, uint, pixel)                   /* light path: index within the sample */          \
+    X(ALWAYS, uint, sample)                  /* index within the batch */                       \
+    X(ALWAYS, uint, depth)                   /* scattering events so far */                     \
+    X(ALWAYS, float3, ray_origin)            /* of the path's ray, then of its shadow ray */    \
+    X(ALWAYS, float3, ray_direction)         /* unit; the path's ray */                         \
+    X(FEATURE_from_camera, float3, radiance) /* accumulated so far, W / (sr m^2) */             \
+    X(ALWAYS, uint, hit_primitive)           /* NO_HIT, a triangle, or SHAPE_BIT and a shape */ \
+    X(ALWAYS, float, hit_u)                                                                     \
+    X(ALWAYS, float, hit_v)                                                                     \
+    X(FEATURE_shapes, float, hit_w)                                                             \
+    X(FEATURE_scattering, float3, throughput)                                                   \
+    X(FEATURE_roulette_scale, float, roulette_scale) /* roulette uses throughput over this */   \
+    X(FEATURE_direction_density, float, pdf_w)       /* per solid angle; INFINITY: delta */     \
+    X(FEATURE_light_strategy, float, log_ratio)      /* log2 R, or log2 Q */                    \
+    X(FEATURE_arrival_density, float, log_arrival)   /* log2 A of the last ray */               \
+    X(FEATURE_vertex_joins, float, log_strategies)   /* log2 S of all strategies */             \
+    X(FEATURE_emission_density, uint, light)         /* index of the light at the start */      \
+    X(FEATURE_branches, uint, pending)               /* size of the stack of branch.h */        \
+    X(FEATURE_shadow_rays, float3, shadow_vector)    /* from ray_origin to the other end */     \
+    X(FEATURE_shadow_rays, float3, shadow_radiance)  /* added unless the ray is blocked */      \
+    X(FEATURE_from_light, uint, splat_pixel)         /* pixel to which it is added */
 
-/// Tells shapes from triangles in `hit_primitive`; NO_HIT has it too.
+/// Marks `hit_primitive` as a shape, not a triangle; NO_HIT has this bit set as well.
 #define SHAPE_BIT 0x80000000u
 
 #ifdef __OPENCL_VERSION__
 
-// Where a word of a path lies in a stream of `capacity`.
+// Index of a word of a path in a stream of `capacity` slots.
 #if PATH_STATE_INTERLEAVED
 #define STREAM_WORD(capacity, slot, word) ((slot)*PATH_STATE_WORDS + (word))
 #else
 #define STREAM_WORD(capacity, slot, word) ((word) * (capacity) + (slot))
 #endif
 
-// A program whose work-items follow a path on their own (advance_path.h) keeps it in their own
+// A program whose work-items each follow one path (advance_path.h) keeps the path in private
 // memory.
 #ifndef PATH_STATES_PRIVATE
 #define PATH_STATES_PRIVATE 0
@@ -63,7 +63,8 @@
 #define WORDS_float 1
 #define WORDS_float3 3
 
-// Word offset of each field: an enumerator per field, stepping over the words of the fields before.
+// Word offsets of the fields: one enumerator per field, which skips the words of the fields before
+// it.
 enum PathStateLayout {
 #define FIELD_OFFSET(type, name) PATH_##name, PATH_LAST_##name = PATH_##name + WORDS_##type - 1,
 #define X(feature, type, name) WHEN(feature)(FIELD_OFFSET(type, name))
@@ -81,11 +82,11 @@ typedef struct PathStates {
 
 #define PATH_WORD(paths, slot, word) (paths).words[STREAM_WORD((paths).capacity, slot, word)]
 
-// Whether the stages ask ahead for what they will read of the next paths: where the words of a path
-// lie together.
+// Whether the stages prefetch what they will read for the next paths. It pays where the words of a
+// path are contiguous.
 #define PREFETCHES (HAS_PREFETCH && PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE)
 
-/// Asks for a path's words ahead of their use.
+/// Prefetches the words of a path.
 DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {
 #if PREFETCHES
     for (uint word = 0u; word < PATH_STATE_WORDS; word += CACHE_LINE / 4u) {
@@ -95,8 +96,9 @@ DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot)
 #endif
 }
 
-/// The slot of the path that is entry i of a queue, in FOR_EACH_ENTRY, where `end` is i_end. Asks
-/// for the path three entries on: on a CPU its words may be in another core's cache.
+/// Returns the slot of the path at entry i of a queue. For use in FOR_EACH_ENTRY, with i_end as
+/// `end`. Prefetches the path three entries ahead: on a CPU its words may be in another core's
+/// cache.
 DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uint i,
                     MAYBE_UNUSED uint end) {
     prefetch_path(paths, queue[min(i + 3u, end - 1u)]);
@@ -145,10 +147,12 @@ namespace rtrays {
 /// A field of the path state that exists under a feature mask.
 struct PathStateField {
     std::string name;
-    uint32_t words;  ///< of 4 bytes
+    uint32_t words;  ///< size in words of 4 bytes
 };
 
+/// Returns the fields of the path state that exist under `mask`, in table order.
 std::vector<PathStateField> path_state_fields(FeatureMask mask);
+/// Returns the size of a path state under `mask`, in words of 4 bytes.
 uint32_t path_state_words(FeatureMask mask);
 
 }  // namespace rtrays

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rays counted by depth, where a run asks for it: the scattering events of the path so far, 0 for
-// rays from where it begins; that of a shadow ray is its path's. The last bin holds all from there
-// on.
+// Ray counts by depth, which a run records on request.
+//
+// The depth of a ray is the number of scattering events of its path so far: 0 for rays from the
+// start of a path. A shadow ray has the depth of its path. The last bin also counts all greater
+// depths.
 #pragma once
 
 #define RAY_DEPTHS 64

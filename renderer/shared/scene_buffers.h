@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene's buffers, declared once: the kernels' parameter lists, the host's buffers and their
-// bindings all come from these tables.
+// The buffers of a scene. These tables declare them once: the kernels' parameter lists, the host's
+// buffers and their bindings derive from them.
 #pragma once
 
 #include "bvh_layout.h"
@@ -32,8 +32,8 @@
     X(FEATURE_environment, float, environment_texels)          \
     X(FEATURE_environment, uint, environment_ends)
 
-// A stage's parameters: buffers of the scene (these lists end in a comma), its own, and the stream
-// (stream_counters.h) last.
+// Parameters of a stage, in this order: buffers of the scene, the stage's own parameters, and the
+// stream (stream_counters.h). The lists below end in a comma.
 #define BUFFER_PARAMETER(type, name) MAYBE_UNUSED GLOBAL const type *name,
 #define X_PARAMETER(feature, type, name) WHEN(feature)(BUFFER_PARAMETER(type, name))
 #define SHAPE_COUNT_PARAMETER uint shape_count,
@@ -41,14 +41,14 @@
     GEOMETRY_BUFFERS(X_PARAMETER)                    \
     X_PARAMETER(FEATURE_shapes, ShapeRecord, shapes) \
     BOUNDS_BUFFERS(X_PARAMETER) WHEN(FEATURE_shapes)(SHAPE_COUNT_PARAMETER)
-// Of a stage that has the shapes among its surfaces.
+// Traversal parameters of a stage that already has the shapes among its surface parameters.
 #define TRAVERSAL_PARAMETERS      \
     GEOMETRY_BUFFERS(X_PARAMETER) \
     BOUNDS_BUFFERS(X_PARAMETER) WHEN(FEATURE_shapes)(SHAPE_COUNT_PARAMETER)
 #define SURFACE_PARAMETERS SURFACE_BUFFERS(X_PARAMETER)
 #define MATERIAL_PARAMETERS MATERIAL_BUFFERS(X_PARAMETER)
 #define LIGHT_PARAMETERS LIGHT_BUFFERS(X_PARAMETER) MAYBE_UNUSED LightingRecord lighting,
-// The same as arguments of a device function.
+// The arguments by which a device function receives these parameters.
 #define BUFFER_ARGUMENT(type, name) name,
 #define X_ARGUMENT(feature, type, name) WHEN(feature)(BUFFER_ARGUMENT(type, name))
 #define SHAPE_COUNT_ARGUMENT shape_count,
@@ -63,13 +63,13 @@
 #define MATERIAL_ARGUMENTS MATERIAL_BUFFERS(X_ARGUMENT)
 #define LIGHT_ARGUMENTS LIGHT_BUFFERS(X_ARGUMENT) lighting,
 
-// The light vertices of shared/light_vertex.h, where they are kept; ends in a comma, too.
+// The light vertices (shared/light_vertex.h), if they are stored. The lists end in a comma.
 #define VERTEX_BUFFER_PARAMETER GLOBAL uint *vertex_words,
 #define VERTEX_BUFFER_ARGUMENT vertex_words,
 #define VERTEX_PARAMETERS WHEN(FEATURE_vertex_joins)(VERTEX_BUFFER_PARAMETER)
 #define VERTEX_ARGUMENTS WHEN(FEATURE_vertex_joins)(VERTEX_BUFFER_ARGUMENT)
 
-// The vertices of shared/branch.h likewise.
+// The stacks of branch vertices (shared/branch.h), if paths branch. The lists end in a comma.
 #define BRANCH_BUFFER_PARAMETER GLOBAL uint *branch_words,
 #define BRANCH_BUFFER_ARGUMENT branch_words,
 #define BRANCH_PARAMETERS WHEN(FEATURE_branches)(BRANCH_BUFFER_PARAMETER)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene records as the device reads them, written by the scene compiler. Plain words only: no
-// float3.
+// Scene records in the layout that the device reads, written by the scene compiler. They consist of
+// plain words only, without float3.
 #pragma once
 
 #include "compat.h"
@@ -8,36 +8,36 @@
 #define NO_EMITTER 0xffffffffu
 
 /// A perspective camera: pinhole or thin lens. The ray through film position (x, y), in pixels from
-/// the top left corner, is corner + x * step_x + y * step_y, before normalization.
+/// the top left corner, has the direction corner + x * step_x + y * step_y before normalisation.
 typedef struct CameraRecord {
     float position[3];
-    float pixel_area;  ///< of one pixel on the plane at unit distance along the axis
+    float pixel_area;  ///< area of a pixel on the plane at unit distance along the axis
     float corner[3];
     uint width;  ///< pixels
     float step_x[3];
     uint height;  ///< pixels
     float step_y[3];
-    float aperture_radius;  ///< of the lens; 0 for a pinhole
+    float aperture_radius;  ///< radius of the lens; 0 for a pinhole
     float axis_x[3];        ///< unit, to the right
-    float focus_distance;   ///< of the plane in focus, along the axis
+    float focus_distance;   ///< distance of the plane in focus, along the axis
     float axis_y[3];        ///< unit, up
     float padding;
 } CameraRecord;
 
-/// What shading needs of a triangle, in the scene's triangle order.
+/// Triangle data for shading, in the scene's triangle order.
 typedef struct SurfaceTriangle {
     float p0[3];
     uint material;
     float p1[3];
-    uint emitter;  ///< index into the emitter triangles, NO_EMITTER when it emits nothing
+    uint emitter;  ///< index of its emitter triangle; NO_EMITTER if it emits nothing
     float p2[3];
-    float extent;     ///< largest side of the box around its edges, scene units
-    float normal[3];  ///< unit, on the side from which p0, p1, p2 run counter-clockwise; zero when
-                      ///< degenerate
+    float extent;  ///< largest side of the box around its edges, in scene units
+    /// Unit, on the side from which p0, p1, p2 run counter-clockwise; zero if degenerate.
+    float normal[3];
     float padding;
 } SurfaceTriangle;
 
-/// The components of a material, and what holds for all of them.
+/// A material: the range of its components, and flags that apply to all of them.
 typedef struct MaterialRecord {
     uint first_component;
     uint component_count;
@@ -45,22 +45,23 @@ typedef struct MaterialRecord {
     uint padding;
 } MaterialRecord;
 
-#define MATERIAL_BOUNDARY \
-    1u  ///< refracts: the indices on its two sides differ, its sides are told apart
+/// Refracts: the indices of refraction on its two sides differ, so its sides are distinguished.
+#define MATERIAL_BOUNDARY 1u
 #define MATERIAL_ONE_SIDED 2u  ///< black from behind
-#define MATERIAL_DELTA 4u      ///< all components are deltas: there is nothing to join to a light
-#define MATERIAL_TURNS 8u      ///< looks different when the tangent turns: anisotropic
+/// All components are deltas: the material cannot be connected to a light.
+#define MATERIAL_DELTA 4u
+#define MATERIAL_TURNS 8u  ///< anisotropic: its appearance depends on the tangent
 
-/// One atomic BxDF of a material (renderer/scene/stores.h says what each is).
+/// One atomic BxDF of a material (renderer/scene/stores.h describes each).
 typedef struct BxdfRecord {
     uint kind;        ///< BXDF_*
     uint flags;       ///< FRESNEL_*, BXDF_FLAG_*
-    uint texture;     ///< NO_TEXTURE for none
-    float parameter;  ///< sigma of BXDF_OREN_NAYAR, exponent of BXDF_BLINN
+    uint texture;     ///< index of the texture, or NO_TEXTURE
+    float parameter;  ///< sigma for BXDF_OREN_NAYAR, exponent for BXDF_BLINN
     float weight[3];
     float alpha_x;  ///< roughness along the tangent
-    float eta[3];   ///< Fresnel: relative index of refraction (dielectric: [0]) or reflectance
-                    ///< (Schlick)
+    /// Fresnel term: relative index of refraction (dielectric: [0]) or normal reflectance (Schlick)
+    float eta[3];
     float alpha_y;  ///< roughness across the tangent
     float k[3];     ///< extinction coefficient of a conductor
     float padding;
@@ -84,12 +85,12 @@ typedef struct BxdfRecord {
 #define FRESNEL_CONDUCTOR 2u
 #define FRESNEL_CONDUCTOR_APPROXIMATE 3u
 #define FRESNEL_SCHLICK 4u
-#define BXDF_FLAG_COMPLEMENT 8u      ///< 1 - F
-#define BXDF_FLAG_FRESNEL_OF_WO 16u  ///< not symmetric in wi and wo
-#define BXDF_FLAG_BECKMANN 32u       ///< else GGX
+#define BXDF_FLAG_COMPLEMENT 8u      ///< uses 1 - F instead of F
+#define BXDF_FLAG_FRESNEL_OF_WO 16u  ///< Fresnel term of wo alone: not symmetric in wi and wo
+#define BXDF_FLAG_BECKMANN 32u       ///< Beckmann distribution, otherwise GGX
 
-/// A texture: a range of the texel buffer. 8-bit texels take one word each (R in the lowest byte),
-/// float texels three.
+/// A texture: a range of the texel buffer. 8-bit texels have one word each, with R in the lowest
+/// byte; float texels have three words.
 typedef struct TextureRecord {
     uint first_word;
     uint width;
@@ -99,40 +100,40 @@ typedef struct TextureRecord {
     float uv_offset[2];
 } TextureRecord;
 
-#define TEXTURE_FLOAT 1u  ///< else 8 bits
+#define TEXTURE_FLOAT 1u  ///< float texels, otherwise 8 bits per channel
 #define TEXTURE_SRGB 2u
-#define TEXTURE_BILINEAR 4u  ///< else nearest
-#define TEXTURE_CLAMP 8u     ///< else repeat
+#define TEXTURE_BILINEAR 4u  ///< bilinear lookup, otherwise nearest
+#define TEXTURE_CLAMP 8u     ///< clamped coordinates, otherwise repeated
 
-/// Shading normals and texture coordinates of a triangle's corners, each in a buffer that exists
-/// where needed.
+/// Shading normals and texture coordinates of a triangle's corners. Each has its own buffer, which
+/// exists only if a feature reads it.
 typedef struct TriangleNormals {
     float normal[3][3];
-    uint is_smooth;  ///< 0: the geometric normal holds, the others say nothing
+    uint is_smooth;  ///< 0: the geometric normal applies, and `normal` is undefined
     uint padding[2];
 } TriangleNormals;
 typedef struct TriangleUv {
     float uv[3][2];
 } TriangleUv;
 
-/// A surface that is not made of triangles, in the object space of the record: that of ShapeArrays,
-/// but for the cone, whose apex is the origin here.
+/// A surface that is not made of triangles, in the object space of ShapeArrays
+/// (renderer/scene/stores.h). The cone differs: here its apex is the origin.
 typedef struct ShapeRecord {
-    float world_from_object[3][4];  ///< affine; the last column is where the origin goes
-    float object_from_world[3][3];  ///< inverse of its linear part
+    float world_from_object[3][4];  ///< affine; the last column is the image of the origin
+    float object_from_world[3][3];  ///< inverse of the linear part of world_from_object
     uint kind;                      ///< SHAPE_QUADRIC or SHAPE_JULIA
     uint material;
-    uint light;       ///< index into the lights, NO_EMITTER when it emits nothing
-    uint iterations;  ///< of a Julia set
-    // Quadric: the surface a (x^2 + y^2) + b z^2 + c z + d = 0 with z in [z_lower, z_upper].
-    // Julia set: its constant in (a, b, c, d), the fourth coordinate of the slice in z_lower, and
-    // in z_upper the modulus from which iterates never come back, at least 4.
+    uint light;       ///< index of its light; NO_EMITTER if it emits nothing
+    uint iterations;  ///< number of iterations of a Julia set
+    // Quadric: the surface a (x^2 + y^2) + b z^2 + c z + d = 0 with z in [z_lower, z_upper]. Julia
+    // set: (a, b, c, d) is its constant and z_lower the fourth coordinate of the slice. z_upper is
+    // the modulus, at least 4, beyond which iterates never return.
     float a, b, c, d;
     float z_lower, z_upper;
-    float bound2;  ///< x^2 + y^2 + z^2 of the surface's points is at most this (which clips a disc)
+    float bound2;  ///< upper bound of x^2 + y^2 + z^2 on the surface; it also clips a disc
     uint uv_kind;  ///< SHAPE_UV_*
-    float error2;  ///< (16 u k)^2, k = |A|_F |M|_F of A = object_from_world and its inverse M:
-                   ///< shape_space.h
+    /// (16 u k)^2 with k = |A|_F |M|_F, A = object_from_world and M its inverse (shape_space.h).
+    float error2;
     float padding[2];
 } ShapeRecord;
 
@@ -143,76 +144,78 @@ typedef struct ShapeRecord {
 
 #define SHAPE_UV_SPHERE 0u
 #define SHAPE_UV_HEIGHT 1u     ///< (phi, z)
-#define SHAPE_UV_DEPTH 2u      ///< (phi, z + 1): the cone
-#define SHAPE_UV_SYMMETRIC 3u  ///< (phi, (z + 1) / 2): the hyperboloid
+#define SHAPE_UV_DEPTH 2u      ///< (phi, z + 1), for the cone
+#define SHAPE_UV_SYMMETRIC 3u  ///< (phi, (z + 1) / 2), for the hyperboloid
 #define SHAPE_UV_DISC 4u
 #define SHAPE_UV_PLANE 5u
 #define SHAPE_UV_NONE 6u
 
 #define SHAPE_LANES 8u
 
-/// Balls in world space around eight shapes, lane by lane (kernels/geometry/shape_bounds.h).
+/// Bounding balls of eight shapes in world space, one per lane (kernels/geometry/shape_bounds.h).
 typedef struct ShapeBounds {
-    float centre[3][SHAPE_LANES];  ///< where the origin of object space goes
-    float bound2[SHAPE_LANES];     ///< more than the ball's squared radius; infinite for a plane
-    float error2[SHAPE_LANES];     ///< by how much of its squared distance that grows: rounding
+    float centre[3][SHAPE_LANES];  ///< image of the origin of object space
+    /// An upper bound of the ball's squared radius; infinite for a plane.
+    float bound2[SHAPE_LANES];
+    float error2[SHAPE_LANES];  ///< growth of bound2 per squared distance of the ray, for rounding
 } ShapeBounds;
 
-/// A light as the sampler sees it.
+/// A light in the form that light sampling reads.
 typedef struct LightRecord {
-    float radiance[3];    ///< W / (sr m^2), W / sr or W / m^2 (LightArrays); environment: factor of
-                          ///< the image
-    float selection;      ///< probability that light selection takes this light, seen from a point
-    uint selection_end;   ///< this light is taken by random words below this end (and not below its
-                          ///< predecessor's)
+    /// W / (sr m^2), W / sr or W / m^2 (LightArrays); environment: factor of the image.
+    float radiance[3];
+    float selection;  ///< probability that light sampling at a point selects this light
+    /// This light is selected by random words below this end and not below its predecessor's end.
+    uint selection_end;
     uint kind;            ///< LIGHT_*
-    uint first_triangle;  ///< mesh: its range of emitter triangles. Shape: index of the shape
+    uint first_triangle;  ///< mesh: first of its emitter triangles; shape: index of the shape
     uint triangle_count;
     float axis_x[3];  ///< x, y and z axes of light space, unit
-    float area;       ///< of a shape
+    float area;       ///< area of a shape
     float axis_y[3];
-    float versine_outer;  ///< of a spot: 1 - cos(outer angle)
+    float versine_outer;  ///< spot: 1 - cos(outer angle)
     float axis_z[3];
-    float versine_range;  ///< of a spot: cos(inner angle) - cos(outer angle)
+    float versine_range;  ///< spot: cos(inner angle) - cos(outer angle)
     float position[3];
-    float outer_angle;         ///< of a spot, radians
-    float angle_scale;         ///< of a spot: 1 / (outer angle - inner angle)
+    float outer_angle;         ///< spot: in radians
+    float angle_scale;         ///< spot: 1 / (outer angle - inner angle)
     float emission_selection;  ///< probability that a light path starts here
     float padding[2];
 } LightRecord;
 
 #define LIGHT_MESH 0u
 #define LIGHT_DISC 1u
-#define LIGHT_SPHERE 2u          ///< sampled by the cone it subtends
+#define LIGHT_SPHERE 2u          ///< sampled uniformly in the cone that it subtends
 #define LIGHT_SPHERE_BY_AREA 3u  ///< sampled uniformly by area, as the thesis does
 #define LIGHT_POINT 4u
 #define LIGHT_SPOT 5u
-#define LIGHT_DIRECTIONAL 6u  ///< from here on: at infinity
+#define LIGHT_DIRECTIONAL 6u  ///< the kinds from here on are at infinity
 #define LIGHT_DOME 7u
 #define LIGHT_ENVIRONMENT 8u
 
-/// What the lights have in common.
+/// Data that the lights share.
 typedef struct LightingRecord {
     uint light_count;
-    uint infinite_light;     ///< index of the one light at infinity, NO_EMITTER for none
-    float far_distance;      ///< a shadow ray of that length leaves the scene
+    uint infinite_light;     ///< index of the single light at infinity; NO_EMITTER if there is none
+    float far_distance;      ///< a shadow ray of this length leaves the scene
     uint environment_width;  ///< texels
     uint environment_height;
-    float scene_radius;     ///< of a sphere around all bounded surfaces, with a margin; positive
-    float scene_centre[3];  ///< of that sphere
-    uint plane_end;         ///< from this index on no shape is a plane
+    /// Radius of a sphere around all bounded surfaces, with a margin; positive.
+    float scene_radius;
+    float scene_centre[3];  ///< centre of that sphere
+    uint plane_end;         ///< no shape from this index on is a plane
     uint padding[2];
 } LightingRecord;
 
-/// `chosen` of stage sample_light: the light is selected at random.
+/// Value of `chosen` by which stage sample_light selects a light at random.
 #define SELECT_LIGHT 0xffffffffu
 
 /// A triangle of a mesh light.
 typedef struct EmitterTriangle {
-    uint triangle;       ///< scene triangle
+    uint triangle;       ///< index of the scene triangle
     uint light;          ///< index of its light
-    uint selection_end;  ///< as in LightRecord, within its light
-    float pdf_a;         ///< density per area of a point on it, its light given
+    uint selection_end;  ///< as in LightRecord, among the triangles of its light
+    float pdf_a;         ///< conditional density per area of a point on it, given its light
 } EmitterTriangle;
 
 #ifndef __OPENCL_VERSION__

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Records kept beside the path states, a row of them for each path: where one lies, and its words.
-// The words of a record lie together where those of a path do (path_state.h).
+// Locations and access of records stored beside the path states, with a row of them for each path.
+// The words of a record are contiguous if those of a path are (path_state.h).
 #pragma once
 
 #include "compat.h"
 
 #ifdef __OPENCL_VERSION__
 
-/// Word w lies at first[w * stride].
+/// Location of a record: word w is at first[w * stride].
 typedef struct WordPlace {
     GLOBAL uint *first;
     ulong stride;
 } WordPlace;
 
-/// Record `i` of the `per_row` in row `row` of `rows`. More words than 2^32 are possible.
+/// Returns the location of record `i` in row `row`, with `per_row` records per row and `rows` rows.
+/// There may be more than 2^32 words.
 DEVICE WordPlace record_place(GLOBAL uint *words, uint record_words, uint rows, uint per_row,
                               uint row, uint i) {
     WordPlace place;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes that move under a session: the film of every time, whether the hierarchy is built anew or
+// Tests sessions of animated scenes: the film at every time, with a hierarchy that is rebuilt or
 // refitted.
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ std::vector<int64_t> render(RenderSession &session) {
     return film.words;
 }
 
-/// Words of a film that differ: those of paths that met two triangles at the same distance.
+/// Counts the words in which two films differ. Paths that hit two triangles at the same distance
+/// cause a few differences.
 size_t count_different(const std::vector<int64_t> &a, const std::vector<int64_t> &b) {
     EXPECT_EQ(a.size(), b.size());
     size_t different = 0;
@@ -59,7 +60,7 @@ TEST(Animation, EveryTimeHasItsOwnFilm) {
             fresh.push_back(render(session));
         }
         EXPECT_GT(count_different(fresh[0], fresh[1]), fresh[0].size() / 10)
-            << "the cloth has moved";
+            << "the cloth must have moved";
         for (const bool refits : {false, true}) {
             RenderSession session(cloth(0),
                                   small({of_layout, refits ? "device.bvh_update=refit"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Tests renderer/base: files, images, hashes, errors and exit codes.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for every test, removed with all that is in it.
+/// Fixture that gives every test its own folder and deletes it afterwards.
 class Files : public testing::Test {
   protected:
     Files() { fs::create_directory(folder_); }
@@ -40,7 +41,7 @@ class Files : public testing::Test {
 
 using Images = Files;
 
-/// A disk that takes no more than `bytes` in a file: a write beyond fails as on a full one.
+/// Simulates a full disk: a write beyond `bytes` of a file fails.
 class FullDisk {
   public:
     explicit FullDisk(rlim_t bytes) : previous_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -58,7 +59,7 @@ class FullDisk {
     void (*previous_handler_)(int);
 };
 
-/// Values that compression cannot shorten much, special ones among them.
+/// Returns an image with values that compress badly, including special values.
 Image test_image(int width, int height) {
     Image image = Image::rgb(width, height);
     image.add_channel("samples");
@@ -104,8 +105,8 @@ TEST_F(Images, ExrKeepsEveryBitOfChannelsAndAttributes) {
 
 TEST_F(Images, ChannelsAreFoundByNameOnly) {
     Image image = Image::rgb(2, 2);
-    expect_input_error("no channel 'A'; it has: R, G, B", [&] { image.channel("A"); });
-    expect_run_error("already has a channel 'R'", [&] { image.add_channel("R"); });
+    expect_input_error("unknown channel 'A'; channels are: R, G, B", [&] { image.channel("A"); });
+    expect_run_error("channel 'R' already exists", [&] { image.add_channel("R"); });
     EXPECT_EQ(rgb_names("variance"),
               (std::vector<std::string>{"variance.R", "variance.G", "variance.B"}));
 }
@@ -118,9 +119,10 @@ TEST_F(Images, DamagedExrIsAnErrorThatNamesIt) {
         expect_input_error("cut.exr", [&] { read_exr(path("cut.exr")); });
     }
     write_file(path("text.exr"), "not an image");
-    expect_input_error("text.exr: not a readable EXR", [&] { read_exr(path("text.exr")); });
+    expect_input_error("text.exr: cannot be read as an EXR image",
+                       [&] { read_exr(path("text.exr")); });
     expect_input_error("none.exr: no such file", [&] { read_exr(path("none.exr")); });
-    expect_input_error("not a readable EXR", [&] { read_exr(path(".")); });
+    expect_input_error("cannot be read as an EXR image", [&] { read_exr(path(".")); });
 }
 
 TEST_F(Files, ReadAndWriteBytes) {
@@ -132,12 +134,12 @@ TEST_F(Files, ReadAndWriteBytes) {
     EXPECT_EQ(file_count(), 1u);
     expect_input_error("none: cannot be read: No such file", [&] { read_file(path("none")); });
     expect_input_error("is a directory", [&] { read_file(path(".")); });
-    const fs::path unthinkable =
-        path(std::string(5000, 'x'));  // no name may be that long: it cannot even be looked for
+    // The name exceeds the limit of the file system, so even a lookup fails.
+    const fs::path unthinkable = path(std::string(5000, 'x'));
     expect_input_error("cannot be read: File name too long", [&] { read_file(unthinkable); });
     expect_input_error("cannot be written: File name too long",
                        [&] { require_writable(unthinkable); });
-    expect_input_error("not a readable EXR", [&] { read_exr(unthinkable); });
+    expect_input_error("cannot be read as an EXR image", [&] { read_exr(unthinkable); });
 }
 
 TEST_F(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
@@ -169,7 +171,7 @@ TEST_F(Files, FullDiskIsAnErrorAndLeavesTheOldFile) {
 }
 
 TEST_F(Files, UnwritablePlacesAreFoundBeforeARun) {
-    // Not by permissions: tests may run as root.
+    // The test does not use permissions, because it may run as root.
     for (const fs::path &place : {path("no/such/folder/out.exr"), fs::path("/proc/out.exr")}) {
         expect_input_error(place.string() + ": cannot be written",
                            [&] { require_writable(place); });
@@ -185,7 +187,7 @@ TEST_F(Files, UnwritablePlacesAreFoundBeforeARun) {
 }
 
 TEST(ContentHash, IsXxh3Of128Bits) {
-    // The published value of XXH128 for an empty input with seed 0.
+    // Published value of XXH128 for empty input and seed 0.
     EXPECT_EQ(content_hash(""), "99aa06d3014798d86001c324468d497f");
     EXPECT_NE(content_hash("a"), content_hash("b"));
     EXPECT_NE(content_hash(std::string("a\0", 2)), content_hash("a"));
@@ -232,7 +234,8 @@ TEST(Commit, is_no_part_of_the_program_hash) {
     EXPECT_NE(program_hash(), content_hash(program));
     std::string elsewhere = program;
     elsewhere.replace(elsewhere.find(commit()), commit().size(), commit().size(), '-');
-    EXPECT_EQ(program_hash(), content_hash(elsewhere)) << "the commit is in the program once";
+    EXPECT_EQ(program_hash(), content_hash(elsewhere))
+        << "the program must contain the commit exactly once";
 }
 
 }  // namespace

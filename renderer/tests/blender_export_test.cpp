@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The description for Blender says what the arrays say, or what Cycles lacks.
+// Tests the export for Blender: the description matches the scene arrays, or an error names the
+// feature that Cycles lacks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,24 +34,25 @@ class BlenderExport : public WithImages {
     std::filesystem::path file_ = folder_ / "out.blender.json";
 };
 
-/// What Cycles has not got of the scenes that show one feature each.
+/// Returns the feature scenes that Cycles cannot express, with a fragment of the error message.
 const std::map<std::string, const char *> &beyond_cycles() {
     static const std::map<std::string, const char *> reasons = {
         {"beckmann",
-         "(microfacet_reflection with Fresnel term conductor): Cycles cannot do that: its Glossy "
+         "(microfacet_reflection with Fresnel term conductor): not supported by Cycles: its Glossy "
          "BSDF has"},
         {"blinn_64",
-         "'object': material 'object', component 0 (blinn with Fresnel term conductor): Cycles "
-         "cannot do "
-         "that: it has no such model"},
+         "'object': material 'object', component 0 (blinn with Fresnel term conductor): not "
+         "supported by Cycles: it has no such model"},
         {"car_paint",
-         "component 1 (lambert with Fresnel term dielectric): Cycles cannot do that: a Fresnel "
-         "term of a"},
+         "component 1 (lambert with Fresnel term dielectric): not supported by Cycles: the Fresnel "
+         "term of its diffuse components"},
         {"ggx", "no Fresnel term"},
-        {"julia", "'object': Cycles has triangles, and they make no Julia set"},
-        {"oren_nayar_079", "its Oren-Nayar is another one"},
-        {"plane", "'ground': Cycles has triangles, and they make no unbounded plane"},
-        {"rough_glass_ggx", "takes it at the normal instead of the half vector"},
+        {"julia",
+         "'object': Cycles supports only triangles, which cannot represent this Julia set"},
+        {"oren_nayar_079", "its Oren-Nayar model differs"},
+        {"plane",
+         "'ground': Cycles supports only triangles, which cannot represent this unbounded plane"},
+        {"rough_glass_ggx", "at the normal instead of the half vector"},
         {"rough_plastic", "no Fresnel term"},
         {"ward_010", "it has no such model"},
         {"ward_original", "it has no such model"},
@@ -79,8 +81,8 @@ TEST_F(BlenderExport, ScenesOfSingleFeaturesAreWrittenOrAreErrors) {
                       scene.meshes().name.size() + scene.arrays().shapes.name.size());
             EXPECT_EQ(description.at("materials").size(), scene.materials().name.size());
             ++written;
-        } catch (const Error &error) {  // of further scenes of the kinds above
-            EXPECT_NE(std::string(error.what()).find("Cycles cannot do that"), std::string::npos)
+        } catch (const Error &error) {  // other scenes with the same unsupported features
+            EXPECT_NE(std::string(error.what()).find("not supported by Cycles"), std::string::npos)
                 << error.what();
         }
     }
@@ -119,7 +121,7 @@ TEST_F(BlenderExport, SaysWhatTheArraysSay) {
         }
     }
     EXPECT_EQ(bright, 1);
-    EXPECT_TRUE(description.at("lights").empty());  // they are with their surfaces
+    EXPECT_TRUE(description.at("lights").empty());  // area lights are part of their surfaces
 }
 
 TEST_F(BlenderExport, DecodesTexels) {
@@ -158,7 +160,7 @@ TEST_F(BlenderExport, ResolvesTheAxisOfTheField) {
 TEST_F(BlenderExport, ListsTheEndings) {
     const Scene box = load_scene(scenes + "/cornell_box/scene.json");
     for (const char *name : {"out.json", "out.blend", ".xml", "xml"}) {
-        expect_input_error("ends in .xml (Mitsuba 3) or .blender.json (Blender's Cycles)",
+        expect_input_error("end in .xml (Mitsuba 3) or .blender.json (Blender's Cycles)",
                            [&] { export_scene(box, folder_ / name); });
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials and directions on which the BSDFs are tested, with every kind compiled in for the host,
-// and their chi-square test.
+// Materials, directions and the chi-square test of the BSDF tests. All features of BSDFs are
+// compiled in.
 #pragma once
 
 #define FEATURE_scattering 1
@@ -44,7 +44,7 @@
 
 namespace rtrays {
 
-/// A material made for a test.
+/// A material with its components, and the device functions applied to it.
 struct TestMaterial {
     std::string name;
     std::vector<BxdfRecord> components;
@@ -112,7 +112,8 @@ inline TestMaterial rough_glass(const std::string &name, float alpha_x, float al
             MATERIAL_BOUNDARY};
 }
 
-/// Car paint (thesis 3.55): a coat over a Lambert reflector. `printed`: not symmetric.
+/// Car paint, thesis (3.55): a coat over a Lambert reflector. The version with `printed` follows
+/// the printed formula, which is not symmetric.
 inline TestMaterial car_paint(bool printed) {
     const uint printed_flag = printed ? BXDF_FLAG_FRESNEL_OF_WO : 0;
     return {printed ? "car paint as printed" : "car paint",
@@ -121,7 +122,8 @@ inline TestMaterial car_paint(bool printed) {
                       FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | printed_flag)}};
 }
 
-/// A tilted surface seen at `theta` degrees from its normal, on its front or its back.
+/// Returns the frame of a tilted surface that is seen at `theta` degrees from its normal, on its
+/// front or its back.
 inline SurfaceFrame tilted_frame(double theta, double phi = 0.6, bool front = true) {
     const float3 n = normalize(make_float3(0.3f, -0.8f, -0.5f));
     const Frame axes = frame_from_tangent(n, make_float3(0.2f, 0.1f, 0.9f));
@@ -137,8 +139,8 @@ inline uint4 bsdf_words(uint32_t sample, uint32_t block) {
     return random_words(17, 0, 5, sample, block);
 }
 
-/// What a sampler gave, by cell of a grid; the last entry counts samples without a direction (lost
-/// below the horizon) and deltas.
+/// Sample counts of a sampler per cell of a grid. The last entry counts deltas and samples without
+/// a direction, which were lost below the horizon.
 struct SampledDirections {
     std::vector<uint64_t> observed = std::vector<uint64_t>(DirectionGrid::cells + 1);
 
@@ -148,9 +150,9 @@ struct SampledDirections {
     }
 };
 
-/// p-value of sampled directions against the material's density, and that against a density with a
-/// planted error of 2 %: 1.02 on one side of the plane of incidence, 0.98 on the other, which keeps
-/// the total.
+/// The p-value of sampled directions against the material's density, and the p-value against a
+/// density with a planted error of 2 %. The planted density is multiplied by 1.02 on one side of
+/// the plane of incidence and by 0.98 on the other, which keeps the total.
 struct ChiSquare {
     double p, planted;
     double scattered;  ///< share of the samples with a direction and a finite density
@@ -163,8 +165,8 @@ inline ChiSquare test_directions(const TestMaterial &material, const SurfaceFram
     std::vector<double> expected(directions.observed.size()), wrong(directions.observed.size());
     double rest = count;
     for (int cell = 0; cell < DirectionGrid::cells; ++cell) {
-        // A sliver above the horizon that the quadrature does not see is pooled with other rare
-        // cells, not impossible.
+        // The quadrature may miss a sliver above the horizon. The added constant makes such a cell
+        // rare instead of impossible, and rare cells are pooled.
         const double e = 1e-3 + count * grid.integral(cell, [&](float3 wi) {
             return static_cast<double>(material.evaluate(frame, wi).pdf_w);
         });
@@ -176,12 +178,12 @@ inline ChiSquare test_directions(const TestMaterial &material, const SurfaceFram
         rest -= e;
     }
     std::vector<uint64_t> observed = directions.observed;
-    if (count - rest < 50) {  // all is lost
+    if (count - rest < 50) {  // nearly all samples have no direction
         return {observed.back() + 100 > static_cast<uint64_t>(count) ? 1.0 : 0.0, 0, 0};
     }
-    // Below 0.1 % the rest is of the size of rounding: next to the horizon a density cannot be
-    // evaluated more exactly in float, with alpha = 0.01 and 0.001 degrees it integrates to 1 -
-    // 2e-4. It is no cell of its own then.
+    // A rest below 0.1 % is rounding error and does not get a cell of its own. Next to the horizon,
+    // float cannot evaluate a density more exactly: with alpha = 0.01 and 0.001 degrees it
+    // integrates to 1 - 2e-4.
     if (rest < 1e-3 * count) {
         if (static_cast<double>(observed.back()) > 2e-3 * count) {
             return {0, 1, 1};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BSDFs and textures on the device: every kind compiles alone, and what the device samples follows
+// Tests BSDFs and textures on the device: every component compiles alone, and device samples follow
 // the densities that the host computes from the same source.
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ Program build(DeviceContext &device, FeatureMask mask) {
     return Program(device, "kernels/test.cl", mask.defines(), {{"kernels/test.cl", test_kernel}});
 }
 
-// Code of one kind must not lean on that of another.
+// The code of one component must not depend on that of another.
 TEST(BsdfDevice, EveryKindCompilesAlone) {
     DeviceContext device;
     const FeatureMask base = FeatureMask().with(Feature::scattering);
@@ -71,7 +71,7 @@ TEST(BsdfDevice, EveryKindCompilesAlone) {
     }
 }
 
-/// wi (3 words), pdf_w and the density that bsdf_evaluate gives wi, per sample.
+/// Returns, per sample, wi (3 words), pdf_w and the density from bsdf_evaluate for wi.
 std::vector<float> run_samples(DeviceContext &device, Kernel &kernel, const TestMaterial &material,
                                const SurfaceFrame &frame, float3 tangent, uint count, uint block,
                                bool textured) {
@@ -95,7 +95,7 @@ std::vector<float> run_samples(DeviceContext &device, Kernel &kernel, const Test
     return samples.read();
 }
 
-// What a material does must not depend on what else the scene holds.
+// A material must not depend on other features that the scene requires.
 TEST(BsdfDevice, EverythingCompiledInChangesNoBit) {
     DeviceContext device;
     Kernel all(build(device, FeatureMask::all()), "test", 64);
@@ -126,7 +126,7 @@ TEST(BsdfDevice, EverythingCompiledInChangesNoBit) {
     }
 }
 
-// Four tests: each decides at 0.01 / 4.
+// Four tests share a family-wise level of 0.01, so each has the level 0.01 / 4.
 TEST(BsdfDevice, SamplesFollowTheHostsDensity) {
     constexpr uint count = 500'000;
     DeviceContext device;

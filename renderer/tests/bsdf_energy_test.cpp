@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What holds for every BSDF: no more light than arrives, reciprocity, agreement of sample and
-// evaluation, finite values, smooth limits.
+// Tests properties of all BSDFs: energy conservation, reciprocity, agreement of sampling and
+// evaluation, finite values, and smooth limits.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/bsdf_cases.h"
@@ -51,8 +51,8 @@ float eta_of(const TestMaterial &material, const SurfaceFrame &frame) {
                                                      : 1.0f / 1.5f;
 }
 
-/// Share of the power arriving along wo that the material scatters, and its standard error.
-/// Radiance that passes the boundary is taken without its factor 1 / eta^2, which is not power.
+/// Fraction of the power arriving along wo that the material scatters, and its standard error.
+/// Transmitted radiance is used without its factor 1 / eta^2, which does not change power.
 struct Albedo {
     double mean = 0, error = 0;
 };
@@ -74,7 +74,8 @@ Albedo albedo(const TestMaterial &material, const SurfaceFrame &frame) {
     return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
 }
 
-// White furnace. The originals that cannot hold are exempt by name, and do exceed it.
+// White furnace test. Original models that cannot conserve energy are exempt by name and must
+// exceed the bound.
 TEST(Energy, NoMaterialScattersMoreThanArrives) {
     const std::vector<std::pair<std::string, double>> exempt = {{"oren_nayar 0.1", 1.012},
                                                                 {"ward_original 0.3", infinity}};
@@ -85,7 +86,7 @@ TEST(Energy, NoMaterialScattersMoreThanArrives) {
         for (const double theta : {0.0, 30.0, 60.0, 80.0, 89.0, 89.999}) {
             for (const bool front : {true, false}) {
                 if (!front && (material.flags & MATERIAL_BOUNDARY) == 0) {
-                    continue;  // looks the same
+                    continue;  // the back equals the front
                 }
                 const Albedo a = albedo(material, tilted_frame(theta, 0.6, front));
                 const double bound = found == exempt.end() ? 1.0 : found->second;
@@ -104,9 +105,9 @@ TEST(Energy, WhiteLambertScattersAll) {
     EXPECT_NEAR(albedo({"lambert", {component(BXDF_LAMBERT)}}, tilted_frame(60)).mean, 1.0, 1e-6);
 }
 
-/// Albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta: cos(phi)
-/// where positive integrates to 2, and over theta_i there is one integral below theta and one
-/// above.
+/// Returns the albedo of Oren and Nayar's qualitative model (1994, eq. 30) seen at the angle theta.
+/// The positive part of cos(phi) integrates to 2. The integral over theta_i is the sum of one below
+/// theta and one above.
 double oren_nayar_albedo(double sigma, double theta) {
     const double variance = sigma * sigma, s = std::sin(theta);
     const double a = 1 - 0.5 * variance / (variance + 0.33),
@@ -115,7 +116,8 @@ double oren_nayar_albedo(double sigma, double theta) {
                    (s * (theta - s * std::cos(theta)) / 2 + std::tan(theta) * (1 - s * s * s) / 3);
 }
 
-// The mean weight over a grid of numbers: a quadrature, so that 2 % in either coefficient are seen.
+// The mean weight is computed over a regular grid of random numbers. Such a quadrature detects an
+// error of 2 % in either coefficient.
 TEST(Energy, OrenNayarHasTheAlbedoOfItsClosedForm) {
     constexpr int steps = 400;
     constexpr double tolerance = 2e-4;
@@ -144,8 +146,8 @@ TEST(Energy, OrenNayarHasTheAlbedoOfItsClosedForm) {
     EXPECT_GT(0.02 * std::min(a, oren_nayar_albedo(0.5, pi / 3) - a), 5 * tolerance);
 }
 
-// At normal incidence wo.m is positive for all normals: a distribution whose area projects to 1 and
-// which loses no light but by shadowing keeps nearly all of it.
+// At normal incidence, wo.m is positive for all normals. A distribution whose area projects to 1
+// and that loses light only through shadowing keeps nearly all light.
 TEST(Energy, NarrowLobesScatterNearlyAll) {
     for (const uint kind : {BXDF_WARD, BXDF_MICROFACET_REFLECTION}) {
         const TestMaterial material = {"narrow", {rough(kind, 0.02f, 0.02f)}};
@@ -157,8 +159,8 @@ TEST(Energy, NarrowLobesScatterNearlyAll) {
     EXPECT_NEAR(albedo(glass, tilted_frame(30, 0.6, false)).mean, 1.0, 2e-3);
 }
 
-// The printed car paint: Lambert times 1 - F(wo) alone; its albedo exceeds 1 on the other side of
-// the exchange, seen by light from a grazing angle. The symmetric one stays below.
+// The printed car paint multiplies Lambert by 1 - F(wo) only. For light from a grazing angle, the
+// scattered fraction exceeds 1. The symmetric car paint stays below 1.
 TEST(Energy, PrintedCarPaintIsNotReciprocal) {
     const auto adjoint = [](const TestMaterial &material) {  // light along wi, gathered over all wo
         const SurfaceFrame grazing = tilted_frame(85);
@@ -196,7 +198,8 @@ TEST(Energy, AllButThePrintedCarPaintAreReciprocal) {
                     std::abs(dot(s.wi, frame.ns)) < 1e-3f) {
                     continue;
                 }
-                // Radiance over the squared index of its medium is exchanged (Veach 1997, 5.2).
+                // Reciprocity holds for radiance over the squared index of its medium (Veach 1997,
+                // section 5.2).
                 const float eta = dot(s.wi, frame.ns) < 0.0f ? eta_of(material, frame) : 1.0f;
                 const SurfaceFrame back =
                     make_surface_frame(frame.ng, frame.ns, frame.x, frame.uv, s.wi);
@@ -228,8 +231,8 @@ TEST(Sample, AgreesWithEvaluation) {
                         continue;
                     }
                     ASSERT_NEAR(length(s.wi), 1.0f, 1e-6f);
-                    // The world direction is rounded: next to the horizon and in narrow lobes that
-                    // is felt.
+                    // Rounding of the world direction matters next to the horizon and in narrow
+                    // lobes.
                     if (std::abs(dot(s.wi, frame.ns)) > 1e-3f) {
                         const BsdfValue value = material.evaluate(frame, s.wi);
                         ASSERT_NEAR(value.pdf_w / s.pdf_w, 1.0f, 5e-3f)
@@ -243,7 +246,7 @@ TEST(Sample, AgreesWithEvaluation) {
     }
 }
 
-// Rough boundaries become smooth ones.
+// Rough boundaries converge to smooth ones as roughness vanishes.
 TEST(Limits, NarrowLobesBecomeDeltas) {
     for (const bool front : {true, false}) {
         const SurfaceFrame frame = tilted_frame(front ? 50 : 30, 0.6, front);
@@ -283,8 +286,8 @@ TEST(Limits, NarrowLobesBecomeDeltas) {
     }
 }
 
-// The largest exponent, the smallest roughness, grazing directions and the ends of the random
-// numbers' range.
+// Covers the largest exponent, the smallest roughness, grazing directions, and both ends of the
+// range of random numbers.
 TEST(Limits, NothingIsEverInfiniteOrNegative) {
     const auto finite = [](float3 v) {
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -317,7 +320,7 @@ TEST(Limits, NothingIsEverInfiniteOrNegative) {
                             << material.name << ' ' << theta;
                         ASSERT_NEAR(length(s.wi), 1.0f, 1e-6f);
                         ASSERT_GE(s.weight.x, 0.0f);
-                        // From the sampled direction, from opposite to wo, and from the horizon.
+                        // The sampled direction, opposite to wo, along wo, and near the horizon.
                         for (const float3 wi : {s.wi, -frame.wo, frame.wo,
                                                 normalize(frame.x + 1e-7f * frame.ns), -frame.x}) {
                             const BsdfValue value = material.evaluate(frame, wi);
@@ -397,7 +400,7 @@ TEST(Material, OneSidedIsBlackFromBehind) {
         EXPECT_EQ(wall.evaluate(frame, frame.ns).pdf_w > 0.0f, front);
         EXPECT_EQ(wall.sample(frame, 0.5f, 0.5f, 0.5f).pdf_w > 0.0f, front);
     }
-    // Not so a boundary: what enters must come out again.
+    // The flag does not apply to a boundary, because light that enters must leave again.
     TestMaterial glass = rough_glass("glass", 0.1f, 0.1f, 0);
     glass.flags |= MATERIAL_ONE_SIDED;
     EXPECT_GT(glass.sample(tilted_frame(10, 0.6, false), 0.5f, 0.5f, 0.5f).pdf_w, 0.0f);

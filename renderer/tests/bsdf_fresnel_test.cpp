@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fresnel terms against closed values and double precision; ideal reflection and refraction.
+// Tests Fresnel terms against closed forms and double precision, and ideal reflection and
+// refraction.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,7 +11,8 @@
 namespace rtrays {
 namespace {
 
-/// Born and Wolf 1999, 1.5.2, for a complex index; k = 0 is the dielectric.
+/// Returns the Fresnel reflectance for a complex index (Born and Wolf 1999, 1.5.2). k = 0 gives a
+/// dielectric.
 double fresnel_double(double cosine, double eta, double k) {
     const std::complex<double> n(eta, k);
     const std::complex<double> cos_t = std::sqrt((n - 1.0) * (n + 1.0) + cosine * cosine) / n;
@@ -36,12 +38,12 @@ TEST(Fresnel, DielectricHasItsClosedValues) {
     EXPECT_NEAR(dielectric(1.0f, 1.5f), 0.04f, 1e-7f);
     EXPECT_NEAR(dielectric(1.0f, 1.0f / 1.5f), 0.04f, 1e-7f);
     EXPECT_EQ(dielectric(0.0f, 1.5f), 1.0f);
-    // Brewster's angle, tan = eta: nothing of the parallel part, ((1 - eta^2) / (1 + eta^2))^2 of
-    // the other.
+    // At Brewster's angle, tan = eta, the parallel component is 0 and the other component is
+    // ((1 - eta^2) / (1 + eta^2))^2.
     const double eta = 1.5, brewster = 1 / std::sqrt(1 + eta * eta),
                  r = (1 - eta * eta) / (1 + eta * eta);
     EXPECT_NEAR(dielectric(static_cast<float>(brewster), 1.5f), 0.5 * r * r, 1e-7);
-    // No boundary reflects nothing, at whatever angle.
+    // An index of 1 reflects nothing at any angle.
     for (const float c : cosines()) {
         EXPECT_EQ(dielectric(c, 1.0f), c > 0.0f ? 0.0f : 1.0f);
     }
@@ -56,8 +58,8 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
         }
         for (const float eta : {0.05f, 0.2f, 1.0f, 1.5f, 3.0f, 1e4f}) {
             for (const float k : {0.0f, 1e-3f, 0.6f, 3.9f, 7.0f, 1e4f}) {
-                // Next to a critical angle, which an index below 1 has, an ulp of the cosine is
-                // felt by its root.
+                // An index below 1 has a critical angle. Next to it, an ulp of the cosine changes
+                // the result by its square root.
                 if (!(k == 0.0f && (eta < 1.0f || c == 0.0f))) {
                     EXPECT_NEAR(fresnel_conductor(c, eta, k),
                                 fresnel_double(static_cast<double>(c), static_cast<double>(eta),
@@ -70,7 +72,7 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
     }
 }
 
-// Refraction and its way back see the same boundary.
+// The reflectance along a refracted direction equals that along the incident direction.
 TEST(Fresnel, DielectricIsReciprocal) {
     for (const float c : cosines()) {
         const float cos_t = refracted_cosine(c, squared_sine_of(c), 1.5f);
@@ -98,7 +100,8 @@ TEST(Fresnel, StaysInRangeNextToTheCriticalAngle) {
     }
 }
 
-// Out of a high index at a grazing angle: the direction inside, as floats hold it, decides.
+// Light leaves a high index at a grazing angle. The direction inside, rounded to float, determines
+// the result.
 TEST(Fresnel, KeepsTheDigitsOfADirectionWithinAHighIndex) {
     for (const double eta : {1.5, 3.0, 100.0}) {
         for (const double degrees : {0.0, 60.0, 85.0, 89.0, 89.9}) {
@@ -119,8 +122,7 @@ TEST(Fresnel, KeepsTheDigitsOfADirectionWithinAHighIndex) {
     }
 }
 
-// Gold at 550 nm (P. Johnson, R. Christy 1972): thesis (3.28) is an approximation, the digest says
-// how good.
+// Gold at 550 nm (P. Johnson, R. Christy 1972). Thesis (3.28) is an approximation.
 TEST(Fresnel, ApproximateConductorIsCloseToTheExactOne) {
     double largest = 0;
     for (const float c : cosines()) {
@@ -140,8 +142,8 @@ TEST(Fresnel, SchlickHasItsClosedValues) {
     EXPECT_NEAR(fresnel_schlick(0.5f, 0.04f), 0.04f + 0.96f / 32.0f, 1e-7f);
 }
 
-// Thesis (3.52): F of the weight is met at the half vector by microfacet kinds, by diffuse ones at
-// the normal, from both directions.
+// Thesis (3.52): microfacet components evaluate F of the weight at the half vector. Diffuse
+// components evaluate it at the normal, for both directions.
 TEST(Fresnel, IsMetAtTheHalfVectorOrTheNormal) {
     const SurfaceFrame frame = tilted_frame(50);
     const float3 wi = normalize(0.9f * frame.ns - 0.3f * frame.x + 0.6f * frame.y);
@@ -169,7 +171,7 @@ TEST(Fresnel, IsMetAtTheHalfVectorOrTheNormal) {
             ratio(record, FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | BXDF_FLAG_FRESNEL_OF_WO),
             1 - f_o, 1e-6f);
     }
-    // Channels of a metal are apart.
+    // The channels of a metal are independent.
     BxdfRecord metal = rough(BXDF_MICROFACET_REFLECTION, 0.3f, 0.3f, FRESNEL_CONDUCTOR);
     const std::array<float, 3> eta = {0.143f, 0.375f, 1.442f}, k = {3.983f, 2.386f, 1.603f};
     std::copy_n(eta.data(), 3, metal.eta);
@@ -194,7 +196,7 @@ TEST(IdealReflection, MirrorsAboutTheNormal) {
     EXPECT_EQ(mirror.evaluate(frame, s.wi).f_cos.x, 0.0f);
 }
 
-/// Smooth glass of index 1.5 (thesis 3.53).
+/// Smooth glass of index 1.5, thesis (3.53).
 const TestMaterial glass = {
     "glass",
     {with_eta(component(BXDF_IDEAL_REFLECTION), 1.5f, FRESNEL_DIELECTRIC),
@@ -213,8 +215,8 @@ TEST(IdealRefraction, BendsBySnell) {
             EXPECT_NEAR(dot(s.wi, frame.ns), -std::sqrt(1 - sine * sine), 2e-6);
             EXPECT_NEAR(length(cross(s.wi, frame.ns)), sine, 1e-6);
             EXPECT_NEAR(dot(cross(s.wi, frame.wo), frame.ns), 0.0f, 1e-6f);
-            // The Fresnel term is the probability of its choice; what is left is the scale of
-            // radiance, 1 / eta^2.
+            // The component is selected with the Fresnel term as probability. The remaining weight
+            // is the scale of radiance, 1 / eta^2.
             EXPECT_NEAR(s.weight.x, 1 / (eta * eta), 1e-6);
         }
     }
@@ -243,7 +245,7 @@ TEST(IdealRefraction, LosesNothingAtTotalReflection) {
             EXPECT_EQ(s.weight.x, 1.0f);
         }
     }
-    // The bare refraction is black there (thesis 3.41).
+    // Refraction alone is black under total internal reflection, thesis (3.41).
     const TestMaterial bare = {"bare",
                                {with_eta(component(BXDF_IDEAL_REFRACTION), 1.5f)},
                                MATERIAL_BOUNDARY | MATERIAL_DELTA};
@@ -251,7 +253,7 @@ TEST(IdealRefraction, LosesNothingAtTotalReflection) {
     EXPECT_GT(bare.sample(tilted_frame(60, 0.6, true), 0.5f, 0.5f, 0.5f).pdf_w, 0.0f);
 }
 
-// One ulp of the cosine about the critical angle: finite, and no energy from nowhere.
+// Within an ulp of the cosine around the critical angle, values are finite and energy is conserved.
 TEST(IdealRefraction, HoldsNextToTheCriticalAngle) {
     double theta = std::asin(1 / 1.5) * 180 / pi - 1e-5;
     for (int i = 0; i < 200; ++i, theta += 1e-7) {

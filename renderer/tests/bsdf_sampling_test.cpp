@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Every BSDF's sampler against its density by chi-square: the shipped device code compiled for the
-// host. Mass lost below the horizon is a cell of its own.
+// Compares the sampler of every BSDF with its density, using chi-square tests and the device code
+// compiled for the host. Samples lost below the horizon form one cell.
 //
-// Each case decides at 0.01 over the number of cases (Bonferroni). Every case that scatters 60 % of
-// its samples must also reject a density that is 2 % off; the others have too few for that.
+// Each case has a level of 0.01 over the number of cases (Bonferroni). A case that scatters 60 % of
+// its samples must also reject a density that is 2 % off. Other cases have too few samples for
+// that.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/bsdf_cases.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr uint32_t sample_count = 500'000;
 
-/// A material seen at some angles, in degrees; `width` of its lobe in radians.
+/// A material that is seen at some angles, in degrees. `width` is that of its lobe, in radians.
 struct SamplingCase {
     TestMaterial material;
     double width;
@@ -67,7 +68,8 @@ std::vector<SamplingCase> sampling_cases() {
         add(refraction, 0.1f, 0.3f, all);
         add(refraction, 1e-3f, 1e-3f, {0.0, 70.0});
         add(refraction, 0.7f, 0.7f, {0.0, 30.0, 60.0, 89.999}, false);
-        add(refraction, 0.1f, 0.3f, {0.0, 30.0, 41.81, 60.0}, false);  // 41.81: the critical angle
+        add(refraction, 0.1f, 0.3f, {0.0, 30.0, 41.81, 60.0},
+            false);  // 41.81 is the critical angle
         cases.push_back({rough_glass(name + "glass", 0.3f, 0.3f, distribution), 0.6, {50.0}});
         cases.push_back({rough_glass(name + "glass from behind", 0.2f, 0.2f, distribution),
                          0.4,
@@ -90,8 +92,8 @@ TEST(BsdfSampling, FollowsItsDensity) {
         for (const double angle : c.angles) {
             ++block;
             const SurfaceFrame frame = tilted_frame(angle, 0.6, c.front);
-            // The lobe's centre: the mirror direction, or the refracted one (the horizon's where
-            // there is none).
+            // The lobe's centre is the mirror direction or the refracted direction, or the horizon
+            // under total internal reflection.
             const float3 wo = to_local(frame, frame.wo);
             float3 local = reflect_about(wo, make_float3(0, 0, 1));
             if (c.refracting) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Tests the two-wide hierarchy of every build method: invariants, cost, determinism and limits.
 #include <cstring>
 #include <limits>
 
@@ -13,14 +14,14 @@ using namespace test;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Each way to build.
+/// Fixture for each build method.
 class BvhBuild : public testing::TestWithParam<NamedBvhMethod> {
   protected:
     static HostBvh build(const Mesh &mesh) {
         return build_bvh(mesh, {BvhLayout::bvh2, GetParam().method});
     }
 
-    /// With stated group, chunk and subtree sizes.
+    /// Builds with the given group, chunk and subtree sizes.
     static HostBvh build(const Mesh &mesh, BvhBuildParameters parameters) {
         parameters.method = GetParam().method;
         return HostBvh(BvhBuilder(test_device(), parameters).build(mesh.positions, mesh.triangles));
@@ -87,7 +88,7 @@ TEST_P(BvhBuild, BitsDoNotDependOnTheDistributionOfWork) {
             << parameters.group_size << ' ' << parameters.chunk_size;
         EXPECT_EQ(bvh.report.sah_cost, expected.report.sah_cost);
     }
-    // As on a GPU: costs are summed in another order.
+    // Uses parameters of a GPU, which sum costs in another order.
     BvhBuildParameters of_groups{64, 100, 256};
     of_groups.one_group = 32;
     of_groups.parts = 5;
@@ -130,7 +131,7 @@ TEST_P(BvhBuild, OneTriangle) {
     EXPECT_FLOAT_EQ(hit.u, 0.25f);
     EXPECT_FLOAT_EQ(hit.v, 0.5f);
     EXPECT_EQ(bvh.nearest({0.25f, 0.5f, -3.0f}, {0, 0, 2}).t, 1.5f)
-        << "two-sided, in lengths of the direction";
+        << "triangles are two-sided, and t is in lengths of the direction";
     EXPECT_EQ(bvh.nearest({0.75f, 0.5f, 2.0f}, {0, 0, -1}).triangle, NO_HIT);
 }
 
@@ -163,7 +164,7 @@ TEST_P(BvhBuild, CoincidentTrianglesEnd) {
     mesh.triangles.assign(1000000, {0, 1, 2});
     const HostBvh bvh = build(mesh);
     const TreeFacts facts = expect_valid(bvh, mesh);
-    EXPECT_LE(facts.depth, is_binned() ? 18u : 30u) << "halves: 10^6 / 2^18 < 4";
+    EXPECT_LE(facts.depth, is_binned() ? 18u : 30u) << "a split in halves gives 10^6 / 2^18 < 4";
     EXPECT_FLOAT_EQ(bvh.nearest({0.2f, 0.2f, 1}, {0, 0, -1}).t, 1.0f);
 }
 
@@ -177,8 +178,8 @@ TEST_P(BvhBuild, EqualCentroidsEnd) {
 }
 
 TEST_P(BvhBuild, DepthIsBoundedWhereSahPeelsOffOneByOne) {
-    // Along each axis, distances from the corner shrink by 20 from one triangle to the next: 16
-    // bins see one triangle far out and all others in the first bin.
+    // Along each axis, distances from the corner shrink by a factor of 20 from one triangle to the
+    // next. Therefore, 16 bins separate one distant triangle from all others in the first bin.
     Mesh mesh{"exponential", {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
         float distance = 1e11f;
@@ -208,7 +209,7 @@ TEST_P(BvhBuild, ScalesAreAlike) {
         const HostBvh bvh = build(scaled);
         const TreeFacts facts = expect_valid(bvh, scaled);
         EXPECT_EQ(facts.leaf_ids, inspect_tree(reference, mesh).leaf_ids)
-            << "powers of two change no decision";
+            << "scaling by powers of two must not change a decision";
     }
 }
 
@@ -221,8 +222,8 @@ TEST(BvhBinning, OtherBinsAndAxesGiveOtherTrees) {
     };
     for (const Mesh &mesh : {soup(20000, 1), terrain(100, 2)}) {
         const double usual = build(mesh, 16, 3).report.sah_cost;
-        EXPECT_NEAR(usual, build_bvh(mesh).report.sah_cost,
-                    1e-5 * usual);  // summed by other subtrees
+        // Other subtrees sum the cost in another order.
+        EXPECT_NEAR(usual, build_bvh(mesh).report.sah_cost, 1e-5 * usual);
         for (const auto &[bins, axes] :
              {std::pair(2u, 3u), std::pair(4u, 3u), std::pair(64u, 3u), std::pair(16u, 1u)}) {
             const double ratio = expect_valid(build(mesh, bins, axes), mesh).sah_cost / usual;
@@ -230,8 +231,8 @@ TEST(BvhBinning, OtherBinsAndAxesGiveOtherTrees) {
             EXPECT_NEAR(ratio, 1, 0.15) << mesh.name << ' ' << bins << ' ' << axes;
         }
     }
-    // Two rows along x, wide apart along y but not as far as they are long: three axes find the gap
-    // at once.
+    // Two rows along x with a gap along y that is smaller than their length. Testing three axes
+    // finds the gap at once.
     Mesh rows{"two rows", {}, {}};
     for (uint32_t i = 0; i < 2000; ++i) {
         const Eigen::Vector3f at(1.1f * static_cast<float>(i / 2) / 1000, static_cast<float>(i % 2),
@@ -244,28 +245,30 @@ TEST(BvhBinning, OtherBinsAndAxesGiveOtherTrees) {
 TEST(BvhBuildInput, WrongInputIsAnError) {
     BvhBuilder &builder = builder_of(BvhLayout::bvh2);
     const std::vector<Eigen::Vector3f> three(3, Eigen::Vector3f::Zero());
-    expect_input_error("1 triangles name a vertex that does not exist (there are 3)", [&] {
-        builder.build(three, {{0, 1, 3}});
-    });
-    expect_input_error("(there are 0)", [&] {
+    expect_input_error("1 triangles refer to a vertex that does not exist; there are 3 vertices",
+                       [&] {
+                           builder.build(three, {{0, 1, 3}});
+                       });
+    expect_input_error("there are 0 vertices", [&] {
         builder.build(std::vector<Eigen::Vector3f>(), {{0, 0, 0}});
     });
     const Buffer<float> positions(test_device(), "positions", std::vector<float>(9));
     const Buffer<uint32_t> indices(test_device(), "indices", std::vector<uint32_t>(4));
-    expect_input_error("do not come in threes", [&] { builder.build(positions, indices); });
+    expect_input_error("expected multiples of 3, got 9 coordinates and 4 vertex indices",
+                       [&] { builder.build(positions, indices); });
     for (const BvhBuildParameters &bad :
          {BvhBuildParameters{0, 1024, 1024}, {1, 0, 1024}, {1, 1024, 3}}) {
         expect_input_error("BVH build parameters", [&] { BvhBuilder(test_device(), bad); });
     }
     BvhBuildParameters bad{1, 1024, 1024};
     bad.bins = 1;
-    expect_input_error("1 bins", [&] { BvhBuilder(test_device(), bad); });
+    expect_input_error("bins 1 must be 2 to 64", [&] { BvhBuilder(test_device(), bad); });
     bad.bins = 16;
     bad.axes = 2;
-    expect_input_error("2 axes", [&] { BvhBuilder(test_device(), bad); });
+    expect_input_error("axes 2 must be 1 or 3", [&] { BvhBuilder(test_device(), bad); });
     bad = {1, 1024, 1024};
     bad.one_group = 3;
-    expect_input_error("one group of 3 is no power of two",
+    expect_input_error("one_group 3 must be a power of two",
                        [&] { BvhBuilder(test_device(), bad); });
 }
 
@@ -279,9 +282,9 @@ TEST(BvhBuildInput, TooManyTrianglesAreRefusedBeforeAllocation) {
     DeviceInfo small = device;
     small.global_memory = 1 << 20;
     small.max_allocation = 1 << 20;
-    expect_input_error("GiB in one piece", [&] { require_build_memory(small, 100000, 0); });
+    expect_input_error("GiB per allocation", [&] { require_build_memory(small, 100000, 0); });
     EXPECT_NO_THROW(require_build_memory(small, 1000, 0));
-    expect_input_error("GiB in one piece", [&] { require_build_memory(small, 1000, 1 << 20); });
+    expect_input_error("GiB per allocation", [&] { require_build_memory(small, 1000, 1 << 20); });
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The eight-wide layout: a valid tree over the same triangles as the two-wide tree that it is made
-// of.
+// Tests the eight-wide layout: it is a valid tree over the triangles of its two-wide source tree.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -12,10 +11,10 @@ namespace {
 
 using namespace test;
 
-/// What a walk over the nodes finds. `fault` is empty for a valid tree.
+/// Results of a walk over the nodes. `fault` is empty for a valid tree.
 struct WideFacts {
     std::string fault;
-    size_t nodes = 1, leaves = 0;  // node 0 is none of the tree
+    size_t nodes = 1, leaves = 0;  // node 0 is not part of the tree
     uint32_t depth = 0;
 };
 
@@ -105,7 +104,8 @@ WideFacts inspect_wide(const HostBvh &bvh, const Mesh &mesh) {
     return facts;
 }
 
-/// Nodes and leaves are numbered as they are met from node to node, lane by lane, the root being 1.
+/// Returns whether nodes and leaves are numbered in order of their references, node by node and
+/// lane by lane. The root is node 1.
 bool is_numbered_by_level(const HostBvh &bvh) {
     uint32_t node = 1, leaf = 0;
     for (const WideNode &wide : bvh.wide_nodes) {
@@ -152,8 +152,8 @@ TEST_P(BvhCollapse, TreeIsValidOfEverySize) {
         const double fill =
             static_cast<double>(bvh.report.triangles) / static_cast<double>(facts.leaves);
         RecordProperty("triangles_per_leaf_" + mesh.name, std::to_string(fill));
-        if (mesh.triangles.size() > 1000) {  // fewer say nothing
-            EXPECT_GT(fill, 4) << mesh.name << ": more than half of the lanes";
+        if (mesh.triangles.size() > 1000) {  // smaller meshes have too few leaves
+            EXPECT_GT(fill, 4) << mesh.name << ": more than half of the lanes must be used";
         }
     }
 }
@@ -170,8 +170,8 @@ TEST_P(BvhCollapse, DegenerateInputEnds) {
     EXPECT_EQ(bvh.report.rejected(), 2u);
     expect_valid(bvh, faulty);
 
-    // Each split takes one triangle off the rest: the deepest tree there is, with leaves of single
-    // triangles.
+    // Each split separates one triangle from the rest, which gives the deepest possible tree with
+    // leaves of single triangles.
     Mesh peeled{"peeled", {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
         float distance = 1e11f;

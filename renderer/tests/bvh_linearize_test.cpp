@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stackless layout: the two-wide tree, its pairs of children in depth-first order, and a way
-// through it for every octant.
+// Tests the stackless layout: it stores the two-wide tree with pairs of children in depth-first
+// order, and a traversal order for every octant.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -12,8 +12,9 @@ namespace {
 
 using namespace test;
 
-/// Walks both trees together from node `index` of `tree` and node `number` of `stackless`; returns
-/// the pair after the subtree, of which `pair` is the first, and says where they differ.
+/// Walks both trees together, from node `index` of `tree` and node `number` of `stackless`. `pair`
+/// is the first pair of the subtree. Returns the pair after the subtree, and reports a difference
+/// in `fault`.
 uint32_t compare_subtree(const HostBvh &tree, uint32_t index, const HostBvh &stackless,
                          uint32_t number, uint32_t pair, std::string *fault) {
     const BvhNode &node = tree.nodes[index];
@@ -37,8 +38,8 @@ uint32_t compare_subtree(const HostBvh &tree, uint32_t index, const HostBvh &sta
     return next;
 }
 
-/// Checks the ways of an octant below a node, after which it goes on at `after`; counts the nodes
-/// seen.
+/// Checks the traversal links of an octant below a node, after which traversal continues at
+/// `after`. Counts the visited nodes in `seen`.
 void follow(const std::vector<StacklessNode> &nodes, uint32_t number, uint32_t octant,
             uint32_t after, size_t *seen, std::string *fault) {
     const StacklessNode &node = nodes[number];

@@ -63,8 +63,9 @@ struct Mesh {
     }
 };
 
-/// A closed sphere of 2 * segments * (rings - 1) triangles whose vertices are moved along their
-/// radius by up to `jitter` of it; neighbours share vertices, so it stays closed.
+/// Builds a closed sphere of 2 * segments * (rings - 1) triangles. Each vertex is moved along the
+/// radius by up to `jitter` times the radius. Neighbours share vertices, so the sphere stays
+/// closed.
 inline Mesh sphere(uint32_t rings, uint32_t segments, float radius, float jitter,
                    const Eigen::Vector3f &centre, uint64_t seed = 1) {
     Random random(seed);
@@ -103,7 +104,7 @@ inline Mesh sphere(uint32_t rings, uint32_t segments, float radius, float jitter
     return mesh;
 }
 
-/// Independent triangles in the unit cube, sizes over three decades.
+/// Builds independent triangles in the unit cube, with sizes over three decades.
 inline Mesh soup(uint32_t count, uint64_t seed) {
     Random random(seed);
     Mesh mesh{"soup", {}, {}};
@@ -118,7 +119,7 @@ inline Mesh soup(uint32_t count, uint64_t seed) {
     return mesh;
 }
 
-/// A height field of 2 n^2 triangles: bumps of two frequencies and noise.
+/// Builds a height field of 2 n^2 triangles with bumps of two frequencies and noise.
 inline Mesh terrain(uint32_t n, uint64_t seed) {
     Random random(seed);
     Mesh mesh{"terrain", {}, {}};
@@ -142,7 +143,8 @@ inline Mesh terrain(uint32_t n, uint64_t seed) {
     return mesh;
 }
 
-/// A closed room with two blocks in it: axis-aligned planes, coordinates as in the Cornell box.
+/// Builds a closed room that contains two blocks. Its planes are axis-aligned, and its coordinates
+/// have the size of the Cornell box.
 inline Mesh room() {
     Mesh mesh{"room", {}, {}};
     mesh.add_box({0.0f, 0.0f, 0.0f}, {552.8f, 548.8f, 559.2f});

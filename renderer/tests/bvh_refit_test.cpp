@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Refitting: exact bounds, and hits as of Embree, however far triangles have moved.
+// Tests refitting: bounds are exact, and hits agree with Embree, however far triangles have moved.
 #include <embree3/rtcore.h>
 
 #include <cstring>
@@ -19,7 +19,8 @@ using namespace test;
 class BvhRefit : public TreeTest {};
 EACH_TREE(BvhRefit);
 
-/// The mesh twisted about its box's middle axis, by `turns` from its bottom to its top.
+/// Returns the mesh twisted about the vertical axis through the centre of its box, by `turns` from
+/// bottom to top.
 Mesh twisted(Mesh mesh, float turns) {
     const Eigen::AlignedBox3f box = mesh.box();
     for (Eigen::Vector3f &p : mesh.positions) {
@@ -30,7 +31,8 @@ Mesh twisted(Mesh mesh, float turns) {
     return mesh;
 }
 
-/// Refits `bvh`, built over a mesh of the same triangles, to this one.
+/// Refits `bvh`, which was built for a mesh with the same triangles, to this mesh. Returns whether
+/// that succeeded.
 bool refit(Bvh &bvh, const Mesh &mesh) {
     const BvhInput input(test_device(), mesh.positions, mesh.triangles);
     return BvhRefitter(test_device(), bvh).refit(bvh, input.positions, input.indices);
@@ -60,7 +62,8 @@ TEST_P(BvhRefit, ThereAndBackIsTheSameTree) {
         const HostBvh built(bvh);
         const Mesh moved = twisted(mesh, 2);
         EXPECT_TRUE(refit(bvh, mesh)) << mesh.name;
-        EXPECT_TRUE(same_tree(HostBvh(bvh), built)) << mesh.name << ": nothing has moved";
+        EXPECT_TRUE(same_tree(HostBvh(bvh), built))
+            << mesh.name << ": the tree of an unchanged mesh must not change";
         EXPECT_TRUE(refit(bvh, moved)) << mesh.name;
         EXPECT_FALSE(same_tree(HostBvh(bvh), built)) << mesh.name;
         EXPECT_TRUE(refit(bvh, mesh)) << mesh.name;
@@ -77,7 +80,8 @@ TEST_P(BvhRefit, BoundsAreExact) {
         if (GetParam().layout == BvhLayout::bvh2) {
             EXPECT_EQ(inspect_tree(tree, moved).fault, "") << mesh.name;
         }
-        // Of the others the scene's box; their inner ones follow from the hits.
+        // For the other layouts, check the bounds of the scene. The hits below test the inner
+        // boxes.
         const Eigen::AlignedBox3f box = moved.box();
         for (int axis = 0; axis < 3; ++axis) {
             const float lower =
@@ -115,7 +119,7 @@ TEST_P(BvhRefit, HitsEqualThoseOfEmbree) {
         }
         EXPECT_EQ(wrong, 0u) << mesh.name;
         EXPECT_GT(hits, rays.size() / 10)
-            << mesh.name << ": rays must hit something to mean anything";
+            << mesh.name << ": too few rays hit for a meaningful test";
     }
 }
 
@@ -157,17 +161,17 @@ TEST_P(BvhRefit, TrianglesThatCannotBeHitGoAndComeBack) {
 
     Bvh without = build_on_device(faulty, GetParam());
     EXPECT_TRUE(refit(without, faulty));
-    EXPECT_FALSE(refit(without, mesh)) << "what was left out must be built in";
+    EXPECT_FALSE(refit(without, mesh)) << "excluded triangles that become valid require a rebuild";
 }
 
 TEST_P(BvhRefit, OtherInputIsAnError) {
     const Mesh mesh = soup(100, 1), larger = soup(101, 1);
     Bvh bvh = build_on_device(mesh, GetParam());
-    expect_input_error("refitting a BVH over 100 triangles to 303 vertex indices",
+    expect_input_error("built from 100 triangles; expected 3 vertex indices for each, got 303",
                        [&] { refit(bvh, larger); });
     Mesh cut = mesh;
     cut.positions.pop_back();
-    expect_input_error("1 triangles name a vertex that does not exist (there are 299)",
+    expect_input_error("1 triangles refer to a vertex that does not exist; there are 299 vertices",
                        [&] { refit(bvh, cut); });
     Bvh nothing = build_on_device({"empty", {}, {}}, GetParam());
     EXPECT_TRUE(refit(nothing, {"empty", {}, {}}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input that is hard on builders, for each of them and each layout: builds end in bounded time and
-// memory, count what they leave out, and rays find what is right in double.
+// Tests every builder and layout with difficult input. Builds must end in bounded time and memory
+// and count excluded triangles, and rays must find hits that are right in double precision.
 #include <chrono>
 #include <limits>
 
@@ -19,8 +19,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 class BvhRobustness : public TreeTest {};
 EACH_TREE(BvhRobustness);
 
-/// Builds over the mesh, of which so many triangles cannot be hit, and holds time and memory to
-/// their bounds.
+/// Builds a tree of the mesh, checks the numbers of triangles that cannot be hit, and checks the
+/// bounds of time and memory.
 HostBvh expect_built(const Mesh &mesh, TreeKind kind, uint32_t not_finite, uint32_t degenerate) {
     const auto start = std::chrono::steady_clock::now();
     const HostBvh tree(build_on_device(mesh, kind));
@@ -28,7 +28,7 @@ HostBvh expect_built(const Mesh &mesh, TreeKind kind, uint32_t not_finite, uint3
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const uint64_t count = mesh.triangles.size(), input = 12 * (mesh.positions.size() + count);
     EXPECT_LT(seconds, 20 + 2e-5 * static_cast<double>(count))
-        << mesh.name << ": compilation and foreign load apart, milliseconds";
+        << mesh.name << ": takes milliseconds apart from compilation and other load";
     EXPECT_LE(tree.report.bytes_peak, input + bvh_peak_bytes + bvh_peak_bytes_per_triangle * count)
         << mesh.name;
     EXPECT_EQ(tree.report.not_finite, not_finite) << mesh.name;
@@ -38,7 +38,7 @@ HostBvh expect_built(const Mesh &mesh, TreeKind kind, uint32_t not_finite, uint3
     return tree;
 }
 
-/// Of rays at the mesh, all hits are right and at least a hundredth are hits.
+/// Traces rays at the mesh. All hits must be right, and at least one ray in a hundred must hit.
 void expect_right_hits(const HostBvh &tree, const Mesh &mesh, size_t count) {
     const double tolerance = 1e-5 * static_cast<double>(mesh.box().diagonal().norm());
     size_t wrong = 0, hits = 0;
@@ -51,7 +51,7 @@ void expect_right_hits(const HostBvh &tree, const Mesh &mesh, size_t count) {
         hits += hit.triangle != NO_HIT ? 1 : 0;
     }
     EXPECT_EQ(wrong, 0u) << mesh.name;
-    EXPECT_GE(hits, count / 100) << mesh.name << ": rays must hit something to mean anything";
+    EXPECT_GE(hits, count / 100) << mesh.name << ": too few rays hit for a meaningful test";
 }
 
 TEST_P(BvhRobustness, NothingAndAlmostNothing) {
@@ -81,7 +81,7 @@ TEST_P(BvhRobustness, EqualCentroids) {
 }
 
 TEST_P(BvhRobustness, EqualCodes) {
-    // All but the first in one cell of any grid of floats over the scene.
+    // All triangles but the first are in one cell of any grid of floats over the scene.
     Mesh mesh = soup(3000, 4);
     mesh.name = "equal codes";
     for (Eigen::Vector3f &p : mesh.positions) {
@@ -114,7 +114,7 @@ TEST_P(BvhRobustness, Slivers) {
     const HostBvh tree = expect_built(mesh, GetParam(), 0, 0);
     const double tolerance = 1e-5 * static_cast<double>(mesh.box().diagonal().norm());
     size_t hits = 0;
-    for (uint32_t i = 0; i < 300; ++i) {  // at their middles: anything else misses
+    for (uint32_t i = 0; i < 300; ++i) {  // rays at their centres, because others miss
         const Eigen::Vector3f middle =
             (mesh.vertex(i, 0) + mesh.vertex(i, 1) + mesh.vertex(i, 2)) / 3;
         const Eigen::Vector3f origin = middle + uniform_direction(random);
@@ -166,7 +166,7 @@ TEST_P(BvhRobustness, FarAway) {
 }
 
 TEST_P(BvhRobustness, OrdinaryMeshesTakeHalfOfTheMemory) {
-    // Subtrees of a GPU are smaller, and there is room for more of them.
+    // GPUs have smaller subtrees and reserve memory for more of them.
     const double share = test_device().info().is_cpu ? 0.5 : 0.75;
     for (const Mesh &mesh :
          {soup(50000, 1), sphere(150, 160, 1.0f, 0.01f, {0, 0, 0}), terrain(150, 2)}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prefix sums and the radix sort of the builder, against those of the standard library.
+// Compares the builder's prefix sums and radix sort with those of the standard library.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ TEST(RadixSort, IsStableWhateverTheDistributionOfWork) {
     Random random(2);
     for (const uint32_t count : {1u, 1000u, 70001u}) {
         for (const uint64_t largest :
-             {uint64_t{3}, uint64_t{1} << 40, ~uint64_t{0}}) {  // few keys, and all of them
+             {uint64_t{3}, uint64_t{1} << 40, ~uint64_t{0}}) {  // from few distinct keys to all
             std::vector<uint64_t> keys(count);
             std::vector<uint32_t> order(count);
             for (uint64_t &key : keys) {

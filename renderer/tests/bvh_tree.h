@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A hierarchy on the host: its invariants and its cost.
+// Hierarchies copied from the device to the host, to trace rays and to check invariants and cost.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ inline float3 to_float3(const Eigen::Vector3f &v) {
     return {v.x(), v.y(), v.z()};
 }
 
-/// A tree of any layout copied from the device; traced on the host by the device functions.
+/// A tree of any layout, copied from the device. Rays are traced on the host with the device
+/// functions.
 struct HostBvh {
     std::vector<BvhNode> nodes;
     std::vector<LeafTriangle> triangles;
@@ -37,7 +38,7 @@ struct HostBvh {
           layout(bvh.layout()),
           report(bvh.report()) {}
 
-    /// trace(nodes, triangles) with those of the layout.
+    /// Calls trace(nodes, triangles) with the nodes and triangles of the layout.
     template <typename Visit>
     auto visit(const Visit &trace) const {
         switch (layout) {
@@ -62,20 +63,20 @@ struct HostBvh {
         });
     }
 
-    /// Id of the triangle at a slot of `Hit`.
+    /// Returns the id of the triangle at a slot, as `Hit` stores it.
     uint32_t triangle_at(uint32_t slot) const {
         return layout == BvhLayout::wide8 ? blocks[slot / WIDE_LANES].id[slot % WIDE_LANES]
                                           : triangles[slot].id;
     }
 };
 
-/// One device for all cases of a program.
+/// Returns the device that all test cases of a program share.
 inline DeviceContext &test_device() {
     static DeviceContext device;
     return device;
 }
 
-/// How a tree is built and laid out.
+/// The build method and the layout of a tree.
 struct TreeKind {
     BvhLayout layout;
     BvhMethod method;
@@ -112,18 +113,21 @@ inline HostBvh build_bvh(const Mesh &mesh, TreeKind kind = BvhLayout::bvh2) {
     return HostBvh(build_on_device(mesh, kind));
 }
 
-/// What a walk over all nodes finds. `fault` is empty for a valid tree.
+/// Results of a walk over all nodes. `fault` is empty for a valid tree.
 struct TreeFacts {
     std::string fault;
     uint32_t nodes = 0, leaves = 0, depth = 0;
-    double sah_cost = 0;       ///< K_T = K_I = 1
-    std::vector<float> boxes;  ///< every child box in depth-first order
-    std::vector<uint32_t>
-        leaf_ids;  ///< triangle ids in depth-first order, a leaf's ended by its size
+    double sah_cost = 0;       ///< with K_T = K_I = 1
+    std::vector<float> boxes;  ///< all child boxes in depth-first order
+    /// Triangle ids in depth-first order. The complement of each leaf's size precedes its ids.
+    std::vector<uint32_t> leaf_ids;
 };
 
-/// Checks that boxes enclose children and triangles, that leaves hold 1 to 4 triangles, each
-/// triangle exactly once and with the mesh's own vertices, and that every node is reached once.
+/// Walks a tree and checks that:
+///   * boxes are the exact bounds of their children and triangles;
+///   * leaves hold 1 to 4 triangles;
+///   * each triangle is in exactly one leaf, with the vertices of the mesh;
+///   * every node is reached once.
 inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
     TreeFacts facts;
     std::vector<uint32_t> seen(bvh.triangles.size(), 0);
@@ -155,7 +159,7 @@ inline TreeFacts inspect_tree(const HostBvh &bvh, const Mesh &mesh) {
             } else {
                 const uint32_t count = bvh_leaf_count(link);
                 if (count > BVH_LEAF_SIZE || (count == 0 && bvh.nodes.size() > 1)) {
-                    fail("leaf of " + std::to_string(count));
+                    fail("leaf of invalid size " + std::to_string(count));
                 }
                 facts.leaves += count > 0 ? 1 : 0;
                 facts.depth = std::max(facts.depth, depth + 1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Cameras: rays, their density, and joining points of the scene to the lens; the shipped device
-// code compiled for the host.
+// Tests cameras with the device code compiled for the host: rays, their density, and connections of
+// scene points to the lens.
 //
-// Two chi-square decisions at a family-wise level of 0.01, each at 0.01 / 2 (Bonferroni). The
-// planted error shows that the sample count sees 2 %.
+// Two chi-square tests share a family-wise level of 0.01, so each has the level 0.01 / 2
+// (Bonferroni). A planted error shows that the sample count suffices to detect 2 %.
 #define FEATURE_lens 1
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ CameraArrays one_camera(CameraArrays::FovAxis axis, double aperture_radius, doub
 
 TEST(Camera, RaysHitTheCornersOfTheFieldOfView) {
     using Axis = CameraArrays::FovAxis;
-    // A film of 40 x 20 pixels; tan of half the field is 1 along the named axis.
+    // The film has 40 x 20 pixels. The tangent of half the field of view is 1 along the named axis.
     for (const auto &[axis, x, y] :
          {std::tuple(Axis::x, 1.0f, 0.5f), std::tuple(Axis::y, 2.0f, 1.0f),
           std::tuple(Axis::smaller, 2.0f, 1.0f), std::tuple(Axis::larger, 1.0f, 0.5f)}) {
@@ -106,12 +106,13 @@ TEST(Camera, LensPointsAreUniform) {
     EXPECT_LT(lens_p(0.02), level);
 }
 
-/// A camera anywhere, with anything from a tele lens to nearly half of all directions.
+/// A camera at a random position with a random field of view, from a telephoto lens to nearly half
+/// of all directions.
 struct RandomCamera {
     CameraRecord record{};
     double largest_slope;  ///< tangent of the angle between the axis and the corner of the film
-    double pixel;          ///< side on the plane at unit distance
-    double lens_slope;     ///< radius of the lens over the distance of focus
+    double pixel;          ///< side of a pixel on the plane at unit distance
+    double lens_slope;     ///< radius of the lens over the focus distance
 
     explicit RandomCamera(Random &random, int largest_size = 4096) {
         const auto size = [&] { return static_cast<int>(std::pow(largest_size, uniform(random))); };
@@ -134,9 +135,10 @@ struct RandomCamera {
     }
 };
 
-// The tolerance is what rounding of float directions and points costs: slopes have errors of some u
-// (slope + 1), and near the edge of a wide field, where the forward part of the ray is what is left
-// over of large numbers, u slope^2.
+// Connecting a point of a camera ray to the lens must give the raster position of the ray. The
+// tolerance covers rounding of float directions and points. Slopes have errors of about
+// u (slope + 1). Near the edge of a wide field, where cancellation dominates the forward component
+// of the ray, errors are u slope^2.
 TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
     Random random(31);
     double worst = 0;
@@ -158,7 +160,7 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
         const double rounding =
             2 * half_ulp * to_double(point).cwiseAbs().maxCoeff() / (distance * cosine);
         if (!(rounding < 1e-3)) {
-            ++left_out;  // nothing is left of where the point was
+            ++left_out;  // rounding has destroyed the position of the point
             continue;
         }
         ASSERT_EQ(length(join.lens_point - ray.origin), 0.0f);
@@ -168,7 +170,7 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
         const double pixels =
             error / camera.pixel + 2 * half_ulp * std::max(record.width, record.height);
         if (join.pdf_w == 0.0f) {
-            // Rounding may take the edge of the film for its outside.
+            // Rounding may move a point at the edge of the film outside.
             const double edge = std::min({x, y, record.width - x, record.height - y});
             ASSERT_LT(edge, pixels);
             ++lost;
@@ -178,19 +180,20 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
                                     std::abs(static_cast<double>(join.raster.y) - y));
         ASSERT_LT(off, pixels) << i;
         worst = std::max(worst, pixels < 0.01 ? off : 0.0);
-        // dw = cos^3 dA: relative errors of the cosine count three times.
+        // dw = cos^3 dA, so relative errors of the cosine are tripled.
         const auto pdf_w = static_cast<double>(join.pdf_w);
         ASSERT_NEAR(static_cast<double>(camera_pdf_w(record, ray.direction)) / pdf_w, 1.0,
                     6 * error + 1e-6);
         ASSERT_NEAR(pdf_w * camera.pixel * camera.pixel * cosine * cosine * cosine, 1.0,
                     6 * error + 1e-6);
     }
-    EXPECT_LT(worst, 5e-3);  // where rounding leaves that much
+    EXPECT_LT(worst, 5e-3);  // in pixels, for points whose tolerance is below 0.01
     EXPECT_LT(lost, count / 100);
     EXPECT_LT(left_out, count / 20);
 }
 
-// Independent of the formula: the solid angle that a small square of the film sees.
+// Compares the density with the solid angle of a small square of the film, which does not depend on
+// the formula.
 TEST(Camera, DensityIsThatOfTheRaysItMakes) {
     Random random(32);
     for (int i = 0; i < 20'000; ++i) {
@@ -200,7 +203,7 @@ TEST(Camera, DensityIsThatOfTheRaysItMakes) {
         const auto y = static_cast<float>(uniform(random, 0.25, record.height - 0.25));
         if (camera.pixel > 0.2 * (1 + camera.lens_slope) || camera.pixel < 1e-4 ||
             camera.largest_slope > 10) {
-            continue;  // differences are too coarse, or drown in rounding
+            continue;  // differences are too coarse or dominated by rounding
         }
         const float u = static_cast<float>(uniform(random, 0, 0.999)),
                     v = static_cast<float>(uniform(random, 0, 0.999));
@@ -223,8 +226,8 @@ TEST(Camera, DensityIsThatOfTheRaysItMakes) {
     }
 }
 
-/// Integral of the density over all directions from a point of the lens, by midpoints of cosine and
-/// azimuth about the axis; of the directions that `join_camera` finds on the film.
+/// Returns the integral of the density over the directions from a point of the lens that
+/// `join_camera` finds on the film. Uses midpoints of cosine and azimuth about the axis.
 double total_density(const CameraRecord &camera, float u, float v, double largest_slope) {
     constexpr int rings = 1500, sectors = 1500;
     const double least_cosine = 1 / std::sqrt(1 + largest_slope * largest_slope);
@@ -246,7 +249,7 @@ double total_density(const CameraRecord &camera, float u, float v, double larges
     return sum * 2 * pi * (1 - least_cosine) / (double(rings) * sectors);
 }
 
-// One sample per pixel: as many as there are pixels.
+// A sample per pixel gives a total density equal to the number of pixels.
 TEST(Camera, DensityIntegratesToTheNumberOfPixels) {
     using Axis = CameraArrays::FovAxis;
     const CameraRecord pinhole = compile_camera(one_camera(Axis::x, 0, 1), 0, 40, 20);
@@ -264,8 +267,8 @@ TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
     const double pixel = 2.0 / 40;
     for (const double depth : {3.0, 1.5, 12.0}) {
         const Eigen::Vector3d point(0.2 * depth, -0.1 * depth, -depth);
-        // A point out of focus is seen in a disc: its radius is that of the lens as the plane in
-        // focus shows it.
+        // A point out of focus covers a disc on the film. Its radius is that of the lens, projected
+        // to the plane in focus.
         const double blur = aperture * std::abs(1 / focus - 1 / depth) / pixel;
         double largest = 0;
         for (uint32_t i = 0; i < 1000; ++i) {
@@ -303,7 +306,7 @@ TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
                     0.02 / static_cast<double>(camera.pixel_area));
         EXPECT_TRUE(std::isfinite(far.raster.x) && std::isfinite(far.raster.y));
     }
-    // The left and upper edges belong to the film, the others do not.
+    // The left and upper edges belong to the film, but the right and lower edges do not.
     const CameraRecord camera =
         compile_camera(one_camera(CameraArrays::FovAxis::x, 0, 1), 0, 40, 20);
     EXPECT_GT(join_camera(camera, make_float3(-1, 0, -1), 0, 0).pdf_w, 0.0f);
@@ -312,8 +315,9 @@ TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
     EXPECT_EQ(join_camera(camera, make_float3(0, -0.5f, -1), 0, 0).pdf_w, 0.0f);
 }
 
-/// Points of a tilted plane of radiance 1 that fills the view, joined to the camera: the sums of a
-/// film of 8 x 6 pixels over their expectation, 1, and the largest deviation in standard errors.
+/// Result of connecting points on a tilted plane of radiance 1, which fills the view, to the
+/// camera. The film has 8 x 6 pixels with an expected value of 1. `mean` is their mean, and `worst`
+/// is the largest deviation in standard errors.
 struct Film {
     double mean, worst;
 };
@@ -322,7 +326,7 @@ Film splat_plane(double aperture, double planted) {
         compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, 2), 0, 8, 6);
     constexpr size_t pixels = 48;
     constexpr uint32_t count = 8'000'000;
-    const double side = 26;  // holds all that the film sees
+    const double side = 26;  // covers the view of the film
     const Eigen::Vector3d normal = Eigen::Vector3d(0.2, -0.3, 1).normalized();
     const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
     std::array<double, pixels> sum{}, squares{};
@@ -353,8 +357,8 @@ Film splat_plane(double aperture, double planted) {
     return film;
 }
 
-// Importance, not only geometry: what light paths leave on the film is the mean radiance of each
-// pixel. 96 decisions at a family-wise level of 0.01: 3.9 standard errors.
+// Tests the importance, not only the geometry: light paths must add the mean radiance of each pixel
+// to the film. 96 tests share a family-wise level of 0.01, so each may be 3.9 standard errors off.
 TEST(Camera, JoinedPointsAddUpToTheRadianceOfEachPixel) {
     for (const double aperture : {0.0, 0.3}) {
         const Film film = splat_plane(aperture, 0);

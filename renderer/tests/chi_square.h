@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chi-square goodness-of-fit of a sampler against its density.
+// Pearson's chi-square test of samples against their density.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,10 @@
 
 namespace rtrays {
 
-/// p-value of Pearson's test of counts against expected counts. Cells expecting fewer than five are
-/// pooled, with the smallest of the others where the pool itself expects fewer than five: no sample
-/// is left out. A sample in a cell that expects none rejects outright (p = 0).
+/// Returns the p-value of Pearson's test of counts against expected counts. Cells with an
+/// expectation below five are pooled. A pool with an expectation below five is added to the
+/// smallest other cell, so that every sample counts. Returns 0 if a cell with expectation 0 has a
+/// sample. Throws std::logic_error if fewer than two cells remain.
 inline double chi_square_p(const std::vector<uint64_t> &observed,
                            const std::vector<double> &expected) {
     struct Cell {
@@ -45,7 +46,7 @@ inline double chi_square_p(const std::vector<uint64_t> &observed,
         smallest->expected += pool.expected;
     }
     if (cells.size() < 2) {
-        throw std::logic_error("chi-square needs two cells that expect five samples");
+        throw std::logic_error("chi-square test: expected at least two cells of five samples");
     }
     double statistic = 0;
     for (const Cell &cell : cells) {
@@ -56,7 +57,8 @@ inline double chi_square_p(const std::vector<uint64_t> &observed,
     return boost::math::cdf(boost::math::complement(distribution, statistic));
 }
 
-/// Integral over the rectangle [x0, x1] x [y0, y1] by the midpoint rule on a fine grid.
+/// Returns the integral over the rectangle [x0, x1] x [y0, y1], using the midpoint rule on a fine
+/// grid.
 inline double integrate(const std::function<double(double, double)> &f, double x0, double x1,
                         double y0, double y1) {
     constexpr int steps = 32;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each strategy contributes to an image: layers that add up to it.
+// Tests the layers of an image that hold the contributions of each strategy and sum to the image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,8 @@ struct Case {
     std::vector<std::string> layers;
 };
 
-// The same paths with the same weights, added apart or together: equal but for rounding.
+// The same paths have the same weights, whether they are summed separately or together. The sums
+// differ only by rounding.
 TEST(Contributions, AddUpToTheImage) {
     const Case cases[] = {
         {"/cornell_box/scene.json",
@@ -103,7 +104,7 @@ TEST(Contributions, AddUpToTheImage) {
     }
 }
 
-// What nothing can hit is all explicit.
+// A light that paths cannot hit contributes only explicitly.
 TEST(Contributions, AreThoseOfTheirStrategy) {
     const Image point =
         render("/features/point_light.json", "path_tracing", true, "integrator.strategies=mis");
@@ -115,7 +116,7 @@ TEST(Contributions, GoWithoutVariance) {
     static DeviceContext device;
     RenderSettings settings;
     settings.strategies_apart = true;
-    expect_input_error("without variance", [&] {
+    expect_input_error("omit the layer 'variance'", [&] {
         RenderSession(load_scene(RTRAYS_SCENES "/cornell_box/scene.json"), settings, device);
     });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When a pixel has converged: closed forms on hand-made films, by the shipped device code compiled
-// for the host and on the device, and the list of the pixels that are left.
+// Tests the convergence criterion of pixels on hand-made films against closed forms, with the
+// device code on the host and on the device. Also tests the list of live pixels.
 #define FEATURE_variance 1
 #define FEATURE_int64_atomics 1
 #include "renderer/kernels/film/convergence.h"
@@ -20,7 +20,7 @@
 namespace rtrays {
 namespace {
 
-/// Films of some pixels and of the samples of even number.
+/// A film of some pixels, and the half film of the samples with even indices.
 struct Films {
     explicit Films(size_t pixels)
         : film(pixels * FILM_PIXEL_WORDS(1)),
@@ -32,7 +32,7 @@ struct Films {
         EXPECT_EQ(half_film_add_sample(half.data(), pixel, counts[pixel]++, sample), 0u);
     }
 
-    /// `stride`: sums per pixel. Carries all pixels.
+    /// Propagates carries in all pixels. `stride` is the number of sums per pixel.
     static void carry(std::vector<int64_t> &words, uint32_t stride) {
         for (size_t pixel = 0; pixel < words.size(); pixel += FILM_WORDS * stride) {
             for (uint32_t sum = 0; sum < stride; ++sum) {
@@ -57,7 +57,8 @@ float3 grey(float value) {
     return make_float3(value, value, value);
 }
 
-/// Whether a pixel of 2N samples has converged; `even` and `odd` tell sample i of each kind.
+/// Returns whether a pixel of 2N samples has converged. `even` and `odd` return the i-th sample
+/// with an even or odd index.
 template <class Even, class Odd>
 bool stops(float error, int n, const Even &even, const Odd &odd) {
     Films films(1);
@@ -76,13 +77,13 @@ TEST(ConvergenceRule, ComparesAllSamplesWithHalfOfThem) {
         EXPECT_TRUE(stops(0.0201f, n, even, odd)) << n;
         EXPECT_FALSE(stops(0.0199f, n, even, odd)) << n;
     }
-    // The half is what is divided by: I_N = 1.04, I_2N = 1.02, a change of 0.01923.
+    // The change is relative to the half film: I_N = 1.04 and I_2N = 1.02 give 0.01923.
     EXPECT_TRUE(stops(0.01925f, 10, odd, even));
     EXPECT_FALSE(stops(0.0192f, 10, odd, even));
 }
 
 TEST(ConvergenceRule, TakesTheEuclideanNormOverTheChannels) {
-    // |I_N| = 5, changed by 0.5 in a channel that was black.
+    // |I_N| = 5, and a black channel changes by 0.5.
     const auto even = [](int) { return make_float3(3.0f, 4.0f, 0.0f); };
     const auto odd = [](int) { return make_float3(3.0f, 4.0f, 1.0f); };
     EXPECT_TRUE(stops(0.101f, 8, even, odd));
@@ -94,14 +95,14 @@ TEST(ConvergenceRule, StopsWhatDoesNotChangeAndNeverWhatIsBlack) {
     const auto black = [](int) { return grey(0.0f); };
     EXPECT_TRUE(stops(1e-5f, 100, constant, constant));
     EXPECT_FALSE(stops(1e30f, 100, black, black));
-    EXPECT_FALSE(stops(1e30f, 100, black, constant)) << "a half that is black says nothing";
-    EXPECT_TRUE(stops(0.5001f, 100, constant, black)) << "half the light is gone: a change by 1/2";
+    EXPECT_FALSE(stops(1e30f, 100, black, constant)) << "a black half film gives no information";
+    EXPECT_TRUE(stops(0.5001f, 100, constant, black)) << "losing half the light is a change of 1/2";
     EXPECT_FALSE(stops(0.4999f, 100, constant, black));
 }
 
 TEST(ConvergenceRule, GoesOnAfterAFirefly) {
-    // N = 100 each, all 1 but for one F: among the half |I_2N - I_N| / |I_N| = (F - 1) / (2 (N - 1
-    // + F)), outside (F - 1) / (2 N).
+    // All samples are 1 except for one of value F, with N = 100. The change |I_2N - I_N| / |I_N| is
+    // (F - 1) / (2 (N - 1 + F)) if F is in the half film, else (F - 1) / (2 N).
     const float f = 1e6f;
     const auto ones = [](int) { return grey(1.0f); };
     const auto firefly = [&](int i) { return grey(i == 57 ? f : 1.0f); };
@@ -149,7 +150,7 @@ TEST(ConvergenceRule, ChecksFromTheStartOnAtIntervals) {
 TEST(ConvergenceReport, CountsLivePixelsAndPaths) {
     const ConvergenceState state{{0.02f, 50, 200}, {200, 0, 300, 200, 0}, {}};
     EXPECT_TRUE(state.is_consistent(320));
-    EXPECT_FALSE(state.is_consistent(250)) << "a pixel stopped later";
+    EXPECT_FALSE(state.is_consistent(250)) << "a pixel stopped after the end";
     EXPECT_FALSE((ConvergenceState{{0.02f, 50, 200}, {210}, {}}.is_consistent(320)))
         << "a pixel stopped between checks";
     const nlohmann::json report = convergence_report(state, 320);
@@ -176,8 +177,8 @@ std::vector<uint32_t> live_list(const ConvergenceControl &control) {
     return list;
 }
 
-// Pixels of all kinds, those of pixel i stopped or not as the host says, and listed in ascending
-// order, whatever the size of the groups.
+// Pixels of many distributions must stop on the device exactly if they stop on the host. The live
+// pixels must be listed in ascending order for every group size.
 TEST(ConvergenceControl, DecidesAndListsOnTheDeviceAsOnTheHost) {
     constexpr uint32_t pixels = 1000;
     std::mt19937 generator(2);
@@ -196,7 +197,7 @@ TEST(ConvergenceControl, DecidesAndListsOnTheDeviceAsOnTheHost) {
             expected.push_back(pixel);
         }
     }
-    ASSERT_GT(expected.size(), pixels / 10) << "the case is one";
+    ASSERT_GT(expected.size(), pixels / 10) << "enough pixels must be live";
     ASSERT_LT(expected.size(), 9 * pixels / 10);
     const Buffer<int64_t> film(device(), "film", films.film);
     for (const uint32_t group_size : {1u, 16u, 64u}) {
@@ -210,7 +211,7 @@ TEST(ConvergenceControl, DecidesAndListsOnTheDeviceAsOnTheHost) {
             const bool live = std::binary_search(expected.begin(), expected.end(), pixel);
             ASSERT_EQ(state.stopped_at[pixel], live ? 0u : 64u);
         }
-        // A pixel that has stopped stays so.
+        // A stopped pixel remains stopped.
         checked.check(film, 66);
         EXPECT_EQ(checked.state().stopped_at, state.stopped_at);
         checked.reset();
@@ -223,7 +224,7 @@ TEST(ConvergenceControl, ListsAnyNumberOfPixels) {
     std::mt19937 generator(3);
     for (const uint32_t pixels :
          {1u, LIVE_BLOCK - 1, LIVE_BLOCK, LIVE_BLOCK + 1, 40 * LIVE_BLOCK + 3}) {
-        for (const uint32_t of_eight : {0u, 1u, 8u}) {  // how many are live
+        for (const uint32_t of_eight : {0u, 1u, 8u}) {  // number of live pixels out of eight
             ConvergenceState state{{0.05f, 2, 2},
                                    std::vector<uint64_t>(pixels),
                                    std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
@@ -241,7 +242,8 @@ TEST(ConvergenceControl, ListsAnyNumberOfPixels) {
     }
 }
 
-// Two pixels of 4 samples, the second of which stopped after 2; a light pass of 4.
+// Returns a film of two pixels with 4 samples, the second of which stopped after 2, and a light
+// pass of 4 samples.
 FilmState stopped_film() {
     Films films(2);
     for (const float value : {1.0f, 2.0f, 5.0f, 8.0f}) {
@@ -267,7 +269,7 @@ TEST(ConvergenceFilm, IsNormalisedPixelByPixel) {
     const Image image = develop_film(stopped_film());
     EXPECT_EQ(image.channel("samples"), (std::vector<float>{4, 2}));
     EXPECT_EQ(image.channel("G"), (std::vector<float>{4, 2}));
-    // of the mean: (9 + 4 + 1 + 16) / 3 / 4, (1 + 1) / 1 / 2
+    // Variances of the mean: (9 + 4 + 1 + 16) / 3 / 4 and (1 + 1) / 1 / 2.
     EXPECT_NEAR(image.channel("variance.G")[0], 2.5, 1e-6);
     EXPECT_NEAR(image.channel("variance.G")[1], 1.0, 1e-6);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Convergence control in the pipeline: which pixels stop when, that nothing else changes, and that
-// no bit depends on how the work is cut.
+// Tests convergence control in the pipeline: when pixels stop, that their values do not change
+// otherwise, and that no bit depends on the partition of the work.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,11 +78,11 @@ TEST(Convergence, GivesTheSameBitsHoweverTheWorkIsCut) {
         const std::set<uint64_t> stops(whole.convergence->stopped_at.begin(),
                                        whole.convergence->stopped_at.end());
         ASSERT_EQ(stops.size(), (end - start) / interval + 2)
-            << "pixels stop at every check, and some not at all";
-        // All at once, for most make other programs of every stage; what any of them changed would
-        // show.
+            << "pixels must stop at every check, and some must not stop";
+        // These settings are tested together, because most of them recompile every stage. Any
+        // change of the image would show.
         std::vector<std::string> cut = {"device.group_size=16", "device.stream_capacity=3000"};
-        if (algorithm == std::string("path_tracing")) {  // the camera pass of both
+        if (algorithm == std::string("path_tracing")) {  // both have this camera pass
             cut.insert(cut.end(), {"device.stream_chunk=7", "device.path_layout=arrays"});
             for (const char *assignment : {"device.features=all", "device.pipeline=megakernel"}) {
                 expect_same(render(controlled({assignment}, algorithm), {{0, end}}), whole,
@@ -91,7 +91,7 @@ TEST(Convergence, GivesTheSameBitsHoweverTheWorkIsCut) {
         }
         expect_same(render(controlled(cut, algorithm), {{0, end}}), whole,
                     algorithm + std::string(" cut otherwise"));
-        // Cut before, at and after checks.
+        // Split the samples before, at and after checks.
         const std::vector<SampleRange> cuts = {
             {0, start - 1}, {start - 1, start}, {start, start + 5}, {start + 5, end}};
         expect_same(render(controlled({}, algorithm), cuts), whole,
@@ -99,9 +99,9 @@ TEST(Convergence, GivesTheSameBitsHoweverTheWorkIsCut) {
     }
 }
 
-// What a pixel holds is what it holds without control at the number of samples where it stopped,
-// and it stopped there because the mean of all samples and that of every other one, here from
-// renders of their own and in double, differ by less.
+// A stopped pixel has the value that it has without control after the same number of samples. It
+// stopped there because the mean of all samples and the mean of every other sample differ by less
+// than the error. Here, separate renders give these means, which are compared in double precision.
 TEST(Convergence, StopsEachPixelWhereItsMeansSay) {
     const FilmState film = render(controlled(), {{0, end}});
     const std::vector<uint64_t> &stopped_at = film.convergence->stopped_at;
@@ -130,10 +130,9 @@ TEST(Convergence, StopsEachPixelWhereItsMeansSay) {
                 change += std::pow(static_cast<double>(all.channel(channel)[pixel]) - mean, 2);
                 norm += mean * mean;
             }
-            const double relative =
-                std::sqrt(change / norm);  // NaN where black: not below anything
+            const double relative = std::sqrt(change / norm);  // NaN for a black pixel: not below
             stopped[pixel] = stopped_at[pixel] == samples + 1;
-            if (std::abs(relative - 0.1) > 1e-5) {  // neither side of it by rounding
+            if (std::abs(relative - 0.1) > 1e-5) {  // rounding does not decide
                 ASSERT_EQ(stopped[pixel], relative < 0.1) << pixel << " at " << samples + 1;
                 ++decisions;
             }
@@ -236,7 +235,7 @@ TEST(Convergence, ResumesToTheSameBits) {
         expect_same(session.film(), whole, "resumed at " + std::to_string(cut));
         EXPECT_EQ(session.film().samples(), end);
     }
-    // A session that starts anew forgets what had stopped.
+    // A restarted session has no stopped pixels.
     RenderSession session(cornell_box(), controlled(), device());
     session.render(0, end);
     session.restart(1);
@@ -253,8 +252,8 @@ TEST(Convergence, StopsCameraPathsAloneInTruncatedBdpt) {
         return std::vector<int64_t>(first, first + size);
     };
     EXPECT_NE(half(both, 0), half(free, 0));
-    EXPECT_EQ(half(both, 1), half(free, 1)) << "light paths are those of all samples";
-    // The passes apart, the light pass in two ranges.
+    EXPECT_EQ(half(both, 1), half(free, 1)) << "all samples have light paths";
+    // The passes are rendered separately, and the light pass in two ranges.
     RenderSettings settings = controlled({}, "truncated_bdpt");
     settings.passes = "camera";
     FilmState camera = render(settings, {{0, end}});
@@ -289,15 +288,16 @@ TEST(Convergence, LeavesNothingBehindWhereItIsOff) {
 TEST(Convergence, RefusesWhatItCannotDo) {
     for (const char *algorithm : {"ray_casting", "whitted", "light_tracing", "bdpt"}) {
         expect_input_error(
-            algorithm + std::string(" does not stop pixels; path_tracing and truncated_bdpt do"),
+            algorithm +
+                std::string(
+                    " does not support convergence control; path_tracing and truncated_bdpt do"),
             [&] { require_consistent(controlled({}, algorithm)); });
         EXPECT_NO_THROW(require_consistent(small({}, algorithm)));
     }
     RenderSettings apart = controlled();
     apart.strategies_apart = true;
     apart.variance = false;
-    expect_input_error("which layers of strategies do not hold whole",
-                       [&] { require_consistent(apart); });
+    expect_input_error("which layers of strategies split", [&] { require_consistent(apart); });
     for (const char *assignment :
          {"integrator.convergence.start=25", "integrator.convergence.interval=0"}) {
         expect_input_error("must be even and not 0",
@@ -310,11 +310,11 @@ TEST(Convergence, RefusesWhatItCannotDo) {
     EXPECT_TRUE(has_convergence_control(controlled()));
     EXPECT_FALSE(has_convergence_control(small({"integrator.convergence.error=0"})));
     RenderSession session(cornell_box(), controlled(), device());
-    expect_input_error("from 0 on, of which there are 0: the next is 0, not 4",
+    expect_input_error("in order; the film has 0: expected sample 0, got 4",
                        [&] { session.render(4, 8); });
     session.render(0, 8);
-    expect_input_error("the next is 8, not 16", [&] { session.render(16, 24); });
-    EXPECT_EQ(session.render(4, 4), 4u) << "nothing is asked for";
+    expect_input_error("expected sample 8, got 16", [&] { session.render(16, 24); });
+    EXPECT_EQ(session.render(4, 4), 4u) << "an empty range";
     FilmState film = session.film();
     film.convergence.reset();
     expect_input_error("belongs to another scene, other settings", [&] { session.restore(film); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The OpenCL layer: include resolver, program cache, argument checks, device choice.
+// Tests the OpenCL layer: include resolver, program cache, argument checks and device selection.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -53,7 +53,7 @@ TEST(Source, CutsCycles) {
               "#line 1 \"a.h\"\n#line 1 \"b.h\"\n#line 2 \"b.h\"\ny\n#line 2 \"a.h\"\nx\n");
 }
 
-/// A device and a cache directory of its own for every test.
+/// Fixture that gives every test its own device and cache directory.
 class Device : public testing::Test {
   protected:
     Device()
@@ -95,14 +95,16 @@ TEST_F(Device, RunsAKernelWithCheckedArguments) {
     EXPECT_EQ(values.read(), (std::vector<uint32_t>{7, 8, 9, 10, 11}));
     EXPECT_EQ(device_.profiler().stages().at("test").launches, 1u);
 
-    expect_run_error("takes 3 arguments, not 2", [&] { kernel.bind({values, 5u}); });
-    expect_run_error("argument 1 of kernel 'test' is 'uint', not 'float'", [&] {
+    expect_run_error("expected 3 arguments, got 2", [&] { kernel.bind({values, 5u}); });
+    expect_run_error("argument 1 of kernel 'test': expected 'uint', got 'float'", [&] {
         kernel.bind({values, 5.0f, 3.0f});
     });
-    expect_run_error("there is no number 3", [&] { kernel.bind(3, 1.0f); });
+    expect_run_error("expected an argument index below 3, got 3", [&] { kernel.bind(3, 1.0f); });
     const Buffer<float> wrong(device_, "wrong", 5);
-    expect_run_error("'uint*', not 'float*'", [&] { kernel.bind({wrong, 5u, 3.0f}); });
-    expect_run_error("buffer 'values' holds 5 items, not 4", [&] { values.write({1, 2, 3, 4}); });
+    expect_run_error("expected 'uint*', got 'float*'", [&] { kernel.bind({wrong, 5u, 3.0f}); });
+    expect_run_error("buffer 'values': expected 5 items, got 4", [&] {
+        values.write({1, 2, 3, 4});
+    });
     expect_run_error("creating kernel 'none'", [&] { Kernel(program, "none", 8); });
 }
 
@@ -148,7 +150,8 @@ TEST_F(Device, KeepsNoBinaryWhereNoneIsWanted) {
     EXPECT_EQ(build(leaving).binary_bytes(), 0u);
     EXPECT_EQ(binary(), fs::path());
     EXPECT_GT(build(device_).binary_bytes(), 0u);
-    EXPECT_TRUE(build(leaving).from_cache()) << "what others keep is loaded";
+    EXPECT_TRUE(build(leaving).from_cache())
+        << "a program cached by another context must be loaded";
 }
 
 TEST_F(Device, ShowsTheBuildLogWithTheRealFileName) {
@@ -168,7 +171,7 @@ TEST_F(Device, NamesTheDevicesWhenNoneMatches) {
 }
 
 TEST_F(Device, RefusesABufferBeyondTheDevice) {
-    expect_run_error("buffer 'huge' needs",
+    expect_run_error("buffer 'huge': needs",
                      [&] { Buffer<uint64_t>(device_, "huge", size_t{1} << 50); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cells of the sphere of directions, for tests of samplers against densities.
+// Partition of the sphere of directions into cells, for tests of samplers against densities.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,15 @@ namespace rtrays {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The directions of the sphere in cells about a centre, narrow near it: rings of the polar angle
-/// scale * tan(t), and azimuths.
+/// A partition of the sphere of directions about a centre. Rings of the polar angle scale * tan(t)
+/// are divided by azimuth, so cells are narrow near the centre.
 class DirectionGrid {
   public:
     static constexpr int polar_cells = 16, azimuth_cells = 12, cells = polar_cells * azimuth_cells;
 
-    /// `scale`: about half the rings lie within this polar angle, radians. Azimuths count from a
-    /// direction off the plane through centre and normal, along which the horizon may run.
+    /// About half the rings are within the polar angle `scale`, in radians. Azimuths start at a
+    /// direction outside the plane through centre and normal, because the horizon may run along
+    /// that plane.
     DirectionGrid(float3 centre, float3 normal, double scale)
         : normal_(normal), scale_(scale), t_end_(std::atan(pi / scale)) {
         const Frame upright = frame_from_tangent(centre, normal);
@@ -36,8 +37,8 @@ class DirectionGrid {
         return std::min(i, polar_cells - 1) * azimuth_cells + std::min(j, azimuth_cells - 1);
     }
 
-    /// Integral of a density per solid angle over a cell. The density may end at the horizon of the
-    /// normal: the parts of the cell on its two sides are integrated apart.
+    /// Returns the integral over a cell of a density per solid angle. The density may end at the
+    /// horizon of the normal, so the two parts of the cell are integrated separately.
     double integral(int cell, const std::function<double(float3)> &density) const {
         const int i = cell / azimuth_cells, j = cell % azimuth_cells;
         const Range t = {t_end_ * i / polar_cells, t_end_ * (i + 1) / polar_cells};
@@ -45,8 +46,8 @@ class DirectionGrid {
                                2 * pi * (j + 1) / azimuth_cells - pi};
         double sum = 0;
         for (const bool near : {true, false}) {
-            // s in [0, 1] runs over the part of the ring on the centre's side of the horizon, or
-            // over the rest of it.
+            // s in [0, 1] parametrises the part of the ring on the centre's side of the horizon, or
+            // the other part.
             const auto f = [&](double s, double a) {
                 const double horizon = horizon_t(a);
                 const double begin = near ? t.begin : std::max(t.begin, horizon),
@@ -79,7 +80,7 @@ class DirectionGrid {
                                             static_cast<float>(std::cos(polar))));
     }
 
-    /// t of the horizon along an azimuth: from the centre on there is exactly one.
+    /// Returns t of the horizon along an azimuth. Each azimuth crosses the horizon exactly once.
     double horizon_t(double azimuth) const {
         const double along = static_cast<double>(dot(normal_, frame_.x)) * std::cos(azimuth) +
                              static_cast<double>(dot(normal_, frame_.y)) * std::sin(azimuth);

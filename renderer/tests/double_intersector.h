@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Brute force in double precision: the judge of what traversal finds.
+// Brute-force ray-triangle intersection in double precision, which judges the hits of traversal.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,15 @@
 
 namespace rtrays::test {
 
-/// How a ray passes one triangle, in double precision.
+/// Intersection of a ray with one triangle, in double precision.
 struct DoubleHit {
-    bool crosses = false;  ///< the line meets the triangle
-    double t = 0;  ///< where, in lengths of the direction; not finite for a parallel triangle
+    bool crosses = false;  ///< whether the line crosses the triangle
+    /// Distance along the line, in lengths of the direction; not finite for a parallel triangle.
+    double t = 0;
     double clearance = 0;  ///< least distance between the line and the lines of the three edges
-    double cosine = 0;     ///< between the line and the normal, not negative
-    double shift =
-        0;  ///< length by which rounding may move a vertex across the ray in the float test
+    double cosine = 0;     ///< absolute cosine between the line and the normal
+    /// Length by which rounding in the float test may move a vertex perpendicular to the ray.
+    double shift = 0;
 };
 
 inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle,
@@ -40,7 +41,7 @@ inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle,
     const Eigen::Vector3d normal = (v[1] - v[0]).cross(v[2] - v[0]);
     hit.t = normal.dot(v[0]) / normal.dot(direction);
     hit.cosine = std::abs(normal.dot(direction)) / (normal.norm() * direction.norm());
-    // 6 u E along each of the two axes (kernels/traversal/traversal_ray.h), u = 2^-24.
+    // The bound is 6 u E along each of two axes (kernels/traversal/traversal_ray.h), u = 2^-24.
     for (const Eigen::Vector3d &vertex : v) {
         hit.shift =
             std::max(hit.shift, std::sqrt(2.0) * 6 * 0x1p-24 * vertex.cwiseAbs().maxCoeff());
@@ -48,7 +49,7 @@ inline DoubleHit intersect_double(const Mesh &mesh, uint32_t triangle,
     return hit;
 }
 
-/// Distance from a point to a triangle.
+/// Returns the distance from a point to a triangle.
 inline double distance_to_triangle(const Mesh &mesh, uint32_t triangle, const Eigen::Vector3d &p) {
     const Eigen::Vector3d v[3] = {mesh.vertex(triangle, 0).cast<double>(),
                                   mesh.vertex(triangle, 1).cast<double>(),
@@ -65,15 +66,16 @@ inline double distance_to_triangle(const Mesh &mesh, uint32_t triangle, const Ei
     return inside ? std::abs(normal.dot(p - v[0])) / normal.norm() : nearest;
 }
 
-/// Whether a float hit (t, triangle; NO_HIT for none) is right within the tolerance, a length: its
-/// point lies on its triangle, and no triangle is crossed clearly and clearly nearer.
+/// Returns whether a float hit (t, triangle; NO_HIT for a miss) is right within the tolerance, a
+/// length. The hit point must be on the triangle, and no other triangle may be crossed clearly and
+/// clearly nearer.
 ///
-/// The float test is exact but for the rounding of the vertices in the ray's frame and, relative to
-/// the distance, of t: what it decides is right for a triangle whose vertices are moved across the
-/// ray by at most `shift`. That triangle is crossed for certain where the ray keeps farther than
-/// `shift` from the edges, and its plane is met up to shift / cosine from where the given one is.
-/// No bound without the cosine can hold for a test in floats: at 1e-5 from the plane (ray_sets.h) a
-/// change of one ulp of a vertex moves the crossing by 1e5 ulps.
+/// The float test is exact except for two roundings: of the vertices in the ray's frame and of t,
+/// relative to the distance. Its decision is therefore right for a triangle whose vertices are
+/// moved perpendicular to the ray by at most `shift`. The ray certainly crosses that triangle if it
+/// stays farther than `shift` from the edges. It meets that triangle's plane within shift / cosine
+/// of the crossing with the given plane. A float test has no bound without the cosine: at 1e-5 from
+/// the plane (ray_sets.h), a change of a vertex by one ulp moves the crossing by 1e5 ulps.
 ///
 /// `for_each(visit)` calls visit(i) for all triangles that the ray's line may cross.
 template <typename ForEach>
@@ -109,8 +111,9 @@ inline bool hit_is_right(const Mesh &mesh, const Eigen::Vector3f &origin,
     });
 }
 
-/// The same for many rays through a large mesh. What a line misses is told by a tree of boxes in
-/// double precision, halves by count, each box and its line held apart by more than rounding.
+/// Applies `hit_is_right` to many rays through a large mesh. A tree of boxes in double precision
+/// excludes triangles that a line misses. It is split in halves by count, and a box is excluded
+/// only if its separation from the line exceeds rounding errors.
 class DoubleJudge {
   public:
     explicit DoubleJudge(const Mesh &mesh) : mesh_(&mesh), order_(mesh.triangles.size()) {
@@ -145,12 +148,12 @@ class DoubleJudge {
     struct Node {
         Eigen::AlignedBox3d box;
         size_t begin, end;
-        size_t first, second;  ///< children; 0: a leaf
+        size_t first, second;  ///< children; 0 in a leaf
     };
     static constexpr size_t leaf_size = 8;
 
-    /// Separating axes of a line and a box: the products of the line's direction and the box's
-    /// axes.
+    /// Tests the separating axes of a line and a box, which are the cross products of the line's
+    /// direction and the box's axes.
     static bool may_cross(const Eigen::AlignedBox3d &box, const Eigen::Vector3d &o,
                           const Eigen::Vector3d &d) {
         const Eigen::Vector3d to_centre = box.center() - o;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh in Embree 3, with its ROBUST flag unless told otherwise: what our traversal is compared
-// with.
+// A mesh in an Embree 3 scene, with which the traversal is compared. The ROBUST flag is the
+// default.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -15,20 +15,20 @@
 namespace rtrays::test {
 
 struct EmbreeHit {
-    float t;            ///< infinite for none; the rest is then undefined
+    float t;            ///< infinite for a miss, and the other members are then undefined
     float u, v;         ///< weights of vertices 1 and 2
-    uint32_t triangle;  ///< of the mesh
+    uint32_t triangle;  ///< index in the mesh
 };
 
 class EmbreeScene {
   public:
-    /// `configuration`: as rtcNewDevice takes it.
+    /// Creates the scene and builds the hierarchy. `configuration` is passed to rtcNewDevice.
     explicit EmbreeScene(const Mesh &mesh, const std::string &configuration = "threads=1")
         : EmbreeScene(mesh, configuration, RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_ROBUST) {
         commit();
     }
 
-    /// Without a hierarchy: to be committed once before rays are traced.
+    /// Creates the scene without a hierarchy. Call `commit` once before tracing rays.
     EmbreeScene(const Mesh &mesh, const std::string &configuration, RTCBuildQuality quality,
                 RTCSceneFlags flags)
         : device_(rtcNewDevice(configuration.c_str())), scene_(rtcNewScene(device_)) {
@@ -66,8 +66,8 @@ class EmbreeScene {
     RTCDevice device() const { return device_; }
     RTCScene scene() const { return scene_; }
 
-    /// Bytes that Embree holds for this scene, vertices and indices included: now, and at most so
-    /// far.
+    /// Memory that Embree holds for this scene, in bytes, including vertices and indices; the
+    /// current value and the peak so far.
     int64_t bytes() const { return bytes_; }
     int64_t bytes_peak() const { return bytes_peak_; }
 
@@ -82,10 +82,10 @@ class EmbreeScene {
         return {found ? hit.ray.tfar : INFINITY, hit.hit.u, hit.hit.v, hit.hit.primID};
     }
 
-    /// Distance of the nearest hit, infinite for none.
+    /// Returns the distance of the nearest hit, infinite for a miss.
     float nearest(const RayRecord &ray) const { return nearest_hit(ray).t; }
 
-    /// Whether anything is hit before the ray's end.
+    /// Returns whether the ray hits anything before its end.
     bool occluded(const RayRecord &ray) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);

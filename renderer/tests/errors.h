@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Expectations on errors, by exit code and message.
+// Expectations on the exit code and the message of errors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 namespace rtrays {
 
-/// The message of the `Error` that `body` throws; fails the test when it throws none, or one of
-/// another exit code.
+/// Returns the message of the `Error` that `body` throws. Fails the test if it throws none or one
+/// with another exit code.
 template <typename Body>
 std::string error_of(ExitCode code, const Body &body) {
     try {
@@ -24,7 +24,7 @@ std::string error_of(ExitCode code, const Body &body) {
     return {};
 }
 
-/// Expects that `body` throws an `Error` of that exit code with this in its message.
+/// Expects that `body` throws an `Error` with that exit code and with `fragment` in its message.
 template <typename Body>
 void expect_error(ExitCode code, const std::string &fragment, const Body &body) {
     const std::string message = error_of(code, body);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every feature can be left out: all stages compile under masks with every feature, with none, and
-// with each one off.
+// Tests that every feature is optional: all stages compile with all features, with none, and with
+// each one disabled.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -15,8 +15,8 @@
 namespace rtrays {
 namespace {
 
-/// Code that is never run need not be good: without optimizing, PoCL takes less than two thirds of
-/// the time. What it keeps of it is kept apart.
+/// Returns a device that compiles without optimization, which takes PoCL less than two thirds of
+/// the time. The code is never run. It has a separate cache.
 DeviceContext &device() {
     static const bool in_haste = setenv("POCL_EXTRA_BUILD_FLAGS", "-cl-opt-disable", 1) == 0 &&
                                  setenv("POCL_CACHE_DIR", RTRAYS_FEATURE_BUILD_CACHE, 1) == 0;
@@ -40,7 +40,7 @@ TEST_P(FeatureBuild, Succeeds) {
                              : index == -1
                                  ? FeatureMask()
                                  : FeatureMask::all().with(static_cast<Feature>(index), false);
-    // One program of all stages of a pass: what they share is read once.
+    // One program contains all stages of a pass, so that shared code is parsed once.
     const auto build = [](const Pass &pass, std::vector<std::string> stages) {
         for (const RoundStage &stage : pass.round) {
             stages.push_back(stage.name);
@@ -69,7 +69,7 @@ TEST_P(FeatureBuild, Succeeds) {
         pass.round = pass.last_paths;
         build(pass, {});
     }
-    // Of what the others have besides: the stages of their own.
+    // For other algorithms, compile only the stages that the algorithms above do not have.
     for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
         pass.round = {pass.round[pass.round.size() - 2]};
         build(pass, {"end_paths"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The exact sums of the film: the shipped device code compiled for the host, the same on the
-// device, and the state that is saved, resumed and merged.
+// Tests the exact sums of the film, with the device code on the host and on the device, and the
+// film state that is saved, resumed and merged.
 #define FEATURE_variance 1
 #define FEATURE_int64_atomics 1
 #include "renderer/kernels/film/film.h"
@@ -54,7 +54,7 @@ FilmState film_of(const std::vector<float> &samples) {
     return film;
 }
 
-/// Samples of both signs over many decades.
+/// Returns samples of both signs over many decades.
 std::vector<float> heavy_tailed(size_t count, uint32_t seed) {
     std::mt19937 generator(seed);
     std::normal_distribution<float> normal;
@@ -70,7 +70,7 @@ float mean_of(const std::vector<float> &samples) {
 }
 
 TEST(Film, TwoHundredThousandEqualSamplesAverageToTheSample) {
-    // A plain float sum is off by 0.2 % here.
+    // A plain float sum would be off by 0.2 % here.
     EXPECT_EQ(mean_of(std::vector<float>(200000, 0.1f)), 0.1f);
     EXPECT_EQ(mean_of(std::vector<float>(200000, 1.0f / 3.0f)), 1.0f / 3.0f);
 }
@@ -83,7 +83,7 @@ TEST(Film, KeepsSmallSamplesBesideAFirefly) {
         exact += static_cast<double>(x);
     }
     EXPECT_EQ(mean_of(samples), static_cast<float>(exact / 200000.0));
-    // and exactly what the firefly leaves: the sum without it
+    // Subtracting the firefly must leave exactly the sum without it.
     FilmState film = film_of(samples);
     film_add_value(film.words.data(), PIXEL_SUMS, -1e8f, FILM_SUM_LOWEST, FILM_SUM_STEP);
     carry_pixel(film.words);
@@ -129,7 +129,7 @@ TEST(Film, ReportsWhatItCannotHold) {
     EXPECT_EQ(film_add_sample(words.data(), make_float3(0.0f, NAN, 0.0f)), FILM_NON_FINITE);
     EXPECT_EQ(film_add_sample(words.data(), make_float3(infinity, 0.0f, 0.0f)), FILM_NON_FINITE);
     EXPECT_EQ(film_add_sample(words.data(), make_float3(0.0f, 0.0f, 0x1p40f)), FILM_OUT_OF_RANGE);
-    EXPECT_EQ(words, std::vector<int64_t>(pixel_words, 0)) << "nothing was added";
+    EXPECT_EQ(words, std::vector<int64_t>(pixel_words, 0)) << "nothing must be added";
 
     FilmState film = empty_film();
     EXPECT_NO_THROW(require_valid(film));
@@ -193,7 +193,7 @@ TEST(Film, RefusesWhatDoesNotBelongTogether) {
                            [&] { merge_film(film, other); });
     };
     refuse("size", [](FilmState &other) { other.width = 2; });
-    refuse("their layers", [](FilmState &other) { other.variance = false; });
+    refuse("layers", [](FilmState &other) { other.variance = false; });
     refuse("seed", [](FilmState &other) { other.seed = 8; });
     refuse("scene or settings", [](FilmState &other) { other.config = "another"; });
     EXPECT_EQ(film.words, before.words);
@@ -234,8 +234,7 @@ TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
     std::filesystem::remove(path);
 }
 
-// The device adds the same bits, with 64-bit atomics and with the 32-bit fallback, from many
-// work-items at once.
+// Many concurrent work-items add the same bits, with 64-bit atomics and with the 32-bit fallback.
 TEST(Film, DeviceAddsTheSameBitsWithAndWithout64BitAtomics) {
     const std::vector<float> samples = heavy_tailed(20000, 5);
     const std::vector<int64_t> expected = film_of(samples).words;

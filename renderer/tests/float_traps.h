@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Programs built with TRAPS (CMakeLists.txt) stop at a floating-point operation that has no result:
-// inf - inf, 0 x inf, 0 / 0, the root of a negative number, an order asked of a NaN. What is meant
-// to be without is done while an InvalidAllowed lives.
+// Floating-point traps for programs built with TRAPS (CMakeLists.txt). They stop at an operation
+// without a result: inf - inf, 0 x inf, 0 / 0, the root of a negative number, an ordered comparison
+// with a NaN. Code that means to execute such an operation holds an InvalidAllowed.
 #pragma once
 
 #include <cfenv>
 
 namespace rtrays::test {
 
-/// From here on, in all threads started later, too.
+/// Enables the traps in this thread and in all threads that it starts later.
 inline void trap_invalid() {
     feenableexcept(FE_INVALID);
 }
 
+/// Disables the traps in this thread during its lifetime.
 class InvalidAllowed {
   public:
     InvalidAllowed() : before_(fedisableexcept(FE_INVALID)) {}

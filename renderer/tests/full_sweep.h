@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The full-sweep SAH build on the host, what hierarchies are compared with: every split of the
-// sorted centroids on each axis (I. Wald, V. Havran, "On building fast kd-trees for ray tracing,
-// and on doing that in O(N log N)", 2006: sorted once, the order is kept through partitions).
+// Full-sweep SAH build on the host, with whose cost hierarchies are compared. It evaluates every
+// split of the sorted centroids on each axis. The centroids are sorted once, and partitions keep
+// the order: I. Wald, V. Havran, "On building fast kd-trees for ray tracing, and on doing that in
+// O(N log N)", 2006.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace rtrays::test {
 
-/// Half the surface of a box, 0 for an empty one.
+/// Returns half the surface area of a box, 0 for an empty box.
 template <typename Box>
 double half_area(const Box &box) {
     if (box.isEmpty()) {
@@ -24,7 +25,7 @@ double half_area(const Box &box) {
     return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
 }
 
-/// Builds no nodes: only the cost of the tree is wanted.
+/// Computes the cost of the tree without building nodes.
 class FullSweep {
   public:
     explicit FullSweep(const Mesh &mesh)
@@ -47,8 +48,8 @@ class FullSweep {
         }
     }
 
-    /// SAH cost with K_T = K_I = 1, relative to the root's area; leaves hold up to BVH_LEAF_SIZE
-    /// triangles, as the device builder's do.
+    /// Returns the SAH cost with K_T = K_I = 1, relative to the root's area. Leaves hold up to
+    /// BVH_LEAF_SIZE triangles, as in the device builder.
     double cost() { return cost_of(0, boxes_.size()) / half_area(bounds_of(0, boxes_.size())); }
 
   private:
@@ -89,7 +90,8 @@ class FullSweep {
         return best;
     }
 
-    /// Reorders the range on all axes: what is left of the split comes first, in unchanged order.
+    /// Partitions the range on all axes. Triangles left of the split come first; the order within
+    /// each side is unchanged.
     void partition(size_t begin, size_t end, const Split &split) {
         for (size_t i = begin; i < end; ++i) {
             goes_left_[orders_[split.axis][i]] = i < split.begin_of_right ? 1 : 0;
@@ -121,7 +123,7 @@ class FullSweep {
     }
 
     std::vector<Box> boxes_;
-    std::array<std::vector<uint32_t>, 3> orders_;  ///< triangles by axis, sorted within each range
+    std::array<std::vector<uint32_t>, 3> orders_;  ///< triangles per axis, sorted in each range
     std::vector<uint8_t> goes_left_;
     std::vector<uint32_t> waiting_;
     std::vector<double> areas_;

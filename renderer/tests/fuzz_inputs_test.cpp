@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Damaged inputs of every format, by the programs' own loaders: each loads, to a scene that holds
-// together, or is an error of bad input. Under the sanitizers that also means: no access out of
-// bounds, no undefined behaviour. The files are those of the corpus, changed at random from a fixed
-// seed.
+// Fuzz tests of the loaders with damaged inputs of every format. Each input must either load as a
+// consistent scene or be an error of bad input. The sanitizers also detect accesses out of bounds
+// and undefined behaviour. The inputs are files of the corpus, changed at random with a fixed seed.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -28,8 +27,8 @@ using Random = std::mt19937_64;
 
 const std::filesystem::path corpus = RTRAYS_CORPUS;
 
-/// One to four changes of the kinds that break parsers: bits, bytes, cuts, repetitions, and numbers
-/// too large, negative or none.
+/// Applies one to four changes that typically break parsers: flipped bits, bytes, cuts,
+/// repetitions, and words that are too large, negative or not a number.
 std::string damaged(std::string bytes, Random &random) {
     const auto below = [&](size_t n) { return n == 0 ? 0 : static_cast<size_t>(random() % n); };
     static const std::string words[] = {"999999999",
@@ -85,13 +84,13 @@ std::string damaged(std::string bytes, Random &random) {
     return bytes;
 }
 
-/// How many of the damaged files were read after all, and how many were refused.
+/// Number of damaged files that loaded, and number that were refused.
 struct Outcome {
     int read = 0;
     int refused = 0;
 };
 
-/// Runs `load` on damaged versions of a file, written to `folder` under its own name.
+/// Runs `load` on damaged versions of a file, which are written to `folder` under the file's name.
 template <typename Load>
 Outcome fuzz(const TemporaryFolder &folder, const std::string &name, int count, const Load &load) {
     const std::string whole = bytes_of(corpus / name);
@@ -112,17 +111,18 @@ Outcome fuzz(const TemporaryFolder &folder, const std::string &name, int count, 
                 << name << " " << i << ": " << error.what();
             EXPECT_STRNE(error.what(), "");
         } catch (const std::exception &error) {
-            ADD_FAILURE() << name << " " << i << ": not an error of ours: " << error.what();
+            ADD_FAILURE() << name << " " << i
+                          << ": expected an rtrays::Error, got: " << error.what();
         }
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         EXPECT_LT(seconds.count(), 10) << name << " " << i;
     }
     folder.write(name, whole);
-    EXPECT_GT(outcome.refused, count / 20) << name << ": the damage is none";
+    EXPECT_GT(outcome.refused, count / 20) << name << ": too few files are damaged";
     return outcome;
 }
 
-/// The corpus beside each other, as its files name one another.
+/// Copies the corpus into one folder, because its files reference one another.
 struct FuzzInputs : WithImages {
     FuzzInputs() {
         for (const auto &entry : std::filesystem::directory_iterator(corpus)) {
@@ -136,7 +136,7 @@ struct FuzzInputs : WithImages {
             Scene loaded = load_scene((folder.path() / scene).string());
             expect_consistent(loaded.graph());
         };
-        ASSERT_NO_THROW(load()) << scene;  // as it is
+        ASSERT_NO_THROW(load()) << scene;  // undamaged
         fuzz(folder, name, count, load);
     }
 
@@ -181,11 +181,11 @@ TEST_F(FuzzInputs, Images) {
     }
 }
 
-/// Every beginning of a file: what a full disk or a broken download leaves.
+/// Loads every beginning of a file, as a full disk or a broken download leaves it.
 TEST_F(FuzzInputs, TruncatedPly) {
     for (const char *name : {"square.ply", "square_little.ply"}) {
         const std::string whole = bytes_of(corpus / name);
-        for (size_t size = 0; size + 3 < whole.size(); ++size) {  // less than the last number
+        for (size_t size = 0; size + 3 < whole.size(); ++size) {  // cuts at least the last number
             const auto path = folder.write("cut.ply", whole.substr(0, size));
             error_of(ExitCode::bad_input, [&] { load_scene(path.string()); });
         }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Tests the strict JSON parser and the locations in its error messages.
 #include "renderer/base/json.h"
 
 #include <nlohmann/json.hpp>
@@ -10,7 +11,7 @@ namespace {
 
 struct BadText {
     const char *text;
-    const char *message;  ///< beginning
+    const char *message;  ///< beginning of the error message
 };
 
 class StrictSyntax : public testing::TestWithParam<BadText> {};

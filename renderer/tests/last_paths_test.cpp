@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last few paths of a batch, followed far in one launch: the bits and the rays of all rounds.
+// Tests that tracing the last few paths of a batch to their end in one launch gives the same bits
+// and ray counts as tracing them in rounds.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -13,8 +14,8 @@
 namespace rtrays {
 namespace {
 
-/// A bright room with a glass ball in it. Where that swallows little, paths go on for thousands of
-/// events.
+/// Returns a bright room with a glass ball. If the room absorbs little, paths continue for
+/// thousands of events.
 Scene bright_room(double albedo) {
     std::ifstream file(RTRAYS_SCENES "/analytic/furnace_090.json");
     nlohmann::json room = nlohmann::json::parse(file);
@@ -29,10 +30,10 @@ Scene bright_room(double albedo) {
 struct Rendered {
     FilmState film;
     nlohmann::json report;
-    std::map<std::string, int> launches;  ///< of finish_paths, by pass
+    std::map<std::string, int> launches;  ///< launches of finish_paths per pass
 };
 
-/// Two batches: the first compiles finish_paths on its way where its last paths are long.
+/// Renders two batches. If the last paths of the first batch are long, it compiles finish_paths.
 Rendered render(const Scene &scene, const std::string &algorithm,
                 const std::vector<std::string> &assignments) {
     static DeviceContext device;
@@ -57,7 +58,8 @@ Rendered render(const Scene &scene, const std::string &algorithm,
     return rendered;
 }
 
-/// Where rays are counted by depth, paths go on round by round.
+/// Compares with a rendering that traces all paths in rounds, which counting rays by depth
+/// enforces.
 void expect_bits_of_rounds(const Scene &scene, const std::string &algorithm,
                            const std::vector<std::string> &passes,
                            std::vector<std::string> assignments = {}) {

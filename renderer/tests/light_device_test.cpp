@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights and cameras on the device: every kind compiles alone, and what the device samples is what
-// the host does from the same source, whose distributions the host's tests judge.
+// Tests lights and cameras on the device: every type compiles alone, and device samples equal those
+// of the host, which runs the same source. Other tests check the distributions on the host.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/light_paths.h"
@@ -55,7 +55,7 @@ Program build(DeviceContext &device, FeatureMask mask) {
     return Program(device, "kernels/test.cl", mask.defines(), {{"kernels/test.cl", test_kernel}});
 }
 
-// Code of one kind must not lean on that of another.
+// The code of one type must not depend on that of another.
 TEST(LightDevice, EveryKindCompilesAlone) {
     DeviceContext device;
     const FeatureMask both =
@@ -70,7 +70,7 @@ TEST(LightDevice, EveryKindCompilesAlone) {
           infinite.with(Feature::dome), infinite.with(Feature::environment),
           infinite.with(Feature::dome) | planes,
           both.with(Feature::point_lights).with(Feature::lens)}) {
-        // A light of that kind alone, then among others.
+        // A light of that type alone, then among others.
         EXPECT_NO_THROW(build(device, mask)) << ::testing::PrintToString(mask.names());
         EXPECT_NO_THROW(build(device, mask.with(Feature::many_lights)))
             << ::testing::PrintToString(mask.names());
@@ -119,7 +119,7 @@ std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &
     return list;
 }
 
-// The functions of the math library may differ by some ulps.
+// Math functions of host and device may differ by a few ulps.
 TEST(LightDevice, SamplesAreThoseOfTheHost) {
     constexpr uint count = 20'000, word_count = 26;
     DeviceContext device;
@@ -155,8 +155,9 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
             const float tolerance = 2e-4f * std::abs(expected[i]) + 2e-5f;
             off += std::abs(found[i] - expected[i]) <= tolerance ? 0u : 1u;
         }
-        EXPECT_LT(off, count / 1000)
-            << "few lie where rounding tells one cell of the image, or an edge, from the next";
+        EXPECT_LT(off, count / 1000) << "rounding may select another cell of the image, or another "
+                                        "side of an edge, only for "
+                                        "few samples";
     }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start: origins and directions against their densities by chi-square, power in
-// closed form, and agreement with the lights as camera paths meet them; the shipped device code
-// compiled for the host.
+// Tests the emission of light paths, with the device code compiled for the host: origins and
+// directions against their densities, power against closed forms, and agreement with the lights as
+// camera paths see them.
 //
-// Eleven chi-square decisions at a family-wise level of 0.01: each at 0.01 / 11 (Bonferroni). Each
-// has a planted error of 2 % beside it that must be seen.
+// Eleven chi-square tests share a family-wise level of 0.01, so each has the level 0.01 / 11
+// (Bonferroni). Each must also detect a planted error of 2 %.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/chi_square.h"
@@ -16,19 +16,20 @@ namespace {
 constexpr double level = 0.01 / 11;
 constexpr uint32_t sample_count = 1'500'000;
 
-/// Which of `n` equal parts of [0, 1] holds x.
+/// Returns the index of the one of `n` equal parts of [0, 1] that contains x.
 size_t part(double x, int n) {
     return static_cast<size_t>(std::clamp(static_cast<int>(x * n), 0, n - 1));
 }
 
-/// Turns of the azimuth about an axis, from a direction of its own choice, in [0, 1].
+/// Returns the azimuth about an axis as a fraction of a full turn, in [0, 1]. It is measured from
+/// an arbitrary direction.
 double turn(const Eigen::Vector3d &axis, const Eigen::Vector3d &v) {
     const Eigen::Vector3d x = axis.unitOrthogonal(), y = axis.cross(x);
     return std::atan2(v.dot(y), v.dot(x)) / (2 * pi) + 0.5;
 }
 
-/// Cells of samples, each with its probability in closed form: p-values without and with 2 % added
-/// to the half of them whose numbers are even.
+/// Sample counts of cells, each with its probability in closed form. Computes p-values without and
+/// with a planted error, which adds 2 % to the cells with even indices.
 struct Cells {
     std::vector<uint64_t> observed;
     std::vector<double> probability;
@@ -58,14 +59,15 @@ struct Cells {
     }
 };
 
-/// Eight cells of equal probability for a direction of density cos / pi about a normal: cos^2 and
-/// azimuth are uniform.
+/// Returns the cell of a direction, out of eight cells of equal probability for the density cos /
+/// pi about a normal. For this density, cos^2 and azimuth are uniform.
 size_t cosine_cell(const EmissionSample &sample) {
     const Eigen::Vector3d n = to_double(sample.point.normal), d = to_double(sample.direction);
     return part(n.dot(d) * n.dot(d), 4) * 2 + part(turn(n, d), 2);
 }
 
-/// Eight cells of equal area of the disc that a ray from infinity crosses.
+/// Returns the cell of the point where a ray from infinity crosses the disc, out of eight cells of
+/// equal area.
 size_t disc_cell(const CompiledScene &scene, const EmissionSample &sample) {
     const Eigen::Vector3d d = to_double(sample.direction);
     const Eigen::Vector3d way =
@@ -94,8 +96,8 @@ TEST(Emission, StartsAtLightsByTheirSelection) {
     }
 }
 
-// Twelve places of the two triangles, in proportion to their areas, and eight directions, all
-// independent.
+// Twelve cells of position on the two triangles, with probabilities proportional to area, and eight
+// cells of direction. Position and direction are independent.
 TEST(Emission, LeavesMeshesUniformlyByAreaAndByTheCosine) {
     const CompiledScene scene = compile_light_scene();
     const uint32_t light = light_of(scene, LIGHT_MESH);
@@ -114,7 +116,7 @@ TEST(Emission, LeavesMeshesUniformlyByAreaAndByTheCosine) {
                 ? 0
                 : 1;
         const SurfaceTriangle &t = scene.surface_triangles[first.triangle + triangle];
-        // Barycentrics, and the part of the medial subdivision.
+        // Barycentric coordinates, and the part of the medial subdivision.
         Eigen::Matrix3d corners;
         corners.col(0) = Eigen::Vector3f(t.p0).cast<double>();
         corners.col(1) = Eigen::Vector3f(t.p1).cast<double>();
@@ -146,7 +148,7 @@ TEST(Emission, LeavesDiscsUniformlyByAreaAndByTheCosine) {
 }
 
 TEST(Emission, LeavesSpheresUniformlyByAreaAndByTheCosine) {
-    for (const bool by_area : {false, true}) {  // whatever their sampling from a point
+    for (const bool by_area : {false, true}) {  // independent of the sampling from a point
         const CompiledScene scene =
             compile_light_scene(LightArrays::Kind::dome, LightSelection::mixed, by_area);
         const uint32_t light = light_of(scene, by_area ? LIGHT_SPHERE_BY_AREA : LIGHT_SPHERE);
@@ -183,8 +185,8 @@ TEST(Emission, LeavesPointsUniformly) {
     cells.expect_fit("point");
 }
 
-// Rings of equal width in the versine; the density is integrated over each by many midpoints of
-// `spot_pdf_w`.
+// The rings have equal width in the versine. The density `spot_pdf_w` is integrated over each ring
+// with many midpoints.
 TEST(Emission, LeavesSpotsByTheirDensity) {
     const CompiledScene scene = compile_light_scene();
     const uint32_t light = light_of(scene, LIGHT_SPOT);
@@ -250,8 +252,8 @@ TEST(Emission, OfDomesIsUniformInDirectionAndOverTheDisc) {
     cells.expect_fit("dome");
 }
 
-// Over the cells of the image, whose probabilities are those that camera paths are told;
-// environment_pdf_w itself is tested against the sampler's directions in light_sampling_test.cpp.
+// The cells are those of the image, with the probabilities that camera paths use. A test in
+// light_sampling_test.cpp compares environment_pdf_w with the sampler's directions.
 TEST(Emission, OfEnvironmentsFollowsTheImageAndIsUniformOverTheDisc) {
     const CompiledScene scene = compile_light_scene(LightArrays::Kind::environment);
     const uint32_t light = light_of(scene, LIGHT_ENVIRONMENT);
@@ -277,8 +279,8 @@ TEST(Emission, OfEnvironmentsFollowsTheImageAndIsUniformOverTheDisc) {
     cells.expect_fit("environment");
 }
 
-/// Power of every light in W, green, in closed form; of the environment by uniform directions, to
-/// within the standard error.
+/// Power of a light in W, in the green channel. It has a closed form, except for the environment,
+/// whose power is estimated from uniform directions with the given standard error.
 struct Power {
     double watts;
     double standard_error = 0;
@@ -297,7 +299,7 @@ Power power_of(const CompiledScene &scene, uint32_t index) {
         case LIGHT_POINT:
             return {4 * pi * radiance};
         case LIGHT_SPOT: {
-            // 2 pi times the integral of the linear fall times the sine.
+            // 2 pi times the integral of the linear falloff times the sine.
             const double i = spot_inner, o = spot_outer;
             return {2 * pi * (1 - (std::sin(o) - std::sin(i)) / (o - i)) * radiance};
         }
@@ -322,8 +324,8 @@ Power power_of(const CompiledScene &scene, uint32_t index) {
     return {sum / n, std::sqrt((squares / n - sum / n * sum / n) / n)};
 }
 
-// The mean weight is the power of all lights: 3.5 standard errors at a family-wise level of 0.01
-// over sixteen decisions.
+// The mean weight is the power of all lights. Sixteen tests share a family-wise level of 0.01, so
+// each may be 3.5 standard errors off.
 TEST(Emission, CarriesThePowerOfTheLights) {
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
         const CompiledScene scene = compile_light_scene(infinite);
@@ -371,7 +373,7 @@ TEST(Emission, CarriesThePowerOfTheLights) {
     }
 }
 
-/// A rectangle that all lights reach.
+/// A rectangle that all lights illuminate.
 struct Patch {
     Eigen::Vector3d corner{-1, 0.2, 0.3}, x{2.4, 0, 0.1}, y{0.1, 0.3, -1.9};
     Eigen::Vector3d normal = x.cross(y).normalized();
@@ -392,8 +394,9 @@ struct Patch {
     }
 };
 
-// What arrives on a patch: by light samples from its points, and by the light paths that hit it.
-// Fourteen decisions at a family-wise level of 0.01: 3.5 standard errors.
+// Compares two estimates of the irradiance of a patch: light samples from its points, and light
+// paths that hit it. Fourteen tests share a family-wise level of 0.01, so each may be 3.5 standard
+// errors off.
 TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
     const Patch patch;
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
@@ -432,8 +435,8 @@ TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
     }
 }
 
-// (a) What a camera path is told where it hits a light is what the light path along the same line
-// had.
+// (a) The emission density that a camera path computes where it hits a light is the density that
+// the light path along the same line had.
 TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
         const CompiledScene scene = compile_light_scene(
@@ -450,7 +453,7 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
                 const float3 met = sample.origin + sample.direction * scene.lighting.scene_radius;
                 told = static_cast<double>(infinite_line_pdf(LIGHTS, met, -sample.direction));
                 if (std::abs(told / expected - 1) > 1e-5) {
-                    ++other_cell;  // of the environment, by rounding of its direction
+                    ++other_cell;  // rounding of the direction selects another texel
                     continue;
                 }
             } else if (sample.is_delta == 0u) {
@@ -471,7 +474,7 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
                 ASSERT_NEAR(static_cast<double>(emission_pdf_a(LIGHTS, light, primitive, emitter)),
                             static_cast<double>(sample.pdf_origin),
                             1e-6 * static_cast<double>(sample.pdf_origin));
-                // At grazing angles the cosine is what rounding of the direction leaves of it.
+                // At grazing angles, rounding of the direction dominates the cosine.
                 ASSERT_NEAR(told, expected,
                             (1e-5 + 1e-6 / static_cast<double>(
                                                dot(sample.point.normal, sample.direction))) *
@@ -486,8 +489,8 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
     }
 }
 
-// (b) What a light sample is told of light paths: with the density of the sample itself and the
-// geometry between, it makes their density.
+// (b) The ratio of densities that a light sample returns, combined with the density of the sample
+// and the geometry term, gives the density of light paths.
 TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
     test::Random random(5);
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
@@ -518,8 +521,8 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                     on.normal = normal_at(scene, light, sample.target);
                     const double cosine = -to_double(on.normal).dot(way.normalized());
                     if (cosine < 0.05 || way.norm() < 0.1) {
-                        continue;  // the target lies a little off the surface: too coarse to judge
-                                   // by
+                        // The target is slightly off the surface, so the cosine is inaccurate.
+                        continue;
                     }
                     const double area = light.kind == LIGHT_MESH ? mesh_areas()[0] + mesh_areas()[1]
                                                                  : static_cast<double>(light.area);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The code of lights with everything compiled in, and starts of light paths from it, for tests.
+// Device code of lights with all features, and helpers that start light paths, for tests.
 #pragma once
 
 #define FEATURE_triangles 1
@@ -21,7 +21,7 @@
 #define FEATURE_environment 1
 #define FEATURE_lens 1
 
-// Before all device code.
+// Must precede all device code.
 // clang-format off
 #include "renderer/tests/other_features.h"
 
@@ -59,7 +59,8 @@ inline EmissionSample emit(const CompiledScene &scene, uint32_t i) {
     return sample_emission(SURFACES, LIGHTS, words(i, 0), words(i, 1));
 }
 
-/// From a given light: a word of its range in place of the random one.
+/// Samples emission from a given light: replaces the random word that selects the light with a word
+/// from the light's range.
 inline EmissionSample emit_from(const CompiledScene &scene, uint32_t light, uint32_t i) {
     uint4 a = words(i, 0);
     a.x = scene.lights[light].selection_end - 1u;
@@ -75,7 +76,7 @@ inline uint32_t light_of(const CompiledScene &scene, uint32_t kind) {
     throw std::logic_error("no such light");
 }
 
-/// Mean of what is added, and its standard error.
+/// Mean of the added values, and its standard error.
 struct Estimate {
     double sum = 0, squares = 0;
     uint32_t count = 0;

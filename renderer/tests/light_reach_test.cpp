@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start, at the edges: on curved surfaces, in narrow cones, and around a scene
-// lit from infinity that has planes.
+// Tests edge cases of the emission of light paths: curved surfaces, narrow cones, and scenes with
+// planes that are lit from infinity.
 #include <gtest/gtest.h>
 
 #include "renderer/tests/light_paths.h"
@@ -9,8 +9,7 @@
 namespace rtrays {
 namespace {
 
-// Triangle, disc and sphere are convex: what a ray hit of its own surface it would hit where it
-// starts.
+// Triangle, disc and sphere are convex, so any hit of the own surface would be a self-intersection.
 TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
     const CompiledScene scene = compile_light_scene();
     for (const uint32_t kind : {LIGHT_MESH, LIGHT_DISC, LIGHT_SPHERE}) {
@@ -34,7 +33,7 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
                                                 .triangle];
                 if (dot(sample.point.normal, make_float3(t.normal[0], t.normal[1], t.normal[2])) <
                     0.99f) {
-                    continue;  // the other one
+                    continue;  // the ray starts on the other triangle
                 }
                 LeafTriangle leaf{};
                 for (int axis = 0; axis < 3; ++axis) {
@@ -49,9 +48,9 @@ TEST(Emission, RaysLeaveTheSurfaceTheyStartOn) {
     }
 }
 
-// Between narrow cones, too, the share of the intensity is the linear fall with the angle, and the
-// weights of light paths stay within a factor of 2; versines keep the angle's digits where cosines
-// are 1.
+// Even between narrow cones, the fraction of the intensity falls linearly with the angle, and the
+// weights of light paths stay within a factor of 2. Versines keep the angle's precision where
+// cosines round to 1.
 TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
     for (const auto &[inner, outer] :
          {std::pair(0.0, 1e-4), std::pair(1e-3, 1.01e-3), std::pair(0.0, pi / 2),
@@ -80,8 +79,8 @@ TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
                                             -static_cast<double>(sample.direction.z));
             const double share = std::clamp((outer - angle) / (outer - inner), 0.0, 1.0);
             const double weight = green(sample.weight);
-            // Float directions hold the angle to within some u of 1 rad, or of itself where it is
-            // small.
+            // A float direction represents the angle with an error of some u relative to 1 rad, or
+            // relative to the angle if it is small.
             ASSERT_NEAR(weight * static_cast<double>(sample.pdf_direction), share,
                         1e-6 * outer / (outer - inner) + 1e-5);
             power.add(weight);
@@ -90,7 +89,7 @@ TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
         }
         const double expected =
             2 * pi * (1 - (std::sin(outer) - std::sin(inner)) / (outer - inner));
-        // The closed form cancels in narrow cones.
+        // The closed form suffers from cancellation in narrow cones.
         EXPECT_NEAR(
             power.mean() / expected, 1,
             3.3 * power.error() / expected + 1e-5 + 1e-15 / (outer * outer) / (outer - inner));
@@ -118,8 +117,8 @@ const std::string ball =
     "material": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}},)";
 const std::string dome = R"({"name": "sky", "light": {"type": "dome", "radiance": [1, 1, 1]}})";
 
-// The sphere of light from infinity holds the bounded surfaces, and little else: neither camera nor
-// planes.
+// The bounding sphere for light from infinity contains the bounded surfaces, but neither the camera
+// nor planes.
 TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     EXPECT_NEAR(scene.lighting.scene_centre[1], 1, 1e-6);
@@ -131,7 +130,7 @@ TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
                      dome);
     EXPECT_GT(cube.lighting.scene_radius, std::sqrt(3.0f));
     EXPECT_LT(cube.lighting.scene_radius, std::sqrt(3.0f) * 1.01f);
-    // Points of shapes under affine maps, in double.
+    // Compares with points of shapes under affine maps in double precision.
     const CompiledScene shapes = compile_text(R"(
         {"name": "cone", "geometry": {"type": "cone", "radius": 2, "height": 0.5}, "transform": [{"translate": [3, 0, 0]}],
          "material": {"type": "mirror", "reflectance": [1, 1, 1]}},
@@ -165,8 +164,8 @@ TEST(Emission, FromInfinityReachesAllBoundedSurfacesAndLittleElse) {
     EXPECT_LT(radius, 1.5 * largest);
 }
 
-// Light from below a plane never starts above it, and what is above gets all its light: the start
-// lies on the same side as infinity does, and the ray still goes through the disc.
+// Light from below a plane must never start above it, and surfaces above must receive all their
+// light. The origin is on the same side as infinity, and the ray still passes through the disc.
 TEST(Emission, FromInfinityStartsBeforePlanes) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     ASSERT_EQ(scene.lighting.plane_end, 1u);
@@ -176,7 +175,7 @@ TEST(Emission, FromInfinityStartsBeforePlanes) {
         const EmissionSample sample = emit(scene, i);
         const float height = vector_to_object(&plane, sample.origin - shape_centre(&plane)).z;
         const float slope = vector_to_object(&plane, sample.direction).z;
-        // Grazing rays whose crossing lies beyond the horizon of shadow rays pass.
+        // Grazing rays that cross the plane beyond the reach of shadow rays are exempt.
         ASSERT_TRUE(height * slope < 0.0f || fabsf(slope) < 1e-5f) << height << ' ' << slope;
         const Eigen::Vector3d d = to_double(sample.direction);
         const Eigen::Vector3d way =
@@ -188,7 +187,8 @@ TEST(Emission, FromInfinityStartsBeforePlanes) {
     EXPECT_GT(moved, 10'000);
 }
 
-// Where a plane leaves the shadow of the sphere no light path comes, and the others are told so.
+// Light paths do not reach a plane outside the shadow of the sphere. The density that other
+// strategies use must be 0 there.
 TEST(Emission, FromInfinityHasNoDensityBeyondItsDisc) {
     const CompiledScene scene = compile_text(ground + ball + dome);
     const float3 down = make_float3(0, 1, 0);
@@ -207,7 +207,7 @@ TEST(Emission, FromInfinityHasNoDensityBeyondItsDisc) {
     }
     EXPECT_GT(reached, 50);
     EXPECT_GT(beyond, 500);
-    // Planes alone: a disc about the camera.
+    // A scene of planes alone has a disc about the camera.
     const CompiledScene bare = compile_text(ground + dome);
     EXPECT_GT(bare.lighting.scene_radius, 0.5f);
     EXPECT_NEAR(bare.lighting.scene_centre[1], 40, 1e-4);

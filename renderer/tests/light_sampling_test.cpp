@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Lights: every sampler against its density by chi-square, and closed forms; the shipped device
-// code compiled for the host. Sphere and disc lights: shapes_light_test.cpp.
+// Tests light sampling with the device code compiled for the host: every sampler against its
+// density and against closed forms. Tests of sphere and disc lights are in shapes_light_test.cpp.
 //
-// Six chi-square decisions at a family-wise level of 0.01: each at 0.01 / 6 (Bonferroni). The
-// planted errors show that the sample counts see 2 %.
+// Six chi-square tests share a family-wise level of 0.01, so each has the level 0.01 / 6
+// (Bonferroni). Planted errors show that the sample counts suffice to detect 2 %.
 #define FEATURE_triangles 1
 #define FEATURE_lights 1
 #define FEATURE_many_lights 1
@@ -39,7 +39,7 @@ uint4 words(uint32_t i, uint32_t block) {
     return random_words(7, STREAM_CAMERA, i, 0, block);
 }
 
-/// p-value of directions against a density per solid angle on a grid of y and azimuth.
+/// Returns the p-value of directions against a density per solid angle, on a grid of y and azimuth.
 template <typename Sample, typename Density>
 double direction_p(const Sample &sample, const Density &pdf_w) {
     constexpr int y_bins = 24, phi_bins = 32;
@@ -72,7 +72,7 @@ double direction_p(const Sample &sample, const Density &pdf_w) {
     return chi_square_p(observed, expected);
 }
 
-/// An environment of 16 x 9 texels with a bright one, a dark half and a black row.
+/// An environment of 16 x 9 texels with one bright texel, a dark half and a black row.
 struct Environment {
     TextureImage image;
     CompiledScene compiled;
@@ -125,7 +125,7 @@ TEST(EnvironmentLight, SampleCarriesTheDensityOfItsDirectionAndNoLightIsMissed) 
         const EnvironmentSample sample = environment.sample(i);
         ASSERT_NEAR(length(sample.direction), 1.0f, 1e-6f);
         ASSERT_GT(sample.pdf_w, 0.0f);
-        // On the edge of a cell rounding may put the direction into the next.
+        // On the edge of a cell, rounding may move the direction into the next cell.
         other_cell +=
             std::abs(environment.pdf_w(sample.direction) / sample.pdf_w - 1.0f) > 1e-5f ? 1 : 0;
         const uint4 w = words(i, 2);
@@ -135,7 +135,8 @@ TEST(EnvironmentLight, SampleCarriesTheDensityOfItsDirectionAndNoLightIsMissed) 
     EXPECT_LT(other_cell, 20);
 }
 
-// Bilinear by an independent formula, and the integral of the radiance by the sampler itself.
+// Compares the radiance with an independent bilinear formula, and its integral with the estimate of
+// the sampler.
 TEST(EnvironmentLight, RadianceIsBilinearBetweenTexelCentres) {
     const Environment environment;
     const auto texel = [&](int x, int y, int channel) {
@@ -152,7 +153,7 @@ TEST(EnvironmentLight, RadianceIsBilinearBetweenTexelCentres) {
                (texel(x0, y0 + 1, channel) * (1 - fx) + texel(x0 + 1, y0 + 1, channel) * fx) * fy;
     };
     const int width = environment.image.width, height = environment.image.height;
-    double integral = 0;  // quadrature over the image, mean of the channels
+    double integral = 0;  // quadrature over the image of the mean of the channels
     constexpr int steps = 40;
     for (int i = 0; i < width * steps; ++i) {
         for (int j = 0; j < height * steps; ++j) {
@@ -184,7 +185,7 @@ TEST(EnvironmentLight, RadianceIsBilinearBetweenTexelCentres) {
     const double mean = sum / n;
     const double error = std::sqrt((squares / n - mean * mean) / n);
     EXPECT_NEAR(mean, integral, 4.0 * error);
-    EXPECT_NEAR(environment.integral, integral, 0.1 * integral);  // what selection goes by
+    EXPECT_NEAR(environment.integral, integral, 0.1 * integral);  // used by light selection
     EXPECT_LT(error, 0.002 * mean);
 }
 
@@ -270,7 +271,7 @@ struct MeshLights {
                            triangle, make_float3(0, 0, 0), SurfacePoint{});
     }
 
-    /// p-value over triangles and, within each, four parts of equal area.
+    /// Returns the p-value over triangles and, within each, four parts of equal area.
     double p(double planted) const {
         std::vector<uint64_t> observed(area.size() * 4);
         for (uint32_t i = 0; i < sample_count; ++i) {
@@ -282,7 +283,7 @@ struct MeshLights {
             const size_t part = u > 0.5f       ? 1
                                 : v > 0.5f     ? 2
                                 : u + v < 0.5f ? 0
-                                               : 3;  // of the medial subdivision
+                                               : 3;  // part of the medial subdivision
             ++observed[triangle * 4 + part];
         }
         std::vector<double> expected(observed.size());
@@ -303,7 +304,7 @@ TEST(MeshLight, PlantedErrorOfTwoPercentIsRejected) {
     EXPECT_LT(MeshLights().p(0.02), level);
 }
 
-// The density per solid angle is that per area times d^2 / cos, and 0 from behind.
+// The density per solid angle is the density per area times d^2 / cos, and 0 from behind.
 TEST(MeshLight, DensityIsPerSolidAngle) {
     const MeshLights lights;
     const float3 from = make_float3(3, -2, 5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene with a light of every kind, for tests of light paths.
+// A compiled scene with a light of every type, for tests of light paths.
 #pragma once
 
 #include <Eigen/Dense>
@@ -18,7 +18,7 @@ namespace rtrays {
 constexpr double spot_inner = 20 * 3.14159265358979323846 / 180,
                  spot_outer = 35 * 3.14159265358979323846 / 180;
 
-/// Areas of the two triangles of the mesh light.
+/// Returns the areas of the two triangles of the mesh light.
 inline std::array<double, 2> mesh_areas() {
     return {1.0, 1.5};
 }
@@ -80,7 +80,7 @@ inline const char *light_scene_text() {
 })";
 }
 
-/// An image of 12 x 7 texels, one of them bright.
+/// Returns an image of 12 x 7 texels, one of which is bright.
 inline std::shared_ptr<const TextureImage> small_sky() {
     auto image = std::make_shared<TextureImage>();
     image->width = 12;
@@ -93,7 +93,7 @@ inline std::shared_ptr<const TextureImage> small_sky() {
     return image;
 }
 
-/// The scene with its sky a dome or an environment (turned), compiled.
+/// Compiles the scene. Its sky is a dome or a rotated environment.
 inline CompiledScene compile_light_scene(LightArrays::Kind infinite = LightArrays::Kind::dome,
                                          LightSelection selection = LightSelection::mixed,
                                          bool spheres_by_area = false) {
@@ -124,7 +124,7 @@ inline CompiledScene compile_light_scene(LightArrays::Kind infinite = LightArray
     return compiled;
 }
 
-/// Normal of a light's surface at a point close to it.
+/// Returns the normal of a light's surface at a point close to the surface.
 inline float3 normal_at(const CompiledScene &scene, const LightRecord &light, float3 at) {
     if (light.kind == LIGHT_MESH) {
         const EmitterTriangle *first = &scene.emitter_triangles[light.first_triangle];

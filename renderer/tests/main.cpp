@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The main program of all tests: as gtest_main, with a testing::TempDir() of this process alone,
-// for ctest runs many at once.
+// Main program of all tests. It extends gtest_main with a testing::TempDir() for this process
+// alone, because ctest runs many processes at once.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 

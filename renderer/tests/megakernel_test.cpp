@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Path tracing in one kernel: the bits and the rays of the stages, without their streams.
+// Tests path tracing in one kernel: it gives the same bits and ray counts as the stages, without
+// streams.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -51,7 +52,7 @@ void expect_same_bits(const Scene &scene, const std::vector<std::string> &assign
               static_cast<long>(whole.film.words.size()))
         << with;
     EXPECT_EQ(whole.report["rays"], streams.report["rays"]) << with;
-    EXPECT_EQ(whole.film.config, streams.film.config) << "films of both may be merged";
+    EXPECT_EQ(whole.film.config, streams.film.config) << "films of both must be mergeable";
 }
 
 Scene scene_file(const std::string &path) {
@@ -73,7 +74,7 @@ TEST(Megakernel, GivesTheBitsOfTheWavefront) {
 TEST(Megakernel, GivesTheBitsOfTheWavefrontUnderEveryLight) {
     const Scene lights = parse_scene_json(light_scene_text(), "light_scene", "light_scene");
     expect_same_bits(lights, {});
-    expect_same_bits(scene_file("features/point_light.json"), {});  // none that can be hit
+    expect_same_bits(scene_file("features/point_light.json"), {});  // paths cannot hit its light
     expect_same_bits(lights,
                      {"integrator.light_selection=independent", "integrator.sphere_sampling=area"});
 }
@@ -94,7 +95,7 @@ TEST(Megakernel, GivesTheSameBitsWithEverythingCompiledInAndCutOtherwise) {
                      {"device.group_size=8", "device.stream_chunk=7", "device.path_layout=arrays"})
                   .film.words,
               streams.film.words)
-        << "cut otherwise";
+        << "another partition of the work";
 }
 
 TEST(Megakernel, HasOneStageAndNoStreams) {
@@ -108,9 +109,9 @@ TEST(Megakernel, HasOneStageAndNoStreams) {
         launches[stage.at("name")] = stage.at("launches");
     }
     EXPECT_EQ(launches, (std::map<std::string, int>{{"trace_paths", 2}, {"carry_film", 1}}))
-        << "one for each batch; the film is carried when it is read";
+        << "one launch per batch; reading the film propagates carries";
     EXPECT_EQ(whole["bytes_per_path"].get<int>(), streams["bytes_per_path"].get<int>() - 12)
-        << "no room in queues";
+        << "queues need no memory";
     for (const auto &buffer : whole["buffers"]) {
         EXPECT_NE(buffer.at("name"), "path_states");
         EXPECT_NE(buffer.at("name"), "queues");

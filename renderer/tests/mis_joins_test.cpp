@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The weights of one path by all strategies of full bidirectional path tracing, as the stages come
-// to them vertex by vertex, against those from the densities of the whole path in double: they
-// agree and sum to 1.
+// Tests the MIS weights of bidirectional path tracing. The stages accumulate the weights of all
+// strategies of a path vertex by vertex. They must agree with weights from the densities of the
+// full path in double precision, and sum to 1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace {
 
 using Random = std::mt19937_64;
 
-/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1},
-/// away from the camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times
-/// the factor between both solid angles.
+/// Densities along a path x_0 ... x_k per projected solid angle. `forward[i]` is from x_i to
+/// x_{i+1}, away from the camera; `back[i]` is from x_i to x_{i-1}. For deltas, they are discrete
+/// probabilities times the ratio of the two solid angles.
 struct Path {
     size_t k = 0;
     std::vector<double> forward, back, geometry;  ///< `geometry[i]`: G of x_i and x_{i+1}
@@ -27,10 +27,11 @@ struct Path {
     double first = 0, light_paths = 0;       ///< P_1, n_L
     double origin = 0, explicit_origin = 0;  ///< p_o of emission and of light sampling
     double direction = 0;                    ///< p_d
-    bool hittable = true;                    ///< the light
+    bool hittable = true;                    ///< whether paths can hit the light
 };
 
-/// Densities within `decades` of 1 or, one in three, three times as far.
+/// Returns a path with random densities within `decades` of 1. One in three densities spreads three
+/// times as far.
 Path random_path(Random &random, double decades) {
     std::uniform_real_distribution<double> uniform(0, 1);
     const auto spread = [&](double width) {
@@ -60,9 +61,10 @@ Path random_path(Random &random, double decades) {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Weight m belongs to the strategy whose camera path ends at x_m: 0 light, 1 to k - 2 joins, k - 1
-/// explicit, k implicit. NaN where it cannot make the path. From the densities of the whole path,
-/// in logarithms of doubles.
+/// Returns the weights from the densities of the full path, using logarithms in double precision.
+/// Weight m belongs to the strategy whose camera path ends at x_m: 0 is the light path, 1 to k - 2
+/// are connections, k - 1 is explicit, k is implicit. It is NaN if the strategy cannot sample the
+/// path.
 std::vector<double> expected(const Path &p, double beta) {
     std::vector<double> logs(p.k + 1, -std::numeric_limits<double>::infinity());
     for (size_t m = 0; m <= p.k; ++m) {
@@ -104,18 +106,18 @@ float log2_of(double x) {
     return static_cast<float>(std::log2(x));
 }
 
-/// What a path has when it arrives at a vertex.
+/// MIS state of a path at its arrival at a vertex.
 struct Arrival {
     float strategies = 0, arrival = 0;
 };
 
-/// log2 of A at the end of a ray that leaves a vertex with this density, G included: distance and
-/// cosine are 1.
+/// Returns log2 of A at the end of a ray that leaves a vertex with this density. The density
+/// includes G, so distance and cosine are 1.
 float arrive(bool delta, double density) {
     return log_inverse_pdf_a(delta ? INFINITY : static_cast<float>(density), 1.0f, 1.0f);
 }
 
-/// As the stages do it.
+/// Returns the weights as the stages compute them.
 std::vector<double> shipped(const Path &p, float beta) {
     std::vector<Arrival> camera(p.k + 1), light(p.k + 1);
     camera[1] = {-INFINITY, log2_of(p.light_paths / p.first)};
@@ -195,7 +197,7 @@ TEST(JoinWeights, OfAPathAgreeAndSumToOne) {
                 }
             }
             EXPECT_GT(many, decades < 1 ? 10'000 : 1'000)
-                << "power: paths of which more than two strategies count";
+                << "statistical power: number of paths with more than two significant strategies";
         }
     }
 }

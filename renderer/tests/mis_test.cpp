@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The three weights of one path, as the passes of truncated bidirectional path tracing come to them
-// vertex by vertex, against those from the densities of the whole path in double: they agree and
-// sum to 1.
+// Tests the MIS weights of truncated bidirectional path tracing. The passes accumulate the three
+// weights of a path vertex by vertex. They must agree with weights from the densities of the full
+// path in double precision, and sum to 1.
 #include "renderer/kernels/light/mis.h"
 
 #include <gtest/gtest.h>
@@ -19,9 +19,9 @@ namespace {
 
 using Random = std::mt19937_64;
 
-/// Densities along a path x_0 ... x_k. Per projected solid angle: `forward[i]` from x_i to x_{i+1},
-/// away from the camera, `back[i]` from x_i to x_{i-1}; of deltas the discrete probabilities, times
-/// the factor between both solid angles.
+/// Densities along a path x_0 ... x_k per projected solid angle. `forward[i]` is from x_i to
+/// x_{i+1}, away from the camera; `back[i]` is from x_i to x_{i-1}. For deltas, they are discrete
+/// probabilities times the ratio of the two solid angles.
 struct Path {
     size_t k = 0;
     std::vector<double> forward, back;
@@ -29,10 +29,10 @@ struct Path {
     double first = 0;            ///< P_1
     double light_paths = 0;      ///< n_L
     double origin = 0;           ///< p_o of emission
-    double explicit_origin = 0;  ///< of light sampling
+    double explicit_origin = 0;  ///< p_o of light sampling
     double direction = 0;        ///< p_d
     double geometry = 0;         ///< G of the last edge
-    bool hittable = true;        ///< the light
+    bool hittable = true;        ///< whether paths can hit the light
 };
 
 Path random_path(Random &random) {
@@ -62,13 +62,13 @@ Path random_path(Random &random) {
 }
 
 struct Weights {
-    double implicit = 0, explicit_ = 0,
-           light = 0;  ///< NaN where the technique cannot make the path
+    /// NaN if the technique cannot sample the path.
+    double implicit = 0, explicit_ = 0, light = 0;
 };
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// From the densities of the whole path, in logarithms of doubles.
+/// Returns the weights from the densities of the full path, using logarithms in double precision.
 Weights expected(const Path &p, double beta) {
     const bool has_implicit = p.hittable, has_explicit = !p.delta[p.k - 1], has_light = !p.delta[1];
     double camera = std::log2(p.first);  // x_1 ... x_{k-1}
@@ -98,8 +98,8 @@ float log2_of(double x) {
     return static_cast<float>(std::log2(x));
 }
 
-/// As the stages do it. G is left out where both ends have it; in `arrival` and the density per
-/// solid angle it stands for what distance and cosines make of it.
+/// Returns the weights as the stages compute them. G is omitted if both factors contain it. In
+/// `arrival` and in the density per solid angle, G represents the product of distance and cosines.
 Weights shipped(const Path &p, float beta) {
     Weights weights{none, none, none};
     // Camera path.
@@ -188,7 +188,7 @@ TEST(TruncatedWeights, WithoutLightPathsAreThoseOfPathTracing) {
 }
 
 TEST(TruncatedWeights, NeverOverflow) {
-    // Near-specular all along: the products themselves would leave the range of floats after a
+    // On a near-specular path, the products themselves would exceed the range of float after a
     // dozen vertices.
     for (const double sharp : {1e8, 1e-8}) {
         Path path;
@@ -205,7 +205,7 @@ TEST(TruncatedWeights, NeverOverflow) {
     }
 }
 
-// Quotients of all magnitudes, and near 1; the stated bounds.
+// Checks the stated error bounds for quotients of all magnitudes and near 1.
 TEST(Logarithm, OfQuotientsIsThatOfDouble) {
     Random random(3);
     std::uniform_real_distribution<double> exponent(-120, 120), near(-1e-3, 1e-3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Environments of Mitsuba have their rows elsewhere than ours; the radiance of a direction must not
-// change.
+// Tests the import of Mitsuba environments. Their rows are at other latitudes than those of RTRays,
+// but the radiance of a direction must not change.
 #include "renderer/import/mitsuba_envmap.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TextureImage noise(int width, int height) {
     return image;
 }
 
-/// A column between two rows, `row` counted from the first.
+/// Interpolates a column between two rows. `row` counts from the first row.
 double between_rows(const TextureImage &image, double row, int column) {
     const int above = std::min(static_cast<int>(row), image.height - 2);
     const double t = row - above;
@@ -36,8 +36,8 @@ double between_rows(const TextureImage &image, double row, int column) {
     return (1 - t) * at(above) + t * at(above + 1);
 }
 
-/// At v of [0, 1] from the upper pole: as stores.h says, and as envmap.cpp does (uv.y() * (height -
-/// 1)).
+/// Return the radiance at v in [0, 1] from the upper pole, as defined in stores.h and as computed
+/// by Mitsuba's envmap.cpp, uv.y() * (height - 1).
 double ours(const TextureImage &image, double v, int column) {
     return between_rows(image, std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0), column);
 }
@@ -66,8 +66,8 @@ TEST(MitsubaEnvmap, ReadsTheRowsOfOthers) {
         for (int i = 0; i <= 1000; ++i) {
             const double v = i / 1000.0, row = v * (height - 1),
                          from_row = std::abs(row - std::round(row));
-            // At a row an eighth of a second difference, which is at most 2; a quarter of a row at
-            // each pole is flat.
+            // The error at a row is an eighth of a second difference, which is at most 2. A quarter
+            // of a row at each pole is flat.
             EXPECT_NEAR(ours(read, v, 1), mitsubas(image, v, 1), from_row >= 0.25 ? 1e-6 : 0.25)
                 << v;
             sum += ours(read, v, 1);
@@ -83,8 +83,8 @@ TEST(MitsubaEnvmap, DecodesBytesAndRefusesWhatMitsubaDoes) {
     image.height = 3;
     image.bytes.assign(18, 128);
     EXPECT_NEAR(static_cast<double>(from_mitsuba_envmap(image).floats[0]), 0.21586, 1e-5);
-    expect_input_error("Mitsuba wants 2x3 at least", [] { from_mitsuba_envmap(noise(2, 2)); });
-    expect_input_error("Mitsuba wants 2x3 at least", [] { from_mitsuba_envmap(noise(1, 3)); });
+    expect_input_error("Mitsuba requires at least 2x3", [] { from_mitsuba_envmap(noise(2, 2)); });
+    expect_input_error("Mitsuba requires at least 2x3", [] { from_mitsuba_envmap(noise(1, 3)); });
 }
 
 }  // namespace

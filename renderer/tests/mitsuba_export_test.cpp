@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes written for Mitsuba and read back are the scenes they were.
+// Tests that scenes exported for Mitsuba and imported again are unchanged.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace {
 
 const std::string scenes = RTRAYS_SCENES;
 
-/// Of doubles that went through products and back.
+/// Relative tolerance for doubles that went through matrix products and back.
 constexpr double rounding = 1e-12;
 
 class MitsubaExport : public WithImages {
@@ -82,7 +82,7 @@ void expect_same_material(const SceneArrays &a, uint32_t i, const SceneArrays &b
         refracts = refracts || p.kind == BxdfComponent::Kind::ideal_refraction ||
                    p.kind == BxdfComponent::Kind::microfacet_refraction;
     }
-    // Of what refracts both sides are seen in any case.
+    // Both sides of a refracting material are visible in any case.
     EXPECT_TRUE(refracts || a.materials.two_sided[i] == b.materials.two_sided[j]);
 }
 
@@ -91,7 +91,7 @@ void expect_same_light(const LightArrays &a, uint32_t i, const LightArrays &b, u
     EXPECT_EQ(a.radiance[i], b.radiance[j]);
     EXPECT_NEAR(a.inner_angle[i], b.inner_angle[j], rounding);
     EXPECT_NEAR(a.outer_angle[i], b.outer_angle[j], rounding);
-    // All that matters of the pose of a light with an axis is that axis.
+    // For a light with an axis, only the axis and the position of its pose matter.
     expect_close(Eigen::Matrix<double, 4, 2>(a.world_from_light[i].rightCols<2>()),
                  Eigen::Matrix<double, 4, 2>(b.world_from_light[j].rightCols<2>()), rounding);
     ASSERT_EQ(a.image[i] == nullptr, b.image[j] == nullptr);
@@ -101,8 +101,8 @@ void expect_same_light(const LightArrays &a, uint32_t i, const LightArrays &b, u
     }
 }
 
-/// Everything that decides an image, but for rounding of doubles and the order of materials and
-/// lights.
+/// Expects that two scenes give the same image, apart from rounding of doubles and the order of
+/// materials and lights.
 void expect_same_scene(const Scene &first, const Scene &second) {
     const SceneArrays &a = first.arrays();
     const SceneArrays &b = second.arrays();
@@ -119,7 +119,7 @@ void expect_same_scene(const Scene &first, const Scene &second) {
     EXPECT_EQ(a.meshes.triangle, b.meshes.triangle);
     EXPECT_EQ(a.meshes.uv, b.meshes.uv);
     ASSERT_EQ(a.meshes.normal.size(), b.meshes.normal.size());
-    for (size_t i = 0; i < a.meshes.normal.size(); ++i) {  // made unit once more
+    for (size_t i = 0; i < a.meshes.normal.size(); ++i) {  // normalised again
         EXPECT_LE((a.meshes.normal[i] - b.meshes.normal[i]).cwiseAbs().maxCoeff(), 1.2e-7f);
     }
     ASSERT_EQ(a.shapes.name, b.shapes.name);
@@ -148,11 +148,11 @@ TEST_F(MitsubaExport, TheCornellBoxComesBack) {
     expect_same_scene(box, back);
     const std::string xml = read_file(folder_ / "out.xml");
     EXPECT_NE(xml.find("<default name=\"max_depth\" value=\"-1\" />"), std::string::npos) << xml;
-    // Once more it is the same to the last bit.
+    // A second round trip must not change a bit.
     EXPECT_EQ(through_mitsuba(back).hash(), back.hash());
 }
 
-/// Scenes that show one feature each, a shape which becomes a mesh.
+/// Feature scenes with a shape that is exported as a mesh.
 const std::set<std::string> tessellated_shapes = {"cone", "ellipsoid", "hyperboloid", "paraboloid"};
 
 /// What Mitsuba has not got of them.
@@ -165,13 +165,13 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"julia", "no julia"},
         {"lambert_blinn", "no BSDF for lambert + blinn;"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},
-        {"plane", "'ground': Mitsuba has no plane, and triangles make none"},
+        {"plane", "'ground': Mitsuba has no plane, and it cannot be tessellated"},
         {"refraction_13", "no BSDF for ideal_refraction;"},
         {"rough_plastic",
          "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},
         {"schlick", "no BSDF for ideal_reflection * schlick;"},
         {"ward_010",
-         "'object': material 'object': Mitsuba has no BSDF for ward; it has some for: lambert; "},
+         "'object': material 'object': Mitsuba has no BSDF for ward; supported are: lambert; "},
         {"ward_anisotropic", "no BSDF for ward * conductor;"},
         {"ward_original", "no BSDF for ward_original;"},
     };
@@ -198,7 +198,7 @@ TEST_F(MitsubaExport, ScenesOfSingleFeaturesComeBackOrAreErrors) {
         try {
             expect_same_scene(scene, through_mitsuba(scene));
             ++back;
-        } catch (const Error &error) {  // of further scenes of the kinds above
+        } catch (const Error &error) {  // other scenes with the same unsupported features
             EXPECT_NE(std::string(error.what()).find("Mitsuba has no"), std::string::npos)
                 << error.what();
         }
@@ -285,8 +285,9 @@ TEST_F(MitsubaExport, TakesOneLightAllAround) {
         {"name": "a", "light": {"type": "dome", "radiance": [1, 1, 1]}},
         {"name": "b", "light": {"type": "dome", "radiance": [1, 1, 1]}}]})",
                          "in.json", "in");
-    expect_input_error("'b': Mitsuba has one light all around at most, and there is 'a' already",
-                       [&] { through_mitsuba(scene); });
+    expect_input_error(
+        "'b': Mitsuba supports at most one dome or environment light, and there is already 'a'",
+        [&] { through_mitsuba(scene); });
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each element of a Mitsuba scene becomes. Expectations are from Mitsuba's documentation and,
-// where that is silent, from Mitsuba 3.9 itself.
+// Tests the import of each element of a Mitsuba scene. Expected values are from Mitsuba's
+// documentation and, if it does not specify them, from Mitsuba 3.9 itself.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
@@ -22,7 +22,7 @@ using Fresnel = BxdfComponent::Fresnel;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-/// Unit normal of the front of a triangle.
+/// Returns the unit normal of the front of a triangle.
 Vector3d front(const MeshArrays &meshes, size_t triangle) {
     const Triangle &t = meshes.triangle[triangle];
     const Vector3d a = meshes.position[t[0]].cast<double>();
@@ -31,14 +31,14 @@ Vector3d front(const MeshArrays &meshes, size_t triangle) {
         .normalized();
 }
 
-/// The position that a 'point' light is moved to.
+/// Returns the position to which `operations` move a point light.
 Vector3d moved_by(const std::string &operations) {
     const Scene scene = parse_elements(R"(<emitter type="point"><transform name="to_world">)" +
                                        operations + "</transform></emitter>");
     return scene.lights().world_from_light[0].topRightCorner<3, 1>();
 }
 
-/// The components of a BSDF at a rectangle.
+/// Returns the components of a BSDF that a rectangle has.
 std::vector<BxdfComponent> components_of(const std::string &bsdf) {
     return parse_elements(R"(<shape type="rectangle">)" + bsdf + "</shape>").materials().component;
 }
@@ -62,7 +62,7 @@ TEST(MitsubaTransforms, ApplyInTheOrderWritten) {
         moved_by(R"(<translate x="1"/><matrix value="0 0 1 5  1 0 0 6  0 1 0 7  0 0 0 1"/>)"),
         {5, 7, 7});
     expect_near(moved_by(R"(<translate y="1"/><matrix value="0 1 0 1 0 0 0 0 1"/>)"), {1, 0, 0});
-    // +z of the object to the target: one unit along it is one unit nearer.
+    // The object's +z axis points to the target, so one unit along it is one unit nearer.
     expect_near(moved_by(R"(<translate z="1"/><lookat origin="0,0,5" target="0,0,0" up="0,1,0"/>)"),
                 {0, 0, 4});
     expect_near(moved_by(R"(<translate x="1"/><lookat origin="0,0,5" target="0,0,0" up="0,1,0"/>)"),
@@ -73,7 +73,7 @@ TEST(MitsubaDocument, SubstitutesParametersAndIncludesFiles) {
     std::ofstream(testing::TempDir() + "part.xml")
         << R"(<scene version="3.0.0"><default name="b" value="7"/><emitter type="point" id="$name">
             <point name="position" x="$a" y="$b" z="$ab"/></emitter></scene>)";
-    // The first value of a name counts, and the longest name that there is.
+    // The first value of a name is used, and `$` matches the longest known name.
     const Scene scene = parse_elements(R"(<default name="a" value="2"/><default name="a" value="9"/>
         <default name="ab" value="$a5"/><default name="name" value="lamp$a"/><include filename="part.xml"/>)");
     EXPECT_EQ(scene.lights().name[0], "lamp2");
@@ -84,11 +84,11 @@ TEST(MitsubaCameras, LookAlongZWithXToTheLeft) {
     const Scene scene = parse_mitsuba(R"(<scene version="3.0.0"><sensor type="perspective">
         <transform name="to_world"><lookat origin="1,2,3" target="1,2,0" up="0,1,0"/></transform></sensor></scene>)");
     const Matrix4d &world = scene.cameras().world_from_camera[0];
-    EXPECT_TRUE(world.isApprox(translation({1, 2, 3}), 1e-15))
-        << world;  // ours looks along -z, +x to the right
+    // RTRays' camera looks along -z and has +x to the right.
+    EXPECT_TRUE(world.isApprox(translation({1, 2, 3}), 1e-15)) << world;
     EXPECT_EQ(scene.film_width(), 768);
     EXPECT_EQ(scene.film_height(), 576);
-    // 50 mm on 36 x 24 mm along the diagonal: 38.1848 degrees along x of 4:3, as Mitsuba prints it.
+    // 50 mm on the diagonal of 36 x 24 mm is 38.1848 degrees along x for 4:3, as Mitsuba prints it.
     EXPECT_NEAR(scene.cameras().fov[0] / degree, 38.1848, 5e-5);
     EXPECT_EQ(scene.cameras().fov_axis[0], CameraArrays::FovAxis::x);
     EXPECT_EQ(scene.cameras().aperture_radius[0], 0);
@@ -137,11 +137,11 @@ TEST(MitsubaShapes, RectanglesAndCubesAreMeshes) {
                     .cast<double>() /
                 2 -
             Vector3d(5, 0, 0);
-        EXPECT_NEAR(front(meshes, i).dot(centre), 1, 1e-12) << i;  // outwards, on every side
+        EXPECT_NEAR(front(meshes, i).dot(centre), 1, 1e-12) << i;  // every side faces outwards
     }
     expect_near(front(meshes, meshes.first_triangle[2]), {0, 0, -1});
-    expect_near(front(meshes, meshes.first_triangle[3]),
-                {0, 0, 1});  // a mirror leaves the front where it was
+    // A reflection does not move the front to the other side.
+    expect_near(front(meshes, meshes.first_triangle[3]), {0, 0, 1});
     expect_consistent(scene.graph());
 }
 
@@ -158,7 +158,7 @@ TEST(MitsubaShapes, RoundOnesAreShapes) {
                                               ShapeArrays::Kind::cylinder}));
     EXPECT_TRUE(shapes.world_from_object[0].isApprox(translation({12, 4, 6}), 1e-15));
     expect_near(shapes.world_from_object[1].col(2).head<3>(), {0, 0, -1});
-    // The matrix that Mitsuba prints for this cylinder.
+    // Mitsuba prints this matrix for the cylinder.
     Matrix4d expected;
     expected << 0.5, 0, 0, 1, 0, 0.158114, 3, 0, 0, -0.474342, 1, 0, 0, 0, 0, 1;
     EXPECT_LT((shapes.world_from_object[2] - expected).cwiseAbs().maxCoeff(), 1e-6)
@@ -171,7 +171,7 @@ TEST(MitsubaShapes, ShareWhatIsTheSame) {
     EXPECT_EQ(scene.materials().name, std::vector<std::string>{"paint"});
 }
 
-/// A pyramid's front half: two triangles that meet in an edge, as OBJ and as PLY.
+/// Writes two triangles that meet in an edge, the front half of a pyramid, as OBJ and as PLY.
 void write_models() {
     std::ofstream(testing::TempDir() + "roof.obj")
         << "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nvt 0 0.25\nvt 1 "
@@ -202,10 +202,11 @@ TEST(MitsubaShapes, ModelFilesGetTheNormalsThatMitsubaMakes) {
         };
         const Scene smooth = read("");
         ASSERT_EQ(smooth.meshes().has_normals[0], 1) << type;
-        // As Mitsuba prints them.
+        // Mitsuba prints these normals.
         expect_near(normal_at(smooth.meshes(), {0, 0, 0}), {-0.4082, -0.4082, 0.8165}, 1e-4);
         expect_near(normal_at(smooth.meshes(), {1, 0, 0}), {0, -0.7071, 0.7071}, 1e-4);
-        // Mirrored, stretched and flipped: as printed for -1 along x, and by hand for the rest.
+        // Mirrored, stretched and flipped. Mitsuba prints the normals for -1 along x; the others
+        // are computed by hand.
         const Scene mirrored = read(R"(<transform name="to_world"><scale x="-1"/></transform>)");
         expect_near(normal_at(mirrored.meshes(), {0, 0, 0}), {-0.4082, 0.4082, -0.8165}, 1e-4);
         expect_near(front(mirrored.meshes(), 0), Vector3d(0, 1, -1).normalized(), 1e-6);
@@ -246,7 +247,7 @@ TEST(MitsubaBsdfs, Diffuse) {
     EXPECT_EQ(half[2], 0);
     EXPECT_EQ(weight(R"(<bsdf type="diffuse"><srgb name="reflectance" value="0, 1, 0"/></bsdf>)"),
               Vector3f(0, 1, 0));
-    // A shape that emits and has no BSDF is black.
+    // An emissive shape without a BSDF is black.
     EXPECT_EQ(parse_elements(R"(<shape type="rectangle"><emitter type="area"/></shape>)")
                   .materials()
                   .component[0]
@@ -280,8 +281,8 @@ TEST(MitsubaBsdfs, Conductors) {
     const auto gold =
         components_of(R"(<bsdf type="conductor"><string name="material" value="Au"/></bsdf>)");
     EXPECT_EQ(gold[0].fresnel, Fresnel::conductor);
-    EXPECT_LT((gold[0].eta - Vector3d(0.143036, 0.375307, 1.44205)).norm(),
-              1e-3);  // as Mitsuba prints them
+    // Mitsuba prints these indices.
+    EXPECT_LT((gold[0].eta - Vector3d(0.143036, 0.375307, 1.44205)).norm(), 1e-3);
     EXPECT_LT((gold[0].k - Vector3d(3.983, 2.38556, 1.60336)).norm(), 1e-3);
     const auto rough = components_of(
         R"(<bsdf type="roughconductor"><rgb name="eta" value="1,2,3"/><rgb name="k" value="4"/>
@@ -296,7 +297,7 @@ TEST(MitsubaBsdfs, Conductors) {
 }
 
 TEST(MitsubaBsdfs, PlasticsWeighTheirBaseAsMitsubaDoes) {
-    // fdr_int and eta as Mitsuba prints them for the default plastic.
+    // fdr_int and eta, as Mitsuba prints them for the default plastic.
     constexpr double internal = 0.590479;
     constexpr double eta = 1.48959;
     const auto plastic = components_of(R"(<bsdf type="plastic"/>)");
@@ -322,14 +323,14 @@ TEST(MitsubaBsdfs, RoughPlasticSaysThatItDiffers) {
         "in");
     ASSERT_EQ(notices.texts().size(), 2u);
     EXPECT_NE(notices.texts()[0].find(
-                  "in.xml:3: <bsdf type=\"roughplastic\">: the coat is rough for what it reflects"),
+                  "in.xml:3: <bsdf type=\"roughplastic\">: only the coat's reflection is rough"),
               std::string::npos)
         << notices.texts()[0];
 }
 
 class MitsubaTextures : public WithImages {};
 
-/// 1 x 2 texels.
+/// Writes an image of 1 x 2 texels.
 void write_image() {
     std::ofstream(testing::TempDir() + "two.ppm", std::ios::binary)
         << "P6 1 2 255\n"
@@ -352,8 +353,9 @@ TEST_F(MitsubaTextures, AreLookedUpWhereMitsubaDoes) {
     EXPECT_TRUE(textures.image[0]->srgb);
     EXPECT_EQ(textures.filter[0], TextureArrays::Filter::nearest);
     EXPECT_EQ(textures.wrap[0], TextureArrays::Wrap::clamp);
-    // Mitsuba's row from the top is 4 v + 1/4 of its height, ours from the bottom uv_scale v' +
-    // uv_offset; v' is Mitsuba's v on rectangles and cubes, 1 - v on spheres.
+    // Mitsuba's row from the top is 4 v + 1/4 of the height. RTRays' row from the bottom is
+    // uv_scale v' + uv_offset, where v' is Mitsuba's v on rectangles and cubes and 1 - v on
+    // spheres.
     for (const double v : {0.0, 0.3, 1.0}) {
         EXPECT_NEAR(textures.uv_scale[0][1] * v + textures.uv_offset[0][1], 1 - (4 * v + 0.25),
                     1e-15);
@@ -437,7 +439,7 @@ TEST(MitsubaEmitters, BecomeLights) {
     EXPECT_EQ(lights.radiance[2], Vector3f(1, 1, 1));
     expect_near(shines(3), {0, -1, 0});
     EXPECT_EQ(lights.radiance[3], Vector3f(5, 5, 5));
-    expect_near(shines(4), {0, -1, 0});  // +z turned about x
+    expect_near(shines(4), {0, -1, 0});  // +z rotated about x
     // Illuminant E, as Mitsuba prints it.
     expect_near(lights.radiance[5].cast<double>(), {2.40959, 1.89658, 1.81783}, 1e-5);
     expect_consistent(scene.graph());
@@ -453,13 +455,13 @@ TEST(MitsubaNotices, NameWhatIsReplaced) {
                           "in.xml", "in");
     ASSERT_EQ(notices.texts().size(), 1u);
     for (const char *part :
-         {"integrator '$unknown'", "max_depth 6, here --set integrator.max_depth=5",
+         {"integrator '$unknown'", "max_depth 6, use --set integrator.max_depth=5",
           "rfilter 'gaussian'", "sampler 'independent' of 32", "near_clip 0.5"}) {
         EXPECT_NE(notices.texts()[0].find(part), std::string::npos) << notices.texts()[0];
     }
 }
 
-/// Scenes of others, where RTRAYS_MESHES says that they are: see scenes/README.md.
+/// Loads third-party scenes from the folder RTRAYS_MESHES; see docs/importers.md.
 TEST(MitsubaScenesOfOthers, Load) {
     const char *meshes = std::getenv("RTRAYS_MESHES");
     if (meshes == nullptr) {
@@ -473,7 +475,7 @@ TEST(MitsubaScenesOfOthers, Load) {
     const Scene veach = load_scene(std::string(meshes) + "/veach-mis/scene.xml");
     EXPECT_EQ(veach.arrays().shapes.name.size(), 3u);
     EXPECT_EQ(veach.lights().name.size(), 3u);
-    // These lack their mesh files; and one is of a BSDF that we have not.
+    // The first scene lacks its mesh files, and the second uses an unsupported BSDF.
     expect_input_error(
         "breakfast-room/scene.xml:157: <shape type=\"obj\" id=\"FrostedGlass_0001\">: ",
         [&] { load_scene(std::string(meshes) + "/breakfast-room/scene.xml"); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes exported for Mitsuba and read back render to the same image bits.
+// Tests that scenes exported for Mitsuba and imported again render to the same image bits.
 #include <gtest/gtest.h>
 
 #include <filesystem>

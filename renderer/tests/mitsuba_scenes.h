@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small Mitsuba scenes for tests.
+// Helpers that parse small Mitsuba scenes in tests.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace rtrays {
 
-/// A legal scene around some elements; `body` begins in line 3.
+/// Returns a valid scene that contains the elements of `body`, which begins in line 3.
 inline std::string mitsuba_scene(const std::string &body) {
     return R"(<scene version="3.0.0">
 <sensor type="perspective" id="eye"><float name="fov" value="60"/><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="4"/></film></sensor>
 )" + body + "\n</scene>";
 }
 
-/// Holds notices back while it lives.
+/// Collects notices, instead of printing them, during its lifetime.
 class Notices {
   public:
     const std::vector<std::string> &texts() const { return texts_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Model files of all formats as scenes.
+// Tests the import of model files of all formats as scenes.
 #include "renderer/import/model_file.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ using Fresnel = BxdfComponent::Fresnel;
 const std::filesystem::path corpus = RTRAYS_CORPUS;
 constexpr double degree = 3.14159265358979323846 / 180;
 
-/// A model with what its import had to say.
+/// A model with the notices of its import.
 struct Loaded {
     explicit Loaded(const std::filesystem::path &path) {
         const NoticeReceiver receiver([this](const std::string &text) { told += text + "\n"; });
@@ -37,12 +37,12 @@ struct Loaded {
 
     bool says(const std::string &text) const { return told.find(text) != std::string::npos; }
 
-    /// The components of a material by name.
+    /// Returns the components of the material with that name.
     std::vector<BxdfComponent> material(const std::string &name) const {
         const MaterialArrays &m = scene.materials();
         const auto found = std::find(m.name.begin(), m.name.end(), name);
         if (found == m.name.end()) {
-            ADD_FAILURE() << "no material " << name;
+            ADD_FAILURE() << "unknown material " << name;
             return {};
         }
         const auto at = static_cast<size_t>(found - m.name.begin());
@@ -50,7 +50,7 @@ struct Loaded {
         return {first, first + m.component_count[at]};
     }
 
-    /// The index of a light by the name of its node.
+    /// Returns the index of the light whose node has that name.
     size_t light(const std::string &name) const {
         const auto &names = scene.lights().name;
         return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -64,7 +64,7 @@ TEST(ModelFile, MapsTheMaterialsOfMtl) {
     const Loaded model(corpus / "materials.obj");
     EXPECT_EQ(model.scene.meshes().name.size(), 8u);
     EXPECT_EQ(model.scene.meshes().triangle.size(), 16u);
-    EXPECT_EQ(model.scene.meshes().position.size(), 32u);  // joined: Assimp had six per square
+    EXPECT_EQ(model.scene.meshes().position.size(), 32u);  // merged; Assimp had six per square
 
     const auto matte = model.material("matte");
     ASSERT_EQ(matte.size(), 1u);
@@ -86,11 +86,11 @@ TEST(ModelFile, MapsTheMaterialsOfMtl) {
     EXPECT_EQ(shiny[1].exponent, 50);
     EXPECT_EQ(shiny[1].weight, Vector3f::Constant(0.25f));
 
-    const auto scaled = model.material("too_bright");  // red would add up to 1.5
+    const auto scaled = model.material("too_bright");  // the components would sum to 1.5 in red
     ASSERT_EQ(scaled.size(), 2u);
     EXPECT_LT((scaled[0].weight - Vector3f(0.5f, 1 / 3.0f, 1 / 3.0f)).norm(), 1e-6f);
     EXPECT_LT((scaled[1].weight - Vector3f(0.5f, 1 / 3.0f, 1 / 6.0f)).norm(), 1e-6f);
-    EXPECT_TRUE(model.says("reflect more than they receive are scaled (1: too_bright)"))
+    EXPECT_TRUE(model.says("reflect more light than they receive are scaled down (1: too_bright)"))
         << model.told;
 
     const auto glass = model.material("glass");
@@ -107,7 +107,7 @@ TEST(ModelFile, MapsTheMaterialsOfMtl) {
     EXPECT_NEAR(metal[0].alpha[0], 0.1, 1e-12);  // 2 / (198 + 2) = 0.1^2
     EXPECT_LT((metal[0].eta - Vector3d(0.9, 0.6, 0.3)).norm(), 1e-6);
 
-    const auto veil = model.material("veil");  // a quarter is there, three quarters are not
+    const auto veil = model.material("veil");  // opacity 1/4
     ASSERT_EQ(veil.size(), 2u);
     EXPECT_EQ(veil[0].weight, Vector3f::Constant(0.125f));
     EXPECT_EQ(veil[1].kind, Kind::ideal_refraction);
@@ -124,14 +124,15 @@ TEST(ModelFile, MapsTheMaterialsOfMtl) {
 
 TEST(ModelFile, GivesAModelWithoutLightAndCameraBoth) {
     const Loaded model(corpus / "triangle.stl");
-    EXPECT_TRUE(model.says("it has no camera: 'camera' is added")) << model.told;
-    EXPECT_TRUE(model.says("it has no light: 'dome' of radiance 1 is added")) << model.told;
+    EXPECT_TRUE(model.says("the file has no camera; added 'camera'")) << model.told;
+    EXPECT_TRUE(model.says("the file has no light; added the light 'dome' of radiance 1"))
+        << model.told;
     ASSERT_EQ(model.scene.lights().kind, std::vector<LightArrays::Kind>{LightArrays::Kind::dome});
     EXPECT_EQ(model.scene.lights().radiance[0], Vector3f(1, 1, 1));
     EXPECT_EQ(model.material("default")[0].weight, Vector3f::Constant(0.6f));
-    EXPECT_FALSE(model.scene.meshes().has_normals[0]);  // STL says those of triangles once more
-    // All of the model is seen: every corner of its box is within half the angle of view of the
-    // axis.
+    EXPECT_FALSE(
+        model.scene.meshes().has_normals[0]);  // the normals in STL are those of the triangles
+    // The camera sees the full model: every vertex is within half the angle of view of the axis.
     const CameraArrays &cameras = model.scene.cameras();
     const Eigen::Matrix4d camera_from_world = cameras.world_from_camera[0].inverse();
     for (const Vector3f &vertex : model.scene.meshes().position) {
@@ -161,8 +162,8 @@ TEST(ModelFile, ReadsNodesInstancesLightsAndCamerasOfGltf) {
     const CameraArrays &cameras = model.scene.cameras();
     ASSERT_EQ(cameras.name.size(), 1u);
     EXPECT_EQ(cameras.fov_axis[0], CameraArrays::FovAxis::x);
-    EXPECT_NEAR(std::tan(0.5 * cameras.fov[0]), 2 * std::tan(0.3),
-                1e-6);  // 0.6 along y, aspect ratio 2
+    // The field of view is 0.6 along y, and the aspect ratio is 2.
+    EXPECT_NEAR(std::tan(0.5 * cameras.fov[0]), 2 * std::tan(0.3), 1e-6);
     EXPECT_EQ(cameras.world_from_camera[0].col(3), Eigen::Vector4d(0, 0, 5, 1));
     EXPECT_EQ(model.scene.film_width(), 2 * model.scene.film_height());
 
@@ -179,13 +180,13 @@ TEST(ModelFile, ReadsNodesInstancesLightsAndCamerasOfGltf) {
     const size_t sun = model.light("sun light");
     EXPECT_EQ(lights.kind[sun], LightArrays::Kind::directional);
     EXPECT_EQ(lights.radiance[sun], Vector3f(3, 3, 3));
-    // Turned from -z to straight down.
+    // The light is rotated from -z to straight down.
     EXPECT_LT((lights.world_from_light[sun].col(2) - Eigen::Vector4d(0, 1, 0, 0)).norm(), 1e-6);
     EXPECT_TRUE(model.told.empty()) << model.told;
 }
 
 TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
-    // checker.png, inside the file: half of its texels are (255, 128, 0), half (0, 64, 255).
+    // The file contains checker.png: half of its texels are (255, 128, 0), half are (0, 64, 255).
     const std::string image =
         "data:image/png;base64,"
         "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAGElEQVR42mNgcPj/v4EBSiJYDv8ZcMoAADqyFfGE/"
@@ -206,7 +207,7 @@ TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
     const auto brass = loaded.material("brass");
     ASSERT_EQ(brass.size(), 4u);
     const double roughness = 0.5 * (128 + 64) / 255;
-    // Half is there; of that half is metal.
+    // Half of the surface is opaque, and half of that is metal.
     EXPECT_EQ(brass[0].fresnel, Fresnel::schlick);
     EXPECT_LT((brass[0].weight - Vector3f::Constant(0.25f)).norm(), 1e-6f);
     EXPECT_NEAR(brass[0].alpha[0], roughness * roughness, 1e-6);
@@ -221,23 +222,23 @@ TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
     EXPECT_EQ(brass[2].texture, brass[0].texture);
     EXPECT_EQ(brass[3].kind, Kind::ideal_refraction);
     EXPECT_EQ(brass[3].weight, Vector3f::Constant(0.5f));
-    // Means of decoded texels: red of (1, 0), green of (128, 64) / 255, blue of (0, 1).
+    // The radiance is the mean of the decoded texels: red of (1, 0), green of (128, 64) / 255, blue
+    // of (0, 1).
     const double green = 0.5 * (std::pow((128 / 255.0 + 0.055) / 1.055, 2.4) +
                                 std::pow((64 / 255.0 + 0.055) / 1.055, 2.4));
     const LightArrays &lights = loaded.scene.lights();
     const size_t glow = loaded.light("left");
     ASSERT_LT(glow, lights.name.size());
     EXPECT_LT((lights.radiance[glow].cast<double>() - Vector3d(0.5, green, 0.25)).norm(), 1e-6);
-    EXPECT_TRUE(loaded.says("maps of emission are replaced by their mean (1: brass)"))
+    EXPECT_TRUE(loaded.says("emission maps are replaced by their mean (1: brass)")) << loaded.told;
+    EXPECT_TRUE(loaded.says("metalness and roughness maps are replaced by their mean"))
         << loaded.told;
-    EXPECT_TRUE(loaded.says("maps of metalness and roughness are replaced by their mean"))
-        << loaded.told;
-    EXPECT_TRUE(loaded.says("bump and normal maps are left out")) << loaded.told;
+    EXPECT_TRUE(loaded.says("bump and normal maps are ignored")) << loaded.told;
 }
 
 TEST(ModelFile, ReadsCollada) {
     const Loaded model(corpus / "plane.dae");
-    // Z is up in the file: (2, 2, 0) comes to lie at (2, 0, -2).
+    // Z is up in the file, so (2, 2, 0) becomes (2, 0, -2).
     EXPECT_LT((model.scene.meshes().position[2] - Vector3f(2, 0, -2)).norm(), 1e-6f);
     EXPECT_NEAR(model.scene.cameras().fov[0], 50 * degree, 1e-6);
     EXPECT_EQ(model.scene.cameras().fov_axis[0], CameraArrays::FovAxis::x);
@@ -262,9 +263,9 @@ TEST(ModelFile, TakesTheMaterialsOfPlyFromTheMtlBesideIt) {
     }
     const TemporaryFolder folder;
     const auto alone = folder.write("alone.ply", bytes_of(corpus / "square.ply"));
-    EXPECT_TRUE(Loaded(alone).says("there is no alone.mtl"));
+    EXPECT_TRUE(Loaded(alone).says("alone.mtl is missing"));
     folder.write("alone.mtl", "newmtl only\nKd 0.5 0.5 0.5\n");
-    expect_input_error("alone.ply: there is a material_index 1, but alone.mtl has only 1",
+    expect_input_error("alone.ply: material_index 1 is out of range; alone.mtl has only 1",
                        [&] { Loaded model(alone); });
 }
 
@@ -288,7 +289,7 @@ TEST(ModelFile, KeepsTheSquaresOfEveryFormat) {
         const Loaded model(folder.path() / format.file);
         EXPECT_EQ(model.scene.meshes().triangle.size(), 16u);
         const Eigen::AlignedBox3d bounds = model.scene.graph().bounds();
-        // In 3DS files z is up: what was y is taken for it and becomes -z.
+        // Z is up in 3DS files, so y becomes -z.
         const bool is_turned = std::string(format.id) == "3ds";
         const Vector3d front = is_turned ? Vector3d::UnitY() : Vector3d::UnitZ();
         EXPECT_LT((bounds.min() - (is_turned ? Vector3d(0, 0, -1) : Vector3d(0, 0, 0))).norm(),
@@ -297,7 +298,7 @@ TEST(ModelFile, KeepsTheSquaresOfEveryFormat) {
                   1e-6);
         const auto mesh = load_mesh_file(folder.path() / format.file, "m");
         EXPECT_EQ(mesh->triangles().size(), 16u);
-        // The front is where it was.
+        // The front must not change.
         for (const Triangle &t : mesh->triangles()) {
             const Vector3d &a = mesh->vertices()[t[0]];
             EXPECT_GT((mesh->vertices()[t[1]] - a).cross(mesh->vertices()[t[2]] - a).dot(front), 0);
@@ -315,7 +316,7 @@ TEST(ModelFile, SaysWhatIsWrong) {
     EXPECT_NE(missing.find("nowhere.png: no such file"), std::string::npos) << missing;
     folder.write("nowhere.png", "not a picture");
     expect_input_error("nowhere.png", [&] { Loaded model(path); });
-    // A path of another machine: the file beside the model is meant.
+    // For a path of another machine, the file beside the model is used.
     folder.write("m.mtl", "newmtl a\nmap_Kd C:\\work\\tiles.png\n");
     folder.write("tiles.png", bytes_of(corpus / "checker.png"));
     EXPECT_EQ(Loaded(path).scene.arrays().textures.name, std::vector<std::string>{"tiles"});
@@ -325,17 +326,17 @@ TEST(ModelFile, SaysWhatIsWrong) {
     expect_input_error("gone.obj: no such file", [&] { Loaded model(folder.path() / "gone.obj"); });
     expect_input_error("empty.obj", [&] { Loaded model(folder.write("empty.obj", "")); });
     expect_input_error("a.gltf", [&] { Loaded model(folder.write("a.gltf", "{}")); });
-    expect_input_error("points.obj: it has no", [&] {
+    expect_input_error("points.obj: the file has no", [&] {
         Loaded model(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"));
     });
-    expect_input_error("'.foo' is not a known scene format",
+    expect_input_error("unknown scene format '.foo'",
                        [&] { Loaded model(folder.write("a.foo", "")); });
-    expect_input_error("'.assbin' is not a known scene format",
+    expect_input_error("unknown scene format '.assbin'",
                        [&] { Loaded model(folder.write("a.assbin", "")); });
-    // It makes Assimp 5.2.5 abort, in the child process.
-    expect_input_error("damaged.3mf: cannot be read: ",
+    // This file makes Assimp 5.2.5 abort in the child process.
+    expect_input_error("damaged.3mf: cannot read the model: ",
                        [&] { Loaded model(corpus / "damaged.3mf"); });
-    // Binary STL of four billion triangles, and of as many as there are.
+    // Binary STL that claims four billion triangles, and one with the right number.
     std::string stl(80, ' ');
     expect_input_error("a.stl", [&] {
         Loaded model(folder.write("a.stl", stl + "\xff\xff\xff\xff" + std::string(50, '\0')));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PLY files and what every format needs before its faces are a mesh.
+// Tests the import of PLY files, and the processing of faces to a mesh for all formats.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -23,7 +23,7 @@ using Geometry = MeshCore::Geometry;
 
 const std::filesystem::path corpus = RTRAYS_CORPUS;
 
-/// A header of vertices x, y, z and of faces, and a body.
+/// Returns a PLY file with a header of vertices x, y, z and of faces, and a body.
 std::string ply(const std::string &vertices, const std::string &faces, const std::string &body) {
     return "ply\nformat ascii 1.0\nelement vertex " + vertices +
            "\nproperty float x\nproperty float y\nproperty double z\nelement face " + faces +
@@ -76,11 +76,9 @@ TEST(Ply, LeavesOutWhatMeansNothingHereAndSaysSo) {
     EXPECT_EQ(mesh->vertices().size(), 4u);
     EXPECT_EQ(mesh->triangles().size(), 2u);
     ASSERT_EQ(told.size(), 3u);
-    EXPECT_NE(told[0].find("elements that mean nothing here are left out (1: camera)"),
-              std::string::npos)
+    EXPECT_NE(told[0].find("points and lines are ignored (1: face 0 of in.ply)"), std::string::npos)
         << told[0];
-    EXPECT_NE(told[1].find("points and lines are left out (1: face 0 of in.ply)"),
-              std::string::npos)
+    EXPECT_NE(told[1].find("unknown elements are ignored (1: camera)"), std::string::npos)
         << told[1];
     EXPECT_NE(told[2].find("(2: vertex red, vertex near)"), std::string::npos) << told[2];
 }
@@ -93,40 +91,41 @@ TEST(Ply, SaysWhatIsWrong) {
     } cases[] = {
         {"", "is not a PLY file"},
         {"plyx\n", "is not a PLY file"},
-        {"ply\nformat ascii 1.0\n", "the header has no end"},
-        {"ply\nelement vertex 3\nend_header\n", "the header states no format"},
-        {"ply\nformat utf8 1.0\nend_header\n", "'utf8' is no format"},
+        {"ply\nformat ascii 1.0\n", "header: missing end_header"},
+        {"ply\nelement vertex 3\nend_header\n", "header: missing format"},
+        {"ply\nformat utf8 1.0\nend_header\n", "unknown format 'utf8'; formats are: ascii, "},
         {"ply\nformat ascii 1.0\nproperty float x\nend_header\n", "before the first element"},
         {"ply\nformat ascii 1.0\nelement vertex 3\nproperty real x\nend_header\n",
-         "'real' is no type"},
-        {"ply\nformat ascii 1.0\nelement vertex -3\nend_header\n", "'-3' is no number of elements"},
+         "unknown type 'real'; types are: char, "},
+        {"ply\nformat ascii 1.0\nelement vertex -3\nend_header\n",
+         "expected a number of elements, got '-3'"},
         {"ply\nformat ascii 1.0\nelement vertex 3\nelement vertex 3\nend_header\n",
-         "two elements 'vertex'"},
+         "duplicate element 'vertex'"},
         {"ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int x\nend_header\n",
-         "two properties 'x'"},
+         "duplicate property 'x'"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty list float int "
          "vertex_index\nend_header\n",
-         "no integer"},
+         "must have an integer type"},
         {"ply\nformat ascii 1.0\nelement face 9999999999999999999\nproperty int a\nend_header\n1\n",
          "too short for the"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
-         "no x, y and z"},
+         "vertices require the properties x, y and z"},
         {"ply\nformat ascii 1.0\nelement face 1\nproperty int a\nend_header\n1\n",
-         "no list 'vertex_indices'"},
+         "faces require one list 'vertex_indices'"},
         {"ply\nformat ascii 1.0\nelement vertex 99999999999999999999999\nend_header\n",
-         "is no number of elements"},
+         "expected a number of elements"},
         {"ply\nformat ascii 1.0\nelement void 4000000000000000000\nend_header\n",
-         "it has no faces"},
+         "the file has no faces"},
         {ply("4000000000", "1", three + "3 0 1 2\n"),
          "too short for the 4000000000 rows of 'vertex'"},
-        {ply("3", "0", three), "it has no faces"},
-        {ply("3", "1", three + "2 0 1\n"), "it has no faces"},
-        {ply("3", "1", three + "3 0 1\n"), "face 0: the file ends too early"},
-        {ply("3", "1", three + "3 0 1 3\n"), "face 0 has vertex 3, but there are only 3"},
-        {ply("3", "1", three + "3 0 1 -2\n"), "face 0: -2 is no vertex"},
-        {ply("3", "1", three + "-1 0 1 2\n"), "face 0: -1 is no number of corners"},
-        {ply("3", "1", three + "3 0 1 1.5\n"), "1.5 is no vertex"},
-        {ply("3", "1", "0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n"), "vertex 1: a number was expected"},
+        {ply("3", "0", three), "the file has no faces"},
+        {ply("3", "1", three + "2 0 1\n"), "the file has no faces"},
+        {ply("3", "1", three + "3 0 1\n"), "face 0: unexpected end of file"},
+        {ply("3", "1", three + "3 0 1 3\n"), "face 0 has vertex index 3, but there are only 3"},
+        {ply("3", "1", three + "3 0 1 -2\n"), "face 0: -2 is not a valid vertex index"},
+        {ply("3", "1", three + "-1 0 1 2\n"), "face 0: -1 is not a valid number of corners"},
+        {ply("3", "1", three + "3 0 1 1.5\n"), "1.5 is not a valid vertex index"},
+        {ply("3", "1", "0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n"), "vertex 1: expected a number"},
     };
     for (const auto &each : cases) {
         SCOPED_TRACE(each.message);
@@ -158,8 +157,8 @@ TEST(ModelGeometry, JoinsEqualVerticesOnly) {
 }
 
 TEST(ModelGeometry, SmoothNormalsOfACubeCornerAreItsDiagonal) {
-    // Three sides that meet in the origin, one of them of two triangles: without weights it would
-    // count twice.
+    // Three sides meet at the origin. One consists of two triangles and would count twice without
+    // weights.
     Geometry geometry;
     geometry.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}};
     geometry.triangles = {{0, 4, 1}, {0, 2, 4}, {0, 1, 3}, {0, 3, 2}};
@@ -189,7 +188,8 @@ TEST(ModelGeometry, AppendsTransformedParts) {
     part.normals.clear();
     part.uvs = {{0, 0}, {1, 0}, {0, 1}};
     append_geometry(all, part, translation({0, 0, 5}));
-    // The mirror turns the order; the front stays where the object has it, below now.
+    // A reflection reverses the vertex order. The front stays on the same side of the object, which
+    // now is below.
     EXPECT_EQ(all.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 5, 4}, {6, 7, 8}}));
     EXPECT_LT((all.normals[3] - Vector3d(0, 1, -0.5).normalized()).norm(), 1e-15);
     EXPECT_EQ(all.normals[6], Vector3d(0, 0, 1));
@@ -222,7 +222,7 @@ TEST(ModelGeometry, SplitsPolygonsWithoutLosingArea) {
         EXPECT_GE(signed_area, 0);
         area += signed_area;
     }
-    EXPECT_DOUBLE_EQ(area, 2.5);  // the square less the triangle (2, 2), (1, 0.5), (0, 2)
+    EXPECT_DOUBLE_EQ(area, 2.5);  // the square without the triangle (2, 2), (1, 0.5), (0, 2)
 }
 
 TEST(MeshFile, OptionsChooseNormalsAndFlipV) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Leaves out of the device code that a test includes for the host what the test did not define
-// before: the tables of shared/scene_buffers.h name these features and need each to be 0 or 1.
+// Disables the features that a test did not define before it includes device code. The tables of
+// shared/scene_buffers.h name these features and require each to be 0 or 1.
 #pragma once
 
 #ifndef FEATURE_triangles

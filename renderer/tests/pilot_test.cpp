@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The number of light paths that a pilot chooses.
+// Tests the number of light paths that a pilot rendering chooses.
 #include "renderer/pipeline/pilot.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,8 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
         EXPECT_GT(pilot.seconds, 0);
         return pilot.light_paths;
     };
-    // Caustics of mirrors are for light paths, what a point light shows of diffuse surfaces is not.
+    // Light paths are efficient for caustics of mirrors, but not for diffuse surfaces under a point
+    // light.
     EXPECT_GT(choose("/cornell_mirrors/scene.json"), 0u);
     EXPECT_EQ(choose("/features/point_light.json"), 0u);
 }
@@ -92,10 +93,10 @@ TEST(Pilot, NoLightPathsArePathTracing) {
 
 TEST(Pilot, IsOfTruncatedBdptAlone) {
     const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
-    expect_input_error("light_tracing has no choice", [&] {
+    expect_input_error("not supported by light_tracing", [&] {
         RenderSession(scene, settings_of(LIGHT_PATHS_AUTO, "light_tracing"), device());
     });
-    expect_input_error("light_tracing has nothing else",
+    expect_input_error("light_tracing needs light paths",
                        [&] { RenderSession(scene, settings_of(0, "light_tracing"), device()); });
 }
 

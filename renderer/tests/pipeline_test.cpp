@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pipeline on the device: what is compiled, allocated and launched for a scene, and that it
-// changes no bit.
+// Tests of the pipeline on the device: kernels, buffers and launches of a scene, and the
+// independence of the image's bits from all of them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -66,7 +66,7 @@ struct Mean {
     double standard_error = 0;
 };
 
-/// Mean over a square of pixels and its standard error from the variance layer.
+/// Returns the mean over a square of pixels, and its standard error from the variance layer.
 Mean mean_of(const Image &image, const std::string &channel, int begin, int end) {
     Mean mean;
     const double n = (end - begin) * (end - begin);
@@ -94,23 +94,24 @@ TEST_P(Algorithms, GiveTheSameBitsHoweverTheWorkIsCut) {
     EXPECT_NE(std::count(words.begin(), words.end(), 0), static_cast<long>(words.size()));
     EXPECT_EQ(render_words(with({})), words) << "a second run";
     EXPECT_EQ(render_words(with({}), 1), words) << "a batch split";
-    // All at once, for most make other programs of every stage; what any of them changed would
-    // show.
+    // These settings are tested together, because most of them recompile every stage. Any change of
+    // the image would show.
     EXPECT_EQ(render_words(with({"device.group_size=16", "device.stream_capacity=3000",
                                  "device.stream_chunk=7", "device.path_layout=arrays"}),
                            1),
               words)
-        << "other group size, stream capacity, chunk of work, layout";
-    EXPECT_EQ(render_words(with({"device.features=all"})), words) << "everything compiled in";
+        << "another group size, stream capacity, chunk of work and layout";
+    EXPECT_EQ(render_words(with({"device.features=all"})), words) << "all features compiled in";
     if (GetParam() == "ray_casting" || GetParam() == "whitted") {
-        return;  // they draw nothing
+        return;  // these algorithms use no random numbers
     }
     const std::vector<int64_t> sobol = render_words(with({"integrator.sampler=sobol"}));
     EXPECT_NE(sobol, words);
     EXPECT_EQ(render_words(with({"integrator.sampler=sobol", "device.features=all"}), 1), sobol);
 }
 
-/// Both passes of some see the lamp, and nothing else is left to weigh.
+/// Without scattering, some algorithms see the lamp in both passes and must weight only these two
+/// contributions.
 TEST_P(Algorithms, GiveTheImageOfEverythingCompiledInWhereNothingScatters) {
     const Scene lamp = load_scene(RTRAYS_SCENES "/extreme/bright_lamp.json");
     RenderSettings settings = small();
@@ -174,7 +175,7 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
     };
     const FilmState whole = render("all"), camera = render("camera");
     FilmState merged = render("light");
-    expect_input_error("films differ in their passes", [&] {
+    expect_input_error("films differ in passes", [&] {
         FilmState film = merged;
         merge_film(film, whole);
     });
@@ -191,7 +192,7 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
     expect_input_error("share their light paths", [&] { render("light"); });
     settings.passes = "all";
     settings.light_paths = 7;
-    expect_input_error("a light path of its own", [&] { render("all"); });
+    expect_input_error("one light path per camera path", [&] { render("all"); });
     settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
     settings.algorithm = "light_tracing";
     expect_input_error("light_tracing has no pass 'camera'", [&] { render("camera"); });
@@ -206,7 +207,7 @@ TEST(Pipeline, KeepsWhatARoundMaySplatWithinOneWordOfTheFilm) {
 }
 
 TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
-    // A quarter as many light paths: another share of the work, the same image.
+    // A quarter of the light paths changes the distribution of work, but not the expected image.
     const auto mean = [&](const char *light_paths) {
         RenderSettings settings = small({light_paths, "integrator.seen_emitters=camera"});
         settings.algorithm = "truncated_bdpt";
@@ -223,14 +224,15 @@ TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
     const auto [few, light_of_few] = mean("integrator.light_paths=64");
     EXPECT_LT(std::abs(all.value - few.value),
               4 * std::hypot(all.standard_error, few.standard_error));
-    EXPECT_LT(all.standard_error, 0.01 * all.value) << "power";
+    EXPECT_LT(all.standard_error, 0.01 * all.value) << "statistical power";
     EXPECT_LT(light_of_few, 0.7 * light_of_all);
 }
 
-// With 16 vertices all strategies find all but the longest paths, with 1 only those of two
-// scattering events: nothing is lost or counted twice on either side of the limit. Five differences
-// from path tracing at a family-wise level of 0.01, standard errors from how 32 batches scatter:
-// each may be 3.4 of them off (two-sided, t of 31 degrees, Bonferroni).
+// With 16 vertices, all strategies find all but the longest paths. With 1 vertex, connections find
+// only paths of two scattering events. Nothing may be lost or counted twice on either side of the
+// limit. Five differences from path tracing share a family-wise level of 0.01 (two-sided, Student's
+// t with 31 degrees of freedom, Bonferroni), so each may be 3.4 standard errors off. The standard
+// errors come from the spread of 32 batches.
 TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
     const auto mean = [&](const std::string &algorithm, uint32_t seed,
                           const std::vector<std::string> &assignments,
@@ -257,7 +259,7 @@ TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
         return result;
     };
     const Mean expected = mean("path_tracing", 1, {});
-    EXPECT_LT(expected.standard_error, 0.005 * expected.value) << "power";
+    EXPECT_LT(expected.standard_error, 0.005 * expected.value) << "statistical power";
     const auto errors_off = [&](const Mean &found) {
         return std::abs(found.value - expected.value) /
                std::hypot(found.standard_error, expected.standard_error);
@@ -269,8 +271,8 @@ TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
             3.4)
             << vertices;
     }
-    // And would be seen: a cosine that is missing in the joins, one strategy that is missing in all
-    // weights.
+    // Planted errors must be detected: a missing cosine in the connections, and a strategy that is
+    // missing in all weights.
     const auto planted = [&](const char *file, const std::string &search, const char *replacement) {
         std::string text = device_source(file);
         const size_t at = text.find(search);
@@ -332,7 +334,7 @@ TEST(Pipeline, ResumesAndMergesToTheSameBits) {
 
     expect_input_error("samples 3:5 overlap 0:4", [&] { session.render(3, 5); });
     RenderSession other(cornell_box(), small({"integrator.beta=1"}), device());
-    EXPECT_THROW(other.restore(first), Error) << "film of other settings";
+    EXPECT_THROW(other.restore(first), Error) << "a film of other settings";
 }
 
 TEST(Pipeline, RestartsWithAnotherDepthToTheSameBits) {
@@ -350,11 +352,11 @@ TEST(Pipeline, RestartsWithAnotherDepthToTheSameBits) {
     EXPECT_THROW(unlimited.restart(1, 2), Error);
 }
 
-// Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are left out: all
-// walls emit, and cos cos / d^2 has no finite variance where two of them meet;
-// experiments/tests/estimators_test.cpp covers them. 12 means and 3 of the emitter below share a
-// family-wise level of 0.01: each may lie 3.5 standard errors off (two-sided, Bonferroni). The
-// standard errors are small enough that an error of 2 % is seen.
+// Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are not tested here
+// but in experiments/tests/estimators_test.cpp. All walls emit, and cos cos / d^2 has no finite
+// variance where two walls meet. The 12 means and the 3 means of the emitter below share a
+// family-wise level of 0.01, so each may be 3.5 standard errors off (two-sided, Bonferroni). The
+// standard errors are small enough to detect an error of 2 %.
 constexpr double bound = 3.5;
 
 TEST(ClosedForm, FurnaceGivesEmissionOverOneMinusAlbedo) {
@@ -372,7 +374,8 @@ TEST(ClosedForm, FurnaceGivesEmissionOverOneMinusAlbedo) {
                 const Mean mean = mean_of(image, channel, 0, 32);
                 EXPECT_LT(std::abs(mean.value - emission * expected), bound * mean.standard_error)
                     << file << " " << strategies << " " << channel;
-                EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * emission * expected) << "power";
+                EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * emission * expected)
+                    << "statistical power";
             }
         }
     }
@@ -388,23 +391,23 @@ TEST(ClosedForm, IrradianceBelowASquareEmitter) {
     session.render(0, 16384);
     const Image image = session.develop();
     const double a = 1.0, h = 2.0, r = std::sqrt(a * a + h * h);  // half side, height
-    const double irradiance =
-        4.0 * a / r * std::atan(a / r);  // per unit radiance, at the foot of the centre
+    // Irradiance per unit radiance at the foot of the centre.
+    const double irradiance = 4.0 * a / r * std::atan(a / r);
     for (const auto &[channel, factor] :
          {std::pair("R", 0.8 * 1), std::pair("G", 0.5 * 2), std::pair("B", 0.2 * 4)}) {
         const Mean mean = mean_of(image, channel, 16, 17);
         EXPECT_NEAR(mean.value, factor * irradiance / 3.14159265358979,
                     bound * mean.standard_error);
-        EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * mean.value) << "power";
+        EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * mean.value) << "statistical power";
     }
 }
 
-// Figure 3.7 of the thesis: which block serves which algorithm.
-TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
-    std::istringstream readme(bytes_of(RTRAYS_SCENES "/../README.md"));
+// docs/algorithms.md lists the stages of each algorithm, like figure 3.7 of the thesis.
+TEST(AlgorithmsPage, ListsTheStagesOfEveryAlgorithm) {
+    std::istringstream page(bytes_of(RTRAYS_SCENES "/../docs/algorithms.md"));
     std::vector<std::string> algorithms;
     std::map<std::string, std::set<std::string>> listed;  // by algorithm
-    for (std::string line; std::getline(readme, line);) {
+    for (std::string line; std::getline(page, line);) {
         std::vector<std::string> cells;
         std::istringstream row(line);
         for (std::string cell; std::getline(row, cell, '|');) {
@@ -423,7 +426,7 @@ TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
         }
     }
     EXPECT_EQ(algorithms, algorithm_names());
-    // Stages that only keep counters are left out.
+    // The page omits stages that only maintain counters.
     const std::set<std::string> bookkeeping = {"begin_round", "end_shadow_rays", "end_round"};
     for (const std::string &algorithm : algorithms) {
         std::set<std::string> used;
@@ -441,7 +444,7 @@ TEST(Readme, ListsTheStagesOfEveryAlgorithm) {
 }
 
 TEST(Features, AreNamedAndClosed) {
-    // Each pass starts at one end.
+    // Each pass starts paths either at the camera or at the lights.
     const FeatureMask from_light =
         FeatureMask::all().with(Feature::from_camera, false).with(Feature::convergence, false);
     EXPECT_EQ(FeatureMask::all().closed().bits(), from_light.bits());
@@ -458,14 +461,14 @@ TEST(Features, AreNamedAndClosed) {
          {Feature::light_strategy, Feature::from_light, Feature::point_lights}) {
         EXPECT_FALSE(dark.has(feature));
     }
-    // Light paths start at lights that camera paths cannot hit, also where those are not joined to
-    // them.
+    // Light paths start at lights that camera paths cannot hit, even if camera paths do not connect
+    // to them.
     const FeatureMask forward = FeatureMask::all().with(Feature::explicit_light, false).closed();
     EXPECT_TRUE(forward.has(Feature::point_lights));
     EXPECT_TRUE(forward.has(Feature::many_lights));
     EXPECT_FALSE(forward.with(Feature::from_light, false).closed().has(Feature::point_lights));
-    // Where nothing scatters nothing is joined, but both ends still see the emitters and weigh
-    // them.
+    // Without scattering, no vertices are connected, but both passes still see the emitters and
+    // weight them.
     const FeatureMask bare = FeatureMask::all().with(Feature::scattering, false).closed();
     EXPECT_FALSE(bare.has(Feature::vertex_joins));
     EXPECT_TRUE(bare.has(Feature::light_emitters));
@@ -486,7 +489,7 @@ TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
     EXPECT_LT(lean["bytes_per_path"], full["bytes_per_path"]);
     EXPECT_LE(full["bytes_per_path"], 128);
 
-    // Without reflection and light nothing remains but rays and the film.
+    // Without reflection and light, only rays and the film remain.
     Scene dark = cornell_box();
     for (const std::string material : {"white", "red", "green", "lamp"}) {
         dark.set_property("materials." + material + ".reflectance", "[0, 0, 0]");
@@ -519,8 +522,9 @@ TEST(Settings, NameTheAlternatives) {
     settings.termination = "sudden";
     expect_input_error("roulette, fixed, adaptive", [&] { require_consistent(settings); });
     settings.algorithm = "magic";
-    expect_input_error("no algorithm 'magic'; there are: ray_casting, whitted, path_tracing",
-                       [&] { require_consistent(settings); });
+    expect_input_error(
+        "unknown algorithm 'magic'; algorithms are: ray_casting, whitted, path_tracing",
+        [&] { require_consistent(settings); });
 }
 
 }  // namespace

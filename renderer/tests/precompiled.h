@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// As renderer/base/precompiled.h, for tests.
+// Precompiled header of the tests.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays counted by depth.
+// Tests the counts of rays by depth.
 #include "renderer/shared/ray_counts.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,8 @@ Rendered render(const Scene &scene, const std::string &algorithm,
     return {session.film().words, session.report()};
 }
 
-/// Camera and point light in a sphere: no path leaves, every hit is lit.
+/// Returns a scene with a camera and a point light in a sphere. No path leaves it, and the light
+/// reaches every hit.
 Scene closed_sphere() {
     return parse_scene_json(R"({"version": 1, "film": {"width": 16, "height": 16}, "nodes": [
         {"name": "camera", "transform": [{"look_at": {"origin": [0.5, 0, 0], "target": [0, 0, 1], "up": [0, 1, 0]}}],
@@ -105,7 +106,7 @@ TEST(RayCounts, NeedStreams) {
     RenderSettings settings;
     apply_setting(settings, "device.pipeline=megakernel");
     apply_setting(settings, "device.count_rays=by_depth");
-    expect_input_error("device.count_rays=by_depth counts what is in the streams",
+    expect_input_error("device.count_rays=by_depth: counts rays in the streams",
                        [&] { require_consistent(settings); });
 }
 

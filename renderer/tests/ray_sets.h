@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fuzzed rays over a mesh: random, grazing its triangles, and along the axes through its vertices.
+// Fuzzed rays at a mesh: random, grazing its triangles, and axis-aligned through its vertices.
 #pragma once
 
 #include "renderer/kernels/traversal/ray_record.h"
@@ -21,8 +21,8 @@ inline Eigen::Vector3f ray_direction(const RayRecord &ray) {
     return {ray.direction[0], ray.direction[1], ray.direction[2]};
 }
 
-/// One of the vertices of a random triangle, a point of one of its edges, or one inside it, in
-/// turns.
+/// Returns a point of a random triangle: a vertex, a point on an edge, or an inner point, chosen
+/// cyclically by `turn`.
 inline Eigen::Vector3f aim(const Mesh &mesh, size_t turn, Random &random) {
     const auto triangle = std::uniform_int_distribution<uint32_t>(
         0, static_cast<uint32_t>(mesh.triangles.size() - 1))(random);
@@ -34,9 +34,10 @@ inline Eigen::Vector3f aim(const Mesh &mesh, size_t turn, Random &random) {
                            : Eigen::Vector3f(a + s * (b - a) + (1 - s) * t * (c - a));
 }
 
-/// `count` rays in equal parts of: random origin in twice the mesh's box and random direction;
-/// grazing (towards a point of a triangle within 1e-1 to 1e-5 of its plane, from outside);
-/// axis-aligned through a vertex or through the middle of an edge.
+/// Returns `count` rays in equal parts of three types:
+///   * random origin in twice the mesh's box, and random direction;
+///   * grazing: from outside towards a point of a triangle, 1e-1 to 1e-5 from its plane;
+///   * axis-aligned through a vertex or through the middle of an edge.
 inline std::vector<RayRecord> fuzzed_rays(const Mesh &mesh, size_t count, uint64_t seed) {
     Random random(seed);
     const Eigen::AlignedBox3f box = mesh.box();

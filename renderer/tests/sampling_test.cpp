@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random numbers, discrete choices and their weights: the shipped device code compiled for the
-// host. Samplers of lights and cameras: light_sampling_test.cpp, of BSDFs: bsdf_sampling_test.cpp.
+// Tests random numbers, discrete choices and their weights, with the device code compiled for the
+// host. Tests of light samplers are in light_sampling_test.cpp, of BSDF samplers in
+// bsdf_sampling_test.cpp.
 #define FEATURE_sobol 1
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/hemisphere.h"
@@ -19,7 +20,7 @@
 namespace rtrays {
 namespace {
 
-constexpr double level = 0.01;  // one chi-square test
+constexpr double level = 0.01;  // level of a single chi-square test
 constexpr double pi = 3.14159265358979323846;
 constexpr uint32_t sample_count = 1'000'000;
 
@@ -27,7 +28,7 @@ uint4 words(uint32_t sample, uint32_t block = 0) {
     return random_words(11, 0, 3, sample, block);
 }
 
-// The known-answer vectors of Random123's own test suite (kat_vectors: philox4x32 10).
+// Known answers from the test suite of Random123 (kat_vectors: philox4x32 10).
 TEST(Random, PhiloxKnownAnswers) {
     const uint4 zero = random_words(0, 0, 0, 0, 0);
     EXPECT_EQ(zero.x, 0x6627e8d5u);
@@ -51,13 +52,13 @@ TEST(Random, UniformFloatsStayBelowOne) {
 }
 
 TEST(ChiSquare, GivesKnownProbabilitiesAndLeavesNoSampleOut) {
-    // One degree of freedom: erfc(sqrt(x / 2)); two: exp(-x / 2).
+    // The p-value is erfc(sqrt(x / 2)) for one degree of freedom, and exp(-x / 2) for two.
     EXPECT_NEAR(chi_square_p({600, 400}, {500, 500}) / std::erfc(std::sqrt(20.0)), 1.0, 1e-9);
     EXPECT_NEAR(chi_square_p({104, 100, 84}, {96, 96, 96}) / std::exp(-(64.0 + 16 + 144) / 96 / 2),
                 1.0, 1e-9);
     EXPECT_EQ(chi_square_p({1, 500, 499}, {0, 500, 500}), 0.0);
     EXPECT_LT(chi_square_p({50, 100, 1000}, {1e-6, 100, 1000}), 1e-5)
-        << "where next to none is expected";
+        << "a cell with an expectation near 0";
 }
 
 TEST(Random, UniformFloatsPassChiSquareInPairs) {
@@ -91,8 +92,8 @@ TEST(Circle, PointsAreThoseOfTheirAngles) {
     EXPECT_EQ(std::pair(round.x, round.y), std::pair(1.0f, 0.0f));
 }
 
-// The direction numbers from the primitive polynomials and initial values of Joe & Kuo's table
-// (new-joe-kuo-6).
+// Compares the direction numbers with those computed from the primitive polynomials and initial
+// values in the table of Joe & Kuo (new-joe-kuo-6).
 TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
     struct Row {
         uint32_t degree, coefficients;
@@ -131,8 +132,8 @@ uint4 sobol_words(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block
 class Stratified : public testing::TestWithParam<uint32_t> {};
 
 TEST_P(Stratified, EveryRunOfSamplesIs) {
-    // Elementary intervals of every shape in the first two dimensions, and each dimension by
-    // itself.
+    // Tests elementary intervals of every shape in the first two dimensions, and each dimension
+    // separately.
     for (const uint32_t log_count : {4u, 8u}) {
         const uint32_t count = 1u << log_count;
         for (const uint64_t first :
@@ -167,14 +168,14 @@ TEST(Regular, BeginsInTheCentreAndIsTheSameEverywhere) {
         const uint4 first = stratified_words(SAMPLER_REGULAR, 1, 5, 0, block);
         EXPECT_EQ(uniform_float(first.x), 0.5f);
         EXPECT_EQ(uniform_float(first.y), 0.5f);
-        EXPECT_EQ(uniform_float(first.z), 0.0f) << "the radius on the lens";
+        EXPECT_EQ(uniform_float(first.z), 0.0f) << "radius on the lens";
         EXPECT_EQ(uniform_float(first.w), 0.5f);
         const uint4 here = stratified_words(SAMPLER_REGULAR, 1, 5, 9, block),
                     there = stratified_words(SAMPLER_REGULAR, 2, 6, 9, block);
         EXPECT_EQ(here.x, there.x);
         EXPECT_EQ(here.w, there.w);
     }
-    // Points of the pixel and of a light go through all pairs.
+    // Pairs of a coordinate in the pixel and a coordinate on a light must be uniform.
     constexpr int bins = 32;
     constexpr uint32_t pairs = 200'000;
     std::vector<uint64_t> observed(bins * bins);
@@ -188,7 +189,7 @@ TEST(Regular, BeginsInTheCentreAndIsTheSameEverywhere) {
 }
 
 TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
-    // The same sample of other pixels, blocks and seeds, in pairs: uniform.
+    // Pairs of the same sample in different pixels, blocks and seeds must be uniform.
     constexpr int bins = 32;
     constexpr uint32_t pairs = 200'000;
     const auto uniform = [&](const std::function<std::pair<uint32_t, uint32_t>(uint32_t)> &pair) {

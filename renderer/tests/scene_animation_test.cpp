@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keyframes, and what a step in time costs.
+// Tests keyframe animation, and the cost of a step in time.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
@@ -34,7 +34,7 @@ TEST(Animation, KeyframesAreMetToTheBitAndHoldOutside) {
 }
 
 TEST(Animation, RotationsTurnEvenlyAndLengthsChangeEvenly) {
-    // Half a turn in two steps, growing from 1 to 3 along x and moving along y.
+    // Half a turn in two steps, with scaling from 1 to 3 along x and translation along y.
     const AnimatedTransform turning(
         "", {{0, Matrix4d::Identity()},
              {2, translation({0, 4, 0}) * rotation({0, 0, 1}, pi / 2) * scaling({3, 1, 1})},
@@ -48,7 +48,7 @@ TEST(Animation, RotationsTurnEvenlyAndLengthsChangeEvenly) {
     }
     EXPECT_TRUE(turning.matrix_at(3).topLeftCorner(3, 3).isApprox(
         (rotation({0, 0, 1}, 0.75 * pi) * scaling({2, 1, 1})).topLeftCorner(3, 3), 1e-14));
-    // The shorter way round: 340 degrees is -20.
+    // Interpolation takes the shorter rotation: 340 degrees is -20.
     const AnimatedTransform wide(
         "", {{0, Matrix4d::Identity()}, {1, rotation({0, 0, 1}, 340 * pi / 180)}});
     EXPECT_TRUE(wide.matrix_at(0.5).isApprox(rotation({0, 0, 1}, -10 * pi / 180), 1e-14));
@@ -80,26 +80,25 @@ TEST(Animation, ErrorsNameTheKeyframe) {
             Case{R"("animation": [{"time": 0}])",
                  "/nodes/1/animation/0 (in 'a'): missing key 'transform'"},
             Case{R"("animation": [{"time": 0, "transform": []}, {"time": 0, "transform": []}])",
-                 "in.json:3: /nodes/1/animation: animation: keyframe 1 is at 0 s, not after the "
-                 "one before "
-                 "it, at 0 s"},
+                 "in.json:3: /nodes/1/animation: animation: keyframe 1 is at 0 s, but must be "
+                 "later than the previous one at 0 s"},
             Case{
                 R"("animation": [{"time": 0, "transform": []}, {"time": 1, "transform": [{"scale": [1, 0, 1]}]}])",
                 "/nodes/1/animation/1/transform/0: transform: the matrix is not invertible"},
             Case{
                 R"("animation": [{"time": 0, "transform": []}, {"time": 1, "transform": [{"scale": [1, 1, -1]}]}])",
-                "keyframe 1 mirrors and the one before it does not"},
+                "keyframe 1 and the previous one must both mirror or both not mirror"},
             Case{
                 R"("animation": [{"time": 0, "transform": []}, {"time": 1, "transform": [{"rotate": {"axis": [1, 2, 3], "degrees": 180}}]}])",
-                "keyframe 1 is half a turn from the one before it"},
+                "keyframe 1 is half a turn from the previous one"},
             Case{R"("animation": [{"time": 0, "transform": []}], "transform": [])",
-                 "'a' has a transform and an animation"},
+                 "'a' has both a transform and an animation"},
         }) {
         SCOPED_TRACE(c.node);
         expect_input_error(c.message, [&] { scene(c.node); });
     }
     Scene still = scene(R"("animation": [{"time": 0, "transform": []}])");
-    expect_input_error("'a.translation': can only be read",
+    expect_input_error("'a.translation': the property is read-only",
                        [&] { still.set_property("a.translation", "1,2,3"); });
 }
 
@@ -123,12 +122,12 @@ TEST(Animation, MovesGeometryLightsAndCamerasWithTheirNodes) {
     EXPECT_EQ(scene.meshes().position[0], Vector3f(3, 2, 0));
     EXPECT_EQ(scene.graph().visited_nodes(), 5u);
     scene.update(10);
-    EXPECT_EQ(scene.graph().visited_nodes(), 0u) << "the last keyframe holds";
+    EXPECT_EQ(scene.graph().visited_nodes(), 0u) << "the last keyframe remains in effect";
     scene.update(0);
     EXPECT_EQ(scene.hash(), hash);
 }
 
-/// A triangle with its second corner, and the normal there, at a time.
+/// Returns a keyframe of a triangle with the given second corner and the given normal there.
 MorphedMesh::Key corner_at(double time, const Vector3d &corner, const Vector3d &normal) {
     return {time,
             {{{0, 0, 0}, corner, {0, 1, 0}}, {{0, 1, 2}}, {{0, 0, 1}, normal, {0, 0, 1}}, {}}};
@@ -150,12 +149,13 @@ TEST(Morph, VerticesFollowTheKeyframes) {
     EXPECT_EQ(mesh.normals()[1], Vector3d(1, 0, 0));
     EXPECT_EQ(corner_of(3), Vector3d(1.5, 0, 0.5));
     EXPECT_EQ(mesh.normals()[1], Vector3d(-1, 0, 0))
-        << "half-way between opposite ones: of the next keyframe";
+        << "half-way between opposite normals, that of the next keyframe is used";
     EXPECT_EQ(corner_of(4), Vector3d(2, 0, 0));
     EXPECT_EQ(corner_of(1e300), Vector3d(2, 0, 0));
     EXPECT_EQ(corner_of(1), Vector3d(1, 0, 0));
     mesh.update(1.5);
-    EXPECT_TRUE(mesh.normals()[1].isApprox(Vector3d(1, 0, 1).normalized(), 1e-15)) << "unit";
+    EXPECT_TRUE(mesh.normals()[1].isApprox(Vector3d(1, 0, 1).normalized(), 1e-15))
+        << "normals must have unit length";
 }
 
 TEST(Morph, ComesToTheTimeOfItsScene) {
@@ -165,7 +165,7 @@ TEST(Morph, ComesToTheTimeOfItsScene) {
     scene.update(1.5);
     EXPECT_NE(scene.hash(), hash);
     EXPECT_EQ(scene.meshes().triangle, triangles);
-    EXPECT_EQ(scene.graph().visited_nodes(), 1u) << "nothing else moves";
+    EXPECT_EQ(scene.graph().visited_nodes(), 1u) << "no other node moves";
     scene.update(7);
     const std::string last = scene.hash();
     scene.update(2);
@@ -191,17 +191,18 @@ TEST(Morph, ErrorsNameTheKeyframe) {
         const Case &c : {
             Case{"", "/nodes/1/geometry/keyframes (in 'a')"},
             Case{R"({"time": 0, "geometry": {"type": "sphere"}})",
-                 "keyframe 0 is no mesh, file, rectangle or box"},
+                 "keyframe 0 must be a mesh, file, rectangle or box"},
             Case{
                 R"({"time": 1, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "box"}})",
-                "mesh 'a': keyframe 1 is at 1 s, not after the one before it, at 1 s"},
+                "mesh 'a': keyframe 1 is at 1 s, but must be later than the previous one at 1 s"},
             Case{
                 R"({"time": 0, "geometry": {"type": "box"}}, {"time": 1, "geometry": {"type": "rectangle"}})",
-                "mesh 'a': keyframe 1 has 4 vertices and 0 normals, the first one 24 and 0"},
+                "mesh 'a': keyframe 1 has 4 vertices and 0 normals, but the first keyframe has 24 "
+                "and 0"},
             Case{
                 R"({"time": 0, "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]]}},
                      {"time": 1, "geometry": {"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,2,1]]}})",
-                "mesh 'a': keyframe 1 has other triangles than the first one"},
+                "mesh 'a': keyframe 1 must have the same triangles as the first keyframe"},
         }) {
         SCOPED_TRACE(c.keyframes);
         expect_input_error(c.message, [&] { scene(c.keyframes); });
@@ -230,7 +231,7 @@ TEST(Animation, CoresComeToTheTimeOfTheirGraph) {
     EXPECT_EQ(graph.arrays().meshes.position[0], Vector3f(0, 0, 0));
 }
 
-/// Median seconds of a step in time of a scene in which one node of this many moves.
+/// Returns the median time in seconds of a step of a scene in which one of `nodes` nodes moves.
 double step_seconds(int nodes) {
     SceneGraph graph;
     graph.root().set_core(grey("grey"));
@@ -244,7 +245,7 @@ double step_seconds(int nodes) {
             node.set_core(area_light(Vector3d(1, 1, 1)));
         }
     }
-    Node &moving = *graph.find(std::to_string(nodes / 6 * 6));  // a triangle that emits
+    Node &moving = *graph.find(std::to_string(nodes / 6 * 6));  // an emissive triangle
     moving.set_core(sliding(1000));
     graph.update(0);
     expect_consistent(graph);
@@ -271,7 +272,7 @@ TEST(Animation, TheCostOfAStepDoesNotDependOnTheRest) {
     RecordProperty("step_1000_nodes_ns", static_cast<int>(small * 1e9));
     RecordProperty("step_100000_nodes_ns", static_cast<int>(large * 1e9));
     std::printf("one node moved: %.2f us among 1e3, %.2f us among 1e5\n", small * 1e6, large * 1e6);
-    // A walk over the graph would take about 100 times as long; caches account for a small factor.
+    // A walk over the graph would take about 100 times as long. Caches account for a small factor.
     EXPECT_LT(large, 10 * small + 5e-6);
 }
 

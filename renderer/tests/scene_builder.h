@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scene graphs for tests.
+// Helpers that build small scene graphs, and checks of serialized scenes.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace rtrays {
 
-/// Tests that read images; skipped by builds without textures.
+/// Fixture of tests that read images. Builds without textures skip them.
 class WithImages : public testing::Test {
   protected:
     void SetUp() override {
@@ -52,14 +52,14 @@ inline std::shared_ptr<ShapeCore> shape(const std::string &type,
     return std::make_shared<ShapeCore>(type, type, values);
 }
 
-/// The right triangle (0,0,0), (1,0,0), (0,1,0), facing +z; area 1/2.
+/// Returns the right triangle (0,0,0), (1,0,0), (0,1,0), which faces +z and has area 1/2.
 inline std::shared_ptr<MeshCore> right_triangle(const std::string &name = "triangle") {
     return std::make_shared<MeshCore>(name,
                                       std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                       std::vector<Triangle>{{0, 1, 2}});
 }
 
-/// The unit square in the xy plane, facing +z.
+/// Returns the unit square in the xy plane, which faces +z.
 inline std::shared_ptr<MeshCore> unit_square(const std::string &name = "square") {
     return std::make_shared<MeshCore>(
         name, std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
@@ -70,7 +70,8 @@ inline std::shared_ptr<TransformCore> moved(double x, double y, double z) {
     return std::make_shared<TransformCore>("", translation({x, y, z}));
 }
 
-/// The records of one light: of the geometry that it is, or of none.
+/// Checks the indices of one light: an area light belongs to exactly one geometry, other lights to
+/// none.
 inline void expect_consistent_light(const SceneArrays &arrays, uint32_t light) {
     const LightArrays &lights = arrays.lights;
     if (lights.kind[light] != LightArrays::Kind::diffuse_area) {
@@ -92,8 +93,8 @@ inline void expect_consistent_light(const SceneArrays &arrays, uint32_t light) {
     }
 }
 
-/// Every index of the serialized scene is valid and every record belongs to one object: what
-/// readers rely on.
+/// Checks what readers of a serialized scene rely on: every index is valid, and every record
+/// belongs to one object.
 inline void expect_consistent(const SceneGraph &graph) {
     const SceneArrays &arrays = graph.arrays();
     const MeshArrays &meshes = arrays.meshes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the scene model refuses: one clear error for each way to get a material, a shape, a light or
-// a camera wrong.
+// Tests the errors of the scene model: each invalid material, shape, light or camera has a clear
+// message.
 #include <filesystem>
 #include <fstream>
 
@@ -10,7 +10,7 @@
 namespace rtrays {
 namespace {
 
-/// A scene whose line 2 holds these nodes.
+/// Returns a scene whose line 2 contains the given nodes.
 Scene parse(const std::string &nodes) {
     return parse_scene_json(
         R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [{"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},)"
@@ -21,7 +21,7 @@ Scene parse(const std::string &nodes) {
 
 struct Refused {
     std::string value;
-    std::string message;  ///< fragment
+    std::string message;  ///< fragment of the error message
 };
 
 void expect_refused(const std::string &before, const std::string &after,
@@ -64,11 +64,10 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "glass", "eta": [1.5, 1.5, 1.5]})", "eta: [1.5,1.5,1.5] is not number"},
             {R"({"type": "glass"})", "missing key 'eta' of the glass"},
             {R"({"type": "glass", "eta": 1.5, "roughness": 1e-5})",
-             "roughness: [1e-05, 1e-05] must be 0 along both axes, which is ideally smooth, or "
-             "within "
-             "[0.0001, 1]"},
+             "roughness: [1e-05, 1e-05] is out of range; use 0 for both axes (ideally smooth) or "
+             "values within [0.0001, 1]"},
             {R"({"type": "glass", "eta": 1.5, "roughness": [0, 0.5]})",
-             "roughness: [0, 0.5] must be 0 along both"},
+             "roughness: [0, 0.5] is out of range; use 0 for both"},
             {R"({"type": "glass", "eta": 1.5, "roughness": [0.1, 0.2, 0.3]})",
              "roughness: [0.1,0.2,0.3] is not two numbers"},
             {R"({"type": "glass", "eta": 1.0005, "roughness": 0.5})",
@@ -79,14 +78,15 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "metal", "preset": "lead"})",
              "\"lead\" is not one of: silver, gold, copper"},
             {R"({"type": "metal", "preset": "gold", "eta": 1.5})",
-             "a metal has a 'preset', or 'eta' and 'k'"},
-            {R"({"type": "metal", "k": [1, 1, 1]})", "a metal has a 'preset', or 'eta' and 'k'"},
+             "a metal takes either 'preset', or both 'eta' and 'k'"},
+            {R"({"type": "metal", "k": [1, 1, 1]})",
+             "a metal takes either 'preset', or both 'eta' and 'k'"},
             {R"({"type": "metal", "eta": [1, 1, 1], "k": [1, -1, 1]})",
              "k: [1, -1, 1] is not within [0, 100]"},
             {R"({"type": "metal", "preset": "gold", "model": "ggx"})",
              "a metal of model 'ggx' needs 'roughness'"},
             {R"({"type": "metal", "preset": "gold", "roughness": 0.1})",
-             "a metal of model 'ideal' has no 'roughness'"},
+             "a metal of model 'ideal' does not take 'roughness'"},
             {R"({"type": "metal", "preset": "gold", "model": "blinn", "exponent": 0})",
              "exponent: 0 is not within (0, "},
             {R"({"type": "metal", "preset": "gold", "model": "ward", "roughness": 0})",
@@ -116,10 +116,10 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite", "components": [{"bxdf": "ideal_reflection", "weight": [1, 1, 1], "fresnel": {"type": "dielectric", "eta": 1.5, "of_wo": true}}]})",
              "unknown key 'of_wo' of the dielectric Fresnel term"},
             {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "fresnel": {"type": "schlick", "reflectance": [0, 0, 0]}}]})",
-             "component 0: what refracts goes with the Fresnel terms ideal and dielectric, not "
-             "with schlick"},
+             "component 0: a refracting component supports the Fresnel terms ideal and dielectric, "
+             "not schlick"},
             {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "fresnel": {"type": "dielectric", "eta": 1.6}}]})",
-             "component_0_fresnel_eta: 1.6 is not the component's eta, 1.5; leave it out"},
+             "component_0_fresnel_eta: 1.6 differs from the component's eta, 1.5; omit it"},
             {R"({"type": "composite", "components": [{"bxdf": "microfacet_refraction", "weight": [1, 1, 1], "eta": 1, "alpha": 0.5}]})",
              "component_0_eta: 1 does not refract, so it cannot be rough"},
         });
@@ -130,24 +130,20 @@ TEST(SceneErrors, EnergyAboveOne) {
         R"({"name": "a", "geometry": {"type": "sphere"}, "material": )", "}",
         {
             {R"({"type": "lambert_blinn", "reflectance": [0.5, 0.75, 0.5], "specular": [0.25, 0.375, 0.25], "exponent": 8})",
-             "in.json:2: /nodes/1/material: returns more light than arrives: its weights * "
-             "textures * "
-             "Fresnel terms add up "
-             "to 1.125 in green, seen from the front at an angle of 90 degrees; the largest part, "
-             "0.75, is "
-             "that of "
-             "component 0 (lambert), by its reflectance: lower that"},
+             "in.json:2: /nodes/1/material: the material returns more light than arrives: its "
+             "weights * textures * Fresnel terms add up to 1.125 in green, seen from the front at "
+             "an angle of 90 degrees; the largest contribution, 0.75, is from component 0 "
+             "(lambert); lower its reflectance"},
             {R"({"type": "composite", "components": [{"bxdf": "lambert", "weight": [0.25, 0.25, 0.25]},
                  {"bxdf": "ideal_reflection", "weight": [0, 0, 0.875], "fresnel": {"type": "schlick", "reflectance": [0, 0, 0]}}]})",
              "add up to 1.125 in blue, seen from the front at an angle of 90 degrees; the largest "
-             "part, "
-             "0.875, is that "
-             "of component 1 (ideal_reflection), by its component_1_weight"},
-            // F is 1/4 at normal incidence, so 3/4 is refracted there.
+             "contribution, 0.875, is from component 1 (ideal_reflection); lower its "
+             "component_1_weight"},
+            // F is 1/4 at normal incidence, so the refracted fraction is 3/4.
             {R"({"type": "composite", "components": [{"bxdf": "ideal_reflection", "weight": [0.5, 0.5, 0.5]},
                  {"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 3, "fresnel": {"type": "dielectric", "complement": true}}]})",
-             "the largest part, 0.75, is that of component 1 (ideal_refraction)"},
-            // Only from behind: there the reflection is total long before it is from the front.
+             "the largest contribution, 0.75, is from component 1 (ideal_refraction)"},
+            // The sum exceeds 1 only from behind, where total internal reflection occurs.
             {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [0.125, 0, 0], "eta": 1.5},
                  {"bxdf": "lambert", "weight": [0.25, 0.25, 0.25], "fresnel": {"type": "dielectric", "eta": 1.5, "complement": true}},
                  {"bxdf": "ideal_reflection", "weight": [0.9, 0.9, 0.9], "fresnel": {"type": "dielectric", "eta": 1.5}}]})",
@@ -182,7 +178,7 @@ TEST_F(TexturedMaterials, EnergyIsCheckedWithThemAndOnEdits) {
     };
     expect_input_error("add up to 2 in blue", [&] { parse(textured("[1, 1, 1]")); });
     Scene scene = parse(textured("[1, 1, 0.5]"));
-    expect_input_error("'a.reflectance': returns more light than arrives",
+    expect_input_error("'a.reflectance': the material returns more light than arrives",
                        [&] { scene.set_property("a.reflectance", "1,1,0.6"); });
     EXPECT_EQ(scene.materials().component[0].weight, Rgb(1, 1, 0.5f));
 }
@@ -197,7 +193,7 @@ TEST(SceneErrors, Geometry) {
              "box, sphere"},
             {R"({"type": "sphere", "radius": 0})", "/nodes/1/geometry/radius"},
             {R"({"type": "sphere", "radius": 1e39})",
-             "radius: 1e+39 is not within (0, 3.402823e+38] (scene units)"},
+             "radius: 1e+39 is not within (0, 3.402823e+38] (radius, scene units)"},
             {R"({"type": "sphere", "height": 1})",
              "unknown key 'height' of the sphere; allowed: radius"},
             {R"({"type": "rectangle", "radius": 1})",
@@ -214,9 +210,9 @@ TEST(SceneErrors, Geometry) {
             {R"({"type": "julia", "constant": [0, 0, 0, 0], "iterations": 1.5})",
              "1.5 is not of type integer"},
             {R"({"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]], "normals": [[0,0,1]]})",
-             "mesh 'a' has 1 normals for 3 vertices: one each, or none"},
+             "mesh 'a': 1 normals for 3 vertices; give one per vertex, or none"},
             {R"({"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]], "uvs": [[0,0],[0,0],[0,0],[0,0]]})",
-             "mesh 'a' has 4 texture coordinates for 3 vertices"},
+             "mesh 'a': 4 texture coordinates for 3 vertices"},
             {R"({"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]], "normals": [[0,0,1],[0,0,0],[0,0,1]]})",
              "mesh 'a': normal 1 has no direction: [0, 0, 0]"},
             {R"({"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]], "uvs": [[0,0],[0,0],[0,1e7]]})",
@@ -230,7 +226,7 @@ TEST(SceneErrors, Geometry) {
         {{R"("transform": [{"scale": [1e39, 1, 1]}])", "sphere 'a' is beyond the range of float"},
          {R"("transform": [{"scale": [1, 1, 1e-39]}])", "sphere 'a' is beyond the range of float"},
          {R"("transform": [{"scale": [1, 2, 1]}], "light": {"type": "diffuse_area", "radiance": [1, 1, 1]})",
-          "light 'a': a sphere that emits must stay one"}});
+          "light 'a': an emitting sphere must not be stretched"}});
     expect_input_error("cylinder 'a' has no material", [] {
         parse(R"({"name": "a", "geometry": {"type": "cylinder", "radius": 1, "height": 1}})");
     });
@@ -248,7 +244,7 @@ TEST(SceneErrors, Lights) {
              "/nodes/1/light: missing key 'intensity' of the point: radiant intensity, W / sr"},
             {R"({"type": "dome", "radiance": [0, 0, -1]})", "/nodes/1/light/radiance/2"},
             {R"({"type": "spot", "intensity": [1, 1, 1], "inner_degrees": 30, "outer_degrees": 30})",
-             "inner_degrees: 30 is not below outer_degrees, 30"},
+             "inner_degrees: 30 must be less than outer_degrees, 30"},
             {R"({"type": "spot", "intensity": [1, 1, 1], "inner_degrees": 30, "outer_degrees": 91})",
              "outer_degrees: 91 is not within [0, 90]"},
             {R"({"type": "environment", "scale": 2})", "missing key 'file' of the environment"},
@@ -260,18 +256,17 @@ TEST(SceneErrors, Lights) {
     expect_refused(
         R"({"name": "a", )" + black, "}",
         {{R"("geometry": {"type": "plane"}, "light": {"type": "diffuse_area", "radiance": [1, 1, 1]})",
-          "light 'a': of the shapes only spheres and discs can emit; use one of them or a mesh"},
+          "light 'a': among shapes only spheres and discs can emit; use one of these or a mesh"},
          {R"("geometry": {"type": "sphere", "radius": 1e30}, "transform": [{"translate": [1e39, 0, 0]}])",
           "sphere 'a' is beyond"},
          {R"("light": {"type": "point", "intensity": [1, 1, 1]}, "transform": [{"translate": [1e39, 0, 0]}])",
           "light 'a' is beyond the range of float"}});
-    expect_input_error(
-        "light 'a': its geometry is a light already, by the emission of material 'a'", [] {
-            parse(
-                R"({"name": "a", "geometry": {"type": "sphere"}, "light": {"type": "diffuse_area", "radiance": [1, 1, 1]},
+    expect_input_error("light 'a': its geometry already emits through material 'a'", [] {
+        parse(
+            R"({"name": "a", "geometry": {"type": "sphere"}, "light": {"type": "diffuse_area", "radiance": [1, 1, 1]},
                   "material": {"type": "lambert", "reflectance": [0, 0, 0], "emission": [0, 0, 1]}})");
-        });
-    expect_input_error("light 'a': of the shapes only spheres and discs can emit", [] {
+    });
+    expect_input_error("light 'a': among shapes only spheres and discs can emit", [] {
         parse(R"({"name": "a", "geometry": {"type": "cone", "radius": 1, "height": 1},
                   "material": {"type": "lambert", "reflectance": [0, 0, 0], "emission": [0, 0, 1]}})");
     });

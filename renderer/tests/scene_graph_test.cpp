@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nodes, cores, attributes and properties.
+// Tests nodes, cores, attributes and properties of the scene graph.
 #include <cmath>
 
 #include "renderer/tests/scene_builder.h"
@@ -26,14 +26,14 @@ TEST(Attributes, AccumulateByTypeAndLeaveSiblingsAlone) {
     below.set_core(std::make_shared<VisibilityCore>("", true));
     graph.update(0);
 
-    // Transforms multiply: the child's translation is scaled by its parent.
+    // Transforms multiply, so the parent scales the child's translation.
     const auto transform = [](const Node &node) {
         return node.attributes().get<TransformAttribute>().world_from_object;
     };
     EXPECT_EQ(transform(first), scaling({2, 2, 2}) * translation({1, 0, 0}));
     EXPECT_EQ(transform(second), scaling({2, 2, 2}));
     EXPECT_EQ(transform(graph.root()), Eigen::Matrix4d::Identity());
-    // Materials replace.
+    // A child's material replaces that of its parent.
     EXPECT_EQ(first.attributes().get<MaterialAttribute>().material, blue.get());
     EXPECT_EQ(second.attributes().get<MaterialAttribute>().material, red.get());
     EXPECT_EQ(graph.root().attributes().get<MaterialAttribute>().material, nullptr);
@@ -72,12 +72,12 @@ TEST(Attributes, DefaultCloneAndMergeAreThoseOfTheThesis) {
 TEST(Graph, NamesAreUnique) {
     SceneGraph graph;
     Node &a = add_node(graph.root(), "a");
-    expect_input_error("two nodes are called 'a'", [&] { add_node(graph.root(), "a"); });
+    expect_input_error("two nodes have the name 'a'", [&] { add_node(graph.root(), "a"); });
     auto branch = std::make_unique<Node>("b");
     add_node(*branch, "c");
     add_node(*branch, "a");
-    expect_input_error("two nodes are called 'a'", [&] { a.add_child(std::move(branch)); });
-    EXPECT_EQ(graph.find("b"), nullptr) << "a refused branch leaves no names behind";
+    expect_input_error("two nodes have the name 'a'", [&] { a.add_child(std::move(branch)); });
+    EXPECT_EQ(graph.find("b"), nullptr) << "a refused branch must not leave names behind";
     EXPECT_EQ(graph.find("a"), &a);
     graph.root().remove_child(a);
     EXPECT_EQ(graph.find("a"), nullptr);
@@ -96,7 +96,7 @@ TEST(Graph, ABranchCanBeTakenOutAndPutBackElsewhere) {
     std::unique_ptr<Node> taken = left.remove_child(leaf);
     graph.update(0);
     EXPECT_TRUE(graph.arrays().meshes.name.empty());
-    leaf.set_core(right_triangle("other"));  // edits outside a graph are legal
+    leaf.set_core(right_triangle("other"));  // edits outside a graph are allowed
     right.add_child(std::move(taken));
     graph.update(0);
     ASSERT_EQ(graph.arrays().meshes.name.size(), 1u);
@@ -202,10 +202,12 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
     const auto set = [&](const char *address, const char *text) {
         return [&graph, address, text] { graph.set_property(address, text); };
     };
-    expect_input_error("'lamp.fov': the scene has no 'lamp'; it has: box, materials.white",
-                       set("lamp.fov", "1"));
     expect_input_error(
-        "'box.size': 'box' has no property 'size'; it has: emission, fov, fov_axis, reflectance, ",
+        "'lamp.fov': unknown node or shared object 'lamp'; the scene has: box, materials.white",
+        set("lamp.fov", "1"));
+    expect_input_error(
+        "'box.size': 'box' has no property 'size'; properties are: emission, fov, fov_axis, "
+        "reflectance, ",
         set("box.size", "1"));
     expect_input_error("expected NODE.PROPERTY", set("fov", "1"));
     expect_input_error("'box.fov': 'wide' is not a value of type number", set("box.fov", "wide"));
@@ -221,7 +223,7 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
     expect_input_error("is not a value of type three numbers", set("box.reflectance", "1,2"));
     expect_input_error("is not within [0, 1]", set("box.reflectance", "0,0,1.0000001"));
     expect_input_error("is not a value of type boolean", set("box.visible", "1"));
-    expect_input_error("'box.vertices': can only be read", set("box.vertices", "3"));
+    expect_input_error("'box.vertices': the property is read-only", set("box.vertices", "3"));
     expect_input_error("not invertible", set("box.transform", "0,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1"));
 }
 
@@ -235,9 +237,10 @@ TEST(Cores, RefuseValuesOutOfRange) {
     expect_input_error("mesh 'm': vertex 2 is not finite", [&] {
         MeshCore("m", {{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}, {{0, 1, 2}});
     });
-    expect_input_error("mesh 'm': triangle 1 has vertex 3, but there are only 3 vertices", [&] {
-        MeshCore("m", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 3}});
-    });
+    expect_input_error("mesh 'm': triangle 1 refers to vertex 3, but there are only 3 vertices",
+                       [&] {
+                           MeshCore("m", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 3}});
+                       });
     expect_input_error("mesh 'm' has no triangle", [&] { MeshCore("m", {{0, 0, 0}}, {}); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files: what they become, and that a damaged one is an error, never a crash or a wrong
+// Tests the import of image files. A damaged file must be an error, never a crash or a wrong
 // texture.
 #include <cmath>
 #include <filesystem>
@@ -19,8 +19,8 @@
 namespace rtrays {
 namespace {
 
-/// OpenImageIO's PNG reader leaves an error by longjmp, past the destructors of its strings: a few
-/// bytes that are not ours to free.
+/// Ignores leaks of OpenImageIO's PNG reader. On an error, it uses longjmp and skips the
+/// destructors of its strings, which leaks a few bytes.
 struct IgnoreLeaksOfDamagedFiles {
 #ifdef __SANITIZE_ADDRESS__
     __lsan::ScopedDisabler disabler;
@@ -32,7 +32,7 @@ class ImageFiles : public WithImages {};
 using Bytes = std::vector<uint8_t>;
 using Floats = std::vector<float>;
 
-/// A file in the temporary folder with this content.
+/// Writes a file with this content in the temporary folder and returns its path.
 std::filesystem::path file(const std::string &name, const std::string &content) {
     const std::filesystem::path path = testing::TempDir() + name;
     std::ofstream(path, std::ios::binary) << content;
@@ -47,7 +47,7 @@ std::string from_hex(const std::string &hex) {
     return bytes;
 }
 
-/// 2 x 1 texels, (10, 20, 30, 0) and (200, 100, 50, 255), with alpha.
+/// Returns a PNG of 2 x 1 texels with alpha: (10, 20, 30, 0) and (200, 100, 50, 255).
 const std::string &png_with_alpha() {
     static const std::string png = from_hex(
         "89504e470d0a1a0a0000000d4948445200000002000000010806000000f4227f8a0000001149444154789c63e4"
@@ -96,9 +96,9 @@ TEST_F(ImageFiles, EverythingElseBecomesLinearFloats) {
     const auto srgb = load(sixteen, TextureEncoding::srgb);
     EXPECT_NEAR(srgb->floats[2], std::pow((32768.0 / 65535 + 0.055) / 1.055, 2.4), 1e-7);
     EXPECT_EQ(srgb->floats[5], 1);
-    EXPECT_FALSE(srgb->srgb) << "decoded already";
+    EXPECT_FALSE(srgb->srgb) << "already decoded";
 
-    // Radiance's RGBE: mantissa / 256 * 2^(exponent - 128); rows from the top.
+    // Radiance's RGBE format: mantissa / 256 * 2^(exponent - 128), rows from the top.
     const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n";
     const auto rgbe = load(file("r.hdr", header + from_hex("80402081"
                                                            "00000000")));
@@ -115,7 +115,7 @@ TEST_F(ImageFiles, EverythingElseBecomesLinearFloats) {
     write_exr(image, testing::TempDir() + "layers.exr");
     EXPECT_EQ(load(testing::TempDir() + "layers.exr")->floats,
               (Floats{1 + 'R', 1 + 'G', 1 + 'B', 2, 2, 2}))
-        << "by name, whatever else there is";
+        << "channels are found by name, among any others";
 }
 
 TEST_F(ImageFiles, WhatIsNoTextureIsAnError) {
@@ -127,19 +127,20 @@ TEST_F(ImageFiles, WhatIsNoTextureIsAnError) {
     };
     const float nan = std::nanf("");
     for (const Case &c : std::vector<Case>{
-             {"empty.png", "", "is no image that can be read: "},
-             {"text.png", "hello", "is no image that can be read: Not a PNG file"},
-             {"text.xyz", "hello", "is no image that can be read: "},
-             {"zero.ppm", "P6 0 0 255\n", "an image of 0 x 0 x 1 with 3 channels is no texture"},
+             {"empty.png", "", "cannot read as an image: "},
+             {"text.png", "hello", "cannot read as an image: Not a PNG file"},
+             {"text.xyz", "hello", "cannot read as an image: "},
+             {"zero.ppm", "P6 0 0 255\n", "unsupported image of 0 x 0 x 1 with 3 channels"},
              {"huge.ppm", "P6 100000 100000 255\n",
-              "an image of 100000 x 100000 x 1 with 3 channels is no texture"},
-             {"cut.ppm", "P6 2 2 255\nabc", "is damaged: "},
-             {"cut.png", png_with_alpha().substr(0, png_with_alpha().size() - 20), "is damaged: "},
+              "unsupported image of 100000 x 100000 x 1 with 3 channels"},
+             {"cut.ppm", "P6 2 2 255\nabc", "damaged image: "},
+             {"cut.png", png_with_alpha().substr(0, png_with_alpha().size() - 20),
+              "damaged image: "},
              {"nan.pfm", pfm({1, 1, 1, 1, 1, nan}),
-              "texel (1, 0) has the blue value nan: texels must be finite"},
+              "texel (1, 0) has the blue value nan; texels must be finite"},
              {"infinite.pfm", pfm({1, HUGE_VALF, 1}), "texel (0, 0) has the green value inf"},
              {"negative.pfm", pfm({-1, 0, 1}),
-              "texel (0, 0) has the red value -1: texels must be finite and not negative"},
+              "texel (0, 0) has the red value -1; texels must be finite and not negative"},
          }) {
         SCOPED_TRACE(c.name);
         const std::filesystem::path path = file(c.name, c.content);
@@ -148,7 +149,7 @@ TEST_F(ImageFiles, WhatIsNoTextureIsAnError) {
     expect_input_error("nowhere.png: no such file",
                        [] { load(testing::TempDir() + "nowhere.png"); });
     expect_input_error(": no such file", [] { load(testing::TempDir()); });
-    expect_input_error("holds floats, which are linear: \"encoding\" must be \"linear\"", [] {
+    expect_input_error("floating-point images are linear; set \"encoding\" to \"linear\"", [] {
         load(file("f.pfm", pfm({0, 0, 0})), TextureEncoding::srgb);
     });
     Image image(1, 1);
@@ -156,7 +157,7 @@ TEST_F(ImageFiles, WhatIsNoTextureIsAnError) {
         image.add_channel(name) = {1};
     }
     write_exr(image, testing::TempDir() + "xyz.exr");
-    expect_input_error("has the channels X, Y, Z; a texture needs R, G, B or one grey channel",
+    expect_input_error("unsupported channels X, Y, Z; expected R, G and B, or one grey channel",
                        [] { load(testing::TempDir() + "xyz.exr"); });
 }
 
@@ -179,7 +180,9 @@ TEST_F(ImageFiles, ErrorsNameFileAndKeyOfTheScene) {
         parse(R"({"file": "nowhere.png", "encoding": "srgb", "uv_scale": [1e7, 1]})");
     });
     expect_input_error(
-        "in.json:2: /materials/m/reflectance_texture: no texture 'oak'; there are: none", [] {
+        "in.json:2: /materials/m/reflectance_texture: unknown texture 'oak'; the scene defines: "
+        "none",
+        [] {
             parse_scene_json(
                 "{\"version\": 1, \"film\": {\"width\": 1, \"height\": 1}, \"materials\": {\"m\":\n"
                 R"({"type": "mirror", "reflectance": [1, 1, 1], "reflectance_texture": "oak"}}, "nodes": []})",
@@ -187,8 +190,8 @@ TEST_F(ImageFiles, ErrorsNameFileAndKeyOfTheScene) {
         });
     file("c.ppm", "P6 1 1 255\nabc");
     expect_input_error(
-        "in.json:2: /nodes/0/light/file: file: an environment needs an image of floats (.hdr, "
-        ".exr)",
+        "in.json:2: /nodes/0/light/file: file: an environment light needs a floating-point image "
+        "(.hdr, .exr)",
         [] {
             parse_scene_json(
                 R"({"version": 1, "film": {"width": 1, "height": 1}, "nodes": [{"name": "sky",
@@ -202,7 +205,8 @@ TEST_F(ImageFiles, EachIsLoadedOnce) {
     TextureFiles files;
     const auto first = files.load(path, TextureEncoding::srgb);
     EXPECT_EQ(files.load(testing::TempDir() + "./once.ppm", TextureEncoding::srgb), first);
-    EXPECT_NE(files.load(path, TextureEncoding::linear), first) << "other values";
+    EXPECT_NE(files.load(path, TextureEncoding::linear), first)
+        << "another encoding gives other values";
     EXPECT_EQ(files.loaded(), 2u);
 }
 
@@ -223,7 +227,7 @@ TEST_F(ImageFiles, TruncatedOrDamagedFilesLoadOrAreErrors) {
     std::minstd_rand random(3);
     int refused = 0;
     int loaded = 0;
-    /// Loads, or is one error of bad input: then nullptr.
+    /// Loads an image. Returns nullptr after an error of bad input; other errors fail the test.
     const auto try_load = [&](const std::string &name,
                               const std::string &content) -> std::shared_ptr<const TextureImage> {
         try {
@@ -247,7 +251,7 @@ TEST_F(ImageFiles, TruncatedOrDamagedFilesLoadOrAreErrors) {
         const auto intact = try_load(name, whole);
         ASSERT_NE(intact, nullptr);
         for (size_t size = 0; size < whole.size(); size += 1 + whole.size() / 100) {
-            // What follows the last texel may be missed by nobody.
+            // A cut after the last texel may load, but must not change the image.
             if (const auto cut = try_load(name, whole.substr(0, size))) {
                 EXPECT_EQ(cut->bytes, intact->bytes)
                     << "cut after " << size << " of " << whole.size() << " bytes";
@@ -261,7 +265,7 @@ TEST_F(ImageFiles, TruncatedOrDamagedFilesLoadOrAreErrors) {
             try_load(name, damaged);
         }
     }
-    EXPECT_GT(loaded, 50) << "some damage changes colours only";
+    EXPECT_GT(loaded, 50) << "some damage must change only colours";
     EXPECT_GT(refused, 100);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene files: what they mean, and that each way to get one wrong has one clear message.
+// Tests the import of scene files: their meaning, and a clear message for each error.
 #include "renderer/import/scene_json.h"
 
 #include <Eigen/Geometry>
@@ -23,7 +23,7 @@ Scene parse(const std::string &text) {
     return parse_scene_json(text, "in.json", "in");
 }
 
-/// A legal scene around some nodes.
+/// Returns a valid scene that contains the given nodes.
 std::string with_nodes(const std::string &nodes) {
     return R"({"version": 1, "film": {"width": 8, "height": 4},
 "materials": {"white": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}},
@@ -33,7 +33,7 @@ std::string with_nodes(const std::string &nodes) {
            "]}";
 }
 
-/// Unit normal of the front of a triangle.
+/// Returns the unit normal of the front of a triangle.
 Vector3d front(const MeshArrays &meshes, size_t triangle) {
     const Triangle &t = meshes.triangle[triangle];
     const Vector3d a = meshes.position[t[0]].cast<double>();
@@ -58,7 +58,8 @@ TEST(SceneJson, ReadsNodesCoresAndReferences) {
     EXPECT_DOUBLE_EQ(scene.cameras().fov[0], std::acos(-1.0) / 3);
     const MeshArrays &meshes = scene.meshes();
     ASSERT_EQ(meshes.name, (std::vector<std::string>{"a", "c"}));
-    // Operations apply in the order written: scaled, then moved; the child's rotation before both.
+    // Operations apply in the order of the file: scaling, then translation. The child's rotation
+    // applies before both.
     EXPECT_LT((meshes.position[1] - Vector3f(0, 2, 1)).norm(), 1e-6f);
     EXPECT_EQ(meshes.position[4], Vector3f(10, 0, 1));
     EXPECT_EQ(scene.materials().name, (std::vector<std::string>{"white", "c"}));
@@ -107,8 +108,8 @@ TEST(SceneJson, FarScenesAreMovedToTheOriginInDouble) {
 }
 
 struct BadScene {
-    std::string nodes;    ///< beside a legal camera, material and geometry
-    const char *message;  ///< fragment
+    std::string nodes;    ///< added to a valid camera, material and geometry
+    const char *message;  ///< fragment of the error message
 };
 
 const std::string three_vertices = "[[0,0,0],[1,0,0],[0,1,0]]";
@@ -137,11 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{R"({"name": ""})", "/nodes/1/name"},
         BadScene{R"({"name": "a.b"})",
                  "in.json:5: /nodes/1/name: 'a.b': a name must not contain a dot"},
-        BadScene{R"({"name": "eye"})", "in.json:5: /nodes/1/name: two nodes are called 'eye'"},
+        BadScene{R"({"name": "eye"})", "in.json:5: /nodes/1/name: two nodes have the name 'eye'"},
         BadScene{R"({"name": "a", "geometry": "tiles", "material": "white"})",
-                 "in.json:5: /nodes/1/geometry: no geometry 'tiles'; there are: tile"},
+                 "in.json:5: /nodes/1/geometry: unknown geometry 'tiles'; the scene defines: tile"},
         BadScene{R"({"name": "a", "geometry": "tile", "material": "whit"})",
-                 "in.json:5: /nodes/1/material: no material 'whit'; there are: white"},
+                 "in.json:5: /nodes/1/material: unknown material 'whit'; the scene defines: white"},
         BadScene{R"({"name": "a", "geometry": "tile"})", "mesh 'a' has no material"},
         BadScene{R"({"name": "a", "material": {"type": "phong", "reflectance": [0, 0, 0]}})",
                  "/nodes/1/material/type (in 'a'): \"phong\" is not one of: lambert"},
@@ -173,11 +174,13 @@ INSTANTIATE_TEST_SUITE_P(
                  "/nodes/1/geometry/vertices/1/0 (in 'a'): syntax error"},
         BadScene{mesh_node("[[0,0,0],[1e39,0,0],[0,1,0]]", "[[0,1,2]]"),
                  "mesh 'a': vertex 1, [1e+39, 0, 0], is beyond the range of float"},
-        BadScene{mesh_node(three_vertices, "[[0,1,3]]"),
-                 "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex 3, but "
-                 "there are only "
-                 "3 vertices"},
-        BadScene{mesh_node(three_vertices, "[[0,1,4294967296]]"), "has vertex 4294967296, but"},
+        BadScene{
+            mesh_node(three_vertices, "[[0,1,3]]"),
+            "in.json:5: /nodes/1/geometry/polygons/0: mesh 'a': polygon 0 has vertex index 3, but "
+            "there are only "
+            "3 vertices"},
+        BadScene{mesh_node(three_vertices, "[[0,1,4294967296]]"),
+                 "has vertex index 4294967296, but"},
         BadScene{mesh_node(three_vertices, "[[0,1,-1]]"),
                  "/nodes/1/geometry/polygons/0/2 (in 'a'): -1"},
         BadScene{mesh_node(three_vertices, "[[0,1,1.5]]"), "1.5 is not of type integer"},
@@ -196,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{R"({"name": "a", "transform": [{"rotate": {"axis": [0, 0, 0], "degrees": 1}}]})",
                  "rotate: the axis has no direction"},
         BadScene{R"({"name": "a", "camera": {"type": "pinhole", "fov": 40, "fov_axis": "x"}})",
-                 "the scene has several cameras; choose one by \"camera\": eye, a"},
+                 "the scene has several cameras; select one by \"camera\": eye, a"},
         BadScene{R"({"name": "a", "camera": {"type": "pinhole", "fov": 180, "fov_axis": "x"}})",
                  "/nodes/1/camera/fov"},
         BadScene{
@@ -221,7 +224,7 @@ TEST(SceneJson, DocumentsThatAreWrongAsAWhole) {
     });
     std::string text = with_nodes(R"({"name": "a"})");
     text.insert(1, R"("camera": "a", )");
-    expect_input_error("has no camera 'a'; it has: eye", [&] { parse(text); });
+    expect_input_error("unknown camera 'a'; cameras are: eye", [&] { parse(text); });
     for (const char *not_a_scene :
          {"", "[]", "null", "7", "\"scene\"", "{}", "\x1f\x8b", "<scene/>"}) {
         expect_input_error("in.json:1", [&] { parse(not_a_scene); });
@@ -253,7 +256,7 @@ TEST(SceneJson, FilesThatAreNone) {
     expect_input_error("none.json: cannot be read: No such file",
                        [] { load_scene(scenes + "/none.json"); });
     expect_input_error("is a directory", [] { load_scene(scenes); });
-    expect_input_error("'.md' is not a known scene format; known: .json",
+    expect_input_error("unknown scene format '.md'; known formats are: .json",
                        [] { load_scene(scenes + "/README.md"); });
 }
 
@@ -288,13 +291,13 @@ TEST(SceneJson, DamagedFilesLoadOrAreErrors) {
         try {
             const Scene scene = parse(damaged);
             expect_consistent(scene.graph());
-        } catch (const Error &error) {  // and nothing else
+        } catch (const Error &error) {  // any other exception fails the test
             ++refused;
             EXPECT_EQ(error.exit_code(), ExitCode::bad_input) << error.what();
         }
     }
     EXPECT_GT(refused, rounds / 4);
-    EXPECT_LT(refused, rounds) << "some damage is a legal edit";
+    EXPECT_LT(refused, rounds) << "some damage must be a valid edit";
 }
 
 TEST(Scenes, CornellBoxIsTheMeasuredOne) {
@@ -322,7 +325,7 @@ TEST(Scenes, CornellBoxIsTheMeasuredOne) {
             EXPECT_GT(front(meshes, triangle).dot(centre - middle), 0) << name << ' ' << triangle;
         }
     }
-    // +x, the red wall, is on the left of the image.
+    // The red wall, at +x, is on the left of the image.
     const Eigen::Matrix4d &pose = scene.cameras().world_from_camera[0];
     EXPECT_TRUE(pose.col(0).head<3>().isApprox(Vector3d(-1, 0, 0)));
     EXPECT_TRUE((-pose.col(2).head<3>()).isApprox(Vector3d(0, 0, 1)));
@@ -343,7 +346,7 @@ TEST(Scenes, FurnacesAreClosedAndFaceInwards) {
                 6;
             EXPECT_LT(front(meshes, triangle).dot(meshes.position[t[0]].cast<double>()), 0);
         }
-        EXPECT_NEAR(volume, -8, 1e-12) << "closed, fronts inwards";
+        EXPECT_NEAR(volume, -8, 1e-12) << "the surface must be closed, with fronts inwards";
         EXPECT_EQ(scene.lights().mesh.size(), 1u);
     }
 }
@@ -369,7 +372,8 @@ TEST(Triangulate, SplitsPolygonsIntoTheirArea) {
     EXPECT_EQ(triangulate(square, {3, 2, 1}), (std::vector<Triangle>{{3, 2, 1}}));
     EXPECT_EQ(area(square, triangulate(square, {3, 2, 1, 0})), Vector3d(0, 0, -4));
 
-    // A U, in a plane perpendicular to y, seen from +y: every triangle must keep the orientation.
+    // The polygon is a U in a plane perpendicular to y, seen from +y. Every triangle must keep the
+    // orientation.
     std::vector<Vector3d> u = {{0, 1, 0}, {0, 1, 3}, {3, 1, 3}, {3, 1, 0},
                                {2, 1, 0}, {2, 1, 2}, {1, 1, 2}, {1, 1, 0}};
     const std::vector<Triangle> parts = triangulate(u, {0, 1, 2, 3, 4, 5, 6, 7});
@@ -378,18 +382,18 @@ TEST(Triangulate, SplitsPolygonsIntoTheirArea) {
     for (const Triangle &t : parts) {
         EXPECT_GE(area(u, {t}).y(), 0);
     }
-    // Scale and place do not matter.
+    // Scale and position must not matter.
     for (Vector3d &vertex : u) {
         vertex = vertex * 1e-150 + Vector3d(0, 0, 0);
     }
     EXPECT_EQ(triangulate(u, {0, 1, 2, 3, 4, 5, 6, 7}), parts);
 
     const std::vector<Vector3d> line = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-    EXPECT_EQ(triangulate(line, {0, 1, 2, 3}).size(), 2u) << "no area, but legal";
+    EXPECT_EQ(triangulate(line, {0, 1, 2, 3}).size(), 2u) << "a polygon without area is valid";
     const std::vector<Vector3d> star = {{0, 3, 0}, {2, -3, 0}, {-3, 1, 0}, {3, 1, 0}, {-2, -3, 0}};
     expect_input_error("crosses itself", [&] { triangulate(star, {0, 1, 2, 3, 4}); });
     expect_input_error("has 2 corners", [&] { triangulate(square, {0, 1}); });
-    expect_input_error("has corner 4, but there are only 4", [&] {
+    expect_input_error("has vertex index 4, but there are only 4", [&] {
         triangulate(square, {0, 1, 4});
     });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene model: what materials, shapes, lights, cameras and meshes of scene files serialize
-// into.
+// Tests the scene model: the serialization of materials, shapes, lights, cameras and meshes of
+// scene files.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
@@ -22,7 +22,8 @@ using Fresnel = BxdfComponent::Fresnel;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// A scene with a camera and these nodes; files are found in the tests' temporary folder.
+/// Returns a scene with a camera and the given nodes. Files are relative to the temporary folder of
+/// the tests.
 Scene parse(const std::string &nodes, const std::string &sections = "") {
     const std::string text =
         R"({"version": 1, "film": {"width": 8, "height": 4}, )" + sections +
@@ -33,7 +34,7 @@ Scene parse(const std::string &nodes, const std::string &sections = "") {
     return scene;
 }
 
-/// The components of a material as a scene file has it.
+/// Returns the components of a material, given as in a scene file.
 std::vector<BxdfComponent> components(const std::string &material) {
     return parse(R"({"name": "a", "geometry": {"type": "sphere"}, "material": )" + material + "}")
         .materials()
@@ -138,7 +139,7 @@ TEST(Materials, Metals) {
     }
 }
 
-/// Reflectance at normal incidence, ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2).
+/// Returns the reflectance at normal incidence, ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2).
 Vector3d normal_reflectance(const BxdfComponent &metal) {
     const auto k2 = metal.k.array().square();
     return ((metal.eta.array() - 1).square() + k2) / ((metal.eta.array() + 1).square() + k2);
@@ -224,16 +225,16 @@ TEST(Materials, PropertiesReachTheRecords) {
     EXPECT_EQ(scene.materials().component[0].weight, Vector3f::Constant(0.125f));
     EXPECT_EQ(scene.materials().two_sided[0], 0);
     EXPECT_EQ(scene.graph().shape_counts().written, 0u)
-        << "shapes refer to a material, they do not copy it";
+        << "shapes reference a material and do not copy it";
 }
 
-/// A canonical point of each shape, and where its parameters and a transform put it.
+/// Each case has a canonical point of a shape and its position under parameters and a transform.
 TEST(Shapes, ParametersBecomePartOfTheTransform) {
     struct Case {
         const char *geometry;
         ShapeArrays::Kind kind;
         Vector3d canonical;
-        Vector3d world;  ///< after a scale of 2 and a move of 10 along x
+        Vector3d world;  ///< after scaling by 2 and translation by 10 along x
     };
     using Shape = ShapeArrays::Kind;
     for (
@@ -311,7 +312,7 @@ TEST(Meshes, BoxAndRectangleFaceOutAndCarryCoordinates) {
         const Vector3f middle =
             (meshes.position[t[0]] + meshes.position[t[1]] + meshes.position[t[2]]) / 3;
         EXPECT_EQ(normal.dot(i < 12 ? middle : Vector3f(0, 0, 1)), 1) << i;
-        // (u, v) is a right-handed frame seen from the front, of half the size.
+        // Seen from the front, (u, v) is a right-handed frame of half the size.
         const Vector2f u1 = meshes.uv[t[1]] - meshes.uv[t[0]];
         const Vector2f u2 = meshes.uv[t[2]] - meshes.uv[t[0]];
         EXPECT_EQ(u1.x() * u2.y() - u1.y() * u2.x(), 1) << i;
@@ -321,8 +322,8 @@ TEST(Meshes, BoxAndRectangleFaceOutAndCarryCoordinates) {
 }
 
 TEST(Meshes, NormalsFollowTheSurface) {
-    // The plane x + y = 1 with its own normal; whatever the transform, it must stay across the
-    // plane and in front.
+    // The triangle is on the plane x + y = 1 and has the plane's normal. Under every transform, the
+    // normal must remain perpendicular to the plane and on its front.
     const char *mesh =
         R"({"type": "mesh", "vertices": [[1, 0, 0], [0, 1, 0], [0, 1, 1]], "polygons": [[0, 1, 2]],
                            "normals": [[3, 3, 0], [1, 1, 0], [1e-200, 1e-200, 0]]})";
@@ -393,7 +394,7 @@ TEST(Lights, StandWhereTheirNodesAre) {
     EXPECT_EQ(lights.radiance[2], Vector3f(7, 8, 9));
     EXPECT_EQ(lights.world_from_light[0].col(3).head<3>(), Vector3d(1, 2, 3));
     EXPECT_EQ(lights.world_from_light[1].col(3).head<3>(), Vector3d(1, 2, 3));
-    for (const int i : {1, 2}) {  // -z turned by 90 degrees about y
+    for (const int i : {1, 2}) {  // -z rotated by 90 degrees about y
         EXPECT_LT((-lights.world_from_light[i].col(2).head<3>() - Vector3d(-1, 0, 0)).norm(),
                   1e-15);
         const Eigen::Matrix3d axes = lights.world_from_light[i].topLeftCorner<3, 3>();
@@ -483,7 +484,7 @@ TEST_F(Textures, AreSharedByMaterialsAndFilesByTextures) {
                              {"bxdf": "lambert", "weight": [0.5, 0.5, 0.5], "weight_texture": "wood"}]}},)");
     const TextureArrays &textures = scene.arrays().textures;
     ASSERT_EQ(textures.name, (std::vector<std::string>{"wood", "c.reflectance_texture"}));
-    EXPECT_EQ(textures.image[0], textures.image[1]) << "one file, one image";
+    EXPECT_EQ(textures.image[0], textures.image[1]) << "the image of a file must be shared";
     EXPECT_EQ(textures.image[0]->bytes, (std::vector<uint8_t>{0x10, 0x20, 0x30, 0x40, 0x50, 0x60}));
     EXPECT_EQ(textures.image[0]->width, 2);
     EXPECT_TRUE(textures.image[0]->srgb);
@@ -529,7 +530,7 @@ TEST_F(Textures, EnvironmentsAreImagesOfFloats) {
     const std::string hash = scene.hash();
     image.channel("B")[1] = 60032;
     write_exr(image, testing::TempDir() + "sky.exr");
-    EXPECT_NE(parse(node).hash(), hash) << "the image decides";
+    EXPECT_NE(parse(node).hash(), hash) << "the hash must depend on the image";
 }
 
 }  // namespace

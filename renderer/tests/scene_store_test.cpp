@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serialization: what the stores hold after updates, and what an update costs.
+// Tests serialization: the contents of the stores after updates, and the cost of updates.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,8 +15,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// A graph with `count` triangles "0", "1", ... side by side under a node "all", every third one a
-/// light.
+/// Returns a graph of `count` triangles "0", "1", ... side by side under a node "all". Every third
+/// triangle is a light.
 std::unique_ptr<SceneGraph> row_of_triangles(int count) {
     auto graph = std::make_unique<SceneGraph>();
     Node &all = add_node(graph->root(), "all");
@@ -80,8 +80,7 @@ TEST(Stores, OnlyWhatChangedIsRewritten) {
     core_at<MaterialCore>(*graph, "all", CoreRole::material).set("reflectance", Vector3d(1, 0, 0));
     graph->update(0);
     EXPECT_EQ(graph->material_counts().written, 1u);
-    EXPECT_EQ(graph->mesh_counts().written, 0u)
-        << "meshes refer to a material, they do not copy it";
+    EXPECT_EQ(graph->mesh_counts().written, 0u) << "meshes reference a material and do not copy it";
     EXPECT_EQ(graph->arrays().materials.component[0].weight, Vector3f(1, 0, 0));
 
     graph->find("all")->set_core(grey("other"));
@@ -152,7 +151,7 @@ TEST(Stores, AMeshThatGrowsGetsANewRecord) {
     EXPECT_EQ(meshes.name, (std::vector<std::string>{"0", "2", "1"}));
     EXPECT_EQ(meshes.position.size(), 10u);
     expect_consistent(*graph);
-    // The same through the core, which three nodes share by then.
+    // Changes the geometry through the core, which three nodes then share.
     const auto square = std::dynamic_pointer_cast<MeshCore>(right_triangle());
     for (const char *name : {"0", "1", "2"}) {
         graph->find(name)->set_core(square);
@@ -165,7 +164,7 @@ TEST(Stores, AMeshThatGrowsGetsANewRecord) {
     expect_consistent(*graph);
 }
 
-/// A mesh, with or without normals and texture coordinates, or a shape that may emit.
+/// Returns a mesh with or without normals and texture coordinates, or a shape that may emit.
 std::shared_ptr<Core> any_geometry(unsigned choice) {
     if (choice >= 4) {
         return shape(choice % 2 == 0 ? "sphere" : "disc");
@@ -180,8 +179,8 @@ std::shared_ptr<Core> any_geometry(unsigned choice) {
     return choice == 0 ? unit_square() : std::make_shared<MeshCore>("", geometry);
 }
 
-/// A material of one or two components that glows or has a texture of its own or a shared one, or
-/// neither.
+/// Returns a material of one or two components. It may emit, or have its own texture or a shared
+/// one.
 std::shared_ptr<MaterialCore> any_material(unsigned choice,
                                            const std::shared_ptr<Texture> &shared) {
     ParameterValues values{{"reflectance", Vector3d(0.5, 0.5, 0.5)}};
@@ -200,7 +199,7 @@ std::shared_ptr<MaterialCore> any_material(unsigned choice,
                                           textures);
 }
 
-/// Everything of the arrays that an image depends on, in words that compare.
+/// Returns a description of all parts of the arrays that an image depends on, for comparison.
 std::vector<std::string> described(const SceneArrays &arrays) {
     std::vector<std::string> all;
     const auto add = [&](const auto &...values) {
@@ -241,7 +240,7 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
     const auto shared = std::make_shared<Texture>("shared", image);
     std::minstd_rand random(1);
     const auto give_light = [](Node &node, const std::shared_ptr<LightCore> &light) {
-        node.set_core(grey("dark"));  // geometry that glows by itself takes no second light
+        node.set_core(grey("dark"));  // geometry with an emissive material accepts no light
         node.set_core(light);
     };
     for (int round = 0; round < 400; ++round) {
@@ -279,7 +278,7 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
                     shared->set("uv_scale", Eigen::Vector2d(static_cast<double>(round), 1));
                     break;
                 default: {
-                    // Out, and back in under another parent.
+                    // Removes the node and adds it under another parent.
                     Node &parent = *node->parent();
                     graph->root().set_core(grey("fallback"));
                     graph->root().add_child(parent.remove_child(*node));
@@ -301,7 +300,7 @@ TEST(Stores, StayConsistentUnderRandomEdits) {
     }
     EXPECT_GT(graph->arrays().shapes.name.size(), 3u);
     EXPECT_GT(graph->arrays().textures.name.size(), 1u);
-    // What was reached by edits equals what one update of everything writes.
+    // The result of the edits must equal that of an update of everything.
     const std::vector<std::string> edited = described(graph->arrays());
     const std::vector<Vector3f> positions = graph->arrays().meshes.position;
     const std::vector<Triangle> triangles = graph->arrays().meshes.triangle;
@@ -336,7 +335,7 @@ TEST(Stores, AMirrorKeepsTheFrontOfASurface) {
     graph.root().set_core(grey("grey"));
     Node &node = add_node(graph.root(), "node");
     node.set_core(right_triangle());
-    // Mirrored in x it must still face +z; mirrored in z, its own front side now faces -z.
+    // Mirrored in x, the triangle must still face +z. Mirrored in z, its front faces -z.
     for (const auto &[factors, facing] :
          {std::pair{Vector3d(-1, 1, 1), 1.0f}, std::pair{Vector3d(1, 1, -1), -1.0f}}) {
         node.set_core(std::make_shared<TransformCore>("", scaling(factors)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hits of shapes on the host. That balls leave out no shape which is hit is tested wherever these
-// are called. Static, as the kernels' functions are: each file compiles the kinds of shape that it
-// tests.
+// Intersection of shapes on the host. Each call also tests that the bounding balls do not exclude a
+// shape that is hit. The functions are static, like those of the kernels, because each file
+// compiles only the types of shape that it tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace rtrays::test {
 
-/// The record of a quadric, disc or plane. `light`: which one it is.
+/// Returns the record of a quadric, disc or plane. `light` is the index of its light.
 inline ShapeRecord compile(const Shape &shape, uint32_t light = no_index) {
     ShapeArrays arrays;
     arrays.name = {"shape"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes on the OpenCL device: the same hits as on the host, and the guarantees of the point of a
-// hit.
+// Tests shapes on the OpenCL device: the hits are those of the host, and hit points are robust
+// origins of rays.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #define FEATURE_julia 1
@@ -16,9 +16,9 @@
 namespace rtrays::test {
 namespace {
 
-// Per ray 9 floats in: origin, direction, direction of leaving. Out: t, shape, shape that `any`
-// finds, whether the ray left to the front, t and shape of the next hit; shapes as floats, -1 for
-// none.
+// The input has 9 floats per ray: origin, direction, direction of the ray that leaves the hit. The
+// output is t, shape, shape that `any` finds, whether the ray left to the front, t and shape of the
+// next hit. Shapes are floats, -1 for a miss.
 const char *const kernel_source = R"(
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
@@ -62,7 +62,7 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
             uniform_rotation(random) * Eigen::Vector3d(1, 0.7, 0.4).asDiagonal();
         world_from_object.topRightCorner<3, 1>() = 3 * uniform_direction(random);
         arrays.name.push_back("shape");
-        arrays.kind.push_back(static_cast<Kind>(i));  // one of each
+        arrays.kind.push_back(static_cast<Kind>(i));  // one shape of each type
         arrays.world_from_object.push_back(world_from_object);
         arrays.material.push_back(0);
         arrays.light.push_back(no_index);
@@ -107,14 +107,13 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
                                                 make_float3(r[3], r[4], r[5]), INFINITY);
         const bool hit = out[1] >= 0.0f;
         ASSERT_EQ(out[2] > 0.0f, hit);
-        // Built-in functions of the device may round differently: grazing rays may decide
-        // differently.
+        // Built-in functions of the device may round differently, so grazing rays may hit or miss.
         different += hit ? out[1] != static_cast<float>(expected.shape) ||
                                std::abs(out[0] - expected.t) > 1e-5f * expected.t
                          : expected.shape != NO_HIT;
         found += hit;
         const Kind kind = hit ? static_cast<Kind>(static_cast<int>(out[1])) : Kind::plane;
-        if (kind == Kind::sphere) {  // closed and convex: met again exactly when left inwards
+        if (kind == Kind::sphere) {  // closed and convex: hit again exactly if left inwards
             ASSERT_EQ(out[5] >= 0.0f, out[3] == 0.0f) << i;
             ++closed;
         } else if (hit && kind == Kind::julia && out[3] == 0.0f) {  // closed
@@ -126,7 +125,7 @@ TEST(ShapesOnDevice, HitsAndDeparturesAreThoseOfTheHost) {
     }
     EXPECT_GT(found, count / 2);
     EXPECT_GT(closed, count / 20);
-    EXPECT_LT(different, count / 1000);  // PoCL: none
+    EXPECT_LT(different, count / 1000);  // 0 on PoCL
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes in extended precision, written from their definitions in ShapeArrays: the judge of the
-// device's. Knows nothing of ShapeRecord.
+// Shapes in extended precision, written from their definitions in ShapeArrays. They judge the
+// device's results and are independent of ShapeRecord.
 #pragma once
 
 #include <Eigen/Dense>
@@ -23,7 +23,7 @@ inline double uniform(Random &random, double lower = 0, double upper = 1) {
     return std::uniform_real_distribution<double>(lower, upper)(random);
 }
 
-/// 10^x with x uniform.
+/// Returns 10^x with x uniform in [lower, upper].
 inline double log_uniform(Random &random, double lower, double upper) {
     return std::pow(10.0, uniform(random, lower, upper));
 }
@@ -41,8 +41,8 @@ inline Eigen::Matrix3d uniform_rotation(Random &random) {
         .toRotationMatrix();
 }
 
-/// Not inlined: GCC 12 takes (double)(float)x for x once it has vectorized two components, and the
-/// judge must see the ray that the device sees.
+/// Rounds to float. Must not be inlined: GCC 12 replaces (double)(float)x with x once it has
+/// vectorized two components, but the judge must see the same ray as the device.
 [[gnu::noinline]] inline float3 to_float3(const Eigen::Vector3d &v) {
     return make_float3(static_cast<float>(v.x()), static_cast<float>(v.y()),
                        static_cast<float>(v.z()));
@@ -52,7 +52,7 @@ inline Eigen::Vector3d to_double(float3 v) {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-/// One shape as ShapeArrays describes it.
+/// One shape, as ShapeArrays defines it.
 struct Shape {
     Kind kind = Kind::sphere;
     Eigen::Matrix4d world_from_object = Eigen::Matrix4d::Identity();
@@ -61,19 +61,20 @@ struct Shape {
     Eigen::Matrix3d linear() const { return world_from_object.topLeftCorner<3, 3>(); }
     Eigen::Vector3d centre() const { return world_from_object.topRightCorner<3, 1>(); }
 
-    /// The length by which rounding of world coordinates is measured: size of the shape and of its
-    /// coordinates.
+    /// Returns the length that scales rounding errors of world coordinates: size of the shape plus
+    /// size of its coordinates.
     double scale() const {
         return linear().cwiseAbs().rowwise().sum().maxCoeff() * std::sqrt(1 + flare) +
                centre().norm();
     }
 
-    /// Norm of |inverse| |linear part|: how much transforms back and forth magnify rounding.
+    /// Returns the norm of |inverse| |linear part|, the factor by which transforms back and forth
+    /// magnify rounding errors.
     double condition() const {
         return (linear().inverse().cwiseAbs() * linear().cwiseAbs()).rowwise().sum().maxCoeff();
     }
 
-    /// The implicit function, zero on the unclipped surface, positive in front.
+    /// Returns the implicit function: zero on the unclipped surface, positive in front of it.
     Real value(const Vector3r &p) const {
         const Real r2 = p.x() * p.x() + p.y() * p.y(), z = p.z();
         switch (kind) {
@@ -128,7 +129,7 @@ struct Shape {
         return linear().cast<Real>().inverse() * (world - centre()).cast<Real>();
     }
 
-    /// Some point of the surface; every part of it is likely.
+    /// Returns a random point on the surface. The density is not uniform but covers all parts.
     Eigen::Vector3d surface_point(Random &random) const {
         const double phi = uniform(random, 0, 2 * M_PI), h = uniform(random);
         const auto ring = [&](double r, double z) {
@@ -162,16 +163,16 @@ inline RayQuadratic along_ray(const Shape &shape, const Vector3r &o, const Vecto
     if (shape.kind == Kind::disc || shape.kind == Kind::plane) {
         return {0, d.z() / 2, o.z()};
     }
-    // The function is quadratic: three values give it exactly.
+    // The function is quadratic, so three values determine it exactly.
     const Real at_0 = shape.value(o), at_1 = shape.value(o + d), at_minus_1 = shape.value(o - d);
     return {(at_1 + at_minus_1) / 2 - at_0, (at_1 - at_minus_1) / 4, at_0};
 }
 
-/// Distances of all hits at t > 0, ascending.
+/// Returns the distances of all hits at t > 0 in ascending order.
 inline std::vector<double> hits(const Shape &shape, const Eigen::Vector3d &origin,
                                 const Eigen::Vector3d &direction) {
     const Vector3r d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();
-    // About the point of the ray nearest to the object's origin; extended precision does the rest.
+    // Solving about the point nearest to the object's origin limits the loss of precision.
     const Vector3r o = shape.to_object(origin);
     const Real shift = shape.kind == Kind::plane ? 0 : -o.dot(d) / d.squaredNorm();
     const Vector3r unit = d / d.norm(), near = o + shift * d;
@@ -196,24 +197,24 @@ inline std::vector<double> hits(const Shape &shape, const Eigen::Vector3d &origi
     return found;
 }
 
-/// Whether a ray that first hits at `t` (infinite for a miss) overlooked nothing: some ray within
-/// `tolerance` (a length) of it has no hit before `t` either. That a hit is one is for the caller
-/// to check: its point lies on the surface and on the ray.
+/// Returns whether a ray whose first hit is at `t` (infinite for a miss) overlooked nothing: some
+/// ray within `tolerance` (a length) of it has no hit before `t` either. The caller must check that
+/// the hit itself is right, that is, its point is on the surface and on the ray.
 inline bool nothing_before(const Shape &shape, const Eigen::Vector3d &origin,
                            const Eigen::Vector3d &direction, double t, double tolerance,
                            Random &random) {
     const double slack = tolerance / direction.norm() + (std::isfinite(t) ? 1e-6 * t : 0);
     const auto holds = [&](const Eigen::Vector3d &o) {
         const std::vector<double> all = hits(shape, o, direction);
-        // A hit at the very origin may go either way.
+        // A hit at the origin itself may count or not.
         return std::none_of(all.begin(), all.end(),
                             [&](double hit) { return hit > slack && hit < t - slack; });
     };
     if (holds(origin)) {
         return true;
     }
-    // Shifts across the clipping planes, across the surface where the ray is nearest to it, and at
-    // random.
+    // The shifts are perpendicular to the clipping planes, perpendicular to the surface where the
+    // ray is nearest to it, and random.
     const Eigen::Matrix3d inverse_transpose = shape.linear().inverse().transpose();
     const Vector3r o = shape.to_object(origin),
                    d = shape.linear().cast<Real>().inverse() * direction.cast<Real>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Quaternion Julia sets: the shipped marching against dense brute force in double precision, and
-// against the one that has a closed form.
+// Tests quaternion Julia sets: compares the device's ray marching with dense brute force in double
+// precision, and with the one set that has a closed form.
 #define FEATURE_shapes 1
 #define FEATURE_julia 1
 #include <gtest/gtest.h>
@@ -24,14 +24,15 @@ struct Julia {
     uint32_t iterations;
 };
 
-// From round to dust-like; the last has |c| > 12, so that escape needs more than 4.
+// The sets range from round to dust-like. The last one has |c| > 12, so that its escape radius
+// exceeds 4.
 const Julia julias[] = {
     {"basilica", {-1, 0.2, 0, 0}, 0, 8},        {"twisted", {-0.450, -0.447, 0.181, 0.306}, 0, 10},
     {"leaves", {-0.2, 0.8, 0, 0}, 0, 11},       {"slice", {0.185, 0.478, 0.125, -0.392}, 0.2, 9},
     {"dust", {-0.3, -0.9, 0.4, -0.1}, 0.05, 6}, {"once", {0.3, 0.4, 0, 0.1}, 0, 1},
     {"large", {-14, 1, 0.5, 0}, 0, 2}};
 
-/// z_n in double precision, as a quaternion product written out.
+/// Returns z_n in double precision, with the quaternion product written out.
 Eigen::Vector4d iterate(const Julia &julia, const Eigen::Vector3d &p) {
     Eigen::Vector4d z(p.x(), p.y(), p.z(), julia.slice);
     for (uint32_t i = 0; i < julia.iterations && z.squaredNorm() < 1e40; ++i) {
@@ -71,7 +72,7 @@ ShapeRecord compile(const Julia &julia,
     return compile_shapes(arrays).at(0);
 }
 
-/// The constants as float has them: they decide the set.
+/// Returns the set with its constants rounded to float, which define the set on the device.
 Julia rounded(Julia julia) {
     julia.c = julia.c.cast<float>().cast<double>();
     julia.slice = static_cast<double>(static_cast<float>(julia.slice));
@@ -84,16 +85,17 @@ double radius_of(const ShapeRecord &record) {
 
 class JuliaSets : public testing::TestWithParam<Julia> {};
 
-// The bound that allows a step, against dense samples: a clear step has all its points on one side.
+// Compares the bound that permits a step with dense samples: all points of a clear step must be on
+// one side of the surface.
 TEST_P(JuliaSets, ClearStepsDoNotPassTheSurface) {
     const Julia julia = rounded(GetParam());
     const ShapeRecord record = compile(julia);
     const double r = radius_of(record);
     Random random(1);
-    Eigen::Vector3d on_surface = Eigen::Vector3d::Zero();  // once the first ray hits
+    Eigen::Vector3d on_surface = Eigen::Vector3d::Zero();  // valid after the first hit
     int clear = 0, rightly = 0;
     for (int i = 0; i < 20'000; ++i) {
-        // Anywhere within the sphere, or near the surface.
+        // The points are anywhere within the sphere or near the surface.
         float3 p = to_float3(uniform_direction(random) * r * uniform(random));
         const Eigen::Vector3d aim =
             i % 4 == 0 ? uniform_direction(random) * r * uniform(random) : on_surface;
@@ -118,7 +120,8 @@ TEST_P(JuliaSets, ClearStepsDoNotPassTheSurface) {
     EXPECT_GT(rightly, 100);
 }
 
-/// Where the ray first changes sides: dense samples, then bisection. Infinite if nowhere.
+/// Returns where the ray first crosses the surface, using dense samples and bisection; infinite if
+/// it does not.
 double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen::Vector3d &d,
                       double s, double end, int samples) {
     const bool side = outside(julia, o + s * d);
@@ -136,8 +139,8 @@ double first_crossing(const Julia &julia, const Eigen::Vector3d &o, const Eigen:
     return INFINITY;
 }
 
-/// Whether a ray may overlook what it crosses: it stays on the other side for less than the least
-/// step, or nearer to the surface than rounding can tell.
+/// Returns whether a ray may overlook a crossing. It may if it stays on the other side for less
+/// than the smallest step, or if it stays nearer to the surface than rounding can resolve.
 bool may_overlook(const Julia &julia, const ShapeRecord &record, const Eigen::Vector3d &o,
                   const Eigen::Vector3d &d, double crossing) {
     const double r = radius_of(record), start = crossing + 1e-9 * r;
@@ -193,7 +196,7 @@ TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
         const float3 origin = to_float3(target - distance * direction), way = to_float3(direction);
         const ShapeHit hit = nearest_shape(&record, 1, origin, way, INFINITY);
         ASSERT_EQ(any_shape(&record, 1, origin, way, INFINITY), hit.shape != NO_HIT);
-        // Brute force about the point nearest to the centre, along the unit direction.
+        // Brute force starts at the point nearest to the centre and uses the unit direction.
         const Eigen::Vector3d d = to_double(way).normalized();
         const double shift = distance > 0 ? -to_double(origin).dot(d) : 0.0;
         const Eigen::Vector3d o = to_double(origin) + shift * d;
@@ -203,8 +206,8 @@ TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
         if (hit.shape != NO_HIT) {
             ++hit_count;
             s = (to_double(hit.object_point) - o).dot(d);
-            // It is a point of the surface: sides differ about it within the rounding that
-            // shape_point states.
+            // The point must be on the surface: points at the distance of the rounding error that
+            // shape_point states are on different sides.
             const SurfacePoint point = shape_point(&record, hit.object_point);
             const Eigen::Vector3d n = to_double(point.normal), p = to_double(hit.object_point);
             const double h = to_double(point.error).maxCoeff();
@@ -216,7 +219,7 @@ TEST_P(JuliaSets, AreHitWhereBruteForceHitsThem) {
                       hit.t);
             ASSERT_FALSE(any_shape(&record, 1, origin, way, hit.t));
         }
-        if (expected < s - 1e-4 * r) {  // overlooked: see there
+        if (expected < s - 1e-4 * r) {  // the march overlooked a crossing
             ASSERT_TRUE(may_overlook(julia, record, o, d, expected))
                 << "set " << i % 5 << " at " << expected << ", found " << s;
             ++thin;
@@ -239,8 +242,8 @@ Eigen::Matrix4d random_map(Random &random) {
     return map;
 }
 
-// Rays that leave a hit under affine maps: they start on the side they are meant for, those from
-// inside hit again, and a hit near the start is one in double precision as well.
+// Rays leave hits of sets under affine maps. They must start on the intended side, rays from inside
+// must hit again, and a hit near the start must be a hit in double precision as well.
 TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
     const Julia julia = rounded(GetParam());
     Random random(3);
@@ -248,7 +251,7 @@ TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
     while (left < 20'000) {
         const ShapeRecord record = compile(julia, random_map(random));
         const double r = radius_of(record);
-        Eigen::Matrix4d world_from_object = Eigen::Matrix4d::Identity();  // as the device has it
+        Eigen::Matrix4d world_from_object = Eigen::Matrix4d::Identity();  // rounded to float
         for (int i = 0; i < 12; ++i) {
             world_from_object(i / 4, i % 4) =
                 static_cast<double>(record.world_from_object[i / 4][i % 4]);
@@ -295,8 +298,8 @@ TEST_P(JuliaSets, AreNotHitAgainByRaysThatLeave) {
     EXPECT_EQ(wrong_side, 0);
     EXPECT_EQ(leaks, 0);
     EXPECT_EQ(self_hits, 0);
-    EXPECT_EQ(near_hits > 100, julia.iterations > 1)
-        << near_hits;  // the set of one iteration is smooth
+    // The set of one iteration is smooth.
+    EXPECT_EQ(near_hits > 100, julia.iterations > 1) << near_hits;
 }
 
 TEST_P(JuliaSets, NormalsAreTheGradient) {
@@ -313,10 +316,11 @@ TEST_P(JuliaSets, NormalsAreTheGradient) {
         if (hit.shape != NO_HIT) {
             const SurfacePoint point = shape_point(&record, hit.object_point);
             const Eigen::Vector3d g = gradient(julia, to_double(hit.object_point));
-            // Details of size 2^-n: that is how the normal magnifies the rounding of a position.
+            // The set has details of size 2^-n, so the normal magnifies the rounding error of a
+            // position by 2^n.
             EXPECT_LT((to_double(point.normal) - g.normalized()).norm(),
                       1e-5 + 4e-7 * std::pow(2.0, julia.iterations));
-            EXPECT_LT(dot(point.normal, way), 0.0f);  // outwards, met from outside
+            EXPECT_LT(dot(point.normal, way), 0.0f);  // the normal faces the ray's origin
             ++checked;
         }
     }
@@ -329,7 +333,7 @@ std::string julia_name(const testing::TestParamInfo<Julia> &julia) {
 
 INSTANTIATE_TEST_SUITE_P(Sets, JuliaSets, testing::ValuesIn(julias), julia_name);
 
-// c = 0: |z_n| = |z|^(2^n), a sphere of radius 4^(2^-n).
+// For c = 0, |z_n| = |z|^(2^n), so the set is a sphere of radius 4^(2^-n).
 TEST(Julia, IsASphereForTheConstantZero) {
     Random random(7);
     for (const uint32_t iterations : {1u, 4u, 10u}) {
@@ -363,8 +367,8 @@ TEST(Julia, IsASphereForTheConstantZero) {
     }
 }
 
-// Iterations beyond what float resolves, and rays at the ends of its range: no NaN, no endless
-// march.
+// More iterations than float resolves, and rays at the ends of its range, must give neither a NaN
+// nor an endless march.
 TEST(Julia, ExtremesGiveFiniteHitsOrMisses) {
     Random random(8);
     const float values[] = {0.0f, 1e-38f, 1e-7f,  0.5f,  -1.0f,    1.0f,

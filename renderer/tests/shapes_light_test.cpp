@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Discs and spheres as lights: samples against densities by chi-square, densities against 1.
+// Tests discs and spheres as lights: compares samples with densities using chi-square tests, and
+// the integrals of densities with 1.
 //
-// Seven chi-square tests of the samplers at a family-wise level of 0.01: each decides at 0.01 / 7
-// (Bonferroni). The planted errors show that the sample counts see 2 %.
+// Seven chi-square tests of the samplers share a family-wise level of 0.01, so each has the level
+// 0.01 / 7 (Bonferroni). Planted errors show that the sample counts suffice to detect 2 %.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #define FEATURE_shape_lights 1
@@ -26,7 +27,7 @@ constexpr int rings = 20, sectors = 20;
 struct Light {
     ShapeRecord shape;
     LightRecord light{};
-    Eigen::Matrix3d linear;  ///< as the device has it
+    Eigen::Matrix3d linear;  ///< linear part of the transform, rounded to float
     Eigen::Vector3d centre;
 
     Light(Kind kind, const Eigen::Matrix3d &linear_part, const Eigen::Vector3d &position) {
@@ -53,15 +54,14 @@ struct Light {
                                   uniform_float(w.y));
     }
 
-    /// The record as the scene compiler writes it when spheres are to be sampled by their cones, or
-    /// by area.
+    /// Returns the record that the scene compiler writes if spheres are sampled by cone or by area.
     LightRecord sampled(bool cone) const {
         LightRecord record = light;
         record.kind = light.kind == LIGHT_SPHERE && !cone ? LIGHT_SPHERE_BY_AREA : light.kind;
         return record;
     }
 
-    /// The density at a point of the surface, given in object space.
+    /// Returns the density per area at a point of the surface, given in object space.
     double pdf_a(float3 from, bool cone, const Eigen::Vector3d &object_point) const {
         return static_cast<double>(shape_light_pdf_a(sampled(cone), &shape, from,
                                                      shape_point(&shape, to_float3(object_point))));
@@ -70,12 +70,12 @@ struct Light {
 
 struct Result {
     double p;
-    double integral;  ///< of the density over the light
+    double integral;  ///< integral of the density over the light
 };
 
-/// Counts in bins of the cosine to `axis` (object space, unit) above `horizon` and of the angle
-/// about it, against the integrated density. `planted` raises the density of the upper half of the
-/// bins.
+/// Compares sample counts with the integrated density. The bins divide the cosine to `axis` (object
+/// space, unit) above `horizon` and the angle about the axis. `planted` raises the density of the
+/// upper half of the bins.
 Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vector3d &axis,
                     double horizon, double planted) {
     const Frame frame = frame_from_z(to_float3(axis));
@@ -84,7 +84,7 @@ Result check_sphere(const Light &light, float3 from, bool cone, const Eigen::Vec
     std::vector<uint64_t> observed(rings * sectors);
     uint64_t beyond = 0;
     for (uint32_t i = 0; i < sample_count; ++i) {
-        // The normal keeps its precision where the position of a tiny sphere does not.
+        // For a tiny sphere, the normal is precise, but the position is not.
         const Eigen::Vector3d n =
             (inverse * to_double(light.sample(from, cone, i).point.normal)).normalized();
         const double height = (n.dot(z) - horizon) / (1 - horizon);
@@ -138,8 +138,8 @@ TEST(SphereLight, SamplesItsConeFromAFewRadii) {
 TEST(SphereLight, SamplesItsConeFromNearby) {
     const Result result = check_cone(2, 1.01);
     EXPECT_GT(result.p, level);
-    EXPECT_NEAR(result.integral, 1,
-                1e-2);  // the density peaks within the first ring: this is the quadrature's error
+    // The density peaks within the first ring; the tolerance is the error of the quadrature.
+    EXPECT_NEAR(result.integral, 1, 1e-2);
 }
 
 TEST(SphereLight, SamplesItsConeWhenTinyAndFar) {
@@ -155,8 +155,8 @@ TEST(SphereLight, PlantedErrorOfTwoPercentInTheConeIsRejected) {
 Result check_area(bool inside, double planted = 0) {
     const Light light(Kind::sphere, 1.5 * Eigen::Matrix3d::Identity(), {1, 2, 3});
     const float3 from = to_float3(light.centre + (inside ? 0.5 : 4.0) * Eigen::Vector3d::UnitX());
-    return check_sphere(light, from, inside, Eigen::Vector3d::UnitZ(), -1,
-                        planted);  // cone is asked for inside only
+    // Sampling by cone is requested only for points inside, where it must fall back to area.
+    return check_sphere(light, from, inside, Eigen::Vector3d::UnitZ(), -1, planted);
 }
 
 TEST(SphereLight, SamplesItsAreaOnRequest) {
@@ -175,8 +175,8 @@ TEST(SphereLight, PlantedErrorOfTwoPercentInTheAreaIsRejected) {
     EXPECT_LT(check_area(false, 0.02).p, level);
 }
 
-/// Counts in bins of radius and angle in the disc's plane, against the density times the bin's area
-/// in world space.
+/// Compares sample counts in bins of radius and angle in the disc's plane with the density times
+/// the bin's area in world space.
 Result check_disc(const Eigen::Matrix3d &linear, double planted = 0) {
     const Light light(Kind::disc, linear, {-1, 0, 2});
     const float3 from = make_float3(5, 5, 5);
@@ -227,9 +227,9 @@ TEST(DiscLight, PlantedErrorOfTwoPercentIsRejected) {
     EXPECT_LT(check_disc(skewed(), 0.02).p, level);
 }
 
-// From anywhere, for spheres of any size: samples lie on the sphere, see `from` when they come from
-// a cone, and the estimate of solid angle, cos / (d^2 pdf_a), is that of the cone for every single
-// one.
+// For spheres of any size and any point `from`, samples must be on the sphere. Samples by cone must
+// be visible from `from`, and the estimate of the solid angle, cos / (d^2 pdf_a), must equal that
+// of the cone for every sample.
 TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
     Random random(9);
     int cones = 0;
@@ -250,7 +250,7 @@ TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
         const auto pdf_a = static_cast<double>(sample.pdf_a);
         ASSERT_TRUE(std::isfinite(pdf_a) && pdf_a >= 0);
         if (sin2 > 1 / 1.0003) {
-            continue;  // by area
+            continue;  // sampled by area
         }
         ++cones;
         const double solid_angle = 2 * pi * sin2 / (1 + std::sqrt(1 - sin2));
@@ -258,13 +258,13 @@ TEST(SphereLight, EverySampleOfAConeCarriesItsSolidAngle) {
             ASSERT_NEAR(projected / (way.squaredNorm() * way.norm()) / pdf_a / solid_angle, 1, 1e-3)
                 << distance;
         } else {
-            ASSERT_GT(projected, -2e-3 * way.norm());  // the horizon, to within rounding
+            ASSERT_GT(projected, -2e-3 * way.norm());  // above the horizon, up to rounding
         }
     }
     EXPECT_GT(cones, 150'000);
 }
 
-// Shadow rays as the stages make them, from up to 1e6 radii: a light does not hide its own points.
+// Traces shadow rays like the stages, from up to 1e6 radii. A light must not hide its own points.
 TEST(ShapeLights, DoNotShadowThemselves) {
     Random random(19);
     int rays = 0, hidden = 0;
@@ -272,7 +272,7 @@ TEST(ShapeLights, DoNotShadowThemselves) {
         const double radius = log_uniform(random, -3, 3), distance = 1 + log_uniform(random, -2, 6);
         const double offset = i % 3 == 0   ? 0
                               : i % 3 == 1 ? radius
-                                           : radius * distance;  // of the light from the origin
+                                           : radius * distance;  // distance to the origin
         const Light light(i % 2 == 0 ? Kind::sphere : Kind::disc, radius * uniform_rotation(random),
                           offset * uniform_direction(random));
         const float3 from = to_float3(light.centre + distance * radius * uniform_direction(random));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Closed mirrors keep out the rays that graze them: what the BSDF sends on leaves on the side that
-// it came from. As compiled for a scene of shapes alone, where no shading normal differs from the
-// geometric one.
+// Tests that grazing rays do not enter closed mirrors: the reflected ray must leave on the side of
+// the incident ray. The code is compiled for a scene of shapes alone, in which shading normals
+// equal geometric normals.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #define FEATURE_smooth_normals 0
@@ -16,7 +16,7 @@
 namespace rtrays::test {
 namespace {
 
-/// A ball of any size, somewhere within ten times its size from the origin.
+/// Returns a ball of random size, within ten times its size from the origin.
 Shape random_ball(Random &random) {
     Shape ball;
     ball.kind = Kind::sphere;
@@ -38,7 +38,7 @@ TEST(Mirrors, KeepGrazingRaysOutside) {
         const Eigen::Vector3d across = uniform_direction(random).cross(n).normalized();
         const float3 wo = to_float3(across + n * log_uniform(random, -9, -4));
         if (!(dot(point.normal, wo) > 0.0f)) {
-            continue;  // rounded to the inside
+            continue;  // rounding moved the origin inside
         }
         const SurfaceFrame frame = make_surface_frame(
             point.normal, point.normal, make_float3(0.0f, 0.0f, 0.0f), make_float2(0.0f, 0.0f), wo);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Quadrics, discs and planes: the shipped device code against extended precision, over rays that
-// are random, grazing, axis-parallel, from far away and from inside, under random affine maps.
+// Tests quadrics, discs and planes: compares the device code with extended precision. The rays are
+// random, grazing, axis-parallel, from far away and from inside; the shapes have random affine
+// maps.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #include <gtest/gtest.h>
@@ -18,8 +19,8 @@ constexpr Kind quadrics[] = {Kind::sphere,      Kind::cylinder, Kind::cone, Kind
                              Kind::hyperboloid, Kind::disc,     Kind::plane};
 constexpr double half_ulp = 0x1p-24;
 
-/// A shape under a random affine map: ratio of axes up to `ratio`, mirrored half the time, overall
-/// size 1e-6 to 1e6, at up to ten times its size from the origin.
+/// Returns a shape under a random affine map: ratio of axes up to `ratio`, mirrored half the time,
+/// overall size 1e-6 to 1e6, at a distance of up to ten times its size from the origin.
 Shape random_shape(Kind kind, double ratio, Random &random) {
     Shape shape;
     shape.kind = kind;
@@ -84,7 +85,7 @@ Ray make_ray(const Shape &shape, RaySet set, Random &random) {
             to_float3(direction * log_uniform(random, -6, 6))};
 }
 
-/// The point of a hit in the space of ShapeArrays.
+/// Returns the point of a hit in the object space of ShapeArrays.
 Vector3r canonical(Kind kind, float3 object_point) {
     Vector3r p = to_double(object_point).cast<Real>();
     p.z() += kind == Kind::cone ? 1 : 0;
@@ -93,8 +94,9 @@ Vector3r canonical(Kind kind, float3 object_point) {
 
 class Quadrics : public testing::TestWithParam<Kind> {};
 
-/// Hits and misses, distances and points of `count` rays per set. Tolerances are backward errors:
-/// what is found is right for a ray within 64 half ulps of the size of shape and coordinates.
+/// Checks hits, misses, distances and points of `count` rays per set. Tolerances are backward
+/// errors: a result is right if it is exact for a ray within 64 half ulps of the size of shape and
+/// coordinates.
 void check_against_double(Kind kind, double ratio, int count) {
     Random random(1000 + static_cast<uint64_t>(kind));
     int hit_count = 0;
@@ -108,7 +110,7 @@ void check_against_double(Kind kind, double ratio, int count) {
             const bool found = hit.shape != NO_HIT;
             const double t = found ? static_cast<double>(hit.t) : static_cast<double>(INFINITY);
             double tolerance = 64 * half_ulp * shape.scale();
-            if (kind == Kind::plane) {  // has no size: its distance along the ray counts
+            if (kind == Kind::plane) {  // a plane has no size, so use its distance along the ray
                 tolerance += 16 * half_ulp * shape.condition() *
                              ((o - shape.centre()).norm() + (found ? t * d.norm() : 0.0));
             }
@@ -127,7 +129,7 @@ void check_against_double(Kind kind, double ratio, int count) {
                     (shape.linear() * p.cast<double>() + shape.centre() - (o + t * d)).norm();
                 ASSERT_LE(from_ray, tolerance + 8 * half_ulp * t * d.norm())
                     << static_cast<int>(set);
-                // t_max is exclusive, and bounds nothing else.
+                // t_max is exclusive and has no other effect.
                 ASSERT_FALSE(any_shape(&record, 1, ray.origin, ray.direction, hit.t));
                 ASSERT_EQ(nearest_shape(&record, 1, ray.origin, ray.direction,
                                         std::nextafter(hit.t, INFINITY))
@@ -148,14 +150,14 @@ TEST_P(Quadrics, AgreeWithExtendedPrecisionUnderAffineMaps) {
 
 struct Departures {
     int rays = 0;
-    int hits = 0;       ///< of the same shape, legitimate or not
-    int self_hits = 0;  ///< of where the ray came from
-    int leaks = 0;      ///< through a sphere or an ellipsoid, or hits of it from outside
+    int hits = 0;       ///< hits of the same shape, legitimate or not
+    int self_hits = 0;  ///< hits of the point that the ray left
+    int leaks = 0;      ///< rays through a sphere or an ellipsoid, or hits of it from outside
 };
 
-/// Rays that leave a hit, to either side, at all angles down to 1e-8. A surface of second order
-/// that is left at t = 0 is met again at -2 B / A or not at all; offsets only lengthen that way.
-/// `error_factor` scales the error of the point.
+/// Traces rays that leave a hit to either side, at all angles down to 1e-8. A ray that leaves a
+/// quadric at t = 0 meets it again at -2 B / A or not at all, and offsets only increase that
+/// distance. `error_factor` scales the error bound of the point.
 Departures leave(Kind kind, int count, float error_factor) {
     Random random(2000 + static_cast<uint64_t>(kind));
     Departures departures;
@@ -188,8 +190,8 @@ Departures leave(Kind kind, int count, float error_factor) {
                 ++departures.hits;
                 const double way =
                     static_cast<double>(next.t) * static_cast<double>(d.norm());  // in object space
-                const double local_size =
-                    kind == Kind::cone ? length(hit.object_point) : 1;  // that of its ring
+                // The local size of a cone is that of its ring.
+                const double local_size = kind == Kind::cone ? length(hit.object_point) : 1;
                 departures.self_hits += way < 0.5 * std::min(chord, 0.2 * local_size);
             }
             departures.leaks += kind == Kind::sphere && (next.shape != NO_HIT) == front;
@@ -206,7 +208,7 @@ TEST_P(Quadrics, AreNotHitAgainByRaysThatLeave) {
     EXPECT_EQ(departures.hits > departures.rays / 20, concave_inside) << departures.hits;
 }
 
-// The bound is needed: without it, rays hit where they left or pass.
+// The error bound is necessary: without it, rays hit the point that they left or leak.
 TEST_P(Quadrics, AreHitAgainWhenTheErrorIsUnderstated) {
     const Departures departures = leave(GetParam(), 200'000, 0.0f);
     EXPECT_GT(departures.self_hits + departures.leaks, 0);
@@ -235,7 +237,7 @@ TEST_P(Quadrics, PointsAndNormalsAreThoseOfTheSurface) {
     }
 }
 
-/// (u, v) as ShapeArrays states them.
+/// Returns (u, v), as ShapeArrays defines them.
 Eigen::Vector2d canonical_uv(Kind kind, const Eigen::Vector3d &p) {
     const double turn = std::atan2(p.y(), p.x()) / (2 * M_PI), u = turn < 0 ? turn + 1 : turn;
     switch (kind) {
@@ -252,8 +254,8 @@ Eigen::Vector2d canonical_uv(Kind kind, const Eigen::Vector3d &p) {
     }
 }
 
-// Texture coordinates against their definition; the tangent against the difference of two points
-// along u.
+// Compares texture coordinates with their definition, and the tangent with the difference of two
+// points along u.
 TEST_P(Quadrics, TextureCoordinatesAndTangentsAreThoseDefined) {
     const Kind kind = GetParam();
     Random random(4000 + static_cast<uint64_t>(kind));
@@ -296,7 +298,8 @@ std::string kind_name(const testing::TestParamInfo<Kind> &kind) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Quadrics, testing::ValuesIn(quadrics), kind_name);
 
-// Many shapes: the nearest of all, and `any` exactly where there is one, for finite t_max as well.
+// Among many shapes, the nearest hit is found, and `any` is true exactly if there is one, for
+// finite t_max as well.
 TEST(Shapes, AnyIsTrueExactlyWhereANearestExists) {
     Random random(5);
     std::vector<ShapeRecord> records;
@@ -326,7 +329,7 @@ TEST(Shapes, AnyIsTrueExactlyWhereANearestExists) {
     EXPECT_GT(both, 1'000);
 }
 
-// Most shapes are left out for most rays; a ball's centre is never.
+// Bounding balls exclude most shapes for most rays, but never a shape whose centre the ray passes.
 TEST(Shapes, BallsLeaveOutWhatARayMisses) {
     Random random(8);
     std::vector<ShapeRecord> records;
@@ -354,14 +357,11 @@ TEST(Shapes, BallsLeaveOutWhatARayMisses) {
         kept += static_cast<uint32_t>(__builtin_popcount(shapes_in_reach(
             bounds.data(), 7, origin, to_float3(uniform_direction(random)), INFINITY)));
     }
-    EXPECT_LT(
-        kept,
-        7 * rays /
-            50);  // a ball seen from there takes up (1 - sqrt(1 - 0.26^2 / r^2)) / 2, r in [2, 4]
+    // A ball covers the fraction (1 - sqrt(1 - 0.26^2 / r^2)) / 2 of all directions, r in [2, 4].
+    EXPECT_LT(kept, 7 * rays / 50);
 }
 
-// Rays and shapes at the ends of the range of float: no NaN, nothing but a clean miss or a finite
-// hit.
+// Rays and shapes at the ends of the range of float give a miss or a finite hit, never a NaN.
 TEST(Shapes, ExtremeRaysGiveFiniteHitsOrMisses) {
     Random random(6);
     const float values[] = {0.0f, -0.0f, 1e-45f, 1e-38f, -1e-20f, 1e-7f, 0.5f,     -1.0f,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// A temporary folder for the files of a test.
 #pragma once
 
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 
 namespace rtrays {
 
-/// A folder that goes when the test ends.
+/// A folder that is deleted with its contents at the end of its lifetime.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

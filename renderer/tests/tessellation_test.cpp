@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles lie on the quadric they stand for, face its front and have its area and coordinates.
+// Tests tessellation: the triangles are on the quadric that they replace, face its front, and have
+// its area and texture coordinates.
 #include "renderer/export/tessellation.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +44,7 @@ Vector3d twice_area(const MeshArrays &mesh, const Triangle &triangle) {
     return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
 }
 
-/// x^2 + y^2 as a function of z (stores.h).
+/// Returns x^2 + y^2 as a function of z for each shape, as defined in stores.h.
 const std::map<Kind, std::function<double(double)>> &profiles() {
     static const std::map<Kind, std::function<double(double)>> all = {
         {Kind::sphere, [](double z) { return 1 - z * z; }},
@@ -78,8 +79,8 @@ TEST(Tessellation, NormalsAreThoseOfTheTriangles) {
                     ASSERT_NEAR(mesh.normal[vertex].norm(), 1, 2e-7);
                     normal += mesh.normal[vertex].cast<double>() / 3;
                 }
-                // The two triangles at the tip of a paraboloid's cell turn most; the tip of a cone
-                // has no normal.
+                // Normals deviate most for the two triangles at the tip of a paraboloid. The tip of
+                // a cone has no normal.
                 ASSERT_GT(twice_area(mesh, triangle).normalized().dot(normal), 0.99)
                     << static_cast<int>(kind);
             }
@@ -111,7 +112,7 @@ TEST(Tessellation, Coordinates) {
         if (std::abs(p.z()) < 0.999) {
             const double turns =
                 std::atan2(p.y(), p.x()) / (2 * pi) - static_cast<double>(sphere.uv[i].x());
-            EXPECT_NEAR(turns, std::round(turns), 1e-6);  // u = 1 where the seam is met again
+            EXPECT_NEAR(turns, std::round(turns), 1e-6);  // u is 1 at the end of the seam
         }
     }
     const MeshArrays disc = triangles_of(Kind::disc);

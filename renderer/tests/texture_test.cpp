@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texture lookups against an implementation in double precision.
+// Compares texture lookups with an implementation in double precision.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -12,10 +12,10 @@ namespace {
 
 constexpr uint width = 5, height = 3;
 
-/// A texture whose texels are all different: 8 bits, sRGB or not, or floats.
+/// A texture whose texels are all different. Texels have 8 bits, in sRGB or linear, or are floats.
 struct TestTexture {
     TextureRecord record{};
-    std::vector<uint> texels = {0xdeadbeef};  // another texture's
+    std::vector<uint> texels = {0xdeadbeef};  // belongs to another texture
 
     explicit TestTexture(uint flags) {
         record = {1, width, height, flags, {1, 1}, {0, 0}};
@@ -43,8 +43,7 @@ struct TestTexture {
                                                    : std::pow((s + 0.055) / 1.055, 2.4);
     }
 
-    /// The lookup, rows from the bottom as v runs; `spread` is by how much neighbouring texels may
-    /// differ.
+    /// Returns the lookup in double precision. v counts rows from the bottom.
     double lookup(double u, double v, uint channel) const {
         u = record.uv_scale[0] * u + record.uv_offset[0];
         v = record.uv_scale[1] * v + record.uv_offset[1];
@@ -99,7 +98,7 @@ TEST(Texture, AgreesWithDoublePrecision) {
             const std::array<float, 3> channels = {found.x, found.y, found.z};
             for (uint c = 0; c < 3; ++c) {
                 const double expected = texture.lookup(du, dv, c);
-                // A texel's edge may fall on either side.
+                // At a texel's edge, rounding may select either side.
                 const double moved = texture.lookup(du + 1e-6, dv + 1e-6, c),
                              back = texture.lookup(du - 1e-6, dv - 1e-6, c);
                 if ((flags & TEXTURE_BILINEAR) != 0u || (moved == expected && back == expected)) {
@@ -113,7 +112,7 @@ TEST(Texture, AgreesWithDoublePrecision) {
     }
 }
 
-// The convention that image files are read by: rows from the top, v upwards.
+// Image files store rows from the top, but v points upwards.
 TEST(Texture, HasItsOriginAtTheLowerLeft) {
     for (const uint flags : {TEXTURE_CLAMP, 0u, TEXTURE_CLAMP | TEXTURE_BILINEAR}) {
         const TestTexture texture(flags);
@@ -121,8 +120,8 @@ TEST(Texture, HasItsOriginAtTheLowerLeft) {
             EXPECT_NEAR(texture.device_lookup(u, v).x, texture.texel(x, row, 0), 1e-6);
         };
         expect_texel(0.1f, 1.0f / 6, 0, height - 1);  // centre of the lower left texel
-        expect_texel(0.9f, 5.0f / 6, width - 1, 0);   // of the upper right one
-        if (flags != 0u) {                            // a repeated image meets its other edge there
+        expect_texel(0.9f, 5.0f / 6, width - 1, 0);   // centre of the upper right texel
+        if (flags != 0u) {                            // a repeated image has its other edge there
             expect_texel(0.0f, 0.0f, 0, height - 1);
             expect_texel(1.0f, 1.0f, width - 1, 0);
             expect_texel(7.0f, -3.0f, width - 1, height - 1);
@@ -139,8 +138,8 @@ TEST(Texture, StaysInsideTheImageWhateverTheCoordinates) {
         for (const float u : {0.0f, -0.0f, 1.0f, -1.0f, -1e-10f, -1e-45f, 0.99999994f, 1e9f, -3e38f,
                               3e38f, infinity, -infinity, NAN}) {
             for (const float v : {0.5f, -1e-10f, 1e30f, NAN}) {
-                const float3 found = texture.device_lookup(
-                    u, v);  // an index out of range is caught by the sanitizers
+                // The sanitizers detect an index out of range.
+                const float3 found = texture.device_lookup(u, v);
                 EXPECT_TRUE(found.x >= 0.0f && found.x <= 255 * 10.5f) << u << ", " << v;
                 values.push_back(static_cast<double>(found.x));
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hits against Embree 3 (ROBUST), 1e6 fuzzed rays for each layout: same hit or miss, |dt| <= 1e-5
-// of the scale. Where they differ, double precision decides whether ours is right: a judge held to
-// brute force in traversal_hits_test.cpp.
+// Compares hits with Embree 3 (ROBUST) for 1e6 fuzzed rays per layout: both must hit or miss, with
+// |dt| <= 1e-5 of the scale. If they differ, an intersector in double precision decides whether the
+// hit is right. A test in traversal_hits_test.cpp compares that intersector with brute force.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,11 +20,11 @@ using namespace test;
 class TraversalEmbree : public TreeTest {};
 EACH_TREE(TraversalEmbree);
 
-/// Differences by kind of ray: random, grazing, and along an axis through a vertex or an edge
-/// (ray_sets.h).
+/// Number of differences per type of ray: random, grazing, and along an axis through a vertex or an
+/// edge (ray_sets.h).
 using Differences = std::array<size_t, 3>;
 
-/// Rays on which ours differs from Embree and double precision does not side with ours.
+/// Returns the number of rays whose hit differs from Embree's and is wrong in double precision.
 size_t count_wrong(const Mesh &mesh, TreeKind kind, size_t count, Differences *differences) {
     const HostBvh bvh = build_bvh(mesh, kind);
     const EmbreeScene embree(mesh);
@@ -46,7 +46,7 @@ size_t count_wrong(const Mesh &mesh, TreeKind kind, size_t count, Differences *d
                      ? 0
                      : 1;
     }
-    EXPECT_GT(hits, count / 10) << mesh.name << ": rays must hit something to mean anything";
+    EXPECT_GT(hits, count / 10) << mesh.name << ": too few rays hit for a meaningful test";
     return wrong;
 }
 
@@ -66,7 +66,7 @@ TEST_P(TraversalEmbree, FuzzedRaysAgree) {
         rays, differences[0], differences[1], differences[2], wrong);
     EXPECT_EQ(wrong, 0u);
     EXPECT_LE(static_cast<double>(differences[0]), 1e-4 * static_cast<double>(rays))
-        << "too many to be rounding";
+        << "too many differences for rounding errors";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What traversal finds: against brute force in double, any hit against nearest hit, device against
-// host.
+// Compares hits of traversal with brute force in double precision, any hit with nearest hit, and
+// the device with the host.
 #include <gtest/gtest.h>
 
 #include "renderer/device/kernel.h"
@@ -40,7 +40,7 @@ TEST_P(TraversalHits, AgreeWithBruteForceInDouble) {
             ASSERT_EQ(
                 judge.is_right(ray_origin(ray), ray_direction(ray), hit.t, hit.triangle, tolerance),
                 right);
-            // Of a hit left out both think alike, too.
+            // Both judges must also agree on a missing hit.
             ASSERT_EQ(
                 judge.is_right(ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT, tolerance),
                 hit_is_right(mesh, ray_origin(ray), ray_direction(ray), INFINITY, NO_HIT,
@@ -49,7 +49,7 @@ TEST_P(TraversalHits, AgreeWithBruteForceInDouble) {
         }
         EXPECT_EQ(wrong, 0) << mesh.name;
         EXPECT_GT(hits, static_cast<int>(count / 10))
-            << mesh.name << ": rays must hit something to mean anything";
+            << mesh.name << ": too few rays hit for a meaningful test";
     }
 }
 
@@ -97,8 +97,8 @@ TEST_P(TraversalHits, BarycentricsGiveTheHitPoint) {
         const Eigen::Vector3f p = a + hit.u * (mesh.vertex(hit.triangle, 1) - a) +
                                   hit.v * (mesh.vertex(hit.triangle, 2) - a);
         const Eigen::Vector3f along = ray_origin(ray) + hit.t * ray_direction(ray);
-        // The point of the triangle lies beside the ray by rounding alone, whatever the angle
-        // between them.
+        // The hit point on the triangle is off the ray only by rounding, whatever the angle between
+        // ray and triangle.
         ASSERT_LT((p - ray_origin(ray)).cross(ray_direction(ray)).norm(),
                   2e-6f * mesh.box().diagonal().norm())
             << along;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Watertightness, self-hits and leaks, on the shipped device functions compiled for the host.
+// Tests watertightness, self-intersections and leaks of traversal, with the device functions
+// compiled for the host.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ EACH_TREE(BadRays);
 
 constexpr int million = 1000000;
 
-/// Rays from inside a closed mesh that hit nothing.
+/// Counts rays from inside a closed mesh that hit nothing.
 int count_misses(const Mesh &mesh, TreeKind kind, const Eigen::Vector3f &centre, float spread,
                  int rays) {
     const HostBvh bvh = build_bvh(mesh, kind);
@@ -52,8 +53,8 @@ TEST_P(Watertight, ClosedRoomOnAxesAndEdges) {
     EXPECT_EQ(count_misses(room(), GetParam(), {450.0f, 400.0f, 200.0f}, 60.0f, million / 2), 0);
     const HostBvh bvh = build_bvh(room(), GetParam());
     Random random(5);
-    for (int i = 0; i < 10000;
-         ++i) {  // along the planes of the blocks, on their edges' coordinates
+    // Rays along the planes of the blocks, with the coordinates of their edges.
+    for (int i = 0; i < 10000; ++i) {
         const Eigen::Vector3f origin(i % 2 ? 130.0f : 423.0f, uniform(random, 331.0f, 540.0f),
                                      i % 4 < 2 ? 65.0f : 456.0f);
         Eigen::Vector3f direction = Eigen::Vector3f::Zero();
@@ -63,12 +64,12 @@ TEST_P(Watertight, ClosedRoomOnAxesAndEdges) {
 }
 
 TEST_P(Watertight, FarFromTheCoordinateOrigin) {
-    const Eigen::Vector3f offset(148376.0f, 1234.0f, -223423.0f);  // Embree's own test
+    const Eigen::Vector3f offset(148376.0f, 1234.0f, -223423.0f);  // as in Embree's tests
     EXPECT_LE(
         count_misses(sphere(64, 128, 10.0f, 0.05f, offset), GetParam(), offset, 5.0f, million), 20);
 }
 
-/// The open grid is watertight inside its outline too.
+/// An open grid must be watertight inside its outline, too.
 TEST_P(Watertight, GridFromAbove) {
     const Mesh mesh = terrain(60, 3);
     const HostBvh bvh = build_bvh(mesh, GetParam());
@@ -88,7 +89,7 @@ TEST(EdgeFunction, HasTheExactSign) {
     Random random(2);
     for (int i = 0; i < million; ++i) {
         float v[4];
-        for (float &x : v) {  // few bits: many exact ties and near ties
+        for (float &x : v) {  // few bits give many exact ties and near ties
             x = static_cast<float>(std::uniform_int_distribution<int>(-4100, 4100)(random)) *
                 (i % 2 ? 1.0f : 4097.0f);
         }
@@ -113,13 +114,13 @@ LeafTriangle leaf_of(const Eigen::Vector3f &a, const Eigen::Vector3f &b, const E
     return leaf;
 }
 
-/// Weights of vertices 1 and 2 of a point of a triangle, uniform by area.
+/// Returns the weights of vertices 1 and 2 of a point on a triangle, uniform by area.
 std::pair<float, float> uniform_weights(Random &random) {
     const float u = uniform(random), v = uniform(random);
     return u + v > 1 ? std::pair(1 - u, 1 - v) : std::pair(u, v);
 }
 
-/// Rays leaving a random point of each of 1000 triangles: scales 1e-6 to 1e6, far from the origin,
+/// Rays leave random points of 1000 triangles: scales from 1e-6 to 1e6, far from the origin, and
 /// slivers.
 TEST(SelfHit, SingleTriangles) {
     Random random(4);
@@ -167,8 +168,7 @@ TEST(SelfHit, SingleTriangles) {
     EXPECT_EQ(self_hits, 0);
 }
 
-/// Where a secondary ray starts: a random point of the mesh, uniform by area or within 1e-3 of an
-/// edge.
+/// Start of a secondary ray: a random point of the mesh, uniform by area or within 1e-3 of an edge.
 struct Departure {
     uint32_t triangle;
     float u, v;  ///< weights of vertices 1 and 2
@@ -202,7 +202,7 @@ std::vector<double> area_sums(const Mesh &mesh) {
 /// A ray that hit nothing.
 struct Escape {
     Departure start;
-    float3 origin;  ///< of the ray, moved off the surface
+    float3 origin;  ///< origin of the ray, offset from the surface
 };
 
 struct SecondaryRays {
@@ -210,7 +210,8 @@ struct SecondaryRays {
     std::vector<Escape> escapes;
 };
 
-/// Diffuse secondary rays on one side of the surface: `side` +1 along the normals, -1 against them.
+/// Traces diffuse secondary rays on one side of the surface: `side` is +1 along the normals, -1
+/// against them.
 SecondaryRays trace_secondary(const Mesh &mesh, TreeKind kind, float side, int rays,
                               bool near_edges) {
     const HostBvh bvh = build_bvh(mesh, kind);
@@ -244,7 +245,7 @@ TEST_P(Secondary, NoSelfHitAndNoLeakInAClosedRoom) {
         const SecondaryRays outside =
             trace_secondary(box, GetParam(), 1.0f, million / 4, near_edges);
         EXPECT_EQ(outside.escapes.size(), size_t{million / 4})
-            << "a convex body does not shadow itself";
+            << "a convex body must not shadow itself";
     }
 }
 
@@ -257,7 +258,7 @@ TEST_P(Secondary, NoSelfHitAndNoLeakInAClosedSphere) {
     }
 }
 
-/// From the exact point of the triangle to the origin of the ray.
+/// Returns the offset from the exact point of the triangle to the origin of the ray.
 Eigen::Vector3d step_off_the_surface(const Mesh &mesh, const Escape &escape) {
     const Departure &start = escape.start;
     const double u = static_cast<double>(start.u), v = static_cast<double>(start.v);
@@ -267,7 +268,7 @@ Eigen::Vector3d step_off_the_surface(const Mesh &mesh, const Escape &escape) {
            v * mesh.vertex(start.triangle, 2).cast<double>();
 }
 
-/// Whether that step leads through another triangle, in double.
+/// Returns whether that offset crosses another triangle, computed in double precision.
 bool leads_through_a_fold(const Mesh &mesh, const Escape &escape) {
     const Eigen::Vector3d step = step_off_the_surface(mesh, escape);
     const Eigen::Vector3d point =
@@ -281,14 +282,15 @@ bool leads_through_a_fold(const Mesh &mesh, const Escape &escape) {
     return false;
 }
 
-/// Rays from within 1e-3 of the edges of a crumpled sphere, whose faces meet at acute angles near
-/// its poles. Zero leaks, as of the spheres and the room above, cannot be had here: an origin must
-/// leave its face by the offset h, the error of its own position and of the next triangle test, or
-/// the face is hit again; but h off the face and nearer than h / tan(angle) to the edge it is
-/// beyond the other face of the fold already, where nothing stops the ray. What can be had, and
-/// must: every leak is such a start, and h stays below 1e-6 of the coordinates: with coordinates of
-/// 1 and triangles of 0.1, gamma(7) + 16 u 0.1 = 5.2e-7 along each axis (surface_point.h), sqrt(3)
-/// times that in all.
+/// Rays start within 1e-3 of the edges of a crumpled sphere, whose faces meet at acute angles near
+/// its poles. Zero leaks, as in the tests above, are impossible here. An origin must be offset from
+/// its face by h, the error of its position and of the next triangle test, or the ray hits the face
+/// again. An offset origin nearer than h / tan(angle) to the edge is already beyond the other face
+/// of the fold, where nothing stops the ray.
+///
+/// Every leak must be such a start, and h must stay below 1e-6 of the coordinates. With coordinates
+/// of 1 and triangles of 0.1, h is gamma(7) + 16 u 0.1 = 5.2e-7 along each axis (surface_point.h),
+/// and sqrt(3) times that in total.
 TEST_P(Secondary, OnlyFoldsThinnerThanTheOffsetLeak) {
     const Mesh mesh = sphere(40, 80, 1.0f, 0.02f, {0, 0, 0});
     const SecondaryRays rays = trace_secondary(mesh, GetParam(), -1.0f, million, true);
@@ -299,7 +301,7 @@ TEST_P(Secondary, OnlyFoldsThinnerThanTheOffsetLeak) {
         EXPECT_TRUE(leads_through_a_fold(mesh, escape));
     }
 
-    // The judge excuses no start in the middle of a face.
+    // The test must not excuse a start in the middle of a face.
     const uint32_t triangle = 1000;
     const SurfacePoint middle =
         surface_point(to_float3(mesh.vertex(triangle, 0)), to_float3(mesh.vertex(triangle, 1)),
@@ -337,7 +339,7 @@ TEST(BadTriangles, AreNeverHit) {
     for (int i = 0; i < 100000; ++i) {
         const Eigen::Vector3f v[3] = {uniform_direction(random), uniform_direction(random),
                                       uniform_direction(random)};
-        // Even: one coordinate not finite; odd: two vertices coincide.
+        // One coordinate is not finite (even i), or two vertices coincide (odd i).
         LeafTriangle leaf = i % 2 == 0 ? leaf_of(v[0], v[1], v[2]) : leaf_of(v[0], v[0], v[1]);
         if (i % 2 == 0) {
             leaf.coordinate[i / 2 % 3][i / 6 % 3] = i % 4 == 0 ? nan : infinity;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests of what every hierarchy must do, whatever its layout and whoever built it.
+// Base of test suites that run for every combination of build method and layout of a hierarchy.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 namespace rtrays::test {
 
-/// Base of a suite of TEST_P, which EACH_TREE instantiates.
+/// Base class of a suite of TEST_P, which EACH_TREE instantiates.
 using TreeTest = testing::TestWithParam<TreeKind>;
 #define EACH_TREE(suite)                                                        \
     INSTANTIATE_TEST_SUITE_P(Trees, suite, testing::ValuesIn(all_tree_kinds()), \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which algorithm sees what: the caustic of a point light, and its image in a mirror.
+// Tests which algorithms see the caustic of a point light, and its image in a mirror.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Mean of green over the image and its standard error, from 32 batches.
+/// Returns the mean of the green channel over the image, and its standard error from 32 batches.
 std::pair<double, double> mean_of(const std::string &scene, const std::string &algorithm,
                                   uint32_t max_depth) {
     static DeviceContext device;
@@ -40,7 +40,8 @@ std::pair<double, double> mean_of(const std::string &scene, const std::string &a
     return {mean, std::sqrt((squares / batches - mean * mean) / (batches - 1))};
 }
 
-/// Of the floor in the picture: the middle of every sub-pixel, 16 x 16 pixels of 4 x 4.
+/// Returns the mean radiance of the visible floor, with midpoints of 4 x 4 sub-pixels of 16 x 16
+/// pixels.
 double expected_radiance() {
     double sum = 0;
     const double half = 1.2 * std::tan(10 * pi / 180);
@@ -58,9 +59,10 @@ TEST(Visibility, LightPathsSeeTheCausticOfAPointLight) {
     const double expected = expected_radiance();
     for (const char *algorithm : {"light_tracing", "bdpt", "truncated_bdpt"}) {
         const auto [mean, error] = mean_of("caustic.json", algorithm, 2);
-        // Three means: 3.5 standard errors each hold the whole at 0.005 (t of 31 degrees).
+        // With 3.5 standard errors for each of three means, the family-wise level is 0.005
+        // (Student's t with 31 degrees of freedom).
         EXPECT_LT(std::abs(mean - expected), 3.5 * error) << algorithm;
-        EXPECT_LT(error, 0.02 * expected) << "power";
+        EXPECT_LT(error, 0.02 * expected) << "statistical power";
     }
     EXPECT_EQ(mean_of("caustic.json", "path_tracing", 2).first, 0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ray casting and Whitted's ray tracing against closed forms in every pixel, and against path
-// tracing where it sees the same paths. Neither draws random numbers, so nothing here is
-// statistical but path tracing's own error.
+// Tests ray casting and Whitted ray tracing against closed forms in every pixel, and against path
+// tracing for scenes in which both see the same paths. Neither algorithm uses random numbers, so
+// only the error of path tracing is statistical.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,14 +18,14 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int size = 16;
-constexpr double fov = 60;  ///< degrees
+constexpr double fov = 60;  ///< field of view, degrees
 
 DeviceContext &device() {
     static DeviceContext context;
     return context;
 }
 
-/// A camera at z = 5 that looks along -z, and these nodes.
+/// Returns a scene with the given nodes and a camera at z = 5 that looks along -z.
 Scene scene_of(const std::string &nodes) {
     return parse_scene_json(R"({"version": 1, "film": {"width": 16, "height": 16}, "nodes": [
         {"name": "camera", "transform": [{"look_at": {"origin": [0, 0, 5], "target": [0, 0, 0], "up": [0, 1, 0]}}],
@@ -51,14 +51,14 @@ Image render(const Scene &scene, const RenderSettings &settings, uint64_t sample
     return session.develop();
 }
 
-/// The direction through the centre of pixel `i`, z = -1.
+/// Returns the direction through the centre of pixel `i`, scaled to z = -1.
 Eigen::Vector3d direction_of(size_t i) {
     const double pixel = 2 * std::tan(fov * pi / 360) / size;
     const double x = static_cast<double>(i % size), y = static_cast<double>(i / size);
     return {(x + 0.5 - size / 2.0) * pixel, -(y + 0.5 - size / 2.0) * pixel, -1};
 }
 
-/// Expects radiance(direction) in every pixel of the channel.
+/// Expects the value radiance(direction) in every pixel of the channel.
 template <typename Radiance>
 void expect_pixels(const Image &image, const std::string &channel, const Radiance &radiance,
                    double relative) {
@@ -69,14 +69,14 @@ void expect_pixels(const Image &image, const std::string &channel, const Radianc
         ASSERT_NEAR(found, expected, relative * std::abs(expected)) << channel << " of pixel " << i;
         largest = std::max(largest, expected);
     }
-    EXPECT_GT(largest, 0) << "power";
+    EXPECT_GT(largest, 0) << "statistical power";
 }
 
 const char *floor_and_lamp = R"(
     {"name": "floor", "geometry": {"type": "plane"}, "material": {"type": "lambert", "reflectance": [0.8, 0.5, 0.2]}},
     {"name": "lamp", "transform": [{"translate": [0.5, -0.25, 2]}], "light": {"type": "point", "intensity": [10, 20, 40]}})";
 
-// rho / pi I cos / r^2 of the floor's point in the centre of each pixel.
+/// Returns the radiance of a floor point under the point light: rho / pi I cos / r^2.
 double floor_radiance(const Eigen::Vector3d &point, double reflectance, double intensity) {
     const Eigen::Vector3d way = Eigen::Vector3d(0.5, -0.25, 2) - point;
     return reflectance / pi * intensity * way.z() / std::pow(way.norm(), 3);
@@ -134,8 +134,8 @@ TEST(RayCasting, EndsAtMirrors) {
     EXPECT_EQ(report["settings"]["integrator.sampler"], "regular");
 }
 
-// A white surface that faces the camera in the middle of the scene shows 1; nothing that is seen is
-// in shadow.
+// A white surface that faces the camera in the middle of the scene has the radiance 1. No visible
+// point is in shadow.
 TEST(RayCasting, LightsADarkSceneFromTheCamera) {
     const Scene scene = scene_of(R"({"name": "square", "geometry": {"type": "rectangle"},
         "transform": [{"scale": [0.5, 0.5, 1]}], "material": {"type": "lambert", "reflectance": [1, 0.5, 0.25]}})");
@@ -150,10 +150,10 @@ TEST(RayCasting, LightsADarkSceneFromTheCamera) {
         }
     }
     EXPECT_EQ(render(scene, settings_of("path_tracing")).channel("R")[8 * size + 8], 0)
-        << "others show it as it is";
+        << "other algorithms render the dark scene as it is";
 }
 
-// The mirror at z = 0 shows the wall at z = 8 behind the camera as from a camera at z = -5.
+// The mirror at z = 0 shows the wall at z = 8 behind the camera as a camera at z = -5 sees it.
 TEST(Whitted, ShowsTheMirrorImage) {
     const Image image = render(scene_of(R"(
         {"name": "mirror", "geometry": {"type": "plane"}, "material": {"type": "mirror", "reflectance": [0.9, 0.6, 0.3]}},
@@ -170,15 +170,15 @@ TEST(Whitted, ShowsTheMirrorImage) {
                     Eigen::Vector3d(0, 0, -5) + 13 * Eigen::Vector3d(d.x(), d.y(), 1);
                 const Eigen::Vector3d way = Eigen::Vector3d(1, 0.5, 6) - point;
                 const double direct = 0.5 / pi * i * -way.z() / std::pow(way.norm(), 3);
-                // The lamp's image in the mirror lights the wall in nature, not here: that path is
-                // a caustic.
+                // In reality, the lamp's mirror image also lights the wall. Whitted ray tracing
+                // cannot find that path, because it is a caustic.
                 return r * direct;
             },
             1e-5);
     }
 }
 
-/// Reflectance of a smooth boundary from outside, index 1.5.
+/// Returns the reflectance of a smooth boundary of index 1.5 from outside.
 double fresnel(double cosine) {
     const double refracted = std::sqrt(1 - (1 - cosine * cosine) / 2.25);
     const double s = (cosine - 1.5 * refracted) / (cosine + 1.5 * refracted);
@@ -192,8 +192,9 @@ const char *slab_under_sky = R"(
      "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": 180}}, {"translate": [0, 0, -0.5]}]},
     {"name": "sky", "light": {"type": "dome", "radiance": [1, 1, 1]}})";
 
-// Of light from all around a slab of glass shows F after one event and (1 - F)^2 F^(n - 2) after n:
-// all orders of reflection and transmission, up to the limit, in one sample. Together they are 1.
+// Under uniform light, a slab of glass shows F after one event and (1 - F)^2 F^(n - 2) after n
+// events. One sample contains all orders of reflection and transmission up to the limit. Without a
+// limit, they sum to 1.
 TEST(Whitted, FollowsEveryOrderOfReflectionInASlab) {
     for (const int depth : {1, 2, 3, 5, 8, 12}) {
         const Image image =
@@ -219,8 +220,8 @@ TEST(Whitted, FollowsEveryOrderOfReflectionInASlab) {
 }
 
 TEST(Whitted, CutsBranchesBelowAThreshold) {
-    // Inside, each reflection leaves less than 5 % of what passes: with a threshold of 0.06 only
-    // what passes is followed.
+    // Inside the slab, each reflection has less than 5 % of the transmitted light. With a threshold
+    // of 0.06, only the transmission is followed.
     const Image image = render(scene_of(slab_under_sky),
                                settings_of("whitted", {"integrator.termination=adaptive",
                                                        "integrator.adaptive_threshold=0.06"}));
@@ -229,9 +230,9 @@ TEST(Whitted, CutsBranchesBelowAThreshold) {
     EXPECT_NEAR(image.channel("G")[centre], (1 - f) * (1 - f), 1e-5);
 }
 
-// Seen through panes of glass, the wall's light takes the path E SS D L, and E SSSS D L is beyond
-// the limit of 4; a path that went on from the wall would need five events. So path tracing finds
-// the same paths, by chance.
+// Through a pane of glass, the wall is seen on paths E SS D L. Paths E SSSS D L and paths that
+// continue from the wall need five or more events, which exceeds the limit of 4. Therefore, path
+// tracing finds the same paths, but stochastically.
 TEST(Whitted, IsWhatPathTracingExpects) {
     const Scene scene = scene_of(R"(
         {"name": "pane", "geometry": {"type": "box"}, "transform": [{"scale": [9, 9, 0.2]}, {"translate": [0, 0, 2]}],
@@ -252,9 +253,9 @@ TEST(Whitted, IsWhatPathTracingExpects) {
             mean += static_cast<double>(sure.channel(channel)[i]) / 256;
             variance += static_cast<double>(errors[i]) / (256.0 * 256.0);
         }
-        // Three means at a family-wise level of 0.01 (two-sided, Bonferroni).
+        // Three means share a family-wise level of 0.01 (two-sided, Bonferroni).
         EXPECT_LT(std::abs(difference), 2.94 * std::sqrt(variance)) << channel;
-        EXPECT_LT(std::sqrt(variance), 0.003 * mean) << "power";
+        EXPECT_LT(std::sqrt(variance), 0.003 * mean) << "statistical power";
     }
 }
 
@@ -273,7 +274,7 @@ TEST(Whitted, DrawsNothing) {
         const std::vector<int64_t> first = words(1, {});
         EXPECT_EQ(words(2, {}), first) << "another seed";
         if (algorithm == std::string("whitted")) {
-            EXPECT_EQ(words(1, {"device.features=all"}), first) << "everything compiled in";
+            EXPECT_EQ(words(1, {"device.features=all"}), first) << "all features compiled in";
         }
         EXPECT_EQ(words(1, {"device.path_layout=arrays", "device.stream_capacity=77",
                             "device.stream_chunk=5"}),
@@ -282,8 +283,8 @@ TEST(Whitted, DrawsNothing) {
 }
 
 TEST(Whitted, LightsSoftlyByMoreSamples) {
-    // Emitters that have an extent are met at a point that is the same for all pixels, sample by
-    // sample others.
+    // Area lights are sampled at a point that is the same for all pixels and differs between
+    // samples.
     const Scene scene = load_scene(RTRAYS_SCENES "/analytic/emitter_direct.json");
     RenderSettings settings = settings_of("ray_casting");
     settings.width = settings.height = 33;
@@ -298,8 +299,8 @@ TEST(Whitted, RefusesWhatItDoesNotDo) {
     for (const auto &[algorithm, assignment, fragment] :
          {std::tuple("whitted", "integrator.sampler=sobol", "draws no random numbers"),
           std::tuple("whitted", "integrator.light_selection=power",
-                     "joins every point to all of them"),
-          std::tuple("whitted", "integrator.strategies=implicit", "strategies of its own"),
+                     "samples every light at every point"),
+          std::tuple("whitted", "integrator.strategies=implicit", "fixed strategies"),
           std::tuple("path_tracing", "integrator.sampler=regular", "needs random numbers")}) {
         expect_input_error(fragment, [&, a = algorithm, s = assignment] {
             const RenderSettings settings = settings_of(a, {s});

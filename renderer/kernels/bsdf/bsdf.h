@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The BSDF of a material: the sum of its components (thesis 3.51), and directions sampled from it.
+// The BSDF of a material: evaluation of the sum of its components (thesis (3.51)), and sampling of
+// directions.
 //
-// Directions wi and wo are unit vectors pointing away from the surface; wo leads to where the path
-// came from. Densities are per solid angle. What holds of the records (the scene's loader sees to
-// it): eta > 0; a refracting component has a dielectric or ideal Fresnel term, and an index other
-// than 1 where it is rough; roughness in [1e-4, 1].
+// Directions wi and wo are unit vectors away from the surface; wo leads to where the path came
+// from. Densities are per solid angle. The scene loader guarantees that
+// - eta > 0;
+// - a refracting component has a dielectric or ideal Fresnel term, and an index other than 1 if it
+//   is rough;
+// - roughness is in [1e-4, 1].
 #pragma once
 
 #include "renderer/kernels/bsdf/component.h"
@@ -12,42 +15,47 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-/// What bsdf_evaluate says of a direction.
+/// The value and density of a direction.
 typedef struct BsdfValue {
-    float3 f_cos;  ///< f |cos(ns, wi)|, 1/sr, delta components left out
-    float pdf_w;   ///< density per solid angle with which bsdf_sample gives it, deltas left out:
-                   ///< thesis 2.7.4, but the sum over the components
+    float3 f_cos;  ///< f |cos(ns, wi)| in 1/sr, without delta components
+    /// Density per solid angle of bsdf_sample, without deltas. Departure from thesis, section
+    /// 2.7.4: it is summed over all components.
+    float pdf_w;
 } BsdfValue;
 
-/// A sampled direction.
+/// A sampled direction, with its weight and density.
 typedef struct BsdfSample {
     float3 wi;
-    float3 weight;  ///< f |cos(ns, wi)| / pdf_w over all components but deltas. Of a delta:
-                    ///< coefficient / probability
-    float pdf_w;  ///< per solid angle; 0: nothing was sampled, the path ends; INFINITY: wi is that
-                  ///< of a delta
-    float scale;  ///< the factor that (3.40) puts on radiance crossing a boundary, in the weight; 1
-                  ///< for reflection
-    uint component;     ///< the one that was drawn
-    float probability;  ///< with which it was
+    /// f |cos(ns, wi)| / pdf_w over all components except deltas; for a delta: coefficient /
+    /// probability.
+    float3 weight;
+    /// Density per solid angle; 0: nothing was sampled and the path ends; INFINITY: wi is that of a
+    /// delta.
+    float pdf_w;
+    /// Factor (3.40) on radiance that crosses a boundary, included in `weight`; 1 for reflection.
+    float scale;
+    uint component;     ///< index of the selected component
+    float probability;  ///< probability with which it was selected
 } BsdfSample;
 
-/// A unit vector in the frame. Normalised: where narrow lobes are seen at a grazing angle the sum
-/// wo + wi is short, and an error of 1e-7 in either length shifts its slope by more than that of
-/// the direction itself.
+/// Transforms a unit vector to the frame and normalises it. For narrow lobes at grazing angles the
+/// sum wo + wi is short. An error of 1e-7 in either length then shifts its slope by more than that
+/// of the direction itself.
 DEVICE float3 to_local(SurfaceFrame frame, float3 w) {
     return normalize(make_float3(dot(frame.x, w), dot(frame.y, w), dot(frame.ns, w)));
 }
 
-/// Whether light may pass between wo (on the front of both normals) and a direction of the given
-/// local height: not where it is on different sides of the geometric and the shading normal, nor in
-/// the plane of the latter (lobe.h). Also where the two are one: rounding takes a grazing direction
-/// across the surface, and a closed mirror that a path gets into does not let it go.
+/// Returns whether light may pass between wo and wi. wo is on the front of both normals, and
+/// `local_z` is the local height of wi. Light does not pass if wi is on different sides of the
+/// geometric and the shading normal, or in the plane of the latter (lobe.h). The test also applies
+/// if both normals are equal: rounding can take a grazing direction across the surface, and a path
+/// inside a closed mirror would never leave it.
 DEVICE bool sides_agree(SurfaceFrame frame, float3 wi, float local_z) {
     return fabs(local_z) >= MIN_COSINE && dot(frame.ng, wi) * local_z > 0.0f;
 }
 
-/// Whether anything is seen from wo at all. A boundary cannot be one-sided: light comes through.
+/// Returns whether the material scatters light towards wo at all. A boundary cannot be one-sided,
+/// because light passes through it.
 DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos_wo) {
 #if FEATURE_one_sided
     if (frame.front == 0u &&
@@ -67,7 +75,7 @@ DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos
     return cos_wo >= MIN_COSINE;
 }
 
-/// bsdf_evaluate in local directions whose sides agree.
+/// bsdf_evaluate for local directions whose sides agree.
 DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material,
                                      SurfaceFrame frame, float3 wo, float3 wi) {
     BsdfValue value;
@@ -80,8 +88,8 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
                   component_fresnel(component, eta, lobe.cosine, squared_sine_of(lobe.cosine), wi) *
                   lobe.f_cos;
 #if FEATURE_composite
-    // A material of one component, of which nothing is drawn, ends here with the bits it has in a
-    // scene without others.
+    // A material of one component needs no selection. It ends here with the same bits as in a scene
+    // without composite materials.
     if (material.component_count > 1u) {
         float shares = component_share(component, eta, wo, colour);
         value.pdf_w *= shares;
@@ -104,8 +112,8 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
     return value;
 }
 
-/// f |cos(ns, wi)| and the density of bsdf_sample; both 0 where the sides of the geometric and the
-/// shading normal disagree.
+/// Returns f |cos(ns, wi)| and the density of bsdf_sample. Both are 0 if the sides of the geometric
+/// and the shading normal disagree.
 DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float3 wi) {
     const MaterialRecord record = materials[material];
     const float3 local_wo = to_local(frame, frame.wo);
@@ -123,8 +131,8 @@ DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame f
     return bsdf_evaluate_local(MATERIAL_ARGUMENTS record, frame, local_wo, local_wi);
 }
 
-/// A component drawn by its share. False when all shares are 0. `probability` is the share over the
-/// sum of all.
+/// Selects a component in proportion to its share. `probability` is the share over the sum of all
+/// shares. Returns false if all shares are 0.
 DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame,
                              float3 wo, float select, PRIVATE uint *selected,
                              PRIVATE float *probability) {
@@ -134,8 +142,8 @@ DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, Surfac
     if (material.component_count == 1u) {
         return true;
     }
-    // One pass, however many: each component takes over from the one before with its share of the
-    // sum so far, and what remains of the random number is uniform again.
+    // A single pass over the components: each replaces the selected one with a probability of its
+    // share over the sum so far. The remainder of the random number is uniform again.
     float shares = 0.0f, share = 0.0f;
     for (uint i = 0u; i < material.component_count; ++i) {
         const uint index = material.first_component + i;
@@ -165,7 +173,7 @@ DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, Surfac
 #endif
 }
 
-/// Nothing sampled: the path ends.
+/// Returns the sample of a path that ends.
 DEVICE BsdfSample no_sample(SurfaceFrame frame) {
     BsdfSample sample;
     sample.wi = frame.ns;
@@ -177,20 +185,19 @@ DEVICE BsdfSample no_sample(SurfaceFrame frame) {
     return sample;
 }
 
-/// Completes `sample`, in which component and probability are set, by a direction of that
-/// component, from u and v in [0, 1). `wo` is frame.wo in the frame; the side that it is on
-/// scatters.
+/// Completes `sample`, whose component and probability are set, by a direction of that component,
+/// from u and v in [0, 1). `wo` is frame.wo in local coordinates, and its side scatters.
 DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame,
                                    float3 wo, BsdfSample sample, float u, float v) {
     GLOBAL const BxdfRecord *component = components + sample.component;
     const float eta = component_eta(component, record.flags, frame.front);
     const float3 wi = component_direction(component, eta, wo, u, v);
-    // Normalised: what rounding leaves would grow along the path.
+    // Normalised, because rounding errors would otherwise grow along the path.
     const float3 world = frame.x * wi.x + frame.y * wi.y + frame.ns * wi.z;
     const float length2 = dot(world, world);
     sample.wi = length2 > 0.0f ? world / sqrt(length2) : frame.ns;
-    // A direction that leaves the component's own side is lost. It must not pass for one of another
-    // component, whose density does not count it.
+    // A direction on the wrong side of the component is rejected. It must not be taken for a
+    // direction of another component, whose density does not include it.
     if (!sides_agree(frame, sample.wi, wi.z) || (wi.z < 0.0f) != is_refracting(component->kind)) {
         return sample;
     }
@@ -215,7 +222,7 @@ DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, Su
     return sample;
 }
 
-/// A direction, from `select`, u and v in [0, 1).
+/// Samples a direction from `select`, u and v in [0, 1).
 DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float select,
                               float u, float v) {
     BsdfSample sample = no_sample(frame);
@@ -231,8 +238,8 @@ DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame fr
 
 #if FEATURE_delta
 
-/// The direction of an ideal reflection or refraction, its weight the coefficient of the delta;
-/// nothing of another kind of component, nor past the critical angle.
+/// Returns the direction of an ideal reflection or refraction, with the coefficient of the delta as
+/// its weight. Returns no sample for other kinds of component or past the critical angle.
 DEVICE BsdfSample bsdf_delta(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame,
                              uint component) {
     BsdfSample sample = no_sample(frame);

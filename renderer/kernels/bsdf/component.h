@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One component of a material: its kind's model, dispatched under the features of the scene, with
-// weight, texture and Fresnel term, thesis (3.52). renderer/scene/stores.h says what each component
-// means. Local directions as in lobe.h.
+// One component of a material: its BxDF model, selected under the features of the scene, with
+// weight, texture and Fresnel term (thesis (3.52)). renderer/scene/stores.h describes the
+// components. Local directions are those of lobe.h.
 #pragma once
 
 #include "renderer/kernels/bsdf/blinn.h"
@@ -17,14 +17,14 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-/// The index of refraction beyond the surface over that on wo's side: a boundary is told apart by
-/// its sides, all other materials look alike from both.
+/// Returns the index of refraction beyond the surface over that on wo's side. Only boundaries
+/// distinguish their sides; all other materials have the same index from both.
 DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_flags, uint front) {
     const float eta = component->eta[0];
     return (material_flags & MATERIAL_BOUNDARY) != 0u && front == 0u ? 1.0f / eta : eta;
 }
 
-/// Weight times texture at `uv`.
+/// Returns weight times texture at `uv`.
 DEVICE float3 component_colour(MATERIAL_PARAMETERS GLOBAL const BxdfRecord *component, float2 uv) {
     float3 colour = make_float3(component->weight[0], component->weight[1], component->weight[2]);
 #if FEATURE_textures
@@ -48,8 +48,8 @@ DEVICE bool is_delta(uint kind) {
 #endif
 }
 
-/// Whether light passes through: wi below the surface, and nothing above. The other way round for
-/// all other kinds.
+/// Returns whether the component transmits light: it scatters only to wi below the surface. All
+/// other kinds scatter only to wi above it.
 DEVICE bool is_refracting(uint kind) {
 #if FEATURE_ideal_refraction || FEATURE_microfacet_refraction
     return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
@@ -67,7 +67,7 @@ DEVICE Roughness component_roughness(GLOBAL const BxdfRecord *component) {
     return r;
 }
 
-/// The model of a component that is no delta; nothing of a delta.
+/// Evaluates the model of a component. Returns zero for delta components.
 DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, float3 wo,
                                float3 wi) {
     switch (component->kind) {
@@ -104,8 +104,8 @@ DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, fl
     }
 }
 
-/// A direction sampled by the component's model from u, v in [0, 1); on the wrong side of the
-/// surface, or with z = 0, when there is none.
+/// Samples a direction by the component's model from u, v in [0, 1). If there is none, it is on the
+/// wrong side of the surface or has z = 0.
 DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta, float3 wo, float u,
                                   float v) {
     switch (component->kind) {
@@ -139,11 +139,11 @@ DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta,
     }
 }
 
-/// The Fresnel term of the component's weight for wo and wi. `cosine`: Lobe's; `sine2`: the square
-/// of its sine.
+/// Returns the Fresnel term of the component's weight for wo and wi. `cosine` is that of Lobe,
+/// `sine2` the square of its sine.
 ///
-/// Diffuse kinds take the product of the terms of both directions, so that they stay reciprocal,
-/// unless the material asks for that of wo alone: thesis (3.55).
+/// Diffuse kinds use the product of the terms of both directions, so that they remain reciprocal,
+/// unless the material requests the term of wo alone (thesis (3.55)).
 DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine,
                                 float sine2, float3 wi) {
 #if FEATURE_fresnel
@@ -167,15 +167,15 @@ DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, f
 #endif
 }
 
-/// What component selection goes by: an estimate of the share of light from wo that the component
-/// scatters, times `colour`, mean of the channels. It depends on the geometry at the point, its
-/// texture and Fresnel term alone (digest, 2.7.4), is exact for deltas and positive wherever the
-/// component is.
+/// Returns the value to which component selection is proportional: the estimated fraction of light
+/// from wo that the component scatters, times `colour`, averaged over the channels. It depends only
+/// on the geometry at the point, the texture and the Fresnel term (thesis, section 2.7.4). It is
+/// exact for deltas, and positive wherever the component is.
 ///
-/// The Fresnel term of a rough boundary is met at the microfacets' normals, here unknown: it is
-/// drawn towards 1/2 by the root of the roughness, as (1 - F) grows with the root of the angle next
-/// to total internal reflection. So no direction is chosen far too seldom, and the contributions
-/// keep bounded.
+/// The Fresnel term of a rough boundary applies at the microfacets' normals, which are not known
+/// here. The term is therefore blended towards 1/2 by the root of the roughness, as 1 - F grows
+/// with the root of the angle near total internal reflection. Thus no direction is selected far too
+/// rarely, and contributions remain bounded.
 DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, float3 wo,
                              float3 colour) {
 #if FEATURE_fresnel

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lambert and Oren-Nayar reflection. Local directions: z along the shading normal, wo.z > 0.
+// Lambert and Oren-Nayar reflection. Local directions have z along the shading normal and wo.z > 0.
 //
-// Both are sampled by the cosine, density wi.z / pi per solid angle: thesis (3.32).
+// Both are sampled by the cosine, with density wi.z / pi per solid angle: thesis (3.32).
 #pragma once
 
 #include "renderer/kernels/bsdf/lobe.h"
@@ -10,7 +10,7 @@
 
 #if FEATURE_lambert
 
-/// Thesis (3.31).
+/// Evaluates Lambert reflection, thesis (3.31).
 DEVICE Lobe lambert_evaluate(float3 wo, float3 wi) {
     return wi.z > 0.0f ? make_lobe(wi.z * INV_PI, wi.z * INV_PI, wo.z) : no_lobe();
 }
@@ -19,12 +19,12 @@ DEVICE Lobe lambert_evaluate(float3 wo, float3 wi) {
 
 #if FEATURE_oren_nayar
 
-/// Thesis (3.33-3.35), `sigma` in [0, pi/2].
+/// Evaluates Oren-Nayar reflection, thesis (3.33)-(3.35), with `sigma` in [0, pi/2].
 ///
-/// cos(phi_i - phi_o) sin(alpha) tan(beta) is (wi.x wo.x + wi.y wo.y) / max(wi.z, wo.z): the sine
-/// of the larger angle and that of the smaller cancel those that normalise the azimuths, and the
-/// smaller angle has the larger cosine. The product with wi.z is taken after the division, which
-/// then is at most 1.
+/// cos(phi_i - phi_o) sin(alpha) tan(beta) equals (wi.x wo.x + wi.y wo.y) / max(wi.z, wo.z). The
+/// sines of the larger and the smaller angle cancel those that normalise the azimuths, and the
+/// smaller angle has the larger cosine. The product with wi.z follows the division, whose result is
+/// at most 1.
 DEVICE Lobe oren_nayar_evaluate(float3 wo, float3 wi, float sigma) {
     if (!(wi.z > 0.0f)) {
         return no_lobe();

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Fresnel terms: the reflected share of unpolarized light. `cosine` is that of the angle of
-// incidence, in [0, 1], `sine2` the square of its sine.
+// Fresnel terms: the reflected fraction of unpolarised light.
 //
-// Sources: thesis (3.26-3.30); the exact conductor is Born and Wolf 1999, 14.2 (the derivation in
-// S. Lagarde, "Memo on Fresnel equations", 2013). Numerators of the form (x - y)^2 are written so,
-// not expanded: they cannot come out negative.
+// `cosine` is that of the angle of incidence, in [0, 1], and `sine2` the square of its sine.
+// Sources: thesis (3.26)-(3.30); Born and Wolf 1999, section 14.2, for the exact conductor (derived
+// in S. Lagarde, "Memo on Fresnel equations", 2013). Numerators of the form (x - y)^2 are not
+// expanded, so that they cannot be negative.
 #pragma once
 
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-/// Of a local direction, and of a cosine where that is all there is.
+/// Returns the squared sine of a local direction. squared_sine_of takes the cosine if the direction
+/// is not known.
 DEVICE float squared_sine(float3 w) {
     return w.x * w.x + w.y * w.y;
 }
@@ -18,14 +19,15 @@ DEVICE float squared_sine_of(float cosine) {
     return (1.0f - cosine) * (1.0f + cosine);
 }
 
-/// Cosine on the other side of a smooth boundary, -1 at total internal reflection; `eta` is the
-/// index of refraction there over that on the side of `cosine` and `sine2`, the square of its sine.
+/// Returns the cosine on the other side of a smooth boundary, or -1 at total internal reflection.
+/// `cosine` and `sine2` are those on this side; `eta` is the index of refraction on the other side
+/// over that on this side.
 ///
-/// cos_t^2 = (eta^2 - s^2) / eta^2 = ((eta - 1) (eta + 1) + c^2) / eta^2. Where the critical angle
-/// is below 45 degrees, s has more digits next to it than c: from within a high index an ulp of c
-/// is many of the grazing angle outside. Elsewhere the last form does not cancel, be eta close to 1
-/// or c to 0. Next to the critical angle the rounding of the input alone decides, here for all who
-/// ask.
+/// cos_t^2 = (eta^2 - s^2) / eta^2 = ((eta - 1) (eta + 1) + c^2) / eta^2. If the critical angle is
+/// below 45 degrees, s has more digits than c near that angle: from within a high index, one ulp of
+/// c corresponds to many ulps of the grazing angle outside. Otherwise the last form does not
+/// cancel, even if eta is close to 1 or c close to 0. Near the critical angle the rounding of the
+/// input alone decides; all callers see the same decision.
 DEVICE float refracted_cosine(float cosine, float sine2, float eta) {
     const float scaled =
         eta * eta < 0.5f ? eta * eta - sine2 : (eta - 1.0f) * (eta + 1.0f) + cosine * cosine;
@@ -34,8 +36,8 @@ DEVICE float refracted_cosine(float cosine, float sine2, float eta) {
 
 #if FEATURE_fresnel_dielectric
 
-/// Thesis (3.26, 3.27); 1 at total internal reflection. Denominators are positive: one of the
-/// cosines is.
+/// Returns the exact term of a dielectric, thesis (3.26) and (3.27); 1 at total internal
+/// reflection. Denominators are positive because one of the cosines is.
 DEVICE float fresnel_dielectric(float cosine, float sine2, float eta) {
     const float cos_t = refracted_cosine(cosine, sine2, eta);
     if (cos_t < 0.0f) {
@@ -50,26 +52,29 @@ DEVICE float fresnel_dielectric(float cosine, float sine2, float eta) {
 
 #if FEATURE_fresnel_conductor
 
-/// Exact, for the complex index eta + i k relative to the medium in front, eta > 0; eta and k up to
-/// 1e8.
+/// Returns the exact term of a conductor with complex index eta + i k relative to the medium in
+/// front, for eta > 0 and both up to 1e8.
 ///
-/// With a + i b = sqrt((eta + i k)^2 - sin^2): R_perpendicular = ((a - c)^2 + b^2) / ((a + c)^2 +
-/// b^2) and R_parallel = R_perpendicular ((a c - s^2)^2 + b^2 c^2) / ((a c + s^2)^2 + b^2 c^2).
+/// With a + i b = sqrt((eta + i k)^2 - sin^2):
+///
+///   R_perpendicular = ((a - c)^2 + b^2) / ((a + c)^2 + b^2)
+///   R_parallel = R_perpendicular ((a c - s^2)^2 + b^2 c^2) / ((a c + s^2)^2 + b^2 c^2).
 DEVICE float fresnel_conductor(float cosine, float eta, float k) {
     const float cos2 = cosine * cosine;
     const float sin2 = max(1.0f - cos2, 0.0f);
-    const float re = (eta - 1.0f) * (eta + 1.0f) - k * k +
-                     cos2;     // of eta^2 - k^2 - sin^2, exact next to eta = 1
+    // Real part of eta^2 - k^2 - sin^2 + 2 i eta k, exact near eta = 1.
+    const float re = (eta - 1.0f) * (eta + 1.0f) - k * k + cos2;
     const float im = eta * k;  // half the imaginary part
     const float modulus = sqrt(re * re + 4.0f * im * im);
-    // The root is taken of the sum that does not cancel; the other part follows from a b = im.
+    // The square root is taken of the sum that does not cancel; the other part follows from a b =
+    // im.
     const float root = sqrt(0.5f * (modulus + fabs(re)));
     const float other = root > 0.0f ? im / root : 0.0f;
     const float a = re >= 0.0f ? root : other;
     const float b2 = re >= 0.0f ? other * other : root * root;
     const float denominator = (a + cosine) * (a + cosine) + b2;
     if (!(denominator > 0.0f)) {
-        return 1.0f;  // grazing an index of 1, as for dielectrics
+        return 1.0f;  // at grazing incidence on an index of 1, as for dielectrics
     }
     const float perpendicular = ((a - cosine) * (a - cosine) + b2) / denominator;
     const float ac = a * cosine;
@@ -82,7 +87,8 @@ DEVICE float fresnel_conductor(float cosine, float eta, float k) {
 
 #if FEATURE_fresnel_conductor_approximate
 
-/// Thesis (3.28): up to 0.006 off the exact term for metals, more where eta^2 + k^2 is small.
+/// Returns the approximate term of a conductor, thesis (3.28). It differs from the exact term by up
+/// to 0.006 for metals, and by more if eta^2 + k^2 is small.
 DEVICE float fresnel_conductor_approximate(float cosine, float eta, float k) {
     const float kc = k * cosine;
     const float parallel = ((eta * cosine - 1.0f) * (eta * cosine - 1.0f) + kc * kc) /
@@ -96,7 +102,7 @@ DEVICE float fresnel_conductor_approximate(float cosine, float eta, float k) {
 
 #if FEATURE_fresnel_schlick
 
-/// Thesis (3.29); r0 is the reflectance at normal incidence.
+/// Returns Schlick's approximation, thesis (3.29); r0 is the reflectance at normal incidence.
 DEVICE float fresnel_schlick(float cosine, float r0) {
     const float m = max(1.0f - cosine, 0.0f);
     const float m2 = m * m;
@@ -107,9 +113,9 @@ DEVICE float fresnel_schlick(float cosine, float r0) {
 
 #if FEATURE_fresnel
 
-/// F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a dielectric:
-/// see component_eta. Dielectrics are reciprocal: a ray and its refraction give the same F to
-/// either side.
+/// Returns F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a
+/// dielectric (component_eta). Dielectrics are reciprocal: a ray and its refraction have the same F
+/// on either side.
 DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float cosine,
                            float sine2) {
     float3 f = make_float3(1.0f, 1.0f, 1.0f);
@@ -145,7 +151,7 @@ DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float 
                             fresnel_schlick(c, component->eta[2]));
             break;
 #endif
-        default:  // FRESNEL_IDEAL: 1, whether complemented or not
+        default:  // FRESNEL_IDEAL: 1, with or without complement
             return f;
     }
     return (flags & BXDF_FLAG_COMPLEMENT) != 0u ? make_float3(1.0f, 1.0f, 1.0f) - f : f;

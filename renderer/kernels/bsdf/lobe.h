@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What all models of BxDFs share. A model works in local directions, unit length, away from the
-// surface: z along the shading normal, x and y along its tangents, wo.z > 0. Weight, texture and
-// Fresnel term of thesis (3.52) are applied outside.
+// The common interface of the BxDF models.
 //
-// Cosines of wi and wo are MIN_COSINE at least (bsdf.h): the quotients of the models are bounded by
-// that. A direction closer to the horizon carries less than 1e-9 of the light that a surface may
+// A model uses local directions: unit vectors away from the surface, with z along the shading
+// normal, x and y along its tangents, and wo.z > 0. The weight, texture and Fresnel term of thesis
+// (3.52) are applied outside the model.
+//
+// The cosines of wi and wo are at least MIN_COSINE (bsdf.h), which bounds the quotients in the
+// models. A direction closer to the horizon carries less than 1e-9 of the light that a surface may
 // receive.
 #pragma once
 
@@ -12,12 +14,13 @@
 
 #define MIN_COSINE 1e-10f
 
-/// A BxDF for a pair of directions.
+/// The value of a BxDF for a pair of directions.
 typedef struct Lobe {
-    float f_cos;   ///< f |wi.z|, 1/sr
-    float pdf_w;   ///< density per solid angle with which the model's own sampling gives wi;
-                   ///< positive where f_cos is
-    float cosine;  ///< of wo and the normal at which a Fresnel term is evaluated
+    float f_cos;  ///< f |wi.z|, 1/sr
+    /// Density per solid angle with which the model's own sampling gives wi; positive where f_cos
+    /// is.
+    float pdf_w;
+    float cosine;  ///< cosine between wo and the normal at which a Fresnel term is evaluated
 } Lobe;
 
 DEVICE Lobe make_lobe(float f_cos, float pdf_w, float cosine) {
@@ -28,11 +31,12 @@ DEVICE Lobe make_lobe(float f_cos, float pdf_w, float cosine) {
     return lobe;
 }
 
+/// Returns the value of a direction to which a model does not scatter.
 DEVICE Lobe no_lobe(void) {
     return make_lobe(0.0f, 0.0f, 0.0f);
 }
 
-/// wo mirrored about the unit vector h.
+/// Returns wo mirrored about the unit vector h.
 DEVICE float3 reflect_about(float3 wo, float3 h) {
     return (2.0f * dot(wo, h)) * h - wo;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reflection and refraction by rough boundaries: Walter et al. 2007, eq. 20 and 21, with separable
-// shadowing G = G1(wi) G1(wo), their eq. 23. Local directions as in lobe.h. Fresnel terms are
-// applied outside, at wo.m.
+// Reflection and refraction by rough boundaries.
+//
+// Source: Walter et al. 2007, equations 20 and 21, with separable shadowing G = G1(wi) G1(wo),
+// equation 23. Local directions are those of lobe.h. Fresnel terms at wo.m are applied outside.
 #pragma once
 
 #include "renderer/kernels/bsdf/distribution.h"
@@ -12,18 +13,19 @@
 
 #if FEATURE_microfacet_reflection
 
+/// Evaluates rough reflection.
 DEVICE Lobe microfacet_reflection_evaluate(float3 wo, float3 wi, Roughness r) {
     if (!(wi.z > 0.0f)) {
         return no_lobe();
     }
     const float3 h = wo + wi;  // |h| >= h.z >= 2 MIN_COSINE
     const float h_length = sqrt(dot(h, h));
-    // The visible normals' density times dw_m / dw_i = 1 / (4 wo.m).
+    // Density of visible normals times dw_m / dw_i = 1 / (4 wo.m).
     const float pdf_w = 0.25f * normal_density(h / h_length, r) * shadowing(wo, r);
     return make_lobe(pdf_w * (shadowing(wi, r) * wi.z), pdf_w, 0.5f * h_length);
 }
 
-/// A direction below the horizon is none.
+/// Samples a reflected direction from u, v in [0, 1). A direction below the horizon is invalid.
 DEVICE float3 microfacet_reflection_direction(float3 wo, Roughness r, float u, float v) {
     return reflect_about(wo, visible_normal(wo, r, u, v));
 }
@@ -32,15 +34,17 @@ DEVICE float3 microfacet_reflection_direction(float3 wo, Roughness r, float u, f
 
 #if FEATURE_microfacet_refraction
 
-/// `eta` is the index on wi's side over that on wo's, not 1 (then there is no boundary). Radiance
-/// is scaled by refraction_scale, which in eq. 21 is the factor eta_o^2.
+/// Evaluates rough refraction. `eta` is the index on wi's side over that on wo's side. It is not 1,
+/// since there would be no boundary. Radiance is scaled by refraction_scale, which is the factor
+/// eta_o^2 in equation 21.
 DEVICE Lobe microfacet_refraction_evaluate(float3 wo, float3 wi, Roughness r, float eta) {
     if (!(wi.z < 0.0f)) {
         return no_lobe();
     }
-    float3 m = wo + eta * wi;  // eq. 16: along the normal of the microfacet that refracts wo to wi
+    // Equation 16: along the normal of the microfacet that refracts wo to wi.
+    float3 m = wo + eta * wi;
     const float m2 = dot(m, m);
-    // 0 where wi = -wo and eta is 1 up to rounding: no normal does that.
+    // m2 is 0 if wi = -wo and eta is 1 up to rounding; no microfacet refracts so.
     if (!(m2 > 1e-14f)) {
         return no_lobe();
     }
@@ -50,13 +54,14 @@ DEVICE Lobe microfacet_refraction_evaluate(float3 wo, float3 wi, Roughness r, fl
     if (!(m.z > 0.0f && wo_m > 0.0f && wi_m < 0.0f)) {
         return no_lobe();
     }
-    // Eq. 17: dw_m / dw_i = eta^2 |wi.m| / (wo.m + eta wi.m)^2, and the denominator is |wo + eta
+    // Equation 17: dw_m / dw_i = eta^2 |wi.m| / (wo.m + eta wi.m)^2, whose denominator is |wo + eta
     // wi|^2.
     const float pdf_w = normal_density(m, r) * shadowing(wo, r) * wo_m * (eta * eta * -wi_m / m2);
     return make_lobe(pdf_w * (shadowing(wi, r) * -wi.z) * refraction_scale(eta), pdf_w, wo_m);
 }
 
-/// z is 0 at total internal reflection; a direction above the horizon is none.
+/// Samples a refracted direction from u, v in [0, 1). z is 0 at total internal reflection. A
+/// direction above the horizon is invalid.
 DEVICE float3 microfacet_refraction_direction(float3 wo, Roughness r, float eta, float u, float v) {
     const float3 m = visible_normal(wo, r, u, v);
     const float wo_m = dot(wo, m);

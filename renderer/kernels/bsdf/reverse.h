@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A scattering event seen from its other end: the densities that light paths and camera paths have
-// for the same path (Veach 1997, 10.2; thesis 2.74-2.79), and what light paths carry (his 5.3).
+// Scattering events in reverse: the densities with which light paths and camera paths sample the
+// same event (Veach 1997, section 10.2; thesis (2.74)-(2.79)), and the weight of importance (Veach
+// 1997, section 5.3).
 //
-// Densities in the ratios are per PROJECTED solid angle, with geometric cosines: p_wp = p_w /
+// The ratios are of densities per PROJECTED solid angle, with geometric cosines: p_wp = p_w /
 // |cos(ng, w)|.
 #pragma once
 
@@ -12,18 +13,20 @@
 
 #if FEATURE_light_strategy || FEATURE_from_light
 
-/// From the direction wo, where the path came from, to wi, where it goes.
+/// A scattering event in both directions: from wo, where the path came from, to wi, where it
+/// continues.
 typedef struct TwoWay {
-    float log_forward;  ///< log2 of p_wp(wo -> wi); of a delta: 0
-    float log_ratio;    ///< log2 of p_wp(wi -> wo) / p_wp(wo -> wi); -INFINITY where the way back
-                        ///< does not exist
-    float3 importance;  ///< weight of a light path that goes this way: f |cos(ng, wi)| / p_w(wi), f
-                        ///< being that of radiance from wo to wi
+    float log_forward;  ///< log2 of p_wp(wo -> wi); 0 for a delta event
+    /// log2 of p_wp(wi -> wo) / p_wp(wo -> wi); -INFINITY if the reverse event is impossible.
+    float log_ratio;
+    /// Weight of a light path along these directions: f |cos(ng, wi)| / p_w(wi), where f is that of
+    /// radiance from wo to wi.
+    float3 importance;
 } TwoWay;
 
 #if FEATURE_delta
 
-/// The probability with which a delta component is drawn when it is met from frame.wo; 0 when it
+/// Returns the probability with which a delta component is selected for frame.wo; 0 if the material
 /// scatters nothing.
 DEVICE float delta_probability(MATERIAL_PARAMETERS uint material, SurfaceFrame frame,
                                uint component) {
@@ -52,7 +55,7 @@ DEVICE float delta_probability(MATERIAL_PARAMETERS uint material, SurfaceFrame f
 
 #endif
 
-/// Looks at `sample`, drawn in `frame` at `hit`, from its other end.
+/// Returns both directions of `sample`, which was sampled in `frame` at `hit`.
 DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, BsdfSample sample) {
     const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, sample.wi);
     const float cos_wo = fabs(dot(frame.ng, frame.wo));
@@ -61,7 +64,7 @@ DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, 
     both.log_forward = 0.0f;
     both.log_ratio = -INFINITY;
     both.importance = make_float3(0.0f, 0.0f, 0.0f);
-    // A hit in the plane of the surface is none in exact arithmetic.
+    // A hit in the plane of the surface does not exist in exact arithmetic.
     if (!(cos_wo > 0.0f && cos_wi > 0.0f)) {
         return both;
     }
@@ -69,21 +72,21 @@ DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, 
     if (!(sample.pdf_w < INFINITY)) {
         float bend = 1.0f;
 #if FEATURE_smooth_normals
-        // Where one end looks from below the horizon of the shading normal, its frame is that of
-        // the geometric one: then there is no way back.
+        // If one direction is below the horizon of the shading normal, its frame uses the geometric
+        // normal. The two frames then differ, and the reverse event is impossible.
         const float3 sum = frame.ns + back.ns, difference = frame.ns - back.ns;
         if (dot(sum, sum) > 0.0f && dot(difference, difference) > 0.0f) {
             return both;
         }
-        // Solid angles are mapped by cosines with the shading normal, projected by those with the
-        // geometric one. The former are not 0: bsdf_sample leaves out what is closer to the horizon
-        // than MIN_COSINE.
+        // Cosines with the shading normal map solid angles; cosines with the geometric normal map
+        // projected solid angles. The former are not 0, as bsdf_sample rejects directions closer to
+        // the horizon than MIN_COSINE.
         const float ns_wo = fabs(dot(frame.ns, frame.wo)), ns_wi = fabs(dot(frame.ns, sample.wi));
         bend = (ns_wo / cos_wo) * (cos_wi / ns_wi);
 #endif
         const float probability =
             delta_probability(MATERIAL_ARGUMENTS hit.material, back, sample.component);
-        // n^2 |cos| dw is the same on both sides of a boundary.
+        // n^2 |cos| dw is equal on both sides of a boundary.
         both.log_ratio =
             log2_quotient(probability, sample.probability) + log2_of(bend) + log2_of(sample.scale);
         if (probability > 0.0f) {

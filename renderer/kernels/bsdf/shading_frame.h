@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The scattering frame of a hit.
 #pragma once
 
 #include "renderer/kernels/bsdf/surface_frame.h"
@@ -6,8 +7,8 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-/// The frame in which a hit scatters, seen from wo. Its axes follow the surface's tangent only
-/// where the material would look different otherwise.
+/// Returns the frame in which a hit scatters, seen from wo. Its axes follow the surface's tangent
+/// only if the material is anisotropic.
 DEVICE SurfaceFrame shading_frame(MATERIAL_PARAMETERS SurfaceHit hit, float3 wo) {
     float3 tangent = make_float3(0.0f, 0.0f, 0.0f);
 #if FEATURE_tangents

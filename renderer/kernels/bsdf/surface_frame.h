@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The frame in which a surface scatters: shading normal and tangents, the geometric normal, and the
-// side from which the path came.
+// The frame in which a surface scatters: shading normal, tangents, geometric normal, and the side
+// from which the path came.
 #pragma once
 
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/shared/compat.h"
 
-/// World space. Both normals are on wo's side; x and y complete ns to an orthonormal frame, x along
-/// the surface's tangent.
+/// Scattering frame in world space. Both normals are on wo's side. x and y complete ns to an
+/// orthonormal frame, with x along the surface's tangent.
 typedef struct SurfaceFrame {
     float3 x, y, ns;
     float3 ng;
@@ -16,11 +16,12 @@ typedef struct SurfaceFrame {
     uint front;  ///< 1: wo is on the surface's front
 } SurfaceFrame;
 
-/// Tangents about the unit vector `z`, x as close to `tangent` as it can be. Where the tangent has
-/// no length (or is not finite) or is closer than 0.01 radians to `z`, where its direction across
-/// `z` would drown in rounding, they are those of frame_from_z.
+/// Returns a frame about the unit vector `z` with x as close to `tangent` as possible. Falls back
+/// to frame_from_z if the tangent has no length or is not finite. Also falls back if it is closer
+/// than 0.01 radians to `z`, where rounding would hide its direction perpendicular to `z`.
 DEVICE Frame frame_from_tangent(float3 z, float3 tangent) {
-    // Scaled first: the derivative of a position by u may be of any size, its square not a float.
+    // The tangent is scaled first: a derivative of a position by u may have any size, and its
+    // square may not be a float.
     const float3 magnitude = fabs(tangent);
     const float largest = max(magnitude.x, max(magnitude.y, magnitude.z));
     if (largest > 0.0f && largest < INFINITY) {
@@ -38,10 +39,10 @@ DEVICE Frame frame_from_tangent(float3 z, float3 tangent) {
     return frame_from_z(z);
 }
 
-/// The frame at a point with unit normals `ng` and `ns` (both on the front; ns may lean beyond ng's
-/// horizon), a tangent of any length (zero: none) and unit `wo`. Where wo is below the shading
-/// normal's horizon, ns is replaced by ng: such a point would be black, although the path did hit
-/// it.
+/// Returns the frame at a point with unit normals `ng` and `ns`, both on the front, where ns may be
+/// beyond ng's horizon. `tangent` may have any length (zero if there is none), and `wo` is unit. If
+/// wo is below the horizon of the shading normal, ng replaces ns. Otherwise such a point would be
+/// black, although the path hit it.
 DEVICE SurfaceFrame make_surface_frame(float3 ng, float3 ns, float3 tangent, float2 uv, float3 wo) {
     SurfaceFrame frame;
     frame.front = dot(ng, wo) >= 0.0f ? 1u : 0u;

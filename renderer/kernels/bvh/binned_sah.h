@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Binned surface area heuristic: I. Wald, "On fast Construction of SAH-based Bounding Volume
-// Hierarchies", 2007; thesis 3.1 with (3.4): K = BVH_BINS bins on each of the three axes, over
-// centroid bounds. A node's cost of a split is A_left N_left + A_right N_right: with leaves made by
-// count alone, the constants of (3.4) do not matter.
+// Binned surface area heuristic, over centroid bounds, with K = BVH_BINS bins on each of the three
+// axes.
+//
+// Source: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007; thesis,
+// section 3.1, equation (3.4). The cost of a split is A_left N_left + A_right N_right. Leaves are
+// made by count alone, so the constants of (3.4) do not matter.
 #pragma once
 
 #include "renderer/kernels/bvh/range_bounds.h"
 
-/// Maps twice-centroids to bins: bin = (c - lower) * scale, scale 0 where an axis cannot be split.
+/// Mapping of doubled centroids to bins: bin = (c - lower) * scale. The scale is 0 if an axis
+/// cannot be split.
 typedef struct Binning {
     float lower[3];
     float scale[3];
@@ -17,7 +20,7 @@ typedef struct Binning {
 } Binning;
 
 #if BVH_BINNED_AXES == 1u
-/// The axis of a place in a BinSet, and the place of an axis.
+/// The axis of an index in a BinSet, and the index of an axis.
 #define BINNED_AXIS(binning, place) ((binning)->widest)
 #define PLACE_OF_AXIS(axis) 0u
 #else
@@ -25,13 +28,14 @@ typedef struct Binning {
 #define PLACE_OF_AXIS(axis) (axis)
 #endif
 
+/// Returns the mapping of centroids within `bounds` to bins.
 DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
     Binning binning;
     for (uint axis = 0; axis < 3; ++axis) {
         const float extent = bounds->centroids[1][axis] - bounds->centroids[0][axis];
         binning.lower[axis] = bounds->centroids[0][axis];
-        binning.scale[axis] = extent > 1.0e-30f ? (float)BVH_BINS / extent
-                                                : 0.0f;  // far above where 16 / extent overflows
+        // The threshold is far above the extent at which 16 / extent overflows.
+        binning.scale[axis] = extent > 1.0e-30f ? (float)BVH_BINS / extent : 0.0f;
     }
 #if BVH_BINNED_AXES == 1u
     float widest = -1.0f;
@@ -46,6 +50,7 @@ DEVICE Binning make_binning(PRIVATE const RangeBounds *bounds) {
     return binning;
 }
 
+/// Returns the bin of a primitive with bounds [lower, upper] on an axis.
 DEVICE uint bin_index(PRIVATE const Binning *binning, uint axis, float lower, float upper) {
     const int bin = (int)((lower + upper - binning->lower[axis]) * binning->scale[axis]);
     return bin < (int)BVH_BINS ? (uint)bin : BVH_BINS - 1u;
@@ -72,16 +77,16 @@ DEVICE void add_to_bins(PRIVATE BinSet *bins, PRIVATE const Binning *binning,
     }
 }
 
-/// Half the area of a box of a BinSet.
+/// Returns half the area of a box of a BinSet.
 DEVICE float half_area_of_bins(float8 box, float scale) {
     float b[8];
     vstore8(box, 0, b);
     return half_area(-b[4] - b[0], -b[5] - b[1], -b[6] - b[2], scale);
 }
 
-/// Best split of `count` primitives. Ties go to the lower axis, then the lower bin. By count, in
-/// the present order, below BVH_AREA_DEPTH (bvh_node.h) and where no axis can be split: all
-/// centroids equal.
+/// Returns the best split of `count` primitives. Ties go to the lower axis, then to the lower bin.
+/// Splits by count, in the present order, at depths from BVH_AREA_DEPTH on (bvh_node.h), and if no
+/// axis can be split because all centroids are equal.
 DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *binning, uint count,
                           uint depth, float scale) {
     Split best;
@@ -97,7 +102,7 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
         if (binning->scale[axis] == 0.0f) {
             continue;
         }
-        float right_cost[BVH_BINS];  // of the bins from this one on
+        float right_cost[BVH_BINS];  // cost of the bins from this one on
         float8 box = splat_float8(INFINITY);
         uint right_count = 0;
         for (uint bin = BVH_BINS - 1u; bin > 0; --bin) {
@@ -123,8 +128,8 @@ DEVICE Split choose_split(PRIVATE const BinSet *bins, PRIVATE const Binning *bin
     return best;
 }
 
-/// Whether a primitive goes left; `rank` is its place in the range. Both uses of a split call this
-/// one predicate.
+/// Returns whether a primitive goes left; `rank` is its position in the range. Both users of a
+/// split call this predicate.
 DEVICE bool goes_left(PRIVATE const Split *split, PRIVATE const Binning *binning,
                       PRIVATE const PrimitiveRef *ref, uint rank) {
     if (split->axis == BVH_SPLIT_BY_COUNT) {

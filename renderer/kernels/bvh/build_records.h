@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Records of the BVH builder, shared by its kernels and the host that schedules them
+// Records of the binned BVH builder, shared by its kernels and the host that schedules them
 // (renderer/bvh/builder.cpp).
 #pragma once
 
 #include "renderer/shared/bvh_node.h"
 
-/// Bins on an axis (K of the thesis, 3.1), and how many axes are binned: all three, or 1, the one
-/// along which the centroids lie widest. Programs are compiled for others to be compared with
-/// these.
+/// Number of bins per axis (K of the thesis, section 3.1), and number of binned axes: 3, or 1 for
+/// the axis with the largest extent of centroids. Experiments compile programs with other values
+/// for comparison.
 #ifndef BVH_BINS
 #define BVH_BINS 16u
 #endif
@@ -15,18 +15,18 @@
 #define BVH_BINNED_AXES 3u
 #endif
 
-/// Chunks of a task at most: those of large tasks are longer, for some stages go through all chunks
-/// of a task one by one.
+/// Maximum number of chunks of a task. Large tasks have longer chunks, because some stages process
+/// the chunks of a task one by one.
 #define BVH_CHUNKS_PER_TASK 1024u
 
-/// Coordinates beyond this count as not finite: sums of two and products of three of them stay in
-/// float's range.
+/// Limit of coordinates; larger ones count as not finite. Sums of two and products of three
+/// coordinates within the limit stay in the range of float.
 #define BVH_COORDINATE_LIMIT 1.0e12f
 
 #define BVH_NO_PARENT 0xffffffffu
 #define BVH_SPLIT_BY_COUNT 3u
 
-/// The box of one triangle, and which. These records are what the builder moves: 32 bytes, read in
+/// The box and index of one triangle. The builder moves these records of 32 bytes and reads them in
 /// order.
 typedef struct PrimitiveRef {
     float lower[3];
@@ -35,50 +35,50 @@ typedef struct PrimitiveRef {
     uint padding;
 } PrimitiveRef;
 
-/// A box, and the box of twice the centroids in it (lower + upper of each primitive: no product, no
-/// rounding bias).
+/// A box, and the box of the doubled centroids in it. A doubled centroid is lower + upper of a
+/// primitive: it has no product and no rounding bias.
 typedef struct RangeBounds {
     float box[2][3];  ///< [lower, upper][x, y, z]
     float centroids[2][3];
 } RangeBounds;
 
-/// How a range of primitives is split: by bin on an axis, or, with axis BVH_SPLIT_BY_COUNT, into
-/// equal halves.
+/// The split of a range of primitives: by bin on an axis, or into equal halves if the axis is
+/// BVH_SPLIT_BY_COUNT.
 typedef struct Split {
     uint axis;
     uint last_left_bin;
     uint left_count;
 } Split;
 
-/// A node that is being split by many work-items.
+/// A node that many work-items split together.
 typedef struct BuildTask {
-    uint begin, end;  ///< its primitives
+    uint begin, end;  ///< range of its primitives
     uint depth;
     uint node;         ///< index among the top nodes
-    uint first_chunk;  ///< its chunks in this level's list
+    uint first_chunk;  ///< first of its chunks in this level's list
     uint chunk_count;
     RangeBounds bounds;
     Split split;              ///< set by choose_splits
-    RangeBounds children[2];  ///< of what goes left and right, set by merge_children
+    RangeBounds children[2];  ///< bounds of the left and right child, set by merge_children
 } BuildTask;
 
-/// A piece of a task's primitives, the work of one work-item.
+/// A part of a task's primitives, processed by one work-item.
 typedef struct BuildChunk {
     uint task;
     uint begin, end;
-    RangeBounds
-        bounds[2];  ///< of what this chunk sends left and right (set by partition_primitives)
+    /// Bounds of the primitives that go left and right, set by partition_primitives.
+    RangeBounds bounds[2];
 } BuildChunk;
 
 /// A range small enough for one work-item to finish.
 typedef struct BuildSubtree {
     uint begin, end;
     uint depth;
-    uint parent;  ///< top node whose child it is, BVH_NO_PARENT for the root
+    uint parent;  ///< top node whose child it is; BVH_NO_PARENT for the root
     uint side;
     uint buffer;  ///< which of the two primitive buffers holds the range
     RangeBounds bounds;
-    // set by build_subtrees; cost is in units of (1 / scene extent)^2
+    // The next four are set by build_subtrees; cost is in units of (1 / scene extent)^2.
     uint node_count;
     uint leaf_count;
     uint deepest_leaf;
@@ -87,9 +87,9 @@ typedef struct BuildSubtree {
     uint padding;
 } BuildSubtree;
 
-/// Counts per chunk of the input, before any tree exists.
+/// Counts of one chunk of the input, before there is a tree.
 typedef struct InputChunk {
-    RangeBounds bounds;  ///< of what it accepts
+    RangeBounds bounds;  ///< bounds of the accepted triangles
     uint accepted;
     uint not_finite;
     uint degenerate;
@@ -98,28 +98,28 @@ typedef struct InputChunk {
     uint padding;
 } InputChunk;
 
-/// What the host reads back.
+/// Results that the host reads back.
 typedef struct BuildState {
     uint primitive_count;
     uint not_finite;
     uint degenerate;
     uint bad_index;
-    uint task_count;   ///< of the coming level
-    uint chunk_count;  ///< of the coming level
+    uint task_count;   ///< number of tasks of the next level
+    uint chunk_count;  ///< number of chunks of the next level
     uint top_node_count;
     uint subtree_count;
-    uint node_count;  ///< of the whole tree
+    uint node_count;  ///< number of nodes of the full tree
     uint leaf_count;
-    uint depth;            ///< edges from the root to the deepest leaf
+    uint depth;            ///< number of edges from the root to the deepest leaf
     float inverse_extent;  ///< 1 / the largest side of the scene's box
-    float cost;            ///< SAH cost, K_T = K_I = 1
+    float cost;            ///< SAH cost with K_T = K_I = 1
     float root_area;       ///< half the area of the root's box, in scene extents squared
 } BuildState;
 
 /// Boxes and counts of the bins of one range.
 typedef struct BinSet {
-    float box[BVH_BINNED_AXES][BVH_BINS][8];  ///< [axis, or 0 for the widest][bin][lower x, y, z,
-                                              ///< 0, upper x, y, z with the sign changed, 0]
+    /// [axis, or 0 for the widest][bin][lower x, y, z, 0, -upper x, y, z, 0].
+    float box[BVH_BINNED_AXES][BVH_BINS][8];
     uint count[BVH_BINNED_AXES][BVH_BINS];
 } BinSet;
 

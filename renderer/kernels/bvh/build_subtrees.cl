@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The small phase: each work-item finishes one subtree of up to a few thousand primitives alone,
-// depth first, without barriers, atomics or local memory; on a CPU its primitives stay in the
-// core's cache. Nodes go to scratch at the subtree's own range (n primitives have at most n - 1
-// inner nodes), in depth-first order, with links counted from the subtree's first node.
+// The small phase: each work-item finishes one subtree of up to a few thousand primitives.
+//
+// It works depth first, without barriers, atomics or local memory. On a CPU the primitives stay in
+// the core's cache. Nodes are written to scratch memory at the subtree's own range, since n
+// primitives have at most n - 1 inner nodes. They are in depth-first order, with links relative to
+// the subtree's first node.
 #include "renderer/kernels/bvh/binned_sah.h"
 
+/// A range that is still to be split.
 typedef struct PendingRange {
     uint begin, end;
     uint depth;
-    uint parent;  ///< node within the subtree, BVH_NO_PARENT for its root
+    uint parent;  ///< node within the subtree; BVH_NO_PARENT for its root
     uint side;
     RangeBounds bounds;
 } PendingRange;
 
-/// Stable partition of a range: the left part stays in `primitives`, the right one waits in
+/// Partitions a range stably. The left part stays in `primitives`, the right part passes through
 /// `scratch`.
 static void partition_range(GLOBAL PrimitiveRef *primitives, GLOBAL PrimitiveRef *scratch,
                             PRIVATE const PendingRange *range, PRIVATE const Split *split,
@@ -55,9 +58,9 @@ static Split split_range(GLOBAL const PrimitiveRef *primitives, PRIVATE const Pe
                         inverse_extent(&range->bounds));
 }
 
-/// Reads the subtree's primitives and orders them in place; writes nodes and the subtree's counts.
-/// Cost: the area of every inner node below the subtree's root, and of every leaf times its
-/// triangles, the root itself apart.
+/// Orders the subtree's primitives in place, and writes its nodes and counts. The cost is the area
+/// of every inner node below the subtree's root, plus the area of every leaf times its number of
+/// triangles. It does not include the root.
 __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
                              GLOBAL PrimitiveRef *primitives_0, GLOBAL PrimitiveRef *primitives_1,
                              GLOBAL const BuildState *state, GLOBAL BvhNode *scratch_nodes) {
@@ -71,8 +74,8 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
     GLOBAL BvhNode *nodes = scratch_nodes + subtree->begin;
     const float area_scale = state->inverse_extent;
 
-    // The right sibling of each node on the way down waits here: never more than the depth of a
-    // leaf.
+    // The right siblings of the nodes on the current path wait here; they are never more than the
+    // depth of a leaf.
     PendingRange pending[BVH_BINNED_DEPTH];
     uint pending_count = 0;
     uint node_count = 0;
@@ -87,8 +90,8 @@ __kernel void build_subtrees(GLOBAL BuildSubtree *subtrees, uint subtree_count,
     range.parent = BVH_NO_PARENT;
     range.side = 0;
     range.bounds = subtree->bounds;
-    if (range.end - range.begin <=
-        BVH_LEAF_SIZE) {  // a leaf: its parent among the top nodes links it
+    // A leaf; its parent among the top nodes links it.
+    if (range.end - range.begin <= BVH_LEAF_SIZE) {
         subtree->node_count = 0;
         subtree->leaf_count = range.end > range.begin ? 1u : 0u;
         subtree->deepest_leaf = deepest;

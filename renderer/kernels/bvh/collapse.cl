@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The two-wide tree collapsed to nodes of eight children, level by level: open_wide_nodes (a
-// work-item per node of the level) -> prefix sums of how many children of each are nodes, then
-// leaves -> link_wide_nodes (per node); in the end fill_blocks (per leaf). Numbering follows the
-// tree alone: nothing depends on scheduling.
+// Stages that collapse a two-wide tree to nodes of eight children, level by level.
 //
-// A wide node opens its largest child (by area, the chance of a ray to enter it) until it has
-// eight, or only leaves: I. Wald, C. Benthin, S. Boulos, RT 2008. A subtree of at most eight
-// triangles, which are tested at once, is a leaf.
+// For each level: open_wide_nodes (one work-item per node of the level); prefix sums of the number
+// of each node's children that are nodes, then of those that are leaves; link_wide_nodes (one
+// work-item per node). At the end: fill_blocks (one work-item per leaf). Numbering depends on the
+// tree alone, not on scheduling.
+//
+// A wide node opens its child of largest area, which is proportional to the probability that a ray
+// enters it, until it has eight children or only leaves: I. Wald, C. Benthin, S. Boulos, RT 2008. A
+// subtree of at most eight triangles, which are tested at once, is a leaf.
 #include "renderer/kernels/bvh/collapse.h"
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/triangle.h"
 
 /// A child of a node of the two-wide tree.
 typedef struct Candidate {
-    uint node, side;  ///< whose child it is
-    uint begin;       ///< its first triangle
+    uint node, side;  ///< the node whose child it is, and the child's side
+    uint begin;       ///< first of its triangles
     uint count;
     float area;
 } Candidate;
@@ -46,8 +48,8 @@ static void write_no_child(GLOBAL WideNode *wide, uint lane) {
     wide->child[lane] = 0;
 }
 
-/// One work-item: node 0, which holds the scene's box and the link to the root, and the root's task
-/// or leaf.
+/// Writes node 0, which holds the scene's box and the link to the root, and the root's task or
+/// leaf. One work-item.
 __kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *state,
                              GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
                              GLOBAL WideLeaf *leaves) {
@@ -81,8 +83,8 @@ __kernel void begin_collapse(GLOBAL const BvhNode *nodes, GLOBAL CollapseState *
     *state = begin;
 }
 
-/// `counts`: of the nodes of this level, how many of their children are nodes; then how many are
-/// leaves; then 0.
+/// Selects the children of the nodes of this level. Writes to `counts`, for all nodes, how many of
+/// their children are nodes, then how many are leaves, then 0.
 __kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uint level_end,
                               GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,
                               GLOBAL uint *counts) {
@@ -123,7 +125,8 @@ __kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uin
         const Candidate child = children[lane];
         const bool is_leaf = child.count <= WIDE_LANES;
         write_wide_child(wide, lane, nodes[child.node].bounds[child.side]);
-        // For link_wide_nodes: the two-wide node, or the size of the leaf.
+        // Temporary link, which link_wide_nodes replaces: the two-wide node, or the size of the
+        // leaf.
         wide->child[lane] =
             is_leaf ? wide_leaf(0, child.count) : nodes[child.node].child[child.side];
         task->child_begin[lane] = child.begin;
@@ -139,7 +142,8 @@ __kernel void open_wide_nodes(GLOBAL const BvhNode *nodes, uint level_begin, uin
     }
 }
 
-/// `sums`: of the counts, exclusive. The first work-item books what the level has added.
+/// Links the nodes of this level to their children. `sums` are the exclusive prefix sums of the
+/// counts. The first work-item adds the level to the state.
 __kernel void link_wide_nodes(uint level_begin, uint level_end, uint first_leaf,
                               GLOBAL const uint *sums, GLOBAL CollapseState *state,
                               GLOBAL WideNode *wide_nodes, GLOBAL WideTask *tasks,

@@ -5,10 +5,11 @@
 
 #include "renderer/shared/wide_node.h"
 
-/// A wide node to be made of a node of the two-wide tree. Tasks are numbered as their nodes.
+/// A wide node to be made from a node of the two-wide tree. The index of a task is that of its wide
+/// node.
 typedef struct WideTask {
-    uint node;                     ///< of the two-wide tree
-    uint begin;                    ///< its first triangle, in leaf order
+    uint node;                     ///< node of the two-wide tree
+    uint begin;                    ///< first of its triangles, in leaf order
     uint child_count;              ///< set by open_wide_nodes
     uint child_begin[WIDE_LANES];  ///< first triangle of each child
 } WideTask;
@@ -18,9 +19,9 @@ typedef struct WideLeaf {
     uint begin, count;
 } WideLeaf;
 
-/// What the host reads back.
+/// Results that the host reads back.
 typedef struct CollapseState {
-    uint node_count;  ///< of all levels so far, the coming one included
+    uint node_count;  ///< number of nodes in all levels so far, including the next
     uint leaf_count;
 } CollapseState;
 

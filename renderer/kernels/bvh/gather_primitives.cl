@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Input of the builder: which triangles can be hit, their boxes in input order, the first task.
-// Three stages: check_triangles (a work-item per chunk of the input), begin_build (one work-group),
-// gather_primitives (per chunk). Order is kept, so what follows does not depend on scheduling.
+// Stages that read the input of the builder: they select the triangles that can be hit, compute
+// their boxes in input order, and create the first task.
+//
+// check_triangles (one work-item per chunk of the input), begin_build (one work-group),
+// gather_primitives (one work-item per chunk). The order of triangles is kept, so later stages do
+// not depend on scheduling.
 #include "renderer/kernels/bvh/input_triangle.h"
 #include "renderer/kernels/bvh/one_group.h"
 #include "renderer/kernels/bvh/range_bounds.h"
@@ -34,7 +37,8 @@ __kernel void check_triangles(GLOBAL const float *positions, uint vertex_count,
     chunks[chunk].bad_index = faults[TRIANGLE_BAD_INDEX];
 }
 
-/// One work-group: prefix sums over the chunks, and the root as task or subtree.
+/// Computes prefix sums over the chunks, and registers the root as a task or a subtree. One
+/// work-group.
 __kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint chunk_size,
                           uint subtree_size, GLOBAL BuildState *state, GLOBAL BuildTask *tasks,
                           GLOBAL BuildChunk *chunks, GLOBAL BuildSubtree *subtrees) {
@@ -61,7 +65,7 @@ __kernel void begin_build(GLOBAL InputChunk *input, uint input_chunk_count, uint
     sum_before(shared, faults[1], &total.degenerate);
     sum_before(shared, faults[2], &total.bad_index);
     if (item < input_chunk_count) {
-        input[item].bounds = bounds;  // of this chunk and every ONE_GROUP-th after it
+        input[item].bounds = bounds;  // bounds of this chunk and every ONE_GROUP-th after it
     }
     barrier(CLK_GLOBAL_MEM_FENCE);
     if (item != 0) {

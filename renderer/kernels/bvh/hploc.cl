@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Clusters united from the bottom up along the radix tree of their codes (hploc.h): begin_ranges
-// (one work-item) -> divide_ranges, level by level (a work-item per range) -> cluster_subtrees (per
-// subtree) -> cluster_ranges, level by level upwards (per range) -> cluster_root (one).
+// Stages of the clustering builder (hploc.h), which merge clusters from the bottom up along the
+// radix tree of their codes.
+//
+// begin_ranges (one work-item); divide_ranges, level by level (one work-item per range);
+// cluster_subtrees (one per subtree); cluster_ranges, level by level upwards (one per range);
+// cluster_root (one work-item).
 #include "renderer/kernels/bvh/hploc.h"
 #include "renderer/kernels/bvh/range_bounds.h"
 
@@ -9,14 +12,14 @@
 
 /// The clusters of one node of the radix tree, in order.
 typedef struct Clusters {
-    float box[2][3][WINDOW + HPLOC_RADIUS];  ///< [lower, upper][x, y, z][cluster]; beyond the last
-                                             ///< those of far_box
-    uint link[WINDOW];                       ///< of a ClusterNode, or a leaf of one triangle
-    uint place[WINDOW];                      ///< free for the node that it becomes part of
+    /// [lower, upper][x, y, z][cluster]; beyond the last cluster those of write_far_box.
+    float box[2][3][WINDOW + HPLOC_RADIUS];
+    uint link[WINDOW];   ///< link to a ClusterNode, or a leaf of one triangle
+    uint place[WINDOW];  ///< location free for the node that it becomes part of
 } Clusters;
 
-/// Where the radix tree divides a range of at least two codes: before the first with the highest
-/// bit in which any two differ; in halves where they are all equal.
+/// Returns where the radix tree divides a range of at least two codes: before the first code with
+/// the highest bit in which any two differ, or in the middle if all codes are equal.
 static uint divide_codes(GLOBAL const ulong *codes, uint begin, uint end) {
     const ulong first = codes[begin];
     const ulong last = codes[end - 1u];
@@ -24,7 +27,7 @@ static uint divide_codes(GLOBAL const ulong *codes, uint begin, uint end) {
         return begin + (end - begin) / 2u;
     }
     const ulong bit = 0x8000000000000000ul >> clz(first ^ last);
-    uint low = begin;  // has not the bit; `high` has
+    uint low = begin;  // the code at `low` lacks the bit, that at `high` has it
     uint high = end - 1u;
     while (high - low > 1u) {
         const uint middle = low + (high - low) / 2u;
@@ -37,7 +40,7 @@ static uint divide_codes(GLOBAL const ulong *codes, uint begin, uint end) {
     return high;
 }
 
-/// Larger than any other box by far, with an area that is finite.
+/// Writes a box far larger than any other, whose area is finite.
 static void write_far_box(PRIVATE Clusters *c, uint i) {
     for (uint axis = 0; axis < 3; ++axis) {
         c->box[0][axis][i] = -1.0e18f;
@@ -45,7 +48,8 @@ static void write_far_box(PRIVATE Clusters *c, uint i) {
     }
 }
 
-/// Half the areas of the boxes that enclose cluster i and each of the eight behind it.
+/// Returns half the areas of the boxes that enclose cluster i and each of the eight clusters after
+/// it.
 static float8 union_areas(PRIVATE const Clusters *c, uint i) {
     float8 side[3];
     for (uint axis = 0; axis < 3; ++axis) {
@@ -59,18 +63,20 @@ static float8 union_areas(PRIVATE const Clusters *c, uint i) {
     return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
 }
 
-/// What orders the pairs that a cluster can be one of: the area, but for its four lowest bits, then
-/// how far apart they are, then, of neighbours, whether the first is an even one. Among equal pairs
-/// the first one comes first. So there is always one pair that is the best for both, and of equal
-/// clusters half of them are.
+/// Keys that order the pairs of clusters. The high bits of a key are the area without its four
+/// lowest bits. The low bits are the distance of the pair in order, then the parity of its first
+/// index. Among pairs of equal keys the first one wins. Thus there is always a pair that is the
+/// best for both of its clusters. Among equal clusters, half of them are in such a pair.
 CONSTANT uint behind[HPLOC_RADIUS] = {0, 2, 4, 6, 8, 10, 12, 14};
 
+/// Returns the distance of the pair of a key.
 static uint distance_of(uint key) {
     return ((key & 15u) >> 1) + 1u;
 }
 
+/// Finds the nearest neighbour of every cluster.
 static void find_nearest(PRIVATE const Clusters *c, uint count, PRIVATE uint *nearest) {
-    uint before[WINDOW + HPLOC_RADIUS];  // the least key of a pair of which this is the second
+    uint before[WINDOW + HPLOC_RADIUS];  // smallest key of a pair of which this is the second
     for (uint i = 0; i < count + HPLOC_RADIUS; ++i) {
         before[i] = 0xffffffffu;
     }
@@ -87,7 +93,7 @@ static void find_nearest(PRIVATE const Clusters *c, uint count, PRIVATE uint *ne
     }
 }
 
-/// What is known of a cluster; of a single triangle, too.
+/// Returns the node of a cluster, also for a single triangle.
 static ClusterNode cluster_node(GLOBAL const ClusterNode *cluster_nodes, uint link) {
     ClusterNode node;
     node.count = 1;
@@ -100,6 +106,7 @@ static ClusterNode cluster_node(GLOBAL const ClusterNode *cluster_nodes, uint li
     return node;
 }
 
+/// Merges clusters `a` and `b` into cluster `to`, and writes their node.
 static void unite(PRIVATE Clusters *c, uint a, uint b, GLOBAL BvhNode *nodes,
                   GLOBAL ClusterNode *cluster_nodes, uint to) {
     const uint number = c->place[a];
@@ -157,9 +164,9 @@ static void load_clusters(PRIVATE Clusters *c, uint to, GLOBAL const PrimitiveRe
     }
 }
 
-/// Unites the clusters of [begin, middle) and [middle, end), of which the first `left` and `right`
-/// of each are there, until at most `target` are left; those are written from `begin` on. Returns
-/// their number.
+/// Merges the clusters of [begin, middle) and [middle, end) until at most `target` are left, and
+/// writes them from `begin` on. The clusters are the first `left` entries of the first range and
+/// the first `right` entries of the second. Returns the number of clusters left.
 static uint cluster(GLOBAL PrimitiveRef *clusters, uint begin, uint left, uint middle, uint right,
                     uint target, GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes) {
     Clusters c;
@@ -198,13 +205,13 @@ static uint cluster(GLOBAL PrimitiveRef *clusters, uint begin, uint left, uint m
     return count;
 }
 
-/// How many clusters there are of a range: all its primitives, or what was left of them.
+/// Returns the number of clusters of a range: all its primitives, or those left by merging.
 static uint kept_of(GLOBAL const uint *kept, uint begin, uint end) {
     return end - begin <= HPLOC_KEPT ? end - begin : kept[begin];
 }
 
-/// Books a range as one of the next level, as a subtree or, where its primitives are its clusters,
-/// not at all. The order of ranges and subtrees is of no consequence.
+/// Registers a range for the next level, or as a subtree. Does nothing if the range's primitives
+/// are its clusters. The order of ranges and subtrees does not matter.
 static void book_range(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges,
                        GLOBAL CodeSubtree *subtrees, uint subtree_size, uint begin, uint end) {
     if (end - begin > subtree_size) {
@@ -231,6 +238,7 @@ __kernel void begin_ranges(GLOBAL ClusterState *state, GLOBAL CodeRange *ranges,
     book_range(state, ranges, subtrees, subtree_size, 0, count);
 }
 
+/// Divides the ranges of a level and registers their halves.
 __kernel void divide_ranges(GLOBAL const ulong *codes, uint level_begin, uint level_end,
                             uint subtree_size, GLOBAL ClusterState *state, GLOBAL CodeRange *ranges,
                             GLOBAL CodeSubtree *subtrees) {
@@ -246,6 +254,7 @@ __kernel void divide_ranges(GLOBAL const ulong *codes, uint level_begin, uint le
     book_range(state, ranges, subtrees, subtree_size, middle, end);
 }
 
+/// Merges the clusters of a small range, depth first.
 __kernel void cluster_subtrees(GLOBAL const CodeSubtree *subtrees, uint subtree_count,
                                GLOBAL const ulong *codes, GLOBAL PrimitiveRef *clusters,
                                GLOBAL uint *kept, GLOBAL BvhNode *nodes,
@@ -254,7 +263,7 @@ __kernel void cluster_subtrees(GLOBAL const CodeSubtree *subtrees, uint subtree_
     if (index >= subtree_count) {
         return;
     }
-    // On the way down to the range in work, each level has it and a sibling that waits.
+    // On the path down to the current range, each level has that range and a sibling that waits.
     CodeRange pending[2u * HPLOC_LEVELS];
     uint size = 1;
     pending[0].begin = subtrees[index].begin;
@@ -292,6 +301,7 @@ __kernel void cluster_subtrees(GLOBAL const CodeSubtree *subtrees, uint subtree_
     }
 }
 
+/// Merges the clusters of the halves of a range.
 __kernel void cluster_ranges(GLOBAL const CodeRange *ranges, uint level_begin, uint level_end,
                              GLOBAL PrimitiveRef *clusters, GLOBAL uint *kept,
                              GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes) {
@@ -306,7 +316,7 @@ __kernel void cluster_ranges(GLOBAL const CodeRange *ranges, uint level_begin, u
         cluster(clusters, range.begin, left, range.middle, right, HPLOC_KEPT, nodes, cluster_nodes);
 }
 
-/// One work-item: unites what is left of all. There are at least two primitives.
+/// Merges the remaining clusters into the root. One work-item. There are at least two primitives.
 __kernel void cluster_root(GLOBAL PrimitiveRef *clusters, GLOBAL const uint *kept, uint count,
                            GLOBAL BvhNode *nodes, GLOBAL ClusterNode *cluster_nodes,
                            GLOBAL ClusterState *state) {

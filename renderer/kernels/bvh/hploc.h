@@ -4,29 +4,33 @@
 //
 // Source: C. Benthin, D. Meister, J. Barczak, R. Mehalwal, J. Tsakok, A. Kensler, "H-PLOC:
 // Hierarchical Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction", HPG
-// 2024: primitives are sorted along a space-filling curve; every node of the radix tree over their
-// codes takes what its children left, at most twice HPLOC_KEPT clusters, and unites nearest
-// neighbours until it leaves HPLOC_KEPT at most to its parent. What a node makes depends on its
-// range alone, so the tree is the same whoever makes it and when. Departures: a range of at most
-// two nodes' clusters is not divided further; a work-item finishes the subtrees of small ranges
-// alone, depth first; those above are made level by level instead of by whichever child comes last,
-// which OpenCL 1.2 does not order in memory.
+// 2024. Primitives are sorted along a space-filling curve. Every node of the radix tree over their
+// codes receives the clusters left by its children, at most 2 HPLOC_KEPT. The node merges nearest
+// neighbours until at most HPLOC_KEPT remain for its parent. The result of a node depends on its
+// range alone, so the tree does not depend on which work-item processes a node or when.
+//
+// Departures:
+// - A range of at most two nodes' clusters is not divided further.
+// - A work-item finishes the subtrees of small ranges alone, depth first.
+// - The ranges above are processed level by level. In the paper, the child that finishes last
+//   processes its parent; OpenCL 1.2 does not order memory accesses for that.
 #pragma once
 
 #include "renderer/kernels/bvh/build_records.h"
 
-/// Clusters that a range leaves to the one above it, at most.
+/// Maximum number of clusters that a range leaves to the range above it.
 #define HPLOC_KEPT 16u
 
-/// A cluster looks for its nearest neighbour among this many behind it in order, and as many before
-/// it.
+/// Search radius: a cluster looks for its nearest neighbour among this many clusters after it in
+/// order, and as many before it.
 #define HPLOC_RADIUS 8u
 
-/// Levels of the radix tree: 63 bits of the code, and halving what has the same code, at most 2^26.
+/// Maximum number of levels of the radix tree: 63 bits of the code, and halvings of ranges of equal
+/// codes, of at most 2^26 primitives.
 #define HPLOC_LEVELS 90u
 
-/// Nodes whose costs are summed together: fixed, so that the sum of all has the same bits
-/// everywhere.
+/// Number of nodes whose costs are summed together. It is fixed, so that the total has the same
+/// bits everywhere.
 #define BVH_COST_BLOCK 1024u
 
 /// A range of the sorted primitives above the subtree size.
@@ -39,22 +43,22 @@ typedef struct CodeSubtree {
     uint begin, end;
 } CodeSubtree;
 
-/// What is known of a cluster node besides its BvhNode. Nodes are numbered by place: a primitive
-/// begins with the place of its own; the union of two takes that of the first, and leaves that of
-/// the second to what it becomes part of.
+/// Data of a cluster node besides its BvhNode. The index of a node is a location: a primitive
+/// starts with its own location. The union of two clusters uses the location of the first, and
+/// passes that of the second on to the union that it becomes part of.
 typedef struct ClusterNode {
-    uint count;   ///< of triangles; 0: no node
-    uint nodes;   ///< of the finished tree, from this one down: 0 where it becomes a leaf
-    uint height;  ///< edges down to the deepest leaf
-    uint parent;  ///< 2 x number + side; BVH_NO_PARENT for the root
+    uint count;   ///< number of triangles; 0 if there is no node
+    uint nodes;   ///< number of nodes of the finished tree in this subtree; 0 if it becomes a leaf
+    uint height;  ///< number of edges down to the deepest leaf
+    uint parent;  ///< 2 x index + side; BVH_NO_PARENT for the root
 } ClusterNode;
 
-/// What the host reads back.
+/// Results that the host reads back.
 typedef struct ClusterState {
-    uint range_count;  ///< of all levels so far, the coming one included
+    uint range_count;  ///< number of ranges in all levels so far, including the next
     uint subtree_count;
     uint root;
-    uint node_count;  ///< of the finished tree
+    uint node_count;  ///< number of nodes of the finished tree
     uint depth;
 } ClusterState;
 

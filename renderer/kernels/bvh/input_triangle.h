@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Triangles as they are given, and which of them can be hit.
+// Input triangles of the builder, and the test whether they can be hit.
 #pragma once
 
 #include "renderer/kernels/bvh/build_records.h"
 #include "renderer/kernels/geometry/surface_point.h"
 
+/// Reasons for which a triangle cannot be hit.
 typedef enum TriangleFault {
     TRIANGLE_GOOD,
     TRIANGLE_NOT_FINITE,
@@ -16,7 +17,7 @@ DEVICE float3 load_vertex(GLOBAL const float *positions, uint index) {
     return make_float3(positions[3 * index], positions[3 * index + 1], positions[3 * index + 2]);
 }
 
-/// The box of a triangle of the input, where it can be hit.
+/// Sets `ref` to the box of an input triangle if it can be hit, and returns the reason otherwise.
 DEVICE TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_count,
                                     GLOBAL const uint *indices, uint triangle,
                                     PRIVATE PrimitiveRef *ref) {
@@ -29,7 +30,7 @@ DEVICE TriangleFault load_primitive(GLOBAL const float *positions, uint vertex_c
     const float3 v0 = load_vertex(positions, i0);
     const float3 v1 = load_vertex(positions, i1);
     const float3 v2 = load_vertex(positions, i2);
-    // Written so that NaN fails.
+    // The comparisons are such that NaN fails.
     const float3 a = fabs(v0);
     const float3 b = fabs(v1);
     const float3 c = fabs(v2);

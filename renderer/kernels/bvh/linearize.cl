@@ -1,33 +1,38 @@
 // SPDX-License-Identifier: MIT
-// The two-wide tree as traversal without a stack reads it (shared/stackless_node.h), a work-item
-// per node in each stage: link_parents -> count_subtrees -> place_subtree_nodes (in depth-first
-// order) -> write_stackless_nodes. Nodes that hold more than the subtree size of triangles are on
-// their own, the highest below them answer for all of their subtree.
+// Stages that convert a two-wide tree to the layout of stackless traversal
+// (shared/stackless_node.h).
+//
+// link_parents, count_subtrees, place_subtree_nodes (depth-first order) and write_stackless_nodes,
+// each with one work-item per node. A node with more triangles than the subtree size has its own
+// work-item. The highest nodes below such nodes process their full subtree.
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/stackless_node.h"
 
+/// Returns whether child `side` is a node, not a leaf.
 static bool has_node(GLOBAL const BvhNode *node, uint side) {
     return (node->child[side] & BVH_LEAF_BIT) == 0;
 }
 
+/// Returns whether a node has more triangles than the subtree size.
 static bool is_large(GLOBAL const BvhNode *node, uint subtree_size) {
     return node->count[0] + node->count[1] > subtree_size;
 }
 
-/// Whether a work-item has something to do: of the subtree size or below, nodes whose parent is
-/// above.
+/// Returns whether the work-item of a node has work: the node is large, or it is the highest node
+/// of a small subtree.
 static bool is_first(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, uint index,
                      uint subtree_size) {
     return is_large(nodes + index, subtree_size) || parents[index] == BVH_NO_PARENT ||
            is_large(nodes + (parents[index] >> 1), subtree_size);
 }
 
-/// Nodes below and including child `side`.
+/// Returns the number of nodes in the subtree of child `side`.
 static uint child_size(GLOBAL const BvhNode *node, uint side, GLOBAL const uint *sizes) {
     return has_node(node, side) ? sizes[node->child[side]] : 0u;
 }
 
-/// `parents`: 2 x number + side. `sizes`: of the node alone; count_subtrees adds what is below.
+/// Writes the parents, as 2 x index + side, and initial sizes of one node each. count_subtrees adds
+/// the nodes below.
 __kernel void link_parents(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL uint *parents,
                            GLOBAL uint *sizes) {
     const uint index = (uint)get_global_id(0);
@@ -45,7 +50,8 @@ __kernel void link_parents(GLOBAL const BvhNode *nodes, uint node_count, GLOBAL 
     sizes[index] = 1;
 }
 
-/// The node after `node` in depth-first order, below `root`; BVH_NO_PARENT after the last one.
+/// Returns the node after `node` in depth-first order below `root`, or BVH_NO_PARENT after the last
+/// one.
 static uint next_node(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, uint root,
                       uint node) {
     for (uint side = 0; side < 2; ++side) {
@@ -63,8 +69,9 @@ static uint next_node(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents, u
     return BVH_NO_PARENT;
 }
 
-/// Counts every node with those above it, up to the first of its subtree, and the whole subtree
-/// further up.
+/// Computes subtree sizes. The work-item of a small subtree adds each of its nodes to all nodes
+/// above that node within the subtree. It then adds the full subtree to the nodes above its root. A
+/// large node adds itself.
 __kernel void count_subtrees(GLOBAL const BvhNode *nodes, uint node_count, uint subtree_size,
                              GLOBAL const uint *parents, GLOBAL uint *sizes) {
     const uint index = (uint)get_global_id(0);
@@ -87,7 +94,7 @@ __kernel void count_subtrees(GLOBAL const BvhNode *nodes, uint node_count, uint 
     }
 }
 
-/// The place of every node in depth-first order.
+/// Computes the index of every node in depth-first order.
 __kernel void place_subtree_nodes(GLOBAL const BvhNode *nodes, uint node_count, uint subtree_size,
                                   GLOBAL const uint *parents, GLOBAL const uint *sizes,
                                   GLOBAL uint *places) {
@@ -118,8 +125,8 @@ static void write_box(GLOBAL StacklessNode *stackless, GLOBAL const float (*boun
     }
 }
 
-/// The octants, as bits, in which the right child is the nearer: by the axis along which the
-/// middles of both are farthest apart.
+/// Returns the octants, as bits, in which the right child is nearer. The axis along which the
+/// centres of both children are farthest apart decides.
 static uint octants_right_first(GLOBAL const BvhNode *node) {
     uint widest = 0;
     float distance = 0.0f;
@@ -131,12 +138,12 @@ static uint octants_right_first(GLOBAL const BvhNode *node) {
             distance = apart;
         }
     }
-    const uint towards_lower[3] = {
-        0xaau, 0xccu, 0xf0u};  // octants whose bit of that axis is set (traverse_stackless.h)
+    // Octants whose bit of the axis is set (traverse_stackless.h).
+    const uint towards_lower[3] = {0xaau, 0xccu, 0xf0u};
     return distance >= 0.0f ? towards_lower[widest] : ~towards_lower[widest] & 0xffu;
 }
 
-/// An empty leaf, from where the way ends.
+/// Returns an empty leaf after which traversal ends.
 static StacklessNode no_node(void) {
     StacklessNode node;
     for (uint axis = 0; axis < 3; ++axis) {
@@ -151,14 +158,14 @@ static StacklessNode no_node(void) {
     return node;
 }
 
-/// Where the way goes on after a node, by octant: the other child of the first one above, on the
-/// way up, that comes first itself.
+/// Finds for each octant the node that follows a node's subtree: the sibling of the first node, on
+/// the path up, that comes before its sibling.
 static void find_escapes(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents,
                          GLOBAL const uint *places, uint index, PRIVATE uint *after) {
     for (uint octant = 0; octant < 8; ++octant) {
         after[octant] = 0;
     }
-    uint open = 0xffu;  // octants for which it is not known yet
+    uint open = 0xffu;  // octants without a result so far
     for (uint up = parents[index]; up != BVH_NO_PARENT && open != 0; up = parents[up >> 1]) {
         const uint right_first = octants_right_first(nodes + (up >> 1));
         const uint found = open & ((up & 1u) != 0 ? right_first : ~right_first);
@@ -170,9 +177,10 @@ static void find_escapes(GLOBAL const BvhNode *nodes, GLOBAL const uint *parents
     }
 }
 
-/// Writes a node's children but for what they know of their own ones, and how the way goes on below
-/// it: first to the child that comes first, from there to the other, and from that where it goes on
-/// from the node. The root's work-item writes node 0, too.
+/// Writes the children of a node, except the links to their own children, and the order of
+/// traversal below the node. Traversal enters the child that comes first, continues with the other
+/// child, and from there with the node that follows the parent's subtree. The root's work-item also
+/// writes node 0.
 __kernel void write_stackless_nodes(GLOBAL const BvhNode *nodes, uint node_count,
                                     GLOBAL const uint *parents, GLOBAL const uint *places,
                                     GLOBAL StacklessNode *stackless_nodes) {

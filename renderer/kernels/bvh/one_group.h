@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Prefix sums and totals by a single work-group, for stages that number things in a fixed order: on
-// a GPU its ONE_GROUP work-items take that many of them at a time, on a CPU it is one work-item.
+// Prefix sums and totals by a single work-group, for stages that number items in a fixed order. On
+// a GPU its ONE_GROUP work-items process as many items at a time; on a CPU it is a single
+// work-item.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -9,8 +10,9 @@
 #define ONE_GROUP 1u
 #endif
 
-/// The sum of `value` over the work-items before this one, and over all of them in `*total`. All
-/// work-items call it, equally often; `values` is theirs to share, and free again when it returns.
+/// Returns the sum of `value` over the work-items before this one, and sets `*total` to the sum
+/// over all. All work-items must call it equally often. `values` is shared by them and free again
+/// on return.
 DEVICE uint sum_before(__local uint *values, uint value, PRIVATE uint *total) {
     const uint item = (uint)get_local_id(0);
     values[item] = value;

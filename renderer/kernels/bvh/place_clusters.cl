@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The finished tree from united clusters: nodes in depth-first order, those of at most four
-// triangles turned into leaves. place_clusters (a work-item per place): above the subtree size a
-// node finds its own number by the way up to the root; the first below it finds that of its
-// subtree, and walks down. Then fill_triangles (a work-item per triangle), and sum_costs and
-// sum_cost.
+// Stages that assemble the finished tree of the clustering builder: nodes in depth-first order,
+// with nodes of at most four triangles turned into leaves.
+//
+// place_clusters (one work-item per node location): above the subtree size, a node finds its index
+// by following its parents to the root. The highest node below that size finds the index of its
+// subtree and then walks down. fill_triangles follows (one work-item per triangle), then sum_costs
+// and sum_cost.
 #include "renderer/kernels/bvh/finished_tree.h"
 #include "renderer/kernels/bvh/hploc.h"
 
-/// A node of the clusters, where it goes and where its triangles go.
+/// A node of the clusters, with the location of the finished node and of its first triangle.
 typedef struct Placed {
     uint cluster;
     uint node;
     uint first;
 } Placed;
 
+/// Returns the number of nodes of the finished tree below a link.
 static uint nodes_below(GLOBAL const ClusterNode *cluster_nodes, uint link) {
     return (link & BVH_LEAF_BIT) != 0 ? 0u : cluster_nodes[link].nodes;
 }
 
+/// Finds the location of a node by following its parents to the root.
 static Placed find_place(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes,
                          uint cluster) {
     Placed placed;
@@ -35,7 +39,7 @@ static Placed find_place(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *
     return placed;
 }
 
-/// The triangles of a leaf, at most four, in depth-first order.
+/// Lists the triangles of a leaf, at most four, in depth-first order.
 static void list_triangles(GLOBAL const BvhNode *nodes, uint link, GLOBAL uint *order) {
     uint pending[BVH_LEAF_SIZE];
     uint size = 1;
@@ -54,8 +58,8 @@ static void list_triangles(GLOBAL const BvhNode *nodes, uint link, GLOBAL uint *
     }
 }
 
-/// Writes a node, and the triangles of what is a leaf below it; the links of its clusters to
-/// `child`, BVH_EMPTY_LEAF for leaves.
+/// Writes a finished node and the triangles of its leaves. Sets `child` to the child nodes and
+/// their locations, with BVH_EMPTY_LEAF for leaves.
 static void write_node(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes,
                        Placed placed, GLOBAL BvhNode *finished, GLOBAL uint *order,
                        PRIVATE Placed child[2]) {
@@ -77,7 +81,7 @@ static void write_node(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cl
     finished[placed.node] = node;
 }
 
-/// The tree is not deeper than traversal allows.
+/// Writes the finished nodes. The tree must not be deeper than traversal permits.
 __kernel void place_clusters(GLOBAL const BvhNode *nodes, GLOBAL const ClusterNode *cluster_nodes,
                              uint count, uint subtree_size, GLOBAL BvhNode *finished,
                              GLOBAL uint *order) {
@@ -115,7 +119,8 @@ __kernel void fill_triangles(GLOBAL const uint *order, uint count, GLOBAL const 
     triangles[slot] = leaf_triangle(positions, indices, order[slot]);
 }
 
-/// Areas of the children of nodes, those of leaves times their triangles; in (scene extents)^2.
+/// Sums the areas of the children of nodes, with those of leaves times their triangles, in squared
+/// scene extents.
 __kernel void sum_costs(GLOBAL const BvhNode *nodes, uint node_count,
                         GLOBAL const BuildState *state, GLOBAL float *costs) {
     const uint block = (uint)get_global_id(0);
@@ -135,7 +140,7 @@ __kernel void sum_costs(GLOBAL const BvhNode *nodes, uint node_count,
     costs[block] = cost;
 }
 
-/// One work-item.
+/// Sums the cost of the tree. One work-item.
 __kernel void sum_cost(GLOBAL const float *costs, uint node_count, GLOBAL BuildState *state) {
     if (get_global_id(0) != 0) {
         return;

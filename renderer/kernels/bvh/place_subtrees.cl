@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The finished tree: top nodes first, then subtree after subtree. place_subtrees (one work-group)
-// numbers them and links them to the top nodes, copy_top_nodes and copy_subtrees (a work-item per
-// subtree) write the compact arrays.
+// Stages that assemble the finished tree of the binned builder: top nodes first, then subtree after
+// subtree.
+//
+// place_subtrees (one work-group) numbers the subtrees and links them to the top nodes.
+// copy_top_nodes and copy_subtrees (one work-item per node or subtree) write the compact arrays.
 #include "renderer/kernels/bvh/finished_tree.h"
 #include "renderer/kernels/bvh/one_group.h"
 
-/// Without top nodes the root is a subtree; when that is a single leaf, or nothing at all, it is
-/// given a node here.
+/// Numbers the subtrees, links them and sums up the tree's statistics. Without top nodes the root
+/// is a subtree. If that is a single leaf or empty, it receives a node here.
 __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subtrees,
                              uint subtree_count, GLOBAL BvhNode *top_nodes) {
     __local uint shared[ONE_GROUP];
@@ -49,7 +51,7 @@ __kernel void place_subtrees(GLOBAL BuildState *state, GLOBAL BuildSubtree *subt
     uint new_leaves;
     sum_before(shared, leaves, &new_leaves);
     total.leaf_count += new_leaves;
-    barrier(CLK_GLOBAL_MEM_FENCE);  // links of top nodes
+    barrier(CLK_GLOBAL_MEM_FENCE);  // makes the links of top nodes visible
     for (uint node = item; node < total.top_node_count; node += ONE_GROUP) {
         for (uint side = 0; side < 2; ++side) {
             const uint link = top_nodes[node].child[side];

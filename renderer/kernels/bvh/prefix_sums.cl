@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Exclusive prefix sums of any length, in blocks: sum_blocks (a work-item per block), the same of
-// the sums of blocks until they are one block, and back through scan_blocks. Integers: the same
-// bits whatever the size of a block.
+// Exclusive prefix sums of any length, in blocks.
+//
+// sum_blocks (one work-item per block) computes the sums of blocks. It is repeated on its results
+// until they form a single block; scan_blocks then returns level by level. The sums are integers,
+// so the result does not depend on the size of a block.
 #include "renderer/shared/compat.h"
 
 __kernel void sum_blocks(GLOBAL const uint *values, uint count, uint block_size,
@@ -19,7 +21,8 @@ __kernel void sum_blocks(GLOBAL const uint *values, uint count, uint block_size,
     sums[block] = sum;
 }
 
-/// In place; `sums` are the sums before each block, and are read where there is more than one.
+/// Replaces values by their prefix sums. `sums` are the sums before each block; they are read if
+/// there is more than one block.
 __kernel void scan_blocks(GLOBAL uint *values, uint count, uint block_size,
                           GLOBAL const uint *sums) {
     const uint block = (uint)get_global_id(0);

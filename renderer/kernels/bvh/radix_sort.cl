@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// One digit of a stable radix sort: count_digits and move_by_digit, a work-item per chunk of keys,
-// with the prefix sums of the counts in between (N. Satish, M. Harris, M. Garland, "Designing
-// Efficient Sorting Algorithms for Manycore GPUs", IPDPS 2009, with work-items in place of thread
-// blocks). Counts lie digit by digit, chunk by chunk: their sums are where each chunk's keys go.
-// Stable, hence the same order whatever the size of a chunk. RADIX_BITS: of a digit.
+// One digit of a stable radix sort: count_digits and move_by_digit, with one work-item per chunk of
+// keys, and prefix sums of the counts in between.
+//
+// Source: N. Satish, M. Harris, M. Garland, "Designing Efficient Sorting Algorithms for Manycore
+// GPUs", IPDPS 2009, with work-items instead of thread blocks. Counts are ordered by digit, then by
+// chunk; their sums are the positions of each chunk's keys. The sort is stable, so its result does
+// not depend on the size of a chunk. RADIX_BITS is the number of bits of a digit.
 #include "renderer/shared/compat.h"
 
 #define RADIX_DIGITS (1u << RADIX_BITS)

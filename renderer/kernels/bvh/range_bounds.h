@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bounds of ranges of primitives. Minimum and maximum are exact and associative: whatever the order
-// of reduction, the bits are the same.
+// Bounds of ranges of primitives. Minimum and maximum are exact and associative, so the bits do not
+// depend on the order of reduction.
 #pragma once
 
 #include "renderer/kernels/bvh/build_records.h"
@@ -16,7 +16,7 @@ DEVICE RangeBounds empty_bounds(void) {
     return bounds;
 }
 
-// Compare and select instead of fmin: nothing here is NaN, and fmin costs more.
+// Compares and selects instead of calling fmin: no value here is NaN, and fmin costs more.
 DEVICE float lesser(float a, float b) {
     return b < a ? b : a;
 }
@@ -24,23 +24,23 @@ DEVICE float greater(float a, float b) {
     return b > a ? b : a;
 }
 
-/// The smaller of both, lane by lane: with the upper bounds' signs changed, what encloses two
-/// boxes.
+/// Returns the smaller of both, lane by lane. For boxes with negated upper bounds this is the box
+/// that encloses both.
 DEVICE float8 enclosing(float8 a, float8 b) {
     return b < a ? b : a;
 }
 
 CONSTANT float box_signs[8] = {1.0f, 1.0f, 1.0f, 0.0f, -1.0f, -1.0f, -1.0f, 0.0f};
 
-/// The box of a record in one load: lower x, y, z, 0, upper x, y, z with the sign changed, 0. Lanes
-/// of integers become 0 before any arithmetic: the index of a triangle, read as a float, is
-/// subnormal, and processors take a hundred times as long to multiply those.
+/// Returns the box of a record, read in one load: lower x, y, z, 0, then negated upper x, y, z, 0.
+/// Lanes of integers become 0 before any arithmetic. The index of a triangle, read as a float, is
+/// subnormal, and processors multiply subnormals a hundred times more slowly.
 DEVICE float8 signed_box(PRIVATE const PrimitiveRef *ref) {
     const float8 signs = vload8(0, box_signs);
     return (signs != splat_float8(0.0f) ? vload8(0, ref->lower) : signs) * signs;
 }
 
-/// RangeBounds as they grow, in the lanes of signed_box.
+/// RangeBounds during accumulation, in the lanes of signed_box.
 typedef struct SignedBounds {
     float box[8];
     float centroids[8];
@@ -80,8 +80,8 @@ DEVICE void merge_bounds(PRIVATE RangeBounds *bounds, GLOBAL const RangeBounds *
     }
 }
 
-/// 1 / the largest side of the box, by which areas are scaled before they are formed, so that none
-/// overflows; 1 for an empty box or a point.
+/// Returns 1 / the largest side of the box, or 1 for an empty box or a point. Areas are scaled by
+/// it before they are computed, so that none overflows.
 DEVICE float inverse_extent(PRIVATE const RangeBounds *bounds) {
     float extent = 0.0f;
     for (uint axis = 0; axis < 3; ++axis) {
@@ -90,7 +90,7 @@ DEVICE float inverse_extent(PRIVATE const RangeBounds *bounds) {
     return extent > 1.0e-30f ? 1.0f / extent : 1.0f;
 }
 
-/// Half the area of a box with sides scaled by `scale`; 0 for an empty box.
+/// Returns half the area of a box with sides scaled by `scale`; 0 for an empty box.
 DEVICE float half_area(float dx, float dy, float dz, float scale) {
     const float x = dx * scale;
     const float y = dy * scale;
@@ -98,13 +98,13 @@ DEVICE float half_area(float dx, float dy, float dz, float scale) {
     return x >= 0.0f ? x * y + y * z + z * x : 0.0f;
 }
 
-/// The same of a range's box.
+/// Returns half the area of a range's box, with sides scaled by `scale`.
 DEVICE float half_area_of(PRIVATE const RangeBounds *bounds, float scale) {
     return half_area(bounds->box[1][0] - bounds->box[0][0], bounds->box[1][1] - bounds->box[0][1],
                      bounds->box[1][2] - bounds->box[0][2], scale);
 }
 
-/// Child `side` of a node: the box and the size of its range, and its link (bvh_node.h).
+/// Writes child `side` of a node: the box and size of its range, and its link (bvh_node.h).
 DEVICE void write_child(GLOBAL BvhNode *node, uint side, PRIVATE const RangeBounds *bounds,
                         uint count, uint link) {
     for (uint axis = 0; axis < 3; ++axis) {

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT
-// New bounds for a tree whose triangles have moved, of the layout BVH_LAYOUT. Once for a tree:
-// link_parents -> find_depths (a work-item per node), nodes sorted by depth (radix_sort.cl),
-// find_levels (a work-item per level). For each move: count_faults and refit_triangles (per
-// triangle, or block of them), then refit_nodes level by level upwards (per node). Bounds are
-// exact: minimum and maximum of coordinates. Triangles that are not finite become such that nothing
-// hits them, and count for no bounds.
+// Stages that refit a tree, of layout BVH_LAYOUT, whose triangles have moved.
+//
+// Once per tree: link_parents and find_depths (one work-item per node), a sort of the nodes by
+// depth (radix_sort.cl), and find_levels (one per level). For each move: count_faults and
+// refit_triangles (one per triangle or block of triangles), then refit_nodes level by level upwards
+// (one per node).
+//
+// Bounds are exact: minimum and maximum of coordinates. Triangles that are not finite become
+// triangles that nothing hits, and do not affect bounds.
 #include "renderer/kernels/bvh/input_triangle.h"
 #include "renderer/kernels/bvh/range_bounds.h"
 #include "renderer/shared/bvh_layout.h"
 
-/// Sets the parents of the nodes below a node. Node 0 is the one above all others.
+/// Sets the parents of the nodes below a node. Node 0 is the root.
 static void link_children(GLOBAL const BVH_NODE *nodes, uint index, GLOBAL uint *parents) {
 #if BVH_LAYOUT == BVH_LAYOUT_STACKLESS
     if ((nodes[index].link & BVH_LEAF_BIT) == 0) {
         parents[nodes[index].link] = index;
         parents[nodes[index].link + 1u] = index;
     }
-    if (index == 1) {  // read by nobody
+    if (index == 1) {  // node 1 is never read
         parents[index] = 0;
     }
 #else
@@ -36,6 +39,7 @@ __kernel void link_parents(GLOBAL const BVH_NODE *nodes, uint node_count, GLOBAL
     }
 }
 
+/// Finds the depth of every node, and initialises the order to be sorted.
 __kernel void find_depths(GLOBAL const uint *parents, uint node_count, GLOBAL ulong *depths,
                           GLOBAL uint *order) {
     const uint index = (uint)get_global_id(0);
@@ -50,7 +54,7 @@ __kernel void find_depths(GLOBAL const uint *parents, uint node_count, GLOBAL ul
     order[index] = index;
 }
 
-/// The first of the sorted depths that is not below each.
+/// Finds for each depth the index of the first node, in sorted order, that is at least as deep.
 __kernel void find_levels(GLOBAL const ulong *depths, uint node_count, uint level_count,
                           GLOBAL uint *levels) {
     const uint depth = (uint)get_global_id(0);
@@ -70,7 +74,7 @@ __kernel void find_levels(GLOBAL const ulong *depths, uint node_count, uint leve
     levels[depth] = begin;
 }
 
-/// Adds up the triangles of the input that cannot be hit: `faults` by kind (TriangleFault).
+/// Counts the triangles of the input that cannot be hit: `faults` by type (TriangleFault).
 __kernel void count_faults(GLOBAL const float *positions, uint vertex_count,
                            GLOBAL const uint *indices, uint triangle_count, GLOBAL uint *faults) {
     const uint triangle = (uint)get_global_id(0);
@@ -84,7 +88,8 @@ __kernel void count_faults(GLOBAL const float *positions, uint vertex_count,
     }
 }
 
-/// Fetches a triangle of the tree anew, as [axis][vertex]; counts those that cannot be hit.
+/// Fetches the vertices of a triangle of the tree again, as [axis][vertex], and counts it if it
+/// cannot be hit.
 static void fetch_triangle(GLOBAL const float *positions, uint vertex_count,
                            GLOBAL const uint *indices, uint triangle, bool is_counted,
                            GLOBAL uint *faults, PRIVATE float (*coordinate)[3]) {
@@ -102,6 +107,7 @@ static void fetch_triangle(GLOBAL const float *positions, uint vertex_count,
     }
 }
 
+/// Writes the new vertices of a triangle, or of a block of triangles.
 __kernel void refit_triangles(GLOBAL const float *positions, uint vertex_count,
                               GLOBAL const uint *indices, uint count,
                               GLOBAL BVH_TRIANGLES *triangles, GLOBAL uint *faults) {
@@ -132,7 +138,7 @@ __kernel void refit_triangles(GLOBAL const float *positions, uint vertex_count,
 #endif
 }
 
-/// Bounds along one axis. NaN leaves them as they are.
+/// Bounds along one axis. extend() ignores NaN.
 typedef struct Interval {
     float lower, upper;
 } Interval;
@@ -142,7 +148,7 @@ static void extend(PRIVATE Interval *interval, float lower, float upper) {
     interval->upper = greater(interval->upper, upper);
 }
 
-/// Of all below a link, which is not an empty one.
+/// Returns the bounds of everything below a link, which must not be empty.
 static Interval bounds_below(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles,
                              uint link, uint axis) {
     Interval all;
@@ -183,6 +189,7 @@ static Interval bounds_below(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIA
     return all;
 }
 
+/// Computes the bounds of a node from its triangles and from the bounds of the level below.
 __kernel void refit_nodes(GLOBAL const uint *order, uint level_begin, uint level_end,
                           GLOBAL BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles) {
     const uint place = level_begin + (uint)get_global_id(0);

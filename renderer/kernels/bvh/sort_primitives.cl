@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Primitives in the order of a space-filling curve: encode_centroids writes a Morton code for each
-// (G. M. Morton, 1966; J. Pantaleoni, D. Luebke, "HLBVH", HPG 2010), radix_sort.cl sorts them,
-// gather_clusters moves the primitives.
+// Stages that order primitives along a space-filling curve.
+//
+// encode_centroids writes a Morton code for each primitive (G. M. Morton, 1966; J. Pantaleoni, D.
+// Luebke, "HLBVH", HPG 2010), radix_sort.cl sorts the codes, and gather_clusters moves the
+// primitives.
 #include "renderer/kernels/bvh/hploc.h"
 
-/// Bits of a coordinate: cells are cubes of 2^-21 of the largest extent of the centroids.
+/// Number of bits of a coordinate. Cells are cubes of 2^-21 of the largest extent of the centroids.
 #define MORTON_BITS 21u
 
-/// Three times as far apart: bit i goes to bit 3 i.
+/// Spreads the bits of x: bit i moves to bit 3 i.
 static ulong spread_bits(uint x) {
     ulong bits = x;
     bits = (bits | bits << 32) & 0x001f00000000fffful;
@@ -18,7 +20,7 @@ static ulong spread_bits(uint x) {
     return bits;
 }
 
-/// `all` is the one range of all primitives, with its bounds.
+/// Writes the codes of primitives. `all` is the single range of all primitives, with its bounds.
 __kernel void encode_centroids(GLOBAL const PrimitiveRef *primitives, uint count,
                                GLOBAL const BuildSubtree *all, GLOBAL ulong *codes,
                                GLOBAL uint *order) {
@@ -32,7 +34,8 @@ __kernel void encode_centroids(GLOBAL const PrimitiveRef *primitives, uint count
         extent = max(extent, bounds[1][axis] - bounds[0][axis]);
     }
     const float cells = (float)(1u << MORTON_BITS);
-    const float scale = extent > 1.0e-30f ? cells / extent : 0.0f;  // far above where it overflows
+    // The threshold is far above the extent at which the quotient overflows.
+    const float scale = extent > 1.0e-30f ? cells / extent : 0.0f;
     ulong code = 0;
     for (uint axis = 0; axis < 3; ++axis) {
         const float centroid = primitives[i].lower[axis] + primitives[i].upper[axis];
@@ -43,8 +46,8 @@ __kernel void encode_centroids(GLOBAL const PrimitiveRef *primitives, uint count
     order[i] = i;
 }
 
-/// Every primitive, in order, as a cluster: `triangle` becomes its link, a leaf of the one
-/// triangle, and `padding` its place.
+/// Writes every primitive, in sorted order, as a cluster. `triangle` becomes its link, a leaf of
+/// one triangle, and `padding` its location.
 __kernel void gather_clusters(GLOBAL const PrimitiveRef *primitives, GLOBAL const uint *order,
                               uint count, GLOBAL PrimitiveRef *clusters) {
     const uint i = (uint)get_global_id(0);

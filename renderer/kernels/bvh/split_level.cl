@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
-// One level of the large phase: every node above the subtree size, whatever its size, is split by
-// all work-items together (thesis 3.1). bin_primitives (a work-item per chunk) -> merge_bins
-// (several per task) -> choose_splits (per task) -> partition_primitives (per chunk, from one
-// primitive buffer to the other) -> merge_children (per child) -> emit_children (one work-group).
-// Departure from the thesis: offsets are prefix sums over chunks instead of atomic counters, so
-// that the partition is stable and the tree the same whatever the order of execution.
+// One level of the large phase: all work-items together split every node above the subtree size
+// (thesis, section 3.1).
+//
+// The stages of a level are:
+// - bin_primitives (one work-item per chunk)
+// - merge_bins (several work-items per task)
+// - choose_splits (one per task)
+// - partition_primitives (one per chunk), from one primitive buffer to the other
+// - merge_children (one per child)
+// - emit_children (one work-group)
+//
+// Departure from the thesis: offsets are prefix sums over chunks instead of atomic counters. The
+// partition is therefore stable, and the tree does not depend on the order of execution.
 #include "renderer/kernels/bvh/binned_sah.h"
 #include "renderer/kernels/bvh/one_group.h"
 #include "renderer/kernels/bvh/tasks.h"
 
+/// Bins the primitives of a chunk.
 __kernel void bin_primitives(GLOBAL const BuildTask *tasks, GLOBAL const BuildChunk *chunks,
                              uint chunk_count, GLOBAL const PrimitiveRef *primitives,
                              GLOBAL BinSet *chunk_bins) {
@@ -28,8 +36,8 @@ __kernel void bin_primitives(GLOBAL const BuildTask *tasks, GLOBAL const BuildCh
     chunk_bins[chunk] = bins;
 }
 
-/// Sums each bin over a task's chunks, whose counts become those of the chunks before them. `parts`
-/// work-items share the bins of a task.
+/// Sums each bin over the chunks of a task, and replaces the counts of each chunk by those of the
+/// chunks before it. `parts` work-items share the bins of a task.
 __kernel void merge_bins(GLOBAL const BuildTask *tasks, uint task_count, uint parts,
                          GLOBAL BinSet *chunk_bins, GLOBAL BinSet *task_bins) {
     const uint index = (uint)get_global_id(0) / parts;
@@ -56,6 +64,7 @@ __kernel void merge_bins(GLOBAL const BuildTask *tasks, uint task_count, uint pa
     }
 }
 
+/// Chooses the split of a task.
 __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count,
                             GLOBAL const BinSet *task_bins) {
     const uint index = (uint)get_global_id(0);
@@ -70,7 +79,7 @@ __kernel void choose_splits(GLOBAL BuildTask *tasks, uint task_count,
                                inverse_extent(&bounds));
 }
 
-/// Primitives of the task's earlier chunks that go left.
+/// Returns the number of primitives in the task's earlier chunks that go left.
 DEVICE uint left_before(PRIVATE const Split *split, uint before, GLOBAL const BinSet *bins) {
     if (split->axis == BVH_SPLIT_BY_COUNT) {
         return min(before, split->left_count);
@@ -82,6 +91,7 @@ DEVICE uint left_before(PRIVATE const Split *split, uint before, GLOBAL const Bi
     return left;
 }
 
+/// Partitions the primitives of a chunk stably, and computes the bounds of both parts.
 __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildChunk *chunks,
                                    uint chunk_count, GLOBAL const BinSet *chunk_bins,
                                    GLOBAL const PrimitiveRef *source, GLOBAL PrimitiveRef *target) {
@@ -115,6 +125,7 @@ __kernel void partition_primitives(GLOBAL const BuildTask *tasks, GLOBAL BuildCh
     chunk->bounds[1] = range_bounds(&bounds[1]);
 }
 
+/// Merges the bounds of a task's child over the chunks.
 __kernel void merge_children(GLOBAL BuildTask *tasks, uint task_count,
                              GLOBAL const BuildChunk *chunks) {
     const uint child = (uint)get_global_id(0);
@@ -130,8 +141,8 @@ __kernel void merge_children(GLOBAL BuildTask *tasks, uint task_count,
     task->children[child % 2u] = bounds;
 }
 
-/// One work-group: writes this level's nodes and books their children for the next level or the
-/// small phase. `buffer` is the index of the buffer that partition_primitives wrote.
+/// Writes the nodes of this level, and registers their children for the next level or the small
+/// phase. One work-group. `buffer` is the index of the buffer that partition_primitives wrote.
 __kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *tasks,
                             uint task_count, uint chunk_size, uint subtree_size, uint buffer,
                             GLOBAL BvhNode *nodes, GLOBAL BuildTask *next_tasks,
@@ -157,7 +168,7 @@ __kernel void emit_children(GLOBAL BuildState *state, GLOBAL const BuildTask *ta
         numbers.task = next.task_count + tasks_before;
         numbers.node = next.top_node_count + tasks_before;
         numbers.chunk = next.chunk_count + sum_before(shared, chunks, &new_chunks);
-        // Both sides of a split hold something.
+        // Neither side of a split is empty.
         numbers.subtree = next.subtree_count +
                           sum_before(shared, chunks == 0u && end > begin ? 1u : 0u, &new_subtrees);
         if (end > begin) {

@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: MIT
+// Tasks and chunks of the binned builder: their sizes, and the registration of ranges as tasks or
+// subtrees.
 #pragma once
 
 #include "renderer/kernels/bvh/build_records.h"
 
-/// The numbers of the next task, its first chunk and its node, and of the next subtree.
+/// Indices of the next task, its first chunk and its node, and of the next subtree.
 typedef struct Numbers {
     uint task, chunk, node, subtree;
 } Numbers;
 
-/// Primitives in each chunk of a task of `count`, but the last.
+/// Returns the number of primitives in each chunk of a task of `count` primitives, except the last
+/// chunk.
 DEVICE uint chunk_length(uint count, uint chunk_size) {
     return max(chunk_size, (count - 1u) / BVH_CHUNKS_PER_TASK + 1u);
 }
 
-/// Chunks of a range of `count` primitives: none where it is small enough for one work-item.
+/// Returns the number of chunks of a range of `count` primitives; 0 if it is small enough for one
+/// work-item.
 DEVICE uint chunks_of(uint count, uint chunk_size, uint subtree_size) {
     return count <= subtree_size ? 0u : (count - 1u) / chunk_length(count, chunk_size) + 1u;
 }
 
-/// Books the range [begin, end), child `side` of top node `parent`, as the next level's task or,
-/// when it is small enough for one work-item, as a subtree, under these numbers, which the caller
-/// gives out in a fixed order. Returns the index of the task's node, or BVH_EMPTY_LEAF for a
-/// subtree (place_subtrees links it).
+/// Registers the range [begin, end), child `side` of top node `parent`. It becomes a subtree if it
+/// is small enough for one work-item, otherwise a task of the next level. The caller assigns
+/// `numbers` in a fixed order. Returns the index of the task's node, or BVH_EMPTY_LEAF for a
+/// subtree, which place_subtrees links.
 DEVICE uint emit_range(PRIVATE const Numbers *numbers, GLOBAL BuildTask *tasks,
                        GLOBAL BuildChunk *chunks, GLOBAL BuildSubtree *subtrees, uint chunk_size,
                        uint subtree_size, uint begin, uint end, uint depth, uint parent, uint side,

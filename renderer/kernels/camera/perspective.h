@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
+// The perspective camera: rays through the film, their densities, and connections to the lens.
 #pragma once
 
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
+/// A camera ray.
 typedef struct CameraRay {
     float3 origin;     ///< on the lens
     float3 direction;  ///< unit
@@ -12,7 +14,7 @@ typedef struct CameraRay {
 
 #if FEATURE_lens
 
-/// The point of the lens that (u, v) stands for, from its centre.
+/// Returns the point of the lens that (u, v) samples, relative to its centre.
 DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
     const float2 disc = sample_disc(u, v);
     return (make_float3(camera.axis_x[0], camera.axis_x[1], camera.axis_x[2]) * disc.x +
@@ -22,12 +24,14 @@ DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
 
 #endif
 
-/// The ray through film position (x, y), in pixels from the top left corner, and the point of the
-/// lens that (u, v) stands for. A uniform position in a pixel has density p_v = 1 / pixel_area per
-/// area at unit distance, a uniform point of the lens p_l = 1 / (pi r^2) per area (thesis 2.46);
-/// with the box filter of one pixel the measured radiance has weight 1. Through a thin lens all
-/// rays of a film position meet where the one through the lens' centre, which is not bent, crosses
-/// the plane in focus.
+/// Returns the ray through film position (x, y), in pixels from the top left corner, and the point
+/// of the lens that (u, v) samples.
+///
+/// A uniform position in a pixel has density p_v = 1 / pixel_area per area at unit distance. A
+/// uniform point of the lens has density p_l = 1 / (pi r^2) per area (thesis (2.46)). With the box
+/// filter of one pixel, the measured radiance has weight 1. Behind a thin lens all rays of a film
+/// position meet in one point of the plane in focus. The ray through the centre of the lens, which
+/// is not refracted, determines this point.
 DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, float v) {
     float3 way = make_float3(camera.corner[0] + x * camera.step_x[0] + y * camera.step_y[0],
                              camera.corner[1] + x * camera.step_x[1] + y * camera.step_y[1],
@@ -37,40 +41,44 @@ DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, floa
 #if FEATURE_lens
     const float3 on_lens = point_on_lens(camera, u, v);
     ray.origin += on_lens;
-    // Not 0: `way` has a component of 1 along the axis, the lens none.
+    // Not 0: the component of `way` along the axis is 1 before scaling, that of the lens point is
+    // 0.
     way = way * camera.focus_distance - on_lens;
 #endif
     ray.direction = normalize(way);
     return ray;
 }
 
-/// Unit, out of the camera. The scene refuses cameras that mirror, so up x right points forward.
+/// Returns the unit viewing direction. The scene rejects cameras that mirror, so up x right points
+/// forward.
 DEVICE float3 camera_forward(CameraRecord camera) {
     return cross(make_float3(camera.axis_y[0], camera.axis_y[1], camera.axis_y[2]),
                  make_float3(camera.axis_x[0], camera.axis_x[1], camera.axis_x[2]));
 }
 
-/// The density per solid angle at the lens point with which a sample of one pixel makes this ray of
-/// `camera_ray`, times the pixels of the film over the samples: that of one sample per pixel. Per
-/// area of the plane at unit distance it is 1 / pixel_area, wherever on the lens and whatever plane
-/// is in focus, and dw = cos^3 dA there. With the box filter of one pixel it is also the importance
-/// times the cosine at the lens over the density of the lens point (Veach 1997, 8.2), so that the
-/// measured radiance has weight 1.
+/// Returns the density per solid angle at the lens point of this ray of `camera_ray`, for one
+/// sample per pixel of the film.
+///
+/// Per area of the plane at unit distance the density is 1 / pixel_area, whatever the lens point
+/// and the plane in focus, and dw = cos^3 dA there. With the box filter of one pixel, it also
+/// equals the importance times the cosine at the lens, over the density of the lens point (Veach
+/// 1997, section 8.2). The measured radiance thus has weight 1.
 DEVICE float camera_pdf_w(CameraRecord camera, float3 direction) {
     const float cosine = dot(direction, camera_forward(camera));
     return 1.0f / (camera.pixel_area * cosine * cosine * cosine);
 }
 
-/// A point of the scene as the camera sees it.
+/// A connection of a scene point to the camera.
 typedef struct CameraJoin {
     float3 lens_point;
-    float2 raster;  ///< film position, pixels from the top left corner; set where pdf_w is not 0
-    float pdf_w;  ///< `camera_pdf_w` of the ray from there; 0: behind the lens or outside the film
+    float2 raster;  ///< film position in pixels from the top left corner; valid if pdf_w is not 0
+    float pdf_w;  ///< `camera_pdf_w` of the ray to the point; 0 behind the lens or outside the film
 } CameraJoin;
 
-/// Joins a point to the point of the lens that (u, v) stands for: the inverse of `camera_ray`. What
-/// arrives from the point with radiance L over an area dA facing the lens point under `cos`,
-/// distance d, adds L cos pdf_w / d^2 dA to the mean radiance of the pixel at `raster`.
+/// Connects a point to the point of the lens that (u, v) samples; the inverse of `camera_ray`. Let
+/// radiance L arrive at the lens point from an area dA around the point, at distance d, with `cos`
+/// the cosine at the area. It adds L cos pdf_w / d^2 dA to the mean radiance of the pixel at
+/// `raster`.
 DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED float u,
                               MAYBE_UNUSED float v) {
     CameraJoin join;
@@ -86,10 +94,10 @@ DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED fl
     if (!(depth > 0.0f)) {
         return join;
     }
-    // Where the ray, and that through the lens' centre to the point in focus, meet the plane at
-    // unit distance. All that could overflow or be NaN is compared so that it counts as outside the
-    // film, and nothing is squared before: inside, |slope|^2 is at most 1 / cos^2 of the field of
-    // view, plus that of the lens over the focus.
+    // Intersections with the plane at unit distance: `slope` of the ray, `seen` of the ray through
+    // the centre of the lens to the same point in focus. Comparisons are such that overflow and NaN
+    // count as outside the film, and nothing is squared before them. Inside the film, |slope|^2 is
+    // at most 1 / cos^2 of the field of view, plus that of the lens over the focus distance.
     const float3 slope = way / depth;
     float3 seen = slope;
 #if FEATURE_lens
@@ -98,7 +106,7 @@ DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED fl
     const float3 step_x = make_float3(camera.step_x[0], camera.step_x[1], camera.step_x[2]);
     const float3 step_y = make_float3(camera.step_y[0], camera.step_y[1], camera.step_y[2]);
     const float width = (float)camera.width, height = (float)camera.height;
-    // The steps have the length of a pixel: over its area they count pixels.
+    // The steps have the length of a pixel, so a division by its area gives pixels.
     const float2 raster = make_float2(0.5f * width + dot(seen, step_x) / camera.pixel_area,
                                       0.5f * height + dot(seen, step_y) / camera.pixel_area);
     if (raster.x >= 0.0f && raster.x < width && raster.y >= 0.0f && raster.y < height) {

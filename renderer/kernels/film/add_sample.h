@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Adds the samples of paths to the film and counts those that the film rejects.
 #pragma once
 
 #include "renderer/kernels/film/convergence.h"
@@ -6,7 +7,7 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/stream_counters.h"
 
-/// Asks for the words of a pixel that adding a sample will change, by its largest channel.
+/// Prefetches the words of a pixel that adding `sample` will change, judged by its largest channel.
 DEVICE void prefetch_pixel(MAYBE_UNUSED GLOBAL const long *film, MAYBE_UNUSED uint pixel,
                            MAYBE_UNUSED float3 sample) {
 #if PREFETCHES
@@ -23,7 +24,8 @@ DEVICE void prefetch_pixel(MAYBE_UNUSED GLOBAL const long *film, MAYBE_UNUSED ui
 #endif
 }
 
-/// Adds to a pixel; what the film refuses is counted. Returns whether it took the sample.
+/// Adds a sample to a pixel and returns whether the film accepted it. Counts a rejected sample as
+/// an error.
 DEVICE bool add_to_pixel(GLOBAL long *film, uint pixel, float3 sample,
                          GLOBAL StreamCounters *counters) {
     const uint error =
@@ -36,7 +38,7 @@ DEVICE bool add_to_pixel(GLOBAL long *film, uint pixel, float3 sample,
 
 #if FEATURE_from_camera
 
-/// Adds what a camera path gathered, which ends here.
+/// Adds the radiance of a camera path that ends here. Returns whether the film accepted it.
 DEVICE bool add_path(PathStates paths, uint slot, GLOBAL long *film,
                      GLOBAL StreamCounters *counters) {
     return add_to_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot), counters);
@@ -44,7 +46,7 @@ DEVICE bool add_path(PathStates paths, uint slot, GLOBAL long *film,
 
 #if FEATURE_convergence
 
-/// Adds what the film took of a camera path to the half film, if it is a sample of even number.
+/// Adds a camera path that the film accepted to the half film, if its sample has an even index.
 DEVICE void add_path_to_half(PathStates paths, uint slot, GLOBAL long *half_film,
                              ulong first_sample, GLOBAL StreamCounters *counters) {
     const float3 radiance = get_radiance(paths, slot);

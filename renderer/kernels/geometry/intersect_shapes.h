@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays against the shapes of a scene: all of them, those whose balls they meet one after the other.
-// Scenes have few.
+// Intersection of rays with the shapes of a scene. All shapes whose balls a ray meets are tested
+// one after the other, as scenes have few shapes.
 #pragma once
 
 #include "renderer/kernels/geometry/julia.h"
@@ -11,14 +11,15 @@
 
 #if FEATURE_shapes
 
+/// The nearest hit of a ray with a shape.
 typedef struct ShapeHit {
-    float t;              ///< in lengths of the direction
-    uint shape;           ///< NO_HIT for none
-    float3 object_point;  ///< in the shape's object space, on its surface to within a few ulps of
-                          ///< its size
+    float t;     ///< distance in lengths of the direction
+    uint shape;  ///< index of the shape, or NO_HIT
+    /// In the shape's object space, within a few ulps of its size of its surface.
+    float3 object_point;
 } ShapeHit;
 
-/// The nearest hit with one shape at 0 < t < t_max.
+/// Finds the nearest hit with one shape at 0 < t < t_max.
 DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction,
                             float t_max, PRIVATE float *t, PRIVATE float3 *object_point) {
     ShapeRay ray;
@@ -35,8 +36,8 @@ DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, floa
 #endif
 }
 
-/// The nearest hit at 0 < t < t_max (which may be INFINITY). Directions may have any length; rays
-/// that are not finite hit nothing.
+/// Returns the nearest hit at 0 < t < t_max, where t_max may be INFINITY. Directions may have any
+/// length. Rays that are not finite hit nothing.
 DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes,
                               GLOBAL const ShapeBounds *shape_bounds, uint shape_count,
                               float3 origin, float3 direction, float t_max) {
@@ -61,8 +62,8 @@ DEVICE ShapeHit nearest_shape(GLOBAL const ShapeRecord *shapes,
     return hit;
 }
 
-/// Whether a shape is hit at 0 < t < t_max: true exactly when `nearest_shape` finds a hit, as both
-/// test the same shapes in the same order with the same bound up to the first that is hit.
+/// Returns whether a shape is hit at 0 < t < t_max. It is true exactly if `nearest_shape` finds a
+/// hit: both test the same shapes in the same order, with the same bound until the first hit.
 DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const ShapeBounds *shape_bounds,
                       uint shape_count, float3 origin, float3 direction, float t_max) {
     for (uint first = 0; first < shape_count; first += SHAPE_LANES) {

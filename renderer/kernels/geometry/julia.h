@@ -1,34 +1,37 @@
 // SPDX-License-Identifier: MIT
-// Quaternion Julia sets: the surface |z_n| = 4 of z <- z^2 + c, z_0 = (x, y, z, slice), in object
-// space.
+// Intersection with quaternion Julia sets: the surface |z_n| = 4 of z <- z^2 + c, z_0 = (x, y, z,
+// slice), in object space.
 //
-// J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH 1989
-// march by an estimate of the distance. Departure: the estimate (|z_n| log |z_n| / (2 |z_n'|)) is
-// that to the limit set, not to this surface, and holds in the limit only. Here a step is taken
-// when a bound proves that it does not pass the surface. Along a step w the iterates are z_k(s) =
-// z_k + s w_k + e_k(s), 0 <= s <= 1, with
-//   w_k+1 = z_k w_k + w_k z_k,   |e_k+1| <= |w_k|^2 + 2 (|z_k| + |w_k|) |e_k| + |e_k|^2,   e_0 = 0,
-// as follows by squaring, |s| <= 1 and |pq| = |p| |q|. So the segment [z_n, z_n + w_n] widened by
-// the bound m_n of |e_n| holds all z_n(s), and the step is free of the surface when that stays
-// outside 4, or inside. Since the model is of first order in the direction of the ray, steps
-// towards the surface converge like Newton's, and steps along it are of the order of the square
-// root of the distance.
+// J. C. Hart, D. J. Sandin, L. H. Kauffman, "Ray tracing deterministic 3-D fractals", SIGGRAPH
+// 1989, march by an estimate of the distance, |z_n| log |z_n| / (2 |z_n'|). That is the distance to
+// the limit set, not to this surface, and it is valid in the limit only. Departure: here a step is
+// taken if a bound proves that it does not cross the surface. Along a step w the iterates are
+// z_k(s) = z_k + s w_k + e_k(s), 0 <= s <= 1, with
+//
+//   w_k+1 = z_k w_k + w_k z_k
+//   |e_k+1| <= |w_k|^2 + 2 (|z_k| + |w_k|) |e_k| + |e_k|^2,   e_0 = 0
+//
+// which follows by squaring, with |s| <= 1 and |pq| = |p| |q|. The segment [z_n, z_n + w_n],
+// widened by the bound m_n of |e_n|, therefore contains all z_n(s). The step does not cross the
+// surface if the widened segment is entirely outside or entirely inside 4. The model is of first
+// order in the direction of the ray. Steps towards the surface thus converge like Newton's, and
+// steps along it are of the order of the square root of the distance.
 //
 // Once |z_k| exceeds a modulus R >= 4 with R^2 - |c| >= R, it grows: the point is outside, and
-// later iterates are not needed. A segment that stays beyond R at that k is outside as well.
+// later iterates are not needed. A segment that is entirely beyond R at that k is outside as well.
 //
-// Rounding: with u = 2^-24, an iterate is computed from its predecessor to within 6 u (|z_k|^2 +
-// |c|) (five roundings at most per component), w_k+1 to within 6 u |z_k| |w_k| of its size, and the
-// points of a ray lie within 8 u r of it, r the radius of the sphere around the set. All three are
-// added to m_k, so that a free step is free of the true surface.
+// Rounding, with u = 2^-24: An iterate is computed from its predecessor to within 6 u (|z_k|^2 +
+// |c|), with at most five roundings per component. w_k+1 is computed to within 6 u |z_k| |w_k|. The
+// points of a ray are within 8 u r of it, where r is the radius of the sphere around the set. All
+// three errors are added to m_k, so that a proven step does not cross the true surface.
 //
-// Error: below steps of 2^-16 r nothing can be proven this close to rounding; such a step is taken
-// unproven, and the sides of its ends are compared. A ray may thus miss the surface where it enters
-// and leaves it again within 2^-16 r, or stays nearer to it than rounding can tell, and nowhere
-// else. (After 512 probes steps are 1 / 500 of the way, so that the march ends. With n <= 12, rays
-// take 50 probes on average and 350 at most.) A crossing is bisected until the ends are
-// neighbouring floats: its distance is within 4 u r, and the side of a point is in doubt where the
-// surface is nearer than the accumulated rounding of z_n, divided by the gradient.
+// Error: below steps of 2^-16 r, rounding permits no proof. Such a step is taken unproven, and the
+// sides of its ends are compared. A ray may thus miss the surface where it enters and leaves it
+// again within 2^-16 r, or stays so close to it that rounding hides the crossing, and nowhere else.
+// After 512 probes, steps are 1 / 500 of the ray's length in the sphere, so that the march ends.
+// With n <= 12, rays take 50 probes on average and 350 at most. A crossing is bisected until the
+// ends are neighbouring floats, so its distance is within 4 u r. The side of a point is in doubt
+// where the surface is closer than the accumulated rounding of z_n divided by the gradient.
 #pragma once
 
 #include "renderer/kernels/geometry/shape_space.h"
@@ -39,7 +42,7 @@
 #define JULIA_FINE_PROBES 512u
 #define JULIA_COARSE_STEPS 500u
 
-/// real + (i, j, k).v
+/// The quaternion real + (i, j, k).v.
 typedef struct Quaternion {
     float real;
     float3 v;
@@ -49,7 +52,7 @@ DEVICE float quaternion_dot(Quaternion p, Quaternion q) {
     return p.real * q.real + dot(p.v, q.v);
 }
 
-/// p q + q p; the derivative of q^2 along p.
+/// Returns p q + q p, the derivative of q^2 along p.
 DEVICE Quaternion quaternion_anticommutator(Quaternion p, Quaternion q) {
     Quaternion sum;
     sum.real = 2.0f * (p.real * q.real - dot(p.v, q.v));
@@ -57,6 +60,7 @@ DEVICE Quaternion quaternion_anticommutator(Quaternion p, Quaternion q) {
     return sum;
 }
 
+/// Returns z_0 of a point.
 DEVICE Quaternion julia_start(GLOBAL const ShapeRecord *julia, float3 p) {
     Quaternion z;
     z.real = p.x;
@@ -64,6 +68,7 @@ DEVICE Quaternion julia_start(GLOBAL const ShapeRecord *julia, float3 p) {
     return z;
 }
 
+/// Returns z^2 + c.
 DEVICE Quaternion julia_next(GLOBAL const ShapeRecord *julia, Quaternion z) {
     Quaternion next;
     next.real = z.real * z.real - dot(z.v, z.v) + julia->a;
@@ -71,11 +76,13 @@ DEVICE Quaternion julia_next(GLOBAL const ShapeRecord *julia, Quaternion z) {
     return next;
 }
 
+/// Returns |c|.
 DEVICE float julia_modulus(GLOBAL const ShapeRecord *julia) {
     return sqrt(julia->a * julia->a + julia->b * julia->b + julia->c * julia->c +
                 julia->d * julia->d);
 }
 
+/// Returns whether a point is outside the surface.
 DEVICE bool julia_outside(GLOBAL const ShapeRecord *julia, float3 p) {
     const float escape = julia->z_upper;
     Quaternion z = julia_start(julia, p);
@@ -88,12 +95,13 @@ DEVICE bool julia_outside(GLOBAL const ShapeRecord *julia, float3 p) {
     return quaternion_dot(z, z) > 16.0f;
 }
 
-/// What is known of the step from a point.
+/// Result of probing a step from a point.
 typedef struct JuliaProbe {
-    bool outside;  ///< the point is
+    bool outside;  ///< whether the point is outside
     bool clear;    ///< no point of the step is on the other side
-    float ratio;   ///< the step's multiple that would about be clear next: from its end if it is
-                   ///< clear, else from p
+    /// Multiple of the step that would be about clear next: from the step's end if it is clear,
+    /// else from the point.
+    float ratio;
 } JuliaProbe;
 
 /// Probes the step from p to p + step; r is the radius of the sphere around the set.
@@ -108,7 +116,7 @@ DEVICE JuliaProbe probe_julia(GLOBAL const ShapeRecord *julia, float3 p, float3 
     float z2 = quaternion_dot(z, z);
     bool bounded = true;
     uint i = 0;
-    // Twice the modulus needed leaves room for a step.
+    // Twice the required modulus leaves room for a step.
     for (; i < julia->iterations && z2 <= 4.0f * escape * escape; ++i) {
         if (bounded) {
             const float z_length = sqrt(z2);
@@ -134,29 +142,32 @@ DEVICE JuliaProbe probe_julia(GLOBAL const ShapeRecord *julia, float3 p, float3 
     const float w2 = quaternion_dot(w, w);
     const float end_length = sqrt(max(z2 + 2.0f * zw + w2, 0.0f));
     float approach, curvature;
-    if (probe.outside) {  // the least modulus along the segment
+    // The smallest modulus along the segment decides outside the surface; the largest, which is at
+    // an end, decides inside.
+    if (probe.outside) {
         const float s = -zw >= w2 ? 1.0f : (zw < 0.0f ? -zw / w2 : 0.0f);
         probe.clear = sqrt(max(z2 + s * (2.0f * zw + s * w2), 0.0f)) * 0.99999f - m > level;
         approach = zw < 0.0f ? -zw / z_length : 0.0f;
         curvature = m;
-    } else {  // the largest, which is at an end
+    } else {
         probe.clear = max(z_length, end_length) * 1.00001f + m < level;
         approach = zw > 0.0f ? zw / z_length : 0.0f;
         curvature = m + 0.125f * w2;
     }
-    // gap = approach * ratio + curvature * ratio^2, where m > 0.
+    // Solves gap = approach * ratio + curvature * ratio^2; m > 0 there.
     const float gap = fabs((probe.clear ? end_length : z_length) - level);
     probe.ratio =
         2.0f * gap / (approach + sqrt(approach * approach + 4.0f * curvature * gap) + 1e-30f);
     return probe;
 }
 
-/// The first hit at 0 < t < t_max. The march is the same for every t_max.
+/// Finds the first hit at 0 < t < t_max. The march does not depend on t_max.
 DEVICE bool intersect_julia(GLOBAL const ShapeRecord *julia, ShapeRay ray, float t_max,
                             PRIVATE float *t, PRIVATE float3 *p) {
     const float3 o = ray.origin;
     const float3 d = ray.direction;
-    // The chord of the sphere around the set, about the point of the ray nearest to its centre.
+    // The chord of the ray in the sphere around the set, about the ray's point nearest to its
+    // centre.
     const float middle = -dot(o, d);
     const float3 nearest =
         make_float3(fma(middle, d.x, o.x), fma(middle, d.y, o.y), fma(middle, d.z, o.z));
@@ -177,7 +188,7 @@ DEVICE bool intersect_julia(GLOBAL const ShapeRecord *julia, ShapeRay ray, float
     const float r = sqrt(julia->bound2);
     const float coarse = (end - s) / (float)JULIA_COARSE_STEPS;
     float step = 0.25f * (end - s);
-    float before = s;  // the side of the start is known from here to s
+    float before = s;  // the side of the start is proven from here to s
     bool start_outside = true;
     bool crossed = false;
     for (uint i = 0; i < JULIA_FINE_PROBES + JULIA_COARSE_STEPS + 2u; ++i) {
@@ -223,10 +234,11 @@ DEVICE bool intersect_julia(GLOBAL const ShapeRecord *julia, ShapeRay ray, float
     return *t > 0.0f && *t < t_max;
 }
 
-/// A multiple of the gradient of |z_n| at a point of the surface: outwards. `residual` is, in the
-/// same units, how far |z_n| may be from 4 there: what is seen, and twice the accumulated rounding
-/// of z_n (here, and where a ray starts nearby). After each iteration everything is scaled by 1 /
-/// (2 |z_k|), at most 2, the largest growth of a derivative: nothing overflows.
+/// Returns a positive multiple of the gradient of |z_n| at a point of the surface, which points
+/// outwards. `residual` bounds, in the same units, the deviation of |z_n| from 4 there: the
+/// computed deviation plus twice the accumulated rounding of z_n (here, and where a ray starts
+/// nearby). After each iteration everything is scaled by 1 / (2 |z_k|), the largest growth of a
+/// derivative, with a factor of at most 2. Therefore nothing overflows.
 DEVICE float3 julia_gradient(GLOBAL const ShapeRecord *julia, float3 p, PRIVATE float *residual) {
     const float escape = julia->z_upper;
     const float modulus = julia_modulus(julia);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Queue entries of the stages that shade hits. Hits lie anywhere in the scene: a CPU, which takes
-// the entries of a chunk one after the other, is asked for what the next ones will read. path_at
-// asks for the path three entries on; one entry later its triangle is known, and another one later
-// its texels.
+// Queue entries of the stages that shade hits, with prefetching on a CPU.
+//
+// Hits are scattered over the scene. A CPU processes the entries of a chunk one after the other, so
+// it prefetches the data of the next entries. path_at prefetches the path three entries ahead. One
+// entry later its triangle is known, and another entry later its texels.
 #pragma once
 
 #include "renderer/kernels/geometry/surface_hit.h"
@@ -11,12 +12,12 @@
 
 #if PREFETCHES && FEATURE_triangles
 
-/// A record may begin on one cache line and end on the next.
+/// Prefetches a record, which may begin on one cache line and end on the next.
 #define PREFETCH_RECORD(record) \
     PREFETCH(record);           \
     PREFETCH((GLOBAL const uint *)((record) + 1) - 1)
 
-/// Asks for what triangle_hit reads.
+/// Prefetches the records that triangle_hit reads.
 DEVICE void prefetch_triangle(SURFACE_PARAMETERS uint triangle) {
     PREFETCH_RECORD(surface_triangles + triangle);
 #if FEATURE_smooth_normals
@@ -29,8 +30,7 @@ DEVICE void prefetch_triangle(SURFACE_PARAMETERS uint triangle) {
 
 #if FEATURE_textures && FEATURE_scattering
 
-/// Asks for the texels of a lookup: of each row the first, next to which the second most often
-/// lies.
+/// Prefetches the texels of a lookup: the first of each row, next to which the second usually is.
 DEVICE void prefetch_texture(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
                              float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;
@@ -43,7 +43,7 @@ DEVICE void prefetch_texture(GLOBAL const TextureRecord *texture, GLOBAL const u
     PREFETCH(column + words * rows.second * texture->width);
 }
 
-/// Asks for the texels that the components of a material take at `uv`.
+/// Prefetches the texels that the components of a material read at `uv`.
 DEVICE void prefetch_texels(MATERIAL_PARAMETERS uint material, float2 uv) {
     GLOBAL const BxdfRecord *component = components + materials[material].first_component;
     GLOBAL const BxdfRecord *end = component + materials[material].component_count;
@@ -57,7 +57,7 @@ DEVICE void prefetch_texels(MATERIAL_PARAMETERS uint material, float2 uv) {
 #endif
 #endif
 
-/// path_at, for a stage that reads what was hit.
+/// path_at, for a stage that reads the hit primitive.
 DEVICE uint hit_path_at(SURFACE_PARAMETERS PathStates paths, GLOBAL const uint *queue, uint i,
                         uint end) {
 #if PREFETCHES && FEATURE_triangles
@@ -69,7 +69,7 @@ DEVICE uint hit_path_at(SURFACE_PARAMETERS PathStates paths, GLOBAL const uint *
     return path_at(paths, queue, i, end);
 }
 
-/// path_at, for a stage that evaluates the material of what was hit.
+/// path_at, for a stage that evaluates the material of the hit.
 DEVICE uint shaded_path_at(SURFACE_PARAMETERS MATERIAL_PARAMETERS PathStates paths,
                            GLOBAL const uint *queue, uint i, uint end) {
 #if PREFETCHES && FEATURE_triangles && FEATURE_textures && FEATURE_scattering

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Balls around the shapes of a scene, tested in eights: which shapes a ray may hit. Most rays pass
-// most shapes by, and a shape's own test would first transform them.
+// Bounding balls of the shapes of a scene, tested in groups of eight.
+//
+// They tell which shapes a ray may hit. Most rays miss most shapes, and a shape's own test would
+// first transform the ray.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -8,15 +10,15 @@
 
 #if FEATURE_shapes
 
-/// The bits of the first `count` of eight shapes, of all eight where it is more, but for those that
-/// intersect_shape certainly does not find at 0 < t < t_max.
+/// Returns the bits of the shapes that intersect_shape may find at 0 < t < t_max, among the first
+/// `count` of eight shapes, or among all eight if `count` is larger.
 ///
-/// With p the ray's origin seen from the centre and d its direction of any length, the line passes
-/// the centre at |p x d| / |d|, nearest at t = -p.d / d.d. A ball of radius R that these miss by e
-/// = 16 u k |p|, as in misses_bound (shape_space.h), is not met by the shape's own test, whose hits
-/// lie in the ball up to its rounding, which is less than that; so is the rounding here. bound2 +
-/// error2 p.p is at least (R + e)^2. Where products underflow, the least difference decides
-/// nothing; NaN and infinity keep the shape.
+/// Let p be the ray's origin relative to the centre, and d its direction of any length. The line
+/// passes the centre at distance |p x d| / |d|, nearest at t = -p.d / d.d. Let the ray miss a ball
+/// of radius R by e = 16 u k |p|, as in misses_bound (shape_space.h). Then the shape's own test
+/// finds no hit, because its hits are in the ball up to a rounding error below e; so is the
+/// rounding error here. bound2 + error2 p.p is at least (R + e)^2. Where products underflow, a test
+/// with the smallest difference excludes nothing. NaN and infinity keep the shape.
 DEVICE uint shapes_in_reach(GLOBAL const ShapeBounds *bounds, uint count, float3 origin,
                             float3 direction, float t_max) {
     const float8 px = splat_float8(origin.x) - vload8(0, bounds->centre[0]);

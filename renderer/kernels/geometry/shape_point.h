@@ -1,34 +1,38 @@
 // SPDX-License-Identifier: MIT
-// The point of a shape that a ray hit: position, front-side normal, error, texture coordinates,
+// The point of a shape that a ray hit: position, front-side normal, error, texture coordinates and
 // tangent.
 //
-// The error bound is such that a ray leaving by offset_ray_origin starts on the side it is meant
-// for, as the next test of the same shape sees it. With u, gamma, M and A as in shape_space.h, let
-// p be the hit in object space, c the centre, q the quadric, g its gradient at p, n = A^T g / |A^T
-// g| the world normal.
+// The error bound ensures that a ray that leaves by offset_ray_origin starts on the intended side,
+// as the next test of the same shape sees it. Let u, gamma, M and A be those of shape_space.h. Let
+// p be the hit in object space, c the centre, q the quadric, g its gradient at p, and n = A^T g /
+// |A^T g| the world normal.
 //
 // offset_ray_origin starts the ray at O = P + h n or beyond, where P = fl(M p + c), |P - (M p + c)|
-// <= gamma(4) (|M| |p| + |c|), and h = |n|.error. The next test sees o = fl(A fl(O - c)), which
-// adds u |M| |p| in world space and gamma(4) |A| |M| |p| in object space, and evaluates q there to
-// within e = gamma(5) of the sum of its terms' magnitudes. So the value it sees is, to first order,
-//   q(o) >= |A^T g| (h - gamma(5) |n|.(|M| |p| + |c|)) - gamma(4) |g|.(|A| |M| |p|) - |q(p)| - e,
-// and with error = gamma(5) (|M| |p| + |c|) + h3 it has the sign of the side as soon as
-//   h3 |A^T g| > |q(p)| + e + gamma(4) |g|.(|A| |M| |p|).
-// h3 is chosen so that its left side is 2 (|q(p)| + e) + 36 u |g|.(|A| |M| |p|). What is left over
-// serves two ends:
+// <= gamma(4) (|M| |p| + |c|), and h = |n|.error. The next test sees o = fl(A fl(O - c)). This adds
+// errors of u |M| |p| in world space and gamma(4) |A| |M| |p| in object space. The test evaluates q
+// there to within e = gamma(5) of the sum of its terms' magnitudes. To first order, the value that
+// it sees is thus
+//
+//   q(o) >= |A^T g| (h - gamma(5) |n|.(|M| |p| + |c|)) - gamma(4) |g|.(|A| |M| |p|) - |q(p)| - e
+//
+// With error = gamma(5) (|M| |p| + |c|) + h3 it has the sign of the side if
+//
+//   h3 |A^T g| > |q(p)| + e + gamma(4) |g|.(|A| |M| |p|)
+//
+// h3 is chosen so that its left side is 2 (|q(p)| + e) + 36 u |g|.(|A| |M| |p|). The margin covers
+// two more errors:
 // - Second order: the displacement in object space is A n h, and a concave side loses up to |A n|^2
-// h^2. Near
-//   the rim of a flattened ellipsoid |A n| h reaches half the ratio of its axes times h3 |A^T g|;
-//   the reserve covers ratios to about 100. Beyond that, the rim is too thin to be told apart in
-//   float world coordinates; so is the apex of a cone within some h of it.
-// - Directions: whether a ray leaves is decided by the sign of n.d in world space, and the slope
-// g.(A d) that
-//   the next test sees may differ from it by gamma(12) |g|.(|A| |d|). That takes the ray back down
-//   by at most 24 u |g|.(|A| |M| |p|) over a way of 2 |p|: rulings of cylinders and cones are not
-//   hit again before that. Disc and plane pass through the object's origin; there |x| + 1 and |y| +
-//   1 stand for |x| and |y|.
-// On a convex surface seen from outside B < 0 is such a rounding error, B^2 is of order u^2, A C of
-// order u, and the discriminant B^2 - A C is negative.
+//   h^2. Near the rim of a flattened ellipsoid |A n| h reaches half the ratio of its axes times h3
+//   |A^T g|; the margin covers ratios up to about 100. Beyond that, float world coordinates cannot
+//   resolve the rim. Nor can they resolve the apex of a cone within a few h.
+// - Directions: the sign of n.d in world space decides whether a ray leaves. The slope g.(A d) that
+//   the next test sees may differ from it by gamma(12) |g|.(|A| |d|). That takes the ray back by at
+//   most 24 u |g|.(|A| |M| |p|) over a distance of 2 |p|, so it does not hit rulings of cylinders
+//   and cones again before that. Disc and plane pass through the object's origin; for them |x| + 1
+//   and |y| + 1 replace |x| and |y|.
+//
+// On a convex surface seen from outside, B < 0 is such a rounding error. B^2 is then of order u^2
+// and A C of order u, so the discriminant B^2 - A C is negative.
 #pragma once
 
 #include "renderer/kernels/geometry/julia.h"
@@ -38,11 +42,11 @@
 
 #if FEATURE_shapes
 
-/// The point of a hit. `object_point` is that of ShapeHit, or any point of the surface to within a
-/// few ulps.
+/// Returns the point of a hit. `object_point` is that of ShapeHit, or any point within a few ulps
+/// of the surface.
 DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_point) {
-    // The gradient in object space, and how far the function that vanishes on the surface may be
-    // from 0: |q(p)| + e.
+    // Gradient in object space, and bound |q(p)| + e of the deviation from 0 of the function that
+    // vanishes on the surface.
     float3 g;
     float residual;
 #if FEATURE_julia && FEATURE_quadrics
@@ -81,7 +85,7 @@ DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_p
     const float scaled_length = length(scaled);
     point.normal = scaled / scaled_length;
 
-    // Flat shapes have p.z = 0, with or without the 1.
+    // Flat shapes have p.z = 0, whether 1 is added or not.
     const float3 way = shape->uv_kind == SHAPE_UV_DISC || shape->uv_kind == SHAPE_UV_PLANE
                            ? fabs(object_point) + make_float3(1.0f, 1.0f, 0.0f)
                            : fabs(object_point);
@@ -94,7 +98,7 @@ DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_p
     return point;
 }
 
-/// (u, v) as ShapeArrays defines them; the angle about the z axis is in [0, 1) turns.
+/// Returns (u, v) as ShapeArrays defines them. The angle about the z axis is in [0, 1) turns.
 DEVICE float2 shape_uv(GLOBAL const ShapeRecord *shape, float3 object_point) {
     const float3 p = object_point;
     if (shape->uv_kind == SHAPE_UV_DISC) {
@@ -109,17 +113,18 @@ DEVICE float2 shape_uv(GLOBAL const ShapeRecord *shape, float3 object_point) {
     const float turn = 0.5f * INV_PI * atan2(p.y, p.x);
     const float u = turn < 0.0f ? min(turn + 1.0f, 1.0f - HALF_ULP) : turn;
     if (shape->uv_kind == SHAPE_UV_SPHERE) {
-        return make_float2(u, 1.0f - INV_PI * atan2(sqrt(p.x * p.x + p.y * p.y),
-                                                    p.z));  // acos z, also near the poles
+        // The quotient is acos(z) / pi, and exact near the poles as well.
+        return make_float2(u, 1.0f - INV_PI * atan2(sqrt(p.x * p.x + p.y * p.y), p.z));
     }
     const float v = shape->uv_kind == SHAPE_UV_HEIGHT  ? p.z
                     : shape->uv_kind == SHAPE_UV_DEPTH ? p.z + 1.0f
                                                        : 0.5f * (p.z + 1.0f);
-    return make_float2(
-        u, max(v, 0.0f));  // the apex of a paraboloid may come out below 0 by a rounding error
+    // The apex of a paraboloid may be below 0 by a rounding error.
+    return make_float2(u, max(v, 0.0f));
 }
 
-/// dp/du in world space: along the surface where u grows; zero on the axis and on a Julia set.
+/// Returns dp/du in world space, along the surface where u grows. It is zero on the axis and on a
+/// Julia set.
 DEVICE float3 shape_tangent(GLOBAL const ShapeRecord *shape, float3 object_point) {
     float3 tangent = make_float3(-2.0f * PI * object_point.y, 2.0f * PI * object_point.x, 0.0f);
     if (shape->uv_kind == SHAPE_UV_DISC) {

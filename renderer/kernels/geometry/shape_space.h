@@ -2,7 +2,7 @@
 // The object space of a shape, and rays in it.
 //
 // Let u = 2^-24 and gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1). M is the linear part of a
-// shape's world_from_object, A = object_from_world its inverse, rounded from double.
+// shape's world_from_object. A = object_from_world is its inverse, rounded from double.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -10,8 +10,8 @@
 
 #define HALF_ULP 5.9604645e-8f  ///< u
 
-/// A ray in object space: the point at s is origin + s * direction, at t = t_origin + s * t_scale
-/// of the world ray.
+/// A ray in object space. The point at s is origin + s * direction, at t = t_origin + s * t_scale
+/// on the world ray.
 typedef struct ShapeRay {
     float3 origin;
     float3 direction;  ///< unit
@@ -24,7 +24,8 @@ DEVICE float3 shape_centre(GLOBAL const ShapeRecord *shape) {
                        shape->world_from_object[2][3]);
 }
 
-/// A v. Each component is within gamma(4) of (|A| |v|), the rounding of A included.
+/// Returns A v. Each component is within gamma(4) (|A| |v|) of the exact one, including the
+/// rounding of A.
 DEVICE float3 vector_to_object(GLOBAL const ShapeRecord *shape, float3 v) {
     return make_float3(shape->object_from_world[0][0] * v.x + shape->object_from_world[0][1] * v.y +
                            shape->object_from_world[0][2] * v.z,
@@ -34,7 +35,8 @@ DEVICE float3 vector_to_object(GLOBAL const ShapeRecord *shape, float3 v) {
                            shape->object_from_world[2][2] * v.z);
 }
 
-/// M v, of differences of points. Each component is within gamma(3) of (|M| |v|).
+/// Returns M v, for v a difference of points. Each component is within gamma(3) (|M| |v|) of the
+/// exact one.
 DEVICE float3 vector_to_world(GLOBAL const ShapeRecord *shape, float3 v) {
     return make_float3(shape->world_from_object[0][0] * v.x + shape->world_from_object[0][1] * v.y +
                            shape->world_from_object[0][2] * v.z,
@@ -44,7 +46,7 @@ DEVICE float3 vector_to_world(GLOBAL const ShapeRecord *shape, float3 v) {
                            shape->world_from_object[2][2] * v.z);
 }
 
-/// |M| m of magnitudes m.
+/// Returns |M| m, for a vector m of magnitudes.
 DEVICE float3 magnitude_to_world(GLOBAL const ShapeRecord *shape, float3 m) {
     return make_float3(
         fabs(shape->world_from_object[0][0]) * m.x + fabs(shape->world_from_object[0][1]) * m.y +
@@ -55,7 +57,7 @@ DEVICE float3 magnitude_to_world(GLOBAL const ShapeRecord *shape, float3 m) {
             fabs(shape->world_from_object[2][2]) * m.z);
 }
 
-/// |A| m of magnitudes m.
+/// Returns |A| m, for a vector m of magnitudes.
 DEVICE float3 magnitude_to_object(GLOBAL const ShapeRecord *shape, float3 m) {
     return make_float3(
         fabs(shape->object_from_world[0][0]) * m.x + fabs(shape->object_from_world[0][1]) * m.y +
@@ -66,7 +68,8 @@ DEVICE float3 magnitude_to_object(GLOBAL const ShapeRecord *shape, float3 m) {
             fabs(shape->object_from_world[2][2]) * m.z);
 }
 
-/// A^T g: gradients transform by the inverse transpose, so a mirrored shape keeps its front.
+/// Returns A^T g. Gradients transform by the inverse transpose, so a mirrored shape keeps its
+/// front.
 DEVICE float3 gradient_to_world(GLOBAL const ShapeRecord *shape, float3 g) {
     return make_float3(shape->object_from_world[0][0] * g.x + shape->object_from_world[1][0] * g.y +
                            shape->object_from_world[2][0] * g.z,
@@ -76,33 +79,36 @@ DEVICE float3 gradient_to_world(GLOBAL const ShapeRecord *shape, float3 g) {
                            shape->object_from_world[2][2] * g.z);
 }
 
-/// Whether a line of object space certainly misses the sphere around the shape, far from which `p`
-/// is; `d` has a length in [0.5, 1]. Its distance to the centre is |p x d| / |d|. With k as of
-/// ShapeRecord, p and d, which were transformed, are within 5 u k of themselves (|A| |v| <= k |A
-/// v|), and the products within 4 u of |p| |d|: the cross product is within e = 16 u k |p| |d|, as
-/// k >= 3. (r |d| + e)^2 is at most 1.05 r^2 |d|^2 + 21 e^2. NaN is no miss.
+/// Returns whether a line in object space certainly misses the sphere around the shape. `p` is far
+/// from the sphere, and the length of `d` is in [0.5, 1].
+///
+/// The distance of the line to the centre is |p x d| / |d|. With k of ShapeRecord, the transformed
+/// p and d are within 5 u k of their magnitudes (|A| |v| <= k |A v|), and the products within 4 u
+/// of |p| |d|. The cross product is therefore within e = 16 u k |p| |d|, as k >= 3. (r |d| + e)^2
+/// is at most 1.05 r^2 |d|^2 + 21 e^2. NaN is no miss.
 DEVICE bool misses_bound(GLOBAL const ShapeRecord *shape, float3 p, float3 d) {
     const float3 moment = cross(p, d);
     return dot(moment, moment) >
            (1.05f * shape->bound2 + 21.0f * shape->error2 * dot(p, p)) * dot(d, d);
 }
 
-/// x - y - (x - y rounded): exact (Knuth's two-sum).
+/// Returns x - y minus the rounded x - y, exactly (Knuth's two-sum).
 DEVICE float difference_error(float x, float y, float difference) {
     const float minus_y = difference - x;
     return (x - (difference - minus_y)) - (y + minus_y);
 }
 
-/// Moves a world ray into object space. False when it cannot hit the shape: it misses the sphere
-/// around it, leads away from it, or is not finite. Scales of the shape and lengths of the
-/// direction should lie in [1e-12, 1e12].
+/// Transforms a world ray into object space. Returns false if it cannot hit the shape: it misses
+/// the sphere around it, points away from it, or is not finite. The scale of the shape and the
+/// length of the direction should be in [1e-12, 1e12].
 ///
-/// A ray from within twice that sphere keeps its origin, so that s = 0 is the origin exactly and
-/// the sign of s that of t. From farther away everything would be lost in the size of the origin
-/// (at 1e5 radii its ulp is 0.006 radii); there the ray is moved in world space to where it passes
-/// the object. Only t0 is rounded: origin - centre is kept in two floats and t0 * direction is
-/// added by fma, so the moved origin is a point of the ray to within u of itself, whatever the
-/// distance. The second step makes good for the rounding of the first t0 beyond 1e6 radii.
+/// A ray that starts within twice the radius of that sphere keeps its origin. Then s = 0 is the
+/// origin exactly, and s has the sign of t. From farther away the size of the origin would hide all
+/// detail: at 1e5 radii its ulp is 0.006 radii. Such a ray is moved in world space, by a distance
+/// t0, to where it passes the object. Only t0 is rounded: origin - centre is stored in two floats,
+/// and t0 * direction is added by fma. The moved origin is thus a point of the ray to within u of
+/// itself, whatever the distance. The second step corrects the rounding of the first t0 beyond 1e6
+/// radii.
 DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float3 direction,
                            PRIVATE ShapeRay *ray) {
     const float3 d = vector_to_object(shape, direction);
@@ -114,8 +120,8 @@ DEVICE bool make_shape_ray(GLOBAL const ShapeRecord *shape, float3 origin, float
         return false;
     }
     const float3 scaled = d / size;  // its length is in [0.57, 1]
-    const bool is_far =
-        dot(p, p) > 4.0f * shape->bound2;  // never for a plane; infinite squares count as far
+    // Never true for a plane. Infinite squares count as far.
+    const bool is_far = dot(p, p) > 4.0f * shape->bound2;
     if (is_far && (!(dot(p, scaled) < 0.0f) || misses_bound(shape, p, scaled))) {
         return false;
     }

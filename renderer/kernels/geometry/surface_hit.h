@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What shading needs to know of a hit, whatever was hit.
+// The hit of a path, on a triangle or a shape, with the data for shading.
 #pragma once
 
 #include "renderer/kernels/geometry/shape_point.h"
@@ -7,20 +7,21 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// Normals are those of the front.
+/// A hit point with shading data. Normals are those of the front.
 typedef struct SurfaceHit {
     SurfacePoint point;  ///< with the geometric normal
     float3 normal;       ///< for shading, unit
-    float3 tangent;      ///< dp/du, any length; zero where it is not defined or not needed
+    float3 tangent;      ///< dp/du, of any length; zero if undefined or not needed
     float2 uv;
     uint material;
-    uint emitter;  ///< of a triangle: index into the emitter triangles; of a shape: its light;
-                   ///< NO_EMITTER
+    /// For a triangle the index of its emitter triangle, for a shape that of its light; or
+    /// NO_EMITTER.
+    uint emitter;
 } SurfaceHit;
 
 #if FEATURE_triangles
 
-/// The point with barycentrics (1 - u - v, u, v) of a triangle.
+/// Returns the hit with barycentrics (1 - u - v, u, v) on a triangle.
 DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float v) {
     GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
     SurfaceHit hit;
@@ -38,8 +39,7 @@ DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float 
             w * corners->normal[0][0] + u * corners->normal[1][0] + v * corners->normal[2][0],
             w * corners->normal[0][1] + u * corners->normal[1][1] + v * corners->normal[2][1],
             w * corners->normal[0][2] + u * corners->normal[1][2] + v * corners->normal[2][2]);
-        // Unit normals that point opposite ways may cancel; the geometric normal stands in for what
-        // is left of them.
+        // Opposite unit normals may cancel. The geometric normal then replaces their sum.
         const float squared = dot(n, n);
         hit.normal = squared > 1e-12f ? n / sqrt(squared) : hit.point.normal;
     }
@@ -50,8 +50,8 @@ DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float 
                          w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
 #endif
 #if FEATURE_tangents
-    // The first edge, unless the coordinates span the plane: then dp/du up to a positive factor,
-    // which is (dv2 e1 - dv1 e2) times the sign of the Jacobian.
+    // The tangent is the first edge, unless the coordinates span the plane. Then it is dp/du up to
+    // a positive factor: (dv2 e1 - dv1 e2) times the sign of the Jacobian.
     const float3 p0 = make_float3(surface->p0[0], surface->p0[1], surface->p0[2]);
     const float3 e1 = make_float3(surface->p1[0], surface->p1[1], surface->p1[2]) - p0;
     const float3 e2 = make_float3(surface->p2[0], surface->p2[1], surface->p2[2]) - p0;
@@ -73,7 +73,7 @@ DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float 
 
 #if FEATURE_shapes
 
-/// The point `object_point` (in object space, on the surface) of a shape.
+/// Returns the hit at `object_point`, on the surface of a shape in object space.
 DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point) {
     SurfaceHit hit;
     hit.point = shape_point(shape, object_point);
@@ -95,7 +95,7 @@ DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point
 
 #if FEATURE_triangles || FEATURE_shapes
 
-/// The hit of a path (`primitive` and `at` as in the path state).
+/// Returns the hit of a path; `primitive` and `at` are those of the path state.
 DEVICE SurfaceHit surface_hit(SURFACE_PARAMETERS uint primitive, float3 at) {
 #if FEATURE_shapes
 #if FEATURE_triangles
@@ -113,6 +113,7 @@ DEVICE SurfaceHit surface_hit(SURFACE_PARAMETERS uint primitive, float3 at) {
 
 #ifdef __OPENCL_VERSION__
 
+/// Returns the barycentrics of a path's hit on a triangle, or its object-space point on a shape.
 DEVICE float3 get_hit_at(PathStates paths, uint slot) {
 #if FEATURE_shapes
     return make_float3(get_hit_u(paths, slot), get_hit_v(paths, slot), get_hit_w(paths, slot));

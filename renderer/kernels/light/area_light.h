@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Diffuse area lights on meshes: a triangle in proportion to area, and a uniform point there.
+// Diffuse area lights on meshes. A triangle is selected in proportion to its area, and a uniform
+// point is sampled on it.
 #pragma once
 
 #include "renderer/kernels/geometry/surface.h"
@@ -14,10 +15,10 @@
 /// A point on a light.
 typedef struct LightPoint {
     SurfacePoint point;  ///< emits on the side of its normal
-    float pdf_a;         ///< density per area, the light given
+    float pdf_a;         ///< conditional density per area, given the light
 } LightPoint;
 
-/// Samples a point of a mesh light from the last three words.
+/// Samples a point on a mesh light from the last three words.
 DEVICE LightPoint sample_mesh_light(GLOBAL const EmitterTriangle *emitter_triangles,
                                     GLOBAL const SurfaceTriangle *surface_triangles,
                                     LightRecord light, uint4 words) {

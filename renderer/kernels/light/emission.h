@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Where light paths start: rays away from the lights, sampled, with their densities (thesis 3.3.4;
-// Veach 1997, 8.2). The densities that MIS weights need of paths made otherwise are in light.h.
+// Sampling of emission: the rays with which light paths leave the lights, and their densities
+// (thesis, section 3.3.4; Veach 1997, section 8.2). The densities that MIS weights require for
+// other techniques are in light.h.
 //
-// Surfaces emit from points uniform in area into directions in proportion to the cosine, so the
-// weight is pi L over the density of the point. From infinity the direction is chosen first, then a
-// point on a disc across it as wide as the sphere around the scene's bounded surfaces; the weight
-// is pi R^2 L over the density of the direction. Of a plane such paths light only what lies in the
-// shadow of that sphere: the rest is left to the other techniques (`disc_pdf_a`), and remains dark
-// where there are none.
+// Surfaces emit from points uniform by area into directions in proportion to the cosine. The weight
+// is thus pi L over the density of the point. For light from infinity, the direction is sampled
+// first. Then a point is sampled on a disc perpendicular to it, as wide as the sphere around the
+// scene's bounded surfaces. The weight is pi R^2 L over the density of the direction.
+//
+// Such paths light only the part of a plane that is in the shadow of that sphere. The rest is left
+// to other techniques (`disc_pdf_a`), and remains dark without them.
 #pragma once
 
 #include "renderer/kernels/light/light.h"
@@ -17,26 +19,30 @@
 
 /// The start of a light path.
 typedef struct EmissionSample {
-    SurfacePoint point;  ///< on the light, `normal` on the side that emits. Of lights without a
-                         ///< surface: the origin of the ray, `normal` the direction
-    float3 origin;       ///< of the ray: off the light's own surface
-    float3 direction;    ///< unit, away from the light
-    float3 weight;  ///< power carried: L cos / (pdf_origin pdf_direction), W. Of a surface: pi L /
-                    ///< pdf_origin
-    float pdf_origin;     ///< selection included: per area on surfaces; of point and spot the
-                          ///< probability alone; at infinity per solid angle of the direction; of
-                          ///< directional the probability alone
-    float pdf_direction;  ///< surfaces, point, spot: per solid angle; infinity, directional: per
-                          ///< area of the disc
-    uint light;           ///< index
-    uint is_delta;        ///< point, spot, directional: cannot be hit
-    uint at_infinity;     ///< dome, environment, directional
+    /// On the light, with `normal` on the emitting side. For lights without a surface: the origin
+    /// of the ray, with `normal` along its direction.
+    SurfacePoint point;
+    float3 origin;     ///< origin of the ray, off the light's own surface
+    float3 direction;  ///< unit, away from the light
+    /// Power of the path in W, L cos / (pdf_origin pdf_direction). For a surface: pi L /
+    /// pdf_origin.
+    float3 weight;
+    /// Density of the origin, with the selection probability. Surfaces: per area. Dome and
+    /// environment: per solid angle of the direction. Point, spot and directional lights: the
+    /// probability alone.
+    float pdf_origin;
+    /// Density of the direction. Surfaces, point and spot lights: per solid angle. Lights at
+    /// infinity: per area of the disc.
+    float pdf_direction;
+    uint light;        ///< index of the light
+    uint is_delta;     ///< point, spot and directional lights, which cannot be hit
+    uint at_infinity;  ///< dome, environment and directional lights
 } EmissionSample;
 
 #if FEATURE_infinite_lights || FEATURE_directional_lights
 
-/// A uniform point on the disc that rays of direction `d` (unit) from infinity cross before they
-/// meet the scene.
+/// Samples a uniform point on the disc that rays of direction `d` (unit) from infinity cross before
+/// they meet the scene.
 DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, float3 d, float u,
                                  float v) {
     const Frame frame = frame_from_z(d);
@@ -45,8 +51,8 @@ DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, flo
         make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]) +
         (frame.x * disc.x + frame.y * disc.y - d) * lighting.scene_radius;
 #if FEATURE_quadrics
-    // Planes reach beyond the sphere: the ray starts before the first that it meets. Beyond the
-    // horizon of shadow rays they end here too.
+    // Planes extend beyond the sphere, so the ray starts before the first plane that it meets.
+    // Planes beyond the length of shadow rays are ignored, as shadow rays ignore them.
     float back = 0.0f;
     for (uint i = 0; i < lighting.plane_end; ++i) {
         GLOBAL const ShapeRecord *shape = shapes + i;
@@ -56,7 +62,8 @@ DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, flo
             back = way < lighting.far_distance ? max(back, way) : back;
         }
     }
-    // Twice as far: by rounding alone the plane would lie on either side. Nothing else lies there.
+    // The ray moves back twice as far; otherwise rounding would decide on which side of the plane
+    // it starts. No other surface is there.
     origin -= d * (2.0f * back);
 #endif
     return origin;
@@ -66,7 +73,8 @@ DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, flo
 
 #if FEATURE_area_lights || FEATURE_shape_lights
 
-/// From a point on an area light into the hemisphere of its normal, in proportion to the cosine.
+/// Emits from a point on an area light into the hemisphere of its normal, in proportion to the
+/// cosine.
 DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a, uint4 b,
                               PRIVATE EmissionSample *sample) {
     const float3 about_z = sample_cosine_hemisphere(uniform_float(b.x), uniform_float(b.y));
@@ -75,7 +83,7 @@ DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a
     sample->origin = offset_ray_origin(point, point.normal);
     sample->pdf_origin = light.emission_selection * pdf_a;
     sample->pdf_direction = about_z.z * INV_PI;
-    // A triangle without area has no density; no word selects it.
+    // A triangle without area has no density, but no word selects it.
     sample->weight = light_radiance(light) * (PI / sample->pdf_origin);
 }
 

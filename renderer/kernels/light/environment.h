@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Radiance from infinity by a latitude-longitude image, and its sampling.
 //
-// The image is bilinear between texel centres, so the directions are cut into cells whose corners
-// are texel centres: `width` columns, and `height` + 1 rows, of which the first and the last are
-// half cells at the poles (rows beyond the image repeat the nearest). A cell is chosen in
-// proportion to the mean of its corners times its solid angle, first its row, then its column;
-// within it directions are uniform per solid angle. A cell has probability 0 only where the
-// radiance in it is 0.
+// The image is bilinear between texel centres. Directions are therefore divided into cells whose
+// corners are texel centres: `width` columns and `height` + 1 rows. The first and last row are half
+// cells at the poles, and rows beyond the image repeat the nearest row. A cell is selected in
+// proportion to the mean of its corners times its solid angle, first its row, then its column.
+// Within a cell, directions are uniform per solid angle. A cell has probability 0 only if its
+// radiance is 0.
 #pragma once
 
 #include "renderer/kernels/math/circle.h"
@@ -17,20 +17,21 @@
 
 #if FEATURE_environment
 
-/// Where a direction (light space, unit) lies: the cell, and the position in it from its left and
-/// upper edge.
+/// Position of a direction (in light space, unit): the cell, and the position in it from its left
+/// and upper edge.
 typedef struct EnvironmentPosition {
     uint column, row;
     float x, y;
 } EnvironmentPosition;
 
+/// Returns the position of direction d in the cells.
 DEVICE EnvironmentPosition environment_position(LightingRecord lighting, float3 d) {
-    // atan2 of both: exact to rounding everywhere, unlike acos near the poles.
+    // Unlike acos, atan2 is exact to rounding near the poles, too.
     float u = atan2(d.x, -d.z) * (0.5f * INV_PI);
     u = u < 0.0f ? u + 1.0f : u;
     const float v = atan2(sqrt(d.x * d.x + d.z * d.z), d.y) * INV_PI;
     const float width = (float)lighting.environment_width;
-    const float x = u * width + (width - 0.5f);  // from the centre of texel 0, one turn added
+    const float x = u * width + (width - 0.5f);  // from the centre of texel 0, plus one turn
     const float y = v * (float)lighting.environment_height + 0.5f;
     EnvironmentPosition position;
     position.column = (uint)x % lighting.environment_width;
@@ -40,14 +41,16 @@ DEVICE EnvironmentPosition environment_position(LightingRecord lighting, float3 
     return position;
 }
 
+/// Returns the texel of a column at the upper edge of a row of cells.
 DEVICE float3 environment_texel(GLOBAL const float *texels, LightingRecord lighting, uint column,
                                 uint row) {
-    GLOBAL const float *texel = texels + 3u * ((row - min(row, 1u)) * lighting.environment_width +
-                                               column);  // row r of cells lies below texel r - 1
+    // Row r of cells is below texel r - 1.
+    GLOBAL const float *texel =
+        texels + 3u * ((row - min(row, 1u)) * lighting.environment_width + column);
     return make_float3(texel[0], texel[1], texel[2]);
 }
 
-/// Radiance over the light's factor from direction d.
+/// Returns the radiance from direction d, divided by the light's factor.
 DEVICE float3 environment_radiance(GLOBAL const float *texels, LightingRecord lighting, float3 d) {
     const EnvironmentPosition at = environment_position(lighting, d);
     const uint right = at.column + 1u == lighting.environment_width ? 0u : at.column + 1u;
@@ -59,7 +62,7 @@ DEVICE float3 environment_radiance(GLOBAL const float *texels, LightingRecord li
     return upper * (1.0f - at.y) + lower * at.y;
 }
 
-/// v at the upper edge of a row of cells.
+/// Returns v at the upper edge of a row of cells.
 DEVICE float row_edge(LightingRecord lighting, uint row) {
     if (row == 0u) {
         return 0.0f;
@@ -69,8 +72,8 @@ DEVICE float row_edge(LightingRecord lighting, uint row) {
                : ((float)row - 0.5f) / (float)lighting.environment_height;
 }
 
-/// Solid angle of a cell of a row: 2 pi / width (cos(pi v0) - cos(pi v1)), as a product of sines
-/// without cancellation.
+/// Returns the solid angle of a cell in a row: 2 pi / width (cos(pi v0) - cos(pi v1)). The product
+/// of sines avoids cancellation.
 DEVICE float cell_solid_angle(LightingRecord lighting, uint row) {
     const float v0 = row_edge(lighting, row);
     const float v1 = row_edge(lighting, row + 1u);
@@ -78,7 +81,7 @@ DEVICE float cell_solid_angle(LightingRecord lighting, uint row) {
            sinpi(0.5f * (v1 - v0));
 }
 
-/// Density per solid angle of `sample_environment` in a cell.
+/// Returns the density per solid angle of `sample_environment` in a cell.
 DEVICE float cell_pdf_w(GLOBAL const uint *ends, LightingRecord lighting, uint column, uint row) {
     const uint rows = lighting.environment_height + 1u;
     const uint width = lighting.environment_width;
@@ -88,16 +91,19 @@ DEVICE float cell_pdf_w(GLOBAL const uint *ends, LightingRecord lighting, uint c
     return (row_words * 0x1p-32f) * (column_words * 0x1p-32f) / cell_solid_angle(lighting, row);
 }
 
+/// Returns the density per solid angle of `sample_environment` in direction d.
 DEVICE float environment_pdf_w(GLOBAL const uint *ends, LightingRecord lighting, float3 d) {
     const EnvironmentPosition at = environment_position(lighting, d);
     return cell_pdf_w(ends, lighting, at.column, at.row);
 }
 
+/// A sampled direction of the environment.
 typedef struct EnvironmentSample {
     float3 direction;  ///< light space, unit, towards the environment
     float pdf_w;
 } EnvironmentSample;
 
+/// Samples a direction from the last three words.
 DEVICE EnvironmentSample sample_environment(GLOBAL const uint *ends, LightingRecord lighting,
                                             uint4 words) {
     const uint rows = lighting.environment_height + 1u;
@@ -106,20 +112,20 @@ DEVICE EnvironmentSample sample_environment(GLOBAL const uint *ends, LightingRec
     const uint first = rows + row * width;
     SELECT_BY_WORD(ends, , first, width, words.z, entry)
     const uint column = entry - first;
-    // Where in the column's range the word lies is uniform too.
+    // The position of the word in the column's range is uniform, too.
     const WordRange range = selection_range(ends, first, width, entry);
     const float x = min((float)(words.z - range.begin) / range.count, 0x1.fffffep-1f);
     const float u = ((float)column + 0.5f + x) / (float)width;
-    // Uniform in cos(theta) = cos(pi v) between the edges; near a pole 1 - cos(theta) = 2
-    // sin^2(theta / 2) is what float can hold, so the polar distance is interpolated in sin^2.
+    // Uniform in cos(theta) = cos(pi v) between the edges. Near a pole 1 - cos(theta) would lose
+    // its digits. The interpolation therefore uses sin^2(theta / 2) = (1 - cos(theta)) / 2,
+    // measured from the nearer pole.
     const float v0 = row_edge(lighting, row), v1 = row_edge(lighting, row + 1u);
     const float south = v0 + v1 > 1.0f ? 1.0f : 0.0f;
     const float s0 = sinpi(0.5f * (south > 0.0f ? 1.0f - v0 : v0)),
                 s1 = sinpi(0.5f * (south > 0.0f ? 1.0f - v1 : v1));
     const float y = uniform_float(words.w);
-    const float square =
-        s0 * s0 +
-        y * (s1 * s1 - s0 * s0);  // sin^2(theta / 2) from the nearer pole, at most about 1/2
+    // sin^2(theta / 2), at most about 1/2.
+    const float square = s0 * s0 + y * (s1 * s1 - s0 * s0);
     const float sin_theta = 2.0f * sqrt(square * (1.0f - square));
     const float cos_theta = 1.0f - 2.0f * square;
     EnvironmentSample sample;

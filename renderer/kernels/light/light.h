@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights as paths meet them: sampled from a point (explicit paths), or hit (implicit paths). One
-// density serves both.
+// Light sampling at a point (explicit paths), and the emission that implicit paths hit. Both use
+// the same densities.
 #pragma once
 
 #include "renderer/kernels/geometry/surface_hit.h"
@@ -17,20 +17,23 @@
 
 #if FEATURE_lights
 
-/// A direction in which to look for light.
+/// A sampled direction towards a light.
 typedef struct LightSample {
-    float3 wi;        ///< unit, from the receiving point
-    float3 target;    ///< end of the shadow ray, off the light's own surface
-    float3 radiance;  ///< W / (sr m^2) from there when nothing blocks it; of a delta light: W / m^2
-                      ///< facing it
-    float pdf_w;  ///< per solid angle at the receiving point, selection included; of a delta light:
-                  ///< its probability. 0: nothing there
-    uint is_delta;  ///< point, spot, directional: cannot be hit
+    float3 wi;      ///< unit, from the receiving point
+    float3 target;  ///< end of the shadow ray, off the light's own surface
+    /// W / (sr m^2) if nothing blocks it; for a delta light W / m^2 on a surface facing it.
+    float3 radiance;
+    /// Density per solid angle at the receiving point, with the selection probability; for a delta
+    /// light the probability alone. 0: no light is received.
+    float pdf_w;
+    uint is_delta;  ///< point, spot and directional lights, which cannot be hit
 #if FEATURE_light_strategy
-    // What light paths would have needed to come this way (EmissionSample).
-    float sampling_over_emission;  ///< density of this sample's origin, over that of theirs
-    float arrival_pdf_a;  ///< with which they then arrive here, per area across their way; at
-                          ///< infinity 0 where the disc does not reach
+    // Densities of a light path that comes this way (EmissionSample).
+    /// Density of this sample's origin over that of a light path's origin.
+    float sampling_over_emission;
+    /// Density with which light paths arrive here, per area perpendicular to the ray; for lights at
+    /// infinity 0 outside the disc.
+    float arrival_pdf_a;
 #endif
 } LightSample;
 
@@ -41,30 +44,31 @@ DEVICE float3 light_axis_z(LightRecord light) {
     return make_float3(light.axis_z[0], light.axis_z[1], light.axis_z[2]);
 }
 
-/// d^2 / cos: area densities times this are densities per solid angle (Veach 1997, 8.10). `way`
-/// leads to a point with that normal; 0 from behind, and where both coincide.
+/// Returns d^2 / cos, by which densities per area are multiplied to give densities per solid angle
+/// (Veach 1997, equation 8.10). `way` leads to a point with normal `normal`. Returns 0 from behind,
+/// and if both points coincide.
 DEVICE float solid_angle_per_area(float3 way, float3 normal) {
     const float squared = dot(way, way);
-    const float projected = -dot(normal, way);  // cos times distance
+    const float projected = -dot(normal, way);  // cosine times distance
     return projected > 0.0f ? squared * (sqrt(squared) / projected) : 0.0f;
 }
 
 #if (FEATURE_infinite_lights || FEATURE_directional_lights) && \
     (FEATURE_from_light || FEATURE_light_strategy)
 
-/// Density per area of the origins of light paths from infinity, on the disc that they cross: all
-/// of the sphere around the scene's bounded surfaces.
+/// Returns the density per area of the origins of light paths from infinity, on the disc as wide as
+/// the sphere around the scene's bounded surfaces.
 DEVICE float disc_pdf_a_inside(LightingRecord lighting) {
     return INV_PI / (lighting.scene_radius * lighting.scene_radius);
 }
 
-/// The same for the light path that comes to `point` from direction d (unit): 0 on the parts of
-/// planes that lie beyond.
+/// Returns the density per area of the origin of the light path from infinity that arrives at
+/// `point` from direction d (unit). It is 0 on the parts of planes outside the disc.
 DEVICE float disc_pdf_a(LightingRecord lighting, float3 point, float3 d) {
     const float3 way = point - make_float3(lighting.scene_centre[0], lighting.scene_centre[1],
                                            lighting.scene_centre[2]);
     const float3 across = way - d * dot(way, d);
-    // The radius has a margin for bounded surfaces that exceeds the rounding of both.
+    // The radius has a margin for bounded surfaces that exceeds all rounding errors here.
     return dot(across, across) < lighting.scene_radius * lighting.scene_radius
                ? disc_pdf_a_inside(lighting)
                : 0.0f;
@@ -74,6 +78,7 @@ DEVICE float disc_pdf_a(LightingRecord lighting, float3 point, float3 d) {
 
 #if FEATURE_environment
 
+/// Transforms a direction to light space; from_light_space is the inverse.
 DEVICE float3 to_light_space(LightRecord light, float3 d) {
     return make_float3(light.axis_x[0] * d.x + light.axis_x[1] * d.y + light.axis_x[2] * d.z,
                        light.axis_y[0] * d.x + light.axis_y[1] * d.y + light.axis_y[2] * d.z,
@@ -89,7 +94,7 @@ DEVICE float3 from_light_space(LightRecord light, float3 d) {
 
 #if FEATURE_infinite_lights
 
-/// What a path that leaves the scene in direction d meets. Both carry no selection probability.
+/// Returns the radiance that a path meets if it leaves the scene in direction d.
 DEVICE float3 infinite_radiance(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
     const LightRecord light = lights[lighting.infinite_light];
 #if FEATURE_environment
@@ -106,6 +111,8 @@ DEVICE float3 infinite_radiance(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
 #endif
 }
 
+/// Returns the density per solid angle with which light sampling samples direction d, without the
+/// selection probability.
 DEVICE float infinite_pdf_w(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
     const LightRecord light = lights[lighting.infinite_light];
 #if FEATURE_environment
@@ -123,13 +130,13 @@ DEVICE float infinite_pdf_w(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
 
 #endif
 
-/// Turns a point on an area light into a sample. Both densities per area, the light given,
-/// `uniform_pdf_a` that of emission.
+/// Turns a point on an area light into a light sample. `pdf_a` and `uniform_pdf_a` are the
+/// densities per area of light sampling and of emission, both given the light.
 DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a,
                           MAYBE_UNUSED float uniform_pdf_a, PRIVATE LightSample *sample) {
     const float3 way = point.position - from;
-    // From behind the density is 0: the sides are decided without dividing by the distance, which
-    // may be 0.
+    // From behind the density is 0. It is computed without a division by the distance, which may be
+    // 0.
     sample->pdf_w = pdf_a * solid_angle_per_area(way, point.normal);
     sample->wi = way / sqrt(dot(way, way));
     sample->target = offset_ray_origin(point, -way);
@@ -141,6 +148,7 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
 #endif
 }
 
+/// Samples a direction from point `from` towards a given light.
 DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
                                     float3 from, MAYBE_UNUSED uint4 words) {
     LightSample sample;
@@ -183,8 +191,8 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
 #if FEATURE_spot_lights
             if (light.kind == LIGHT_SPOT) {
                 const SpotDirection spot = spot_direction(light, -sample.wi);
-                intensity *= intensity > 0.0f ? spot_share(light, spot)
-                                              : 0.0f;  // in the light itself wi is NaN
+                // At the position of the light wi is NaN.
+                intensity *= intensity > 0.0f ? spot_share(light, spot) : 0.0f;
 #if FEATURE_light_strategy
                 sample.arrival_pdf_a = spot_pdf_w(light, spot) / squared;
 #endif
@@ -236,7 +244,8 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     return sample;
 }
 
-/// Samples the light `chosen`, or one selected at random for SELECT_LIGHT, as seen from a point.
+/// Samples a direction from a point towards light `chosen`, or towards a light selected at random
+/// for SELECT_LIGHT.
 DEVICE LightSample sample_lights(SURFACE_PARAMETERS LIGHT_PARAMETERS uint chosen, float3 from,
                                  uint4 words) {
     uint index = chosen;
@@ -253,7 +262,7 @@ DEVICE LightSample sample_lights(SURFACE_PARAMETERS LIGHT_PARAMETERS uint chosen
 
 #if FEATURE_area_lights || FEATURE_shape_lights
 
-/// The light that a surface is, if any.
+/// Returns the index of the light that an emitting surface belongs to.
 DEVICE uint light_of_hit(LIGHT_PARAMETERS MAYBE_UNUSED uint primitive, uint emitter) {
 #if FEATURE_area_lights
 #if FEATURE_shape_lights
@@ -266,8 +275,8 @@ DEVICE uint light_of_hit(LIGHT_PARAMETERS MAYBE_UNUSED uint primitive, uint emit
 #endif
 }
 
-/// Density per area, selection included, with which `sample_lights` makes this point seen from
-/// `from`.
+/// Returns the density per area, with the selection probability, with which `sample_lights` samples
+/// this point from `from`.
 DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
                          MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter,
                          MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint point) {
@@ -287,13 +296,13 @@ DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
 
 #if FEATURE_light_strategy
 
-// Densities of emission (EmissionSample) for paths that camera paths and light samples make.
+// Densities of emission (EmissionSample) for paths sampled as camera paths or light samples.
 
 #if FEATURE_area_lights || FEATURE_shape_lights
 
-/// Density per area, selection included, with which a light path starts at a point of this emitter
-/// (as in SurfaceHit). Times 1 / pi, the cosine-weighted density per projected solid angle, it is
-/// that of the line from there.
+/// Returns the density per area, with the selection probability, with which a light path starts at
+/// a point of this emitter (of SurfaceHit). Multiplied by 1 / pi, the cosine-weighted density per
+/// projected solid angle, it is the density of the ray from there.
 DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uint primitive,
                             MAYBE_UNUSED uint emitter) {
 #if FEATURE_shape_lights
@@ -308,8 +317,8 @@ DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uin
 #endif
 }
 
-/// Density per area and projected solid angle, selection included, of a light path along a ray that
-/// hits this emitter: pdf_origin pdf_direction / cos.
+/// Returns the density per area and projected solid angle, with the selection probability, of a
+/// light path along a ray that hits this emitter: pdf_origin pdf_direction / cos.
 DEVICE float emission_line_pdf(LIGHT_PARAMETERS LightRecord light, uint primitive, uint emitter) {
     return INV_PI * emission_pdf_a(LIGHT_ARGUMENTS light, primitive, emitter);
 }
@@ -318,8 +327,8 @@ DEVICE float emission_line_pdf(LIGHT_PARAMETERS LightRecord light, uint primitiv
 
 #if FEATURE_infinite_lights
 
-/// The same of a light path that comes to `point` from infinity, from direction d: pdf_origin
-/// pdf_direction, per solid angle and area of the disc.
+/// Returns the density, with the selection probability, of a light path from infinity that arrives
+/// at `point` from direction d: pdf_origin pdf_direction, per solid angle and area of the disc.
 DEVICE float infinite_line_pdf(LIGHT_PARAMETERS float3 point, float3 d) {
     return lights[lighting.infinite_light].emission_selection * infinite_pdf_w(LIGHT_ARGUMENTS d) *
            disc_pdf_a(lighting, point, d);
@@ -327,10 +336,10 @@ DEVICE float infinite_line_pdf(LIGHT_PARAMETERS float3 point, float3 d) {
 
 #endif
 
-/// Density with which `sample_lights`, from `from`, makes this point or direction of a light, over
-/// that with which light paths start there; finite. The two differ by selection, where every light
-/// is sampled in turn, and on spheres that are sampled by their cones. `on` is read there alone:
-/// position and normal.
+/// Returns the density with which `sample_lights`, called for `from`, samples this point or
+/// direction of a light, over the density with which light paths start there. The ratio is finite.
+/// The two differ in the selection probability if every light is sampled, and on spheres that are
+/// sampled by their cones. `on` (position and normal) is read for such spheres only.
 DEVICE float sampling_over_emission(SURFACE_PARAMETERS LightRecord light, MAYBE_UNUSED float3 from,
                                     MAYBE_UNUSED SurfacePoint on) {
     float ratio = light.selection / light.emission_selection;

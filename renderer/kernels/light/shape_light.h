@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Diffuse area lights on discs and spheres: points on them, and densities.
+// Diffuse area lights on discs and spheres: sampling of points, and densities.
 //
-// Discs are sampled uniformly in area under any affine map (which scales all areas alike), spheres,
-// which are under a similarity, either uniformly in area or uniformly in the cone of directions
-// that they fill (P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo techniques for direct lighting
-// calculations", ACM TOG 15(1), 1996). The cone's formulas are free of cancellation, however small
-// the sphere looks: 1 - cos is sin^2 / (1
-// + cos) throughout.
+// Discs are sampled uniformly by area under any affine map, which scales all areas by the same
+// factor. Spheres are under a similarity. They are sampled uniformly by area, or uniformly in the
+// cone of directions that they subtend (P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo techniques
+// for direct lighting calculations", ACM TOG 15(1), 1996). The cone's formulas use sin^2 / (1 +
+// cos) for 1 - cos. They are free of cancellation, however small the sphere looks.
 #pragma once
 
 #include "renderer/kernels/geometry/shape_point.h"
@@ -17,15 +16,15 @@
 
 #if FEATURE_shape_lights
 
-/// A point on a shape that emits. It emits on the side of its normal.
+/// A point on an emitting shape, which emits on the side of its normal.
 typedef struct ShapeLightSample {
     SurfacePoint point;
-    float pdf_a;  ///< per area, the light given
+    float pdf_a;  ///< conditional density per area, given the light
 } ShapeLightSample;
 
-/// sin^2 of half the angle of the cone that a sphere fills, seen from a point; 0 where area is
-/// sampled instead: by lights that ask for it, and from inside or within 1e-4 radii of the surface,
-/// where the cone is no narrower than a hemisphere.
+/// Returns sin^2 of the half angle of the cone that a sphere subtends from a point. Returns 0 if
+/// area is sampled instead: for other kinds of light, and from inside or within 1e-4 radii of the
+/// surface, where the sphere subtends almost a hemisphere or more.
 DEVICE float sphere_cone(LightRecord light, GLOBAL const ShapeRecord *sphere, float3 from) {
     const float3 way = from - shape_centre(sphere);
     const float distance2 = dot(way, way);
@@ -34,9 +33,9 @@ DEVICE float sphere_cone(LightRecord light, GLOBAL const ShapeRecord *sphere, fl
     return light.kind == LIGHT_SPHERE && distance2 > 1.0002f * radius2 ? radius2 / distance2 : 0.0f;
 }
 
-/// The density per area with which `sample_shape_light` makes `point` (a point of the light's
-/// surface), seen from `from`, the light given. Zero where a cone does not reach: behind the
-/// sphere's horizon.
+/// Returns the density per area with which `sample_shape_light`, called for `from`, samples `point`
+/// on the light's surface, given the light. It is zero beyond the sphere's horizon, which the cone
+/// does not reach.
 DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shapes, float3 from,
                                SurfacePoint point) {
     if (light.kind == LIGHT_SPHERE) {
@@ -48,22 +47,22 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
                 return 0.0f;
             }
             const float distance2 = dot(way, way);
-            const float pdf_w =
-                0.5f * INV_PI * (1.0f + sqrt(1.0f - sin2)) / sin2;  // 1 / (2 pi (1 - cos))
+            // 1 / (2 pi (1 - cos)).
+            const float pdf_w = 0.5f * INV_PI * (1.0f + sqrt(1.0f - sin2)) / sin2;
             return pdf_w * projected / (distance2 * sqrt(distance2));
         }
     }
     return 1.0f / light.area;
 }
 
-/// Samples a disc or a sphere; a LIGHT_SPHERE by the cone it fills where possible. u and v are
-/// uniform in [0, 1).
+/// Samples a point on a disc or a sphere from uniform u and v in [0, 1). A LIGHT_SPHERE is sampled
+/// by its cone where possible.
 ///
-/// Cone: let theta be the angle of the direction from the cone's axis, beta that between the
-/// direction and the sphere's normal where it enters, alpha = beta - theta that between normal and
-/// axis. With k = 1 - cos theta = u (1 - cos theta_max), sin^2 theta = k (2 - k) and sin beta = sin
-/// theta / sin theta_max give sin^2 beta = u (2 - k) / (1 + cos theta_max). As sin theta_max -> 0
-/// this is the uniform point of the sphere's silhouette.
+/// In the cone, theta is the angle between the direction and the cone's axis. beta is the angle
+/// between the direction and the sphere's normal where it enters. alpha = beta - theta is the angle
+/// between normal and axis. With k = 1 - cos theta = u (1 - cos theta_max), sin^2 theta = k (2 - k)
+/// and sin beta = sin theta / sin theta_max, it follows that sin^2 beta = u (2 - k) / (1 + cos
+/// theta_max). As sin theta_max -> 0 this becomes the uniform point of the sphere's silhouette.
 DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const ShapeRecord *shapes,
                                            float3 from, float u, float v) {
     GLOBAL const ShapeRecord *shape = shapes + light.first_triangle;
@@ -89,7 +88,7 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
         const float3 normal =
             to_world(frame, make_float3(sin_alpha * around.x, sin_alpha * around.y, cos_alpha));
         const float3 scaled = vector_to_object(shape, normal);
-        // Its length is 1 / radius; squares stay in range for radii in [1e-12, 1e12].
+        // Its length is 1 / radius. Squares stay in range for radii in [1e-12, 1e12].
         object_point = scaled / length(scaled);
     } else {
         const float2 on_disc = sample_disc(u, v);
@@ -98,9 +97,9 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
     ShapeLightSample sample;
     sample.point = shape_point(shape, object_point);
     sample.pdf_a = shape_light_pdf_a(light, shapes, from, sample.point);
-    // A shadow ray is the difference of its ends, rounded: over the distance D its end is off by u
-    // D per axis, and the t at which it meets the light is off by a few u. Both must stay within
-    // the offset of that end, or lights would hide behind themselves from 100 radii on.
+    // A shadow ray is the rounded difference of its ends. Over the distance D its end is off by u D
+    // per axis, and the t at which it meets the light is off by a few u. The offset of that end
+    // must exceed both. Otherwise lights would block themselves from 100 radii on.
     const float3 way = fabs(from - sample.point.position);
     const float rounding = 16.0f * HALF_ULP * max(way.x, max(way.y, way.z));
     sample.point.error += make_float3(rounding, rounding, rounding);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The start of a light path, which two stages derive from its random words.
 #pragma once
 
 #include "renderer/kernels/light/emission.h"
@@ -6,7 +7,7 @@
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/scene_buffers.h"
 
-/// Where light path number `path` of a sample starts: the same whenever it is asked for.
+/// Returns the start of light path `path` of sample `sample`. It is the same on every call.
 DEVICE EmissionSample path_start(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
                                  uint path, ulong sample) {
     return sample_emission(

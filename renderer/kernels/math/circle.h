@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
+// Points on the unit circle by polynomials.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-/// (cos 2 pi v, sin 2 pi v) of v in [0, 2), off by 8.6e-8 at most in each; of a multiple of 1/4
-/// exact.
+/// Returns (cos 2 pi v, sin 2 pi v) for v in [0, 2). The error of each is at most 8.6e-8; multiples
+/// of 1/4 are exact.
 ///
-/// From the nearest multiple of a quarter turn, by least maximum polynomials on an eighth of a
-/// turn. Quarters are told apart by masks: those of random numbers are random, and a processor
-/// mispredicts the branches of a library's sinpi and cospi.
+/// The function reduces v to the nearest multiple of a quarter turn and evaluates minimax
+/// polynomials on an eighth of a turn. Masks select the quarter. For random numbers it is random,
+/// and a processor mispredicts the branches of a library's sinpi and cospi.
 DEVICE float2 point_on_circle(float v) {
     const uint quarter = (uint)(4.0f * v + 0.5f);
     const float r = v - 0.25f * (float)quarter;  // exact

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Logarithms and powers of the densities in MIS weights, by polynomials as exact as the weights
-// need.
+// Logarithms and powers of the densities in MIS weights, by polynomials of the accuracy that the
+// weights require.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-/// log2(a / b) of densities, a >= 0 and b > 0, finite, without the quotient, which might leave the
-/// range of float: off by 1.5e-7 and half an ulp of the result, relatively as exact where a is near
-/// b. -INFINITY where a is below 2^-126, which counts as impossible; of b below that the result is
-/// finite.
+/// Returns log2(a / b) for finite densities a >= 0 and b > 0, without forming the quotient, which
+/// might leave the range of float. The error is at most 1.5e-7 plus half an ulp of the result; the
+/// relative accuracy is kept where a is near b. Returns -INFINITY for a below 2^-126, which counts
+/// as impossible. For b below 2^-126 the result is finite.
 ///
-/// With n the mantissa of a and m that of b times 2 to the power that brings it within a factor
-/// of 1.5 of n, this is the difference of their exponents + log2(n / m), and log2(n / m) = 2 / ln 2
-/// artanh((n - m) / (n + m)), a least maximum polynomial; n - m is exact.
+/// Let n be the mantissa of a, and m that of b times the power of 2 that brings it within a factor
+/// of 1.5 of n. The result is the difference of their exponents + log2(n / m), with log2(n / m) =
+/// 2 / ln 2 artanh((n - m) / (n + m)) by a minimax polynomial; n - m is exact.
 DEVICE float log2_quotient(float a, float b) {
     if (!(a >= 0x1p-126f)) {
         return -INFINITY;
@@ -27,13 +27,13 @@ DEVICE float log2_quotient(float a, float b) {
            t * fma(t2, fma(t2, fma(t2, 0.43914813f, 0.57639205f), 0.96180224f), 2.88539f);
 }
 
-/// log2 of a density, as above.
+/// Returns log2 of a density, with the accuracy and range of log2_quotient.
 DEVICE float log2_of(float a) {
     return log2_quotient(a, 1.0f);
 }
 
-/// 2^x, off by 1e-7 of it for x in [-126, 127]; at most 2^-126 below, at least 2^127 above and
-/// INFINITY from 127.5 on.
+/// Returns 2^x, with a relative error of 1e-7 for x in [-126, 127]. The result is at most 2^-126
+/// for smaller x, at least 2^127 for larger x, and INFINITY from 127.5 on.
 DEVICE float power_of_two(float x) {
     const float bounded = min(max(x, -127.0f), 128.0f);
     const float whole = (bounded + 0x1.8p23f) - 0x1.8p23f;  // the nearest integer

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Sampling of directions and of points on simple domains.
 #pragma once
 
 #include "renderer/kernels/math/circle.h"
@@ -9,8 +10,8 @@ typedef struct Frame {
     float3 x, y, z;
 } Frame;
 
-/// Duff et al. 2017, "Building an orthonormal basis, revisited": |z.z + sign| >= 1, so the division
-/// is safe.
+/// Returns a frame about a unit vector (Duff et al. 2017, "Building an orthonormal basis,
+/// revisited"). The division is safe because |z.z + sign| >= 1.
 DEVICE Frame frame_from_z(float3 z) {
     const float sign = z.z < 0.0f ? -1.0f : 1.0f;
     const float a = -1.0f / (sign + z.z);
@@ -26,38 +27,39 @@ DEVICE float3 to_world(Frame frame, float3 v) {
     return frame.x * v.x + frame.y * v.y + frame.z * v.z;
 }
 
-/// Cosine-weighted direction about +z. Density per solid angle: z / pi. With u in [0, 1) in steps
-/// of 2^-24, z is at least 2^-12: the density is never zero.
+/// Samples a cosine-weighted direction about +z. Density per solid angle: z / pi. For u in [0, 1)
+/// in steps of 2^-24, z is at least 2^-12, so the density is never zero.
 DEVICE float3 sample_cosine_hemisphere(float u, float v) {
     const float radius = sqrt(u);
     const float2 around = point_on_circle(v);
     return make_float3(radius * around.x, radius * around.y, sqrt(1.0f - u));
 }
 
-/// Uniform direction. Density per solid angle: 1 / (4 pi).
+/// Samples a uniform direction. Density per solid angle: 1 / (4 pi).
 DEVICE float3 sample_uniform_sphere(float u, float v) {
     const float z = 1.0f - 2.0f * u;
-    const float radius = 2.0f * sqrt(u * (1.0f - u));  // sqrt(1 - z^2) without cancellation
+    const float radius = 2.0f * sqrt(u * (1.0f - u));  // sqrt(1 - z^2), without cancellation
     const float2 around = point_on_circle(v);
     return make_float3(radius * around.x, radius * around.y, z);
 }
 
-/// Uniform point of the unit disc; density per area 1 / pi.
+/// Samples a uniform point of the unit disc. Density per area: 1 / pi.
 DEVICE float2 sample_disc(float u, float v) {
     const float radius = sqrt(u);
     const float2 around = point_on_circle(v);
     return make_float2(radius * around.x, radius * around.y);
 }
 
-/// Uniform barycentrics (b1, b2) of a triangle; density per area 1 / A. Osada et al. 2002.
+/// Samples uniform barycentrics (b1, b2) of a triangle (Osada et al. 2002). Density per area: 1 /
+/// A.
 DEVICE float2 sample_triangle(float u, float v) {
     const float root = sqrt(u);
     return make_float2(1.0f - root, v * root);
 }
 
-/// x with 1 + erf(x) = w, w in (0, 2): relative error below 1e-6 of 1 + |x|. M. Giles,
-/// "Approximating the erfinv function", 2010, in terms of w, which keeps its digits where erf(x)
-/// rounds to -1.
+/// Returns x with 1 + erf(x) = w, for w in (0, 2). The relative error is below 1e-6 of 1 + |x|. The
+/// approximation is that of M. Giles, "Approximating the erfinv function", 2010. It is written in
+/// terms of w, which keeps its digits where erf(x) rounds to -1.
 DEVICE float inverse_erf_plus_one(float w) {
     const float y = w - 1.0f;
     float t = -log(w * (2.0f - w));

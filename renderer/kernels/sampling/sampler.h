@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The random words of a path, by the sampler that the settings choose.
+// The random words of a path, from the sampler that the settings select.
 #pragma once
 
 #include "renderer/kernels/sampling/random.h"
@@ -9,14 +9,14 @@
 #include "renderer/kernels/sampling/sobol.h"
 #endif
 
-/// Four words of block `block`: uniform each, and independent of those of all other blocks, pixels
-/// and streams. From sample to sample they are independent, or those of a stratified sequence.
-/// Regular samples are not random: the same in all pixels, whatever the seed.
+/// Returns the four words of block `block`. Each is uniform, and independent of those of all other
+/// blocks, pixels and streams. Successive samples are either independent or points of a stratified
+/// sequence. Regular samples are not random: they are the same in all pixels, whatever the seed.
 DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, ulong sample,
                           uint block) {
 #if FEATURE_sobol
     if (settings.sampler == SAMPLER_SOBOL) {
-        // A sequence has 2^32 points; then comes another.
+        // A sequence has 2^32 points, after which the next sequence starts.
         const ulong sequence = (sample >> 32) << 1;
         const uint4 seeds = random_words(settings.seed, stream, pixel, sequence, block);
         const uint order = random_words(settings.seed, stream, pixel, sequence + 1u, block).x;
@@ -32,8 +32,8 @@ DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, 
     return random_words(settings.seed, stream, pixel, sample, block);
 }
 
-/// Of camera paths, where this pass traces those; of light paths `pixel` numbers the path within
-/// its sample, and all paths of all samples share one sequence.
+/// Returns random words of a path. In a camera pass, `pixel` is the pixel. In a light pass, it is
+/// the index of the light path within its sample, and all paths of all samples share one sequence.
 DEVICE uint4 path_sample(IntegratorSettings settings, uint pixel, ulong sample, uint block) {
 #if FEATURE_from_light
     return sample_words(settings, STREAM_LIGHT_PATHS, 0u, sample * settings.light_paths + pixel,

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Discrete choices by 32-bit random words. Tables hold ends: entry i is taken by the words from end
-// i - 1 up to, not including, end i. Ends never decrease; the last one is 2^32 - 1, which stands
-// for 2^32. Entries of probability 0 share their predecessor's end and are never taken.
-// Probabilities are those of the words exactly: what is sampled is what the densities say.
+// Discrete selection by 32-bit random words.
+//
+// Tables store ends: the words from end i - 1 up to, but not including, end i select entry i. Ends
+// never decrease. The last end is 2^32 - 1, which represents 2^32. Entries of probability 0 share
+// their predecessor's end and are never selected. Probabilities are exactly those of the words, so
+// sampling agrees with the densities.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-/// Declares `selected`, the index of the first entry of `table` from `first` on whose
+/// Declares `selected`: the index of the first entry of `table`, from `first` on, whose
 /// `selection_end` exceeds `word`.
 #define SELECT_BY_WORD(table, member, first, count, word, selected) \
     uint selected = (first);                                        \
@@ -24,16 +26,17 @@
         }                                                           \
     }
 
-/// The words that take entry `i` of a table whose first entry is `first`: [begin, begin + count).
+/// The words that select an entry of a table: [begin, begin + count).
 typedef struct WordRange {
     uint begin;
     float count;
 } WordRange;
 
+/// Returns the words that select entry `i` of a table of `count` entries from `first` on.
 DEVICE WordRange selection_range(GLOBAL const uint *ends, uint first, uint count, uint i) {
     WordRange range;
     range.begin = i == first ? 0u : ends[i - 1u];
-    // The difference of two words is exact; its rounding to float is relative.
+    // The difference of two words is exact; its conversion to float has a relative rounding error.
     range.count = i + 1u == first + count ? 4294967296.0f - (float)range.begin
                                           : (float)(ends[i] - range.begin);
     return range;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Owen-scrambled Sobol points in four dimensions (Sobol 1967; Owen 1995), with the scrambling by
-// hashing of Burley 2020, "Practical hash-based Owen scrambling", and the hash of Vegdahl 2021. Any
-// 2^k consecutive samples from a multiple of 2^k on are stratified in every dimension and pair of
-// dimensions as the sequence's (0, 2)-nets and their like are; each scrambling is a random one, so
-// that estimates are unbiased. More dimensions are padded with sequences whose scramblings and
-// orders are independent.
+// Owen-scrambled Sobol points in four dimensions (Sobol 1967; Owen 1995).
+//
+// Scrambling is by hashing (Burley 2020, "Practical hash-based Owen scrambling") with the hash of
+// Vegdahl 2021. Any 2^k consecutive samples, from a multiple of 2^k on, are stratified in every
+// dimension and pair of dimensions like the unscrambled sequence. Each scrambling is random, so
+// estimates are unbiased. Further dimensions use sequences with independent scramblings and orders.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-/// Direction numbers of dimensions 2 to 4 (Joe & Kuo 2008), most significant bit first; those of
-/// the first are the bits.
+/// Direction numbers of dimensions 2 to 4 (Joe & Kuo 2008), most significant bit first. Those of
+/// the first dimension are the bits themselves.
 CONSTANT uint SOBOL_DIRECTIONS[3][32] = {
     {0x80000000u, 0xc0000000u, 0xa0000000u, 0xf0000000u, 0x88000000u, 0xcc000000u, 0xaa000000u,
      0xff000000u, 0x80800000u, 0xc0c00000u, 0xa0a00000u, 0xf0f00000u, 0x88880000u, 0xcccc0000u,
@@ -36,7 +36,7 @@ DEVICE uint reverse_bits(uint x) {
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/// A random permutation for which every bit depends on the bits above it only: nested uniform
+/// Permutes x at random so that every bit depends only on the bits above it: nested uniform
 /// scrambling in base 2.
 DEVICE uint scramble(uint x, uint seed) {
     x = reverse_bits(x);
@@ -48,8 +48,8 @@ DEVICE uint scramble(uint x, uint seed) {
     return reverse_bits(x);
 }
 
-/// The point of the sequence as published whose index has these bits. They are random: masks cost
-/// less than branches that nobody can foresee.
+/// Returns the point of the unscrambled sequence whose index has these bits. The bits are random,
+/// so masks cost less than unpredictable branches.
 DEVICE uint4 plain_sobol_point(uint bits) {
     uint y = 0u, z = 0u, w = 0u;
     for (uint i = 0u; i < 32u; ++i) {
@@ -61,15 +61,17 @@ DEVICE uint4 plain_sobol_point(uint bits) {
     return make_uint4(reverse_bits(bits), y, z, w);
 }
 
-/// Point `index` of a sequence whose order and scramblings are those of `order` and `seeds`.
+/// Returns point `index` of a sequence. `order` determines the order of its points, `seeds` the
+/// scramblings of the dimensions.
 DEVICE uint4 sobol_point(uint index, uint order, uint4 seeds) {
     const uint4 point = plain_sobol_point(scramble(index, order));
     return make_uint4(scramble(point.x, seeds.x), scramble(point.y, seeds.y),
                       scramble(point.z, seeds.z), scramble(point.w, seeds.w));
 }
 
-/// The same with digital shifts of index and point, which keep the stratification, so that point 0
-/// is (1/2, 1/2, 0, 1/2): the centre of a pixel and of the lens.
+/// Returns point `index` of a regular sequence: sobol_point with digital shifts of index and point,
+/// which keep the stratification. Point 0 is (1/2, 1/2, 0, 1/2), the centre of a pixel and of the
+/// lens.
 DEVICE uint4 regular_point(uint index, uint order, uint4 seeds) {
     const uint4 point = plain_sobol_point(scramble(index, order) ^ scramble(0u, order));
     return make_uint4(scramble(point.x, seeds.x) ^ scramble(0u, seeds.x) ^ 0x80000000u,

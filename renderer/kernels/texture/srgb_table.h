@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
+// Table of the sRGB curve.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-/// Linear values of the 256 steps of the sRGB curve, IEC 61966-2-1: s / 12.92 up to s = 0.04045,
-/// above that
-/// ((s + 0.055) / 1.055)^2.4, each rounded to float once. A bilinear lookup would take twelve
-/// powers without it.
+/// Linear values of the 256 steps of the sRGB curve (IEC 61966-2-1), each rounded to float once:
+/// s / 12.92 up to s = 0.04045, and ((s + 0.055) / 1.055)^2.4 above. Without the table a bilinear
+/// lookup would compute twelve powers.
 CONSTANT float srgb_to_linear[256] = {
     0.0f,          0.000303527f,  0.000607054f, 0.000910581f,  0.001214108f,  0.001517635f,
     0.001821162f,  0.0021246888f, 0.002428216f, 0.0027317428f, 0.00303527f,   0.0033465358f,

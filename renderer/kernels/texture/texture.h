@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texture lookups. (0, 0) is the lower left corner of the image, (1, 1) its upper right one; rows
-// are stored from the top; texel centres are at half-integer texel coordinates.
+// Texture lookups. (0, 0) is the lower left corner of the image and (1, 1) its upper right corner.
+// Rows are stored from the top. Texel centres are at half-integer texel coordinates.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -10,7 +10,7 @@
 
 #include "renderer/kernels/texture/srgb_table.h"
 
-/// The linear colour of texel `index`, counted row by row.
+/// Returns the linear colour of texel `index`, counted row by row.
 DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
                             uint index) {
     if ((texture->flags & TEXTURE_FLOAT) != 0u) {
@@ -25,8 +25,8 @@ DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const ui
     return make_float3((float)r, (float)g, (float)b) / 255.0f;
 }
 
-/// The coordinate in [0, 1] where the image is looked up. A repeated coordinate whose fraction
-/// rounds to 1 is 0, as is one beyond float's range, whose fraction is not a number.
+/// Returns the coordinate in [0, 1] for a lookup at x. For repeated textures, a coordinate whose
+/// fraction rounds to 1 gives 0. So does one beyond the range of float, whose fraction is NaN.
 DEVICE float texture_wrap(float x, uint clamped) {
     if (clamped != 0u) {
         return x > 0.0f ? min(x, 1.0f) : 0.0f;
@@ -35,13 +35,13 @@ DEVICE float texture_wrap(float x, uint clamped) {
     return fraction >= 0.0f && fraction < 1.0f ? fraction : 0.0f;
 }
 
-/// Neighbouring texels along one axis, and how far the lookup is from the first to the second.
+/// Neighbouring texels along one axis, and the position `t` of the lookup between them.
 typedef struct TexelPair {
     uint first, second;
     float t;
 } TexelPair;
 
-/// `x` in [0, 1].
+/// Returns the texels around `x` in [0, 1].
 DEVICE TexelPair texel_pair(float x, uint size, uint clamped) {
     const float position = x * (float)size - 0.5f;  // at least -1/2, at most size - 1/2
     const float below = floor(position);
@@ -54,7 +54,8 @@ DEVICE TexelPair texel_pair(float x, uint size, uint clamped) {
     return pair;
 }
 
-/// Where `uv` lies in the image: (0, 0) is its upper left corner, (1, 1) its lower right one.
+/// Returns the position of `uv` in the image, where (0, 0) is the upper left corner and (1, 1) the
+/// lower right corner.
 DEVICE float2 texture_position(GLOBAL const TextureRecord *texture, float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;
     return make_float2(
@@ -62,7 +63,7 @@ DEVICE float2 texture_position(GLOBAL const TextureRecord *texture, float2 uv) {
         1.0f - texture_wrap(texture->uv_scale[1] * uv.y + texture->uv_offset[1], clamped));
 }
 
-/// The colour at `uv`, linear.
+/// Returns the linear colour at `uv`.
 DEVICE float3 texture_lookup(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
                              float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;

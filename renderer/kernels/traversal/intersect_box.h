@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
+// The intersection test of a ray with one box.
 #pragma once
 
 #include "renderer/kernels/traversal/traversal_ray.h"
 
-/// Distance at which the ray enters the box [lower, upper][x, y, z], or INFINITY when it misses the
-/// box within [0, t_max]. Conservative (traversal_ray.h). Where 0 x infinity makes a slab distance
-/// NaN, the origin lies on a plane the ray runs along: the comparison is false, the other operand
-/// is kept, and the box counts as hit.
+/// Returns the distance at which the ray enters the box [lower, upper][x, y, z], or INFINITY if it
+/// misses the box within [0, t_max]. The test is conservative (traversal_ray.h). If 0 x infinity
+/// makes a slab distance NaN, the origin is on a plane along which the ray runs. The comparison is
+/// then false and keeps the other operand, so the box counts as hit.
 DEVICE float intersect_box(GLOBAL const float (*bounds)[3], PRIVATE const TraversalRay *ray,
                            float t_max) {
     float entry = 0.0f;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The queries of a hierarchy, whatever its layout (shared/bvh_layout.h).
+// The ray queries of a hierarchy in any layout (shared/bvh_layout.h).
 #pragma once
 
-// What layouts share comes first: the include resolver expands a file where it is named first,
-// compiled or not.
+// Headers that several layouts share come first: the include resolver expands a file where it is
+// first named, even in a disabled block.
 #include "renderer/kernels/traversal/intersect_box.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/bvh_layout.h"
@@ -18,9 +18,9 @@
 #include "renderer/kernels/traversal/traverse_wide.h"
 #endif
 
-// trace_nearest: the nearest hit at 0 < t < t_max (which may be INFINITY). Rays that are not finite
-// hit nothing. trace_any: whether anything is hit at 0 < t < t_max: true exactly when
-// `trace_nearest` finds a hit.
+// trace_nearest returns the nearest hit at 0 < t < t_max, where t_max may be INFINITY. Rays that
+// are not finite hit nothing. trace_any returns whether anything is hit at 0 < t < t_max. It is
+// true exactly if `trace_nearest` finds a hit.
 #define BVH_QUERIES(NODE, TRIANGLES, traverse)                                            \
     DEVICE Hit trace_nearest(GLOBAL const NODE *nodes, GLOBAL const TRIANGLES *triangles, \
                              float3 origin, float3 direction, float t_max) {              \

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-// The nearest hit of a ray, and the test of one triangle (watertight.h).
+// The nearest hit of a ray, and the intersection test of one triangle (watertight.h).
 #pragma once
 
 #include "renderer/kernels/traversal/traversal_ray.h"
 #include "renderer/shared/bvh_node.h"
 #include "renderer/shared/triangle.h"
 
-/// Programs that define this as 1 count what traversal does (trace_rays.cl); for the others
-/// counting is nothing.
+/// Programs that define this as 1 count traversal work (trace_rays.cl). In all other programs the
+/// counting macros are empty.
 #ifndef TRAVERSAL_COUNTS
 #define TRAVERSAL_COUNTS 0
 #endif
 
-/// The nearest intersection of a ray. Where nothing was hit, t is the query's t_max.
+/// The nearest intersection of a ray. If nothing was hit, t is the query's t_max.
 typedef struct Hit {
     float t;        ///< distance in lengths of the direction
-    float u, v;     ///< weights of vertices 1 and 2; vertex 0 weighs 1 - u - v
-    uint triangle;  ///< index in the scene's list of triangles, NO_HIT when nothing was hit
-    uint slot;      ///< index in leaf order, NO_HIT when nothing was hit
+    float u, v;     ///< weights of vertices 1 and 2; that of vertex 0 is 1 - u - v
+    uint triangle;  ///< index in the scene's list of triangles; NO_HIT if nothing was hit
+    uint slot;      ///< index in leaf order; NO_HIT if nothing was hit
 #if TRAVERSAL_COUNTS
-    uint nodes;      ///< nodes whose boxes were tested
-    uint triangles;  ///< triangles tested, those together with others included
+    uint nodes;      ///< number of nodes whose boxes were tested
+    uint triangles;  ///< number of triangles tested, each of a block of several counted
 #endif
 } Hit;
 
@@ -38,7 +38,7 @@ typedef struct Hit {
 static_assert(sizeof(Hit) == 20, "as in OpenCL C");
 #endif
 
-/// What is known before anything is tested.
+/// Returns the hit before any test.
 DEVICE Hit no_hit(float t_max) {
     Hit hit;
     hit.t = t_max;
@@ -58,8 +58,8 @@ DEVICE Hit no_hit(float t_max) {
 #undef MASK
 #undef OF_LANES
 
-/// True when the ray meets the triangle, from either side, at 0 < t < t_max; then sets t, u and v
-/// of `hit`.
+/// Returns whether the ray meets the triangle, from either side, at 0 < t < t_max. If so, sets t, u
+/// and v of `hit`.
 DEVICE bool intersect_triangle(GLOBAL const LeafTriangle *triangle, PRIVATE const TraversalRay *ray,
                                float t_max, PRIVATE Hit *hit) {
     GLOBAL const float *xs = triangle->coordinate[ray->kx];
@@ -80,8 +80,8 @@ DEVICE bool intersect_triangle(GLOBAL const LeafTriangle *triangle, PRIVATE cons
     return true;
 }
 
-/// The nearest hit at 0 < t < hit->t with the triangles of a leaf (bvh_node.h), if there is one,
-/// becomes the hit.
+/// Updates `hit` with the nearest hit at 0 < t < hit->t among the triangles of a leaf (bvh_node.h),
+/// if there is one.
 DEVICE void intersect_leaf(GLOBAL const LeafTriangle *triangles, uint link,
                            PRIVATE const TraversalRay *ray, PRIVATE Hit *hit) {
     const uint first = bvh_leaf_first(link);

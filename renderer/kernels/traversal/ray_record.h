@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+// Records of the kernels in trace_rays.cl, shared with the host.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
-/// A ray of trace_rays.cl. Distances count in lengths of `direction`.
+/// A ray of trace_rays.cl. Distances are in lengths of `direction`.
 typedef struct RayRecord {
     float origin[3];
     float t_max;  ///< exclusive; may be infinite
@@ -11,10 +12,10 @@ typedef struct RayRecord {
     uint padding;
 } RayRecord;
 
-/// What tracing one ray took.
+/// Traversal work of one ray.
 typedef struct RayWork {
-    uint nodes;      ///< nodes whose boxes were tested
-    uint triangles;  ///< triangles tested
+    uint nodes;      ///< number of nodes whose boxes were tested
+    uint triangles;  ///< number of triangles tested
 } RayWork;
 
 #ifdef __cplusplus

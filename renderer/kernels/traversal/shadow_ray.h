@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Shadow rays: whether the segment between two points is blocked.
 #pragma once
 
 #include "renderer/kernels/geometry/intersect_shapes.h"
@@ -6,15 +7,15 @@
 #include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
-/// The end of a shadow ray, in lengths of the way: short of the light by more than the rounding of
-/// the way itself, which may exceed the distance that keeps the light's surface from blocking
-/// itself where that is small and far away.
+/// End of a shadow ray, as a fraction of its length. It is short of the light by more than the
+/// rounding of the vector between the ends. For a small, distant light that rounding may exceed the
+/// offset that keeps the light's surface from blocking itself.
 #define SHADOW_END (1.0f - 0x1p-20f)
 
-/// Whether anything lies on the way from `origin` to `origin + way`.
+/// Returns whether a surface is between `origin` and `origin + way`.
 DEVICE bool is_blocked(GEOMETRY_PARAMETERS float3 origin, float3 way) {
 #if FEATURE_shapes
-    // A handful of tests that often spare the traversal.
+    // The few shape tests often avoid the traversal.
     if (any_shape(shapes, shape_bounds, shape_count, origin, way, SHADOW_END)) {
         return true;
     }

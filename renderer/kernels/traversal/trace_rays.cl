@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Traces an array of rays: the tests' and benchmarks' view of the traversal functions on a device.
-// Reads nodes, triangles, rays; writes hits (trace_nearest_rays) or flags (trace_any_rays). With
-// TRAVERSAL_COUNTS also count_nearest_rays and count_any_rays, which write what that took.
+// Traces an array of rays on a device, for tests and benchmarks of the traversal functions.
+//
+// Reads: nodes, triangles, rays.
+// Writes: hits (trace_nearest_rays) or flags (trace_any_rays). With TRAVERSAL_COUNTS,
+// count_nearest_rays and count_any_rays write the traversal work.
 #include "renderer/kernels/traversal/intersect_bvh.h"
 #include "renderer/kernels/traversal/ray_record.h"
 

@@ -1,35 +1,37 @@
 // SPDX-License-Identifier: MIT
-// A ray prepared for traversal: what the box test and the triangle test need of it, computed once.
+// A ray prepared for traversal: values for the box test and the triangle test, computed once.
 //
 // Source: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013; T.
-// Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013. Departure: the margin of the box test is ours,
-// derived below.
+// Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013. Departure: the margin of the box test, derived
+// below.
 //
-// The triangle test moves a vertex to the ray's frame as x' = (x - ox) - sx (z - oz), with z the
-// axis of the largest direction component, |sx| <= 1. With u = 2^-24, its rounding error is at most
-// u (2 |x - ox| + 4 |z - oz|) to first order, hence below 6 u E, where E bounds the distance, along
-// any axis, from the origin to a point of the scene. The triangle that is tested is thus not quite
-// the one that the boxes enclose; boxes widened by 8 u E on every side enclose it again. Widening
-// the box is shifting the origin: outwards for the planes of entry, inwards for those of exit, so
-// it costs nothing per box. A further 2 u |o| survives the rounding of the shifted origin itself.
-// The three roundings of a slab distance are covered by Ize's factor on the distance of exit.
+// The triangle test moves a vertex to the ray's frame as x' = (x - ox) - sx (z - oz), where z is
+// the axis of the largest direction component and |sx| <= 1. With u = 2^-24, its rounding error is
+// at most u (2 |x - ox| + 4 |z - oz|) to first order. That is below 6 u E, where E bounds the
+// distance along any axis from the origin to a point of the scene. The tested triangle thus differs
+// slightly from the one that the boxes enclose. Boxes widened by 8 u E on every side enclose it
+// again. Widening the box is equivalent to shifting the origin: outwards for the planes of entry,
+// inwards for those of exit. It costs nothing per box. The rounding of the shifted origin itself
+// adds 2 u |o|. Ize's factor on the distance of exit covers the three roundings of a slab distance.
 #pragma once
 
 #include "renderer/shared/compat.h"
 
+/// A ray prepared for traversal.
 typedef struct TraversalRay {
     float entry_origin[3];  ///< origin shifted so that boxes are entered early
-    float exit_origin[3];   ///< and left late
-    float inverse[3];       ///< 1 / direction, infinite where that is 0
-    uint entry_side[3];     ///< 0: a slab is entered at the lower plane, 1: at the upper
-    uint kx, ky, kz;        ///< axes; kz that of the largest direction component
+    float exit_origin[3];   ///< origin shifted so that boxes are left late
+    float inverse[3];       ///< 1 / direction; infinite where the direction is 0
+    uint entry_side[3];     ///< 0 if a slab is entered at its lower plane, 1 at its upper plane
+    uint kx, ky, kz;        ///< axes; kz is that of the largest direction component
     float ox, oy, oz;       ///< origin along kx, ky, kz
-    float sx, sy, sz;       ///< shear and scale that map the direction to +z, length 1
+    float sx, sy, sz;       ///< shear and scale that map the direction to +z with length 1
 } TraversalRay;
 
-/// False for rays that cannot hit anything: a component that is NaN or infinite, or a zero
-/// direction. `scene_lower` and `scene_upper` bound all geometry. Directions need not be unit
-/// vectors: distances are multiples of their length, which should lie in [1e-12, 1e12].
+/// Prepares a ray. Returns false for rays that cannot hit anything: those with a NaN or infinite
+/// component or a zero direction. `scene_lower` and `scene_upper` bound all geometry. Directions
+/// need not be unit vectors. Distances are multiples of their length, which should be in [1e-12,
+/// 1e12].
 DEVICE bool make_traversal_ray(float3 origin, float3 direction, float3 scene_lower,
                                float3 scene_upper, PRIVATE TraversalRay *ray) {
     const float o[3] = {origin.x, origin.y, origin.z};
@@ -58,8 +60,8 @@ DEVICE bool make_traversal_ray(float3 origin, float3 direction, float3 scene_low
     ray->sy = d[ray->ky] / d[ray->kz];
     ray->sz = 1.0f / d[ray->kz];
     for (uint axis = 0; axis < 3; ++axis) {
-        const float margin =
-            4.76837158e-7f * extent + 1.1920929e-7f * fabs(o[axis]);  // 8 u E + 2 u |o|
+        // 8 u E + 2 u |o|.
+        const float margin = 4.76837158e-7f * extent + 1.1920929e-7f * fabs(o[axis]);
         const float outwards = d[axis] < 0.0f ? -margin : margin;
         ray->entry_origin[axis] = o[axis] + outwards;
         ray->exit_origin[axis] = o[axis] - outwards;

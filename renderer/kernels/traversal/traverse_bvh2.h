@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the two-wide hierarchy with a stack: T. Aila, S. Laine, "Understanding the
-// Efficiency of Ray Traversal on GPUs", HPG 2009; thesis 3.1. Both children of a node are tested,
-// the nearer is entered, the farther postponed with its distance of entry, so that a hit found in
-// between discards it unseen.
+// Traversal of the two-wide hierarchy with a stack.
+//
+// Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009;
+// thesis, section 3.1. Both children of a node are tested. The nearer is entered. The farther is
+// postponed with its distance of entry, so that a hit found in between discards it unseen.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_box.h"
@@ -10,7 +11,8 @@
 #include "renderer/shared/bvh_node.h"
 #include "renderer/shared/triangle.h"
 
-/// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
+/// Traverses the hierarchy for both queries. `any` is a constant at every call and ends traversal
+/// at the first hit.
 DEVICE Hit traverse_bvh2(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles,
                          float3 origin, float3 direction, float t_max, bool any) {
     Hit hit = no_hit(t_max);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the two-wide hierarchy without a stack (thesis 3.1): from each node the way goes on
-// to the nearer of its children or, where the ray misses its box, past all below it. Departures
-// from the thesis: boxes beyond the nearest hit so far count as missed, and the order of children
-// depends on the octant of the ray's direction.
+// Traversal of the two-wide hierarchy without a stack (thesis, section 3.1).
+//
+// From each node, traversal continues with the nearer of its children or, if the ray misses the
+// node's box, after its subtree. Departures from the thesis: boxes beyond the nearest hit so far
+// count as missed, and the order of children depends on the octant of the ray's direction.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_box.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/stackless_node.h"
 
-/// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
+/// Traverses the hierarchy for both queries. `any` is a constant at every call and ends traversal
+/// at the first hit.
 DEVICE Hit traverse_stackless(GLOBAL const StacklessNode *nodes,
                               GLOBAL const LeafTriangle *triangles, float3 origin, float3 direction,
                               float t_max, bool any) {

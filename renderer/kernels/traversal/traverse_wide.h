@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Traversal of the eight-wide hierarchy: a work-item tests the eight boxes of a node, or the eight
-// triangles of a leaf, by vector operations. The children that are hit go to the stack in order,
-// the nearest on top.
+// Traversal of the eight-wide hierarchy.
+//
+// A work-item tests the eight boxes of a node, or the eight triangles of a leaf, by vector
+// operations. The children that are hit are pushed onto the stack in order, with the nearest on
+// top.
 #pragma once
 
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -15,8 +17,9 @@
 #undef MASK
 #undef OF_LANES
 
-/// Distances at which the ray enters the children's boxes, and the bits of those it meets within
-/// [0, t_max]. Conservative and safe with NaN as the test of one box is (intersect_box.h).
+/// Sets the distances at which the ray enters the children's boxes, and returns the bits of the
+/// boxes that it meets within [0, t_max]. Conservative and safe with NaN, like the test of one box
+/// (intersect_box.h).
 DEVICE uint intersect_wide_boxes(GLOBAL const WideNode *node, PRIVATE const TraversalRay *ray,
                                  float t_max, PRIVATE float8 *entries) {
     float8 entry = splat_float8(0.0f);
@@ -34,7 +37,7 @@ DEVICE uint intersect_wide_boxes(GLOBAL const WideNode *node, PRIVATE const Trav
     return lane_bits(entry <= exit * 1.00000048f);  // 1 + 2 gamma(3), Ize 2013
 }
 
-/// The nearest hit of a block at 0 < t < hit->t, if there is one, becomes the hit.
+/// Updates `hit` with the nearest hit in a block at 0 < t < hit->t, if there is one.
 DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block,
                             PRIVATE const TraversalRay *ray, PRIVATE Hit *hit) {
     GLOBAL const float(*xs)[WIDE_LANES] = blocks[block].coordinate[ray->kx];
@@ -67,18 +70,21 @@ DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block,
     }
 }
 
-/// Asks for a node or a block that is put on the stack: in large scenes it is in no cache nearby.
+/// Prefetches a node or a block that is pushed onto the stack. In large scenes it is in no nearby
+/// cache.
 DEVICE void prefetch_link(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks,
                           uint link) {
     GLOBAL const char *bytes = (link & BVH_LEAF_BIT) == 0
                                    ? (GLOBAL const char *)(nodes + link)
                                    : (GLOBAL const char *)(blocks + wide_leaf_block(link));
-    for (uint i = 0; i < sizeof(WideNode); i += CACHE_LINE) {  // of a block the most part
+    // Covers a node, and most of a block.
+    for (uint i = 0; i < sizeof(WideNode); i += CACHE_LINE) {
         PREFETCH(bytes + i);
     }
 }
 
-/// Common to both queries; `any` is a constant at every call and ends traversal at the first hit.
+/// Traverses the hierarchy for both queries. `any` is a constant at every call and ends traversal
+/// at the first hit.
 DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks,
                          float3 origin, float3 direction, float t_max, bool any) {
     Hit hit = no_hit(t_max);
@@ -108,7 +114,7 @@ DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBloc
                 }
                 float distances[WIDE_LANES];
                 vstore8(entry, 0, distances);
-                // Insertion sort: the nearest comes to lie on top, and is taken from there.
+                // Insertion sort: the nearest child ends on top and is popped at once.
                 const uint bottom = size;
                 for (; lanes != 0u; lanes &= lanes - 1u) {
                     const uint lane = lowest_bit(lanes);

@@ -14,15 +14,15 @@ namespace rtrays {
 
 namespace {
 
-/// The keyframes' first matrix, for the base class to begin with.
+/// Returns the matrix of the first keyframe, the initial value of the base class.
 const Eigen::Matrix4d &first_matrix(const std::vector<Keyframe> &keyframes) {
     if (keyframes.empty()) {
-        throw input_error("animation: there is no keyframe");
+        throw input_error("animation: there are no keyframes; add at least one");
     }
     return keyframes.front().parent_from_object;
 }
 
-/// Error of one keyframe.
+/// Makes the error of one keyframe.
 Error keyframe_error(size_t index, const std::string &what) {
     return input_error(fmt::format("animation: keyframe {} {}", index, what));
 }
@@ -31,15 +31,15 @@ Error keyframe_error(size_t index, const std::string &what) {
 
 AnimatedTransform::AnimatedTransform(std::string name, const std::vector<Keyframe> &keyframes)
     : TransformCore(std::move(name), first_matrix(keyframes)) {
-    // Quaternions of rotations half a turn apart are orthogonal; nearer than this the arc is a
-    // matter of rounding.
+    // Quaternions of rotations half a turn apart are orthogonal. Below this dot product, rounding
+    // would determine the arc.
     constexpr double half_turn = 1e-9;
     for (size_t i = 0; i < keyframes.size(); ++i) {
         const TransformCore checked("", keyframes[i].parent_from_object);
         const Eigen::Matrix3d linear = checked.matrix().topLeftCorner<3, 3>();
         const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear,
                                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
-        // M = (U V^T) (V S V^T); where M mirrors, both factors change sign, so that the first is a
+        // M = (U V^T) (V S V^T). If M mirrors, both factors change sign, so that the first is a
         // rotation.
         const double sign = linear.determinant() < 0 ? -1 : 1;
         const Eigen::Matrix3d rotation = sign * svd.matrixU() * svd.matrixV().transpose();
@@ -54,20 +54,19 @@ AnimatedTransform::AnimatedTransform(std::string name, const std::vector<Keyfram
             const Key &before = keys_.back();
             if (!(key.time > before.time)) {
                 throw keyframe_error(
-                    i, fmt::format("is at {} s, not after the one before it, at {} s", key.time,
-                                   before.time));
+                    i, fmt::format("is at {} s, but must be later than the previous one at {} s",
+                                   key.time, before.time));
             }
             if ((key.stretch.trace() < 0) != (before.stretch.trace() < 0)) {
                 throw keyframe_error(i,
-                                     "mirrors and the one before it does not, or the other way "
-                                     "round: on the way the "
-                                     "object would vanish");
+                                     "and the previous one must both mirror or both not mirror; in "
+                                     "between the object would vanish");
             }
             if (std::abs(key.rotation.dot(before.rotation)) < half_turn) {
                 throw keyframe_error(
                     i,
-                    "is half a turn from the one before it: put another between them to say which "
-                    "way to turn");
+                    "is half a turn from the previous one; add a keyframe between them to define "
+                    "the direction of the turn");
             }
         }
         keys_.push_back(key);
@@ -87,8 +86,8 @@ Eigen::Matrix4d AnimatedTransform::matrix_at(double time) const {
     }
     const double s = (time - from.time) / (after->time - from.time);
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-    // The stretches are both positive or both negative definite, and so is what lies between them:
-    // it can be inverted.
+    // The stretches are both positive or both negative definite, and so is their interpolation:
+    // the matrix is invertible.
     matrix.topLeftCorner<3, 3>() = from.rotation.slerp(s, after->rotation).toRotationMatrix() *
                                    ((1 - s) * from.stretch + s * after->stretch);
     matrix.topRightCorner<3, 1>() =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows that several types of material share.
+// Rows of parameter tables that several types of materials share.
 #pragma once
 
 #include "renderer/scene/parameters.h"
@@ -8,8 +8,8 @@ namespace rtrays::rows {
 
 using Need = Parameter::Need;
 
-/// Neither so smooth that the half vector's rounding in float matters (1e-7 / 1e-4), nor beyond the
-/// models.
+/// Range of a roughness: not so smooth that the half vector's rounding in float matters (1e-7 /
+/// 1e-4), and not beyond the validity of the models.
 inline constexpr Range roughness{1e-4, 1, true, true};
 inline constexpr Range index_of_refraction{0.01, 100, true, true};
 
@@ -30,7 +30,7 @@ inline Parameter exponent(const std::string &name, Need need = Need::required) {
     return {name, "Blinn's exponent", 1.0, need, {0, 1e8, false, true}};
 }
 
-/// Of a surface that is rough for certain.
+/// Roughness of a surface that cannot be smooth.
 inline Parameter alpha(const std::string &name, Need need = Need::required) {
     return {name, "roughness along the tangent and across it", Eigen::Vector2d(1, 1), need,
             roughness};
@@ -38,7 +38,7 @@ inline Parameter alpha(const std::string &name, Need need = Need::required) {
 
 inline Parameter distribution(const std::string &name) {
     return {name,
-            "of the microfacets' normals",
+            "distribution of the microfacet normals",
             std::string("ggx"),
             Need::defaulted,
             ranges::any,

@@ -22,9 +22,10 @@ const std::vector<CoreType> &camera_types() {
     };
     static const ParameterTable thin_lens = [] {
         ParameterTable table = pinhole;
-        table.push_back({"aperture_radius", "of the lens, scene units; 0 for a pinhole", 0.0,
+        table.push_back({"aperture_radius", "radius of the lens, scene units; 0 for a pinhole", 0.0,
                          Need::required, ranges::not_negative});
-        table.push_back({"focus_distance", "of the plane in focus from the lens, scene units", 0.0,
+        table.push_back({"focus_distance",
+                         "distance of the plane in focus from the lens, scene units", 0.0,
                          Need::required, ranges::positive});
         return table;
     }();

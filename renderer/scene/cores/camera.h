@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Camera cores: pinholes and thin lenses.
 #pragma once
 
 #include <string>
@@ -11,16 +12,16 @@ namespace rtrays {
 
 using FovAxis = CameraArrays::FovAxis;
 
-/// "pinhole" and "thin_lens".
+/// Returns the types "pinhole" and "thin_lens".
 const std::vector<CoreType> &camera_types();
 
-/// A perspective camera. Its pose is the transform of its node: it stands at the origin and looks
-/// along -z, +y up, +x right. The lengths of a thin lens grow with the scale of its node.
+/// A perspective camera. The transform of its node is its pose: it is at the origin and looks along
+/// -z, with +y up and +x right. The lengths of a thin lens scale with its node.
 class CameraCore : public ParameterCore {
   public:
-    /// Parameters: fov (degrees), fov_axis, and of a thin lens aperture_radius and focus_distance.
-    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of
-    /// them.
+    /// Parameters: fov (degrees) and fov_axis; a thin lens also has aperture_radius and
+    /// focus_distance. Throws `Error` (bad input) like `ParameterCore`, and for an unknown type,
+    /// listing the types.
     CameraCore(std::string name, const std::string &type, const ParameterValues &values);
 
     CoreRole role() const override { return CoreRole::camera; }

@@ -74,21 +74,22 @@ void add_fresnel_rows(const Part &part, ParameterTable &table) {
         return;
     }
     if (part.fresnel == Fresnel::dielectric) {
-        // A refracting component has one index: its own.
+        // A refracting component has its own eta, which the Fresnel term shares.
         table.push_back(rows::dielectric_eta(prefix + "eta",
                                              part.refracts() ? Need::optional : Need::required));
     } else if (part.is_conductor()) {
         table.push_back(rows::conductor_eta(prefix + "eta"));
         table.push_back(rows::conductor_k(prefix + "k"));
     } else {
-        Parameter reflectance = rows::colour(prefix + "reflectance", "at normal incidence");
+        Parameter reflectance =
+            rows::colour(prefix + "reflectance", "reflectance at normal incidence");
         reflectance.textured = false;
         table.push_back(reflectance);
     }
     table.push_back({prefix + "complement", "1 - F instead of F", false});
     if (part.is_diffuse()) {
         table.push_back(
-            {prefix + "of_wo", "F at wo alone, as thesis (3.55) prints it: not reciprocal", false});
+            {prefix + "of_wo", "F at wo only, as in thesis (3.55): not reciprocal", false});
     }
 }
 
@@ -100,13 +101,13 @@ void check_part(const Part &part, const ParameterSet &p) {
     const double eta = p.number(part.prefix + "eta");
     const std::string fresnel_eta = part.fresnel_prefix() + "eta";
     if (part.fresnel == Fresnel::dielectric && p.has(fresnel_eta) && p.number(fresnel_eta) != eta) {
-        throw input_error(fmt::format("{}: {} is not the component's eta, {}; leave it out",
+        throw input_error(fmt::format("{}: {} differs from the component's eta, {}; omit it",
                                       fresnel_eta, p.number(fresnel_eta), eta));
     }
     if (part.kind == Kind::microfacet_refraction && std::abs(eta - 1) < nearest) {
         throw input_error(fmt::format(
             "{}eta: {} does not refract, so it cannot be rough; use ideal_refraction, or an "
-            "eta that differs from 1 by {}",
+            "eta that differs from 1 by at least {}",
             part.prefix, eta, nearest));
     }
 }
@@ -154,8 +155,8 @@ Part make_part(const CompositePart &names, size_t index) {
                     part_prefix(index)};
     if (part.refracts() && part.fresnel != Fresnel::ideal && part.fresnel != Fresnel::dielectric) {
         throw input_error(
-            fmt::format("component {}: what refracts goes with the Fresnel terms ideal and "
-                        "dielectric, not with {}",
+            fmt::format("component {}: a refracting component supports the Fresnel terms ideal and "
+                        "dielectric, not {}",
                         index, names.fresnel));
     }
     return part;

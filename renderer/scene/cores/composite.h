@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Composite materials: sums of BxDFs with Fresnel terms that the scene file chooses.
 #pragma once
 
 #include <memory>
@@ -9,22 +10,22 @@
 
 namespace rtrays {
 
-/// The kinds of one component of a composite material, by the names of scene files.
+/// Kinds of BxDF and Fresnel term of one component of a composite, by their names in scene files.
 struct CompositePart {
     std::string bxdf;               ///< "lambert", "microfacet_reflection", ...
     std::string fresnel = "ideal";  ///< "dielectric", "conductor", ...
 };
 
-/// Names in the order of `BxdfComponent::Kind` and `BxdfComponent::Fresnel`.
+/// Return the names, in the order of `BxdfComponent::Kind` and `BxdfComponent::Fresnel`.
 const std::vector<std::string> &bxdf_names();
 const std::vector<std::string> &fresnel_names();
 
-/// Beginning of the parameters' names of one component: "component_0_" and so on. Those of its
-/// Fresnel term begin with "component_0_fresnel_".
+/// Returns the prefix of the names of a component's parameters: "component_0_" and so on. The
+/// parameters of its Fresnel term begin with "component_0_fresnel_".
 std::string part_prefix(size_t index);
 
-/// The type of a composite of these components. Throws `Error` (bad input) listing the names when a
-/// kind is unknown, when there is no component, and where a kind does not go with a Fresnel term.
+/// Returns the type of a composite of these components. Throws `Error` (bad input) if there is no
+/// component, a kind is unknown (listing the names), or a kind does not support a Fresnel term.
 std::shared_ptr<const MaterialType> composite_type(const std::vector<CompositePart> &parts);
 
 }  // namespace rtrays

@@ -20,8 +20,8 @@ void check_cones(const ParameterSet &spot) {
     const double outer = spot.number("outer_degrees");
     if (!(inner < outer)) {
         throw input_error(
-            fmt::format("inner_degrees: {} is not below outer_degrees, {}: between them the light "
-                        "falls to zero",
+            fmt::format("inner_degrees: {} must be less than outer_degrees, {}; the light falls to "
+                        "zero between them",
                         inner, outer));
     }
 }
@@ -33,7 +33,7 @@ const std::vector<LightType> &light_types() {
     constexpr auto required = Parameter::Need::required;
     static const std::vector<LightType> types = {
         {{"diffuse_area",
-          {colour("radiance", "leaving the front, W / (sr m^2), linear Rec. 709")},
+          {colour("radiance", "radiance leaving the front, W / (sr m^2), linear Rec. 709")},
           {}},
          Kind::diffuse_area,
          "radiance"},
@@ -44,17 +44,20 @@ const std::vector<LightType> &light_types() {
           {colour("intensity", "radiant intensity on the axis, W / sr, linear Rec. 709"),
            {"inner_degrees", "angle from the axis within which the intensity is full, degrees", 0.0,
             required, half},
-           {"outer_degrees", "angle from the axis beyond which there is none, degrees", 0.0,
+           {"outer_degrees", "angle from the axis beyond which the intensity is zero, degrees", 0.0,
             required, half}},
           check_cones},
          Kind::spot,
          "intensity"},
         {{"directional",
-          {colour("irradiance", "of a plane facing the light, W / m^2, linear Rec. 709")},
+          {colour("irradiance",
+                  "irradiance of a plane facing the light, W / m^2, linear Rec. 709")},
           {}},
          Kind::directional,
          "irradiance"},
-        {{"dome", {colour("radiance", "from everywhere, W / (sr m^2), linear Rec. 709")}, {}},
+        {{"dome",
+          {colour("radiance", "radiance from all directions, W / (sr m^2), linear Rec. 709")},
+          {}},
          Kind::dome,
          "radiance"},
         {{"environment",
@@ -83,7 +86,8 @@ LightCore::LightCore(std::string name, std::shared_ptr<const TextureImage> image
       image_(std::move(image)) {
     if (image_ == nullptr || image_->floats.empty()) {
         throw input_error(
-            "file: an environment needs an image of floats (.hdr, .exr), not of 8 bits");
+            "file: an environment light needs a floating-point image (.hdr, .exr), not an 8-bit "
+            "one");
     }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Light cores: area lights, delta lights and lights at infinity.
 #pragma once
 
 #include <memory>
@@ -12,21 +13,20 @@ namespace rtrays {
 
 struct LightType : CoreType {
     LightArrays::Kind kind;
-    std::string radiance;  ///< the parameter that becomes `LightArrays::radiance`
+    std::string radiance;  ///< name of the parameter that becomes `LightArrays::radiance`
 };
 
-/// All types, in the order of `LightArrays::Kind`.
+/// Returns all types, in the order of `LightArrays::Kind`.
 const std::vector<LightType> &light_types();
 
-/// A light at its node: an area light on the geometry of the same node, or one placed by its
-/// transform. What the parameters mean is said in stores.h.
+/// The light of a node: an area light on the geometry of the same node, or a light placed by the
+/// node's transform. stores.h defines the meaning of the parameters.
 class LightCore : public ParameterCore {
   public:
-    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of
-    /// them.
+    /// Throws `Error` (bad input) like `ParameterCore`, and for an unknown type, listing the types.
     LightCore(std::string name, const std::string &type, const ParameterValues &values);
 
-    /// An environment light; `image` holds floats.
+    /// Makes an environment light. Throws `Error` (bad input) unless `image` holds floats.
     LightCore(std::string name, std::shared_ptr<const TextureImage> image,
               const ParameterValues &values);
 

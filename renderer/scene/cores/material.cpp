@@ -8,7 +8,7 @@ namespace rtrays {
 
 const ParameterTable &common_material_parameters() {
     static const ParameterTable table = {
-        {"two_sided", "false: what does not refract is black from behind", true},
+        {"two_sided", "false: black from behind, unless a component refracts", true},
         {"emission", "radiance leaving the front, W / (sr m^2), linear Rec. 709",
          Eigen::Vector3d(0, 0, 0), Parameter::Need::defaulted, ranges::not_negative},
     };
@@ -41,7 +41,7 @@ std::vector<MaterialComponent> MaterialCore::components() const {
 }
 
 Dirty MaterialCore::outdated_by(const std::string &parameter) const {
-    // Emission is written to the lights of the geometry below.
+    // The emission is part of the records of lights below the node.
     return parameter == "emission" ? Dirty::subtree : Dirty::object;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Material cores: types of materials and their expansion to atomic BxDFs.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,34 +16,33 @@ namespace rtrays {
 
 class MaterialCore;
 
-/// The material of the geometry below: that of the nearest node that has one.
+/// The material of the geometry below a node: that of the nearest node that has one.
 struct MaterialAttribute : AttributeOf<MaterialAttribute> {
     const MaterialCore *material = nullptr;
 
     void combine(const MaterialAttribute &own) { material = own.material; }
 };
 
-/// One atomic BxDF of a material before textures have indices.
+/// One atomic BxDF of a material, before textures have indices.
 struct MaterialComponent {
     BxdfComponent bxdf;
-    std::string parameter;                       ///< the colour that became its weight
-    std::shared_ptr<Texture> texture = nullptr;  ///< of that colour
+    std::string parameter;                       ///< name of the colour that became the weight
+    std::shared_ptr<Texture> texture = nullptr;  ///< texture of that colour
 };
 
-/// What a type of material consists of. The number of components depends on the type alone.
+/// A type of material. The number of components depends only on the type.
 struct MaterialType : CoreType {
     std::function<std::vector<MaterialComponent>(const ParameterSet &)> expand;
 };
 
-/// The types by name, all but "composite" (see composite.h).
+/// Returns all types except "composite" (see composite.h).
 const std::vector<MaterialType> &material_types();
 
-/// How a surface scatters light, and what it emits: a sum of atomic BxDFs (thesis 3.3.6). All types
-/// share the parameters two_sided and emission.
+/// The scattering and emission of a surface: a sum of atomic BxDFs (thesis 3.3.6). All types share
+/// the parameters two_sided and emission.
 class MaterialCore : public ParameterCore {
   public:
-    /// Throws `Error` (bad input) as `ParameterCore`, and listing the types when `type` is none of
-    /// them.
+    /// Throws `Error` (bad input) like `ParameterCore`, and for an unknown type, listing the types.
     MaterialCore(std::string name, const std::string &type, const ParameterValues &values,
                  const ParameterTextures &textures = {});
     MaterialCore(std::string name, std::shared_ptr<const MaterialType> type,
@@ -57,7 +57,7 @@ class MaterialCore : public ParameterCore {
     const Eigen::Vector3d &emission() const { return parameters().vector3("emission"); }
     bool emits() const { return emission().maxCoeff() > 0; }
 
-    /// Told by its textures.
+    /// Called by the textures of the material when they change.
     void texture_changed() { changed(Dirty::object); }
 
   protected:
@@ -67,7 +67,7 @@ class MaterialCore : public ParameterCore {
     MaterialAttribute attribute_;
 };
 
-/// The parameters that every material has.
+/// Returns the parameters that every material has.
 const ParameterTable &common_material_parameters();
 
 }  // namespace rtrays

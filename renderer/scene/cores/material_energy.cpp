@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fresnel equations: thesis (3.26-3.30); the exact conductor as in Born and Wolf, "Principles of
-// Optics", 7th ed., 14.2, with the medium in front of index 1.
+// The check that materials conserve energy. Fresnel equations: thesis (3.26-3.30). The exact
+// conductor: Born and Wolf, "Principles of Optics", 7th ed., 14.2, for index 1 in front.
 #include "renderer/scene/cores/material_energy.h"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ double dielectric(double cosine, double eta) {
         return 1;  // total internal reflection
     }
     const double inner = std::sqrt(1 - sin2);
-    // Neither denominator is zero: eta is positive, inner above zero, and cosine at least zero.
+    // The denominators are positive: eta and inner are above zero, cosine is at least zero.
     return 0.5 * (squared((eta * cosine - inner) / (eta * cosine + inner)) +
                   squared((cosine - eta * inner) / (cosine + eta * inner)));
 }
@@ -38,8 +38,8 @@ double conductor(double cosine, double eta, double k) {
     const double t = eta * eta - k * k - sin2;
     const double a2_plus_b2 = std::sqrt(t * t + 4 * squared(eta * k));
     const double a = std::sqrt(std::max(0.0, 0.5 * (a2_plus_b2 + t)));
-    // Both denominators are positive: cos2 is, a is not negative, and sin2 = 0 leaves eta * eta + k
-    // * k > 0.
+    // The denominators are positive: cos2 is positive and a is not negative; if sin2 = 0,
+    // eta * eta + k * k > 0.
     const double s = (a2_plus_b2 + cos2 - 2 * a * cosine) / (a2_plus_b2 + cos2 + 2 * a * cosine);
     const double p = (cos2 * a2_plus_b2 + sin2 * sin2 - 2 * a * cosine * sin2) /
                      (cos2 * a2_plus_b2 + sin2 * sin2 + 2 * a * cosine * sin2);
@@ -53,9 +53,9 @@ double conductor_approximate(double cosine, double eta, double k) {
                   (size - 2 * eta * cosine + cos2) / (size + 2 * eta * cosine + cos2));
 }
 
-/// F or 1 - F of one channel; `behind`: seen from behind a boundary.
+/// Returns F or 1 - F of one channel; `behind` means a view from behind a boundary.
 double fresnel(const BxdfComponent &bxdf, int channel, double cosine, bool behind) {
-    double f = 1;  // of all of them in grazing light
+    double f = 1;  // the value of every term at grazing incidence
     if (cosine == 0) {
         return bxdf.complement ? 0 : 1;
     }
@@ -85,6 +85,7 @@ struct Excess {
     bool behind = false;
 };
 
+/// Returns the contribution of a component to the sum, for a channel and direction.
 double contribution(const MaterialComponent &component, const Excess &at) {
     const double texel =
         component.texture != nullptr ? component.texture->largest_texel()[at.channel] : 1;
@@ -123,10 +124,9 @@ void check_energy(const std::vector<MaterialComponent> &components) {
                          });
     constexpr const char *channels[] = {"red", "green", "blue"};
     throw input_error(fmt::format(
-        "returns more light than arrives: its weights * textures * Fresnel terms add up to "
-        "{:.6g} in {}, seen from {} "
-        "at an angle of {:.3g} degrees; the largest part, {:.6g}, is that of component {} ({}), "
-        "by its {}: lower that",
+        "the material returns more light than arrives: its weights * textures * Fresnel terms add "
+        "up to {:.6g} in {}, seen from {} at an angle of {:.3g} degrees; the largest contribution, "
+        "{:.6g}, is from component {} ({}); lower its {}",
         worst.sum, channels[worst.channel], worst.behind ? "behind" : "the front",
         std::acos(worst.cosine) * 180 / 3.14159265358979323846, contribution(*largest, worst),
         largest - components.begin(), bxdf_names()[static_cast<size_t>(largest->bxdf.kind)],

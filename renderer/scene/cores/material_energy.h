@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The check that materials conserve energy.
 #pragma once
 
 #include <vector>
@@ -7,14 +8,14 @@
 
 namespace rtrays {
 
-/// Throws `Error` (bad input) when a material reflects and refracts more light than arrives: when
-/// for some direction of view, on either side of a boundary, the weights * brightest texels *
-/// Fresnel terms of its components (thesis 3.52) add up to more than one in some channel. The
-/// message names the component that adds most.
+/// Throws `Error` (bad input) if a material reflects and refracts more light than arrives. The
+/// check adds the components' weights * brightest texels * Fresnel terms (thesis 3.52), for
+/// directions of view on either side of a boundary. The sum must not exceed one in any channel. The
+/// message names the component of the largest contribution.
 ///
-/// That bounds the albedo of every BxDF whose own albedo is at most one. Named exemptions, because
-/// no weight mends them: oren_nayar (up to 1.008), ward_original (diverges at grazing angles) and
-/// the thesis' car paint (not reciprocal).
+/// The sum bounds the albedo if the albedo of each BxDF is at most one. Exceptions, which no weight
+/// could correct, are oren_nayar (up to 1.008), ward_original (diverges at grazing angles) and the
+/// thesis' car paint (not reciprocal).
 void check_energy(const std::vector<MaterialComponent> &components);
 
 }  // namespace rtrays

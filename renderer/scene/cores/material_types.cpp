@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each type of material consists of. Sources: thesis 3.3.6 and its equations as cited.
+// The table of material types and their expansion to atomic BxDFs: thesis 3.3.6, with equations as
+// cited.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -22,7 +23,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using rows::Need;
 
-/// An ideal component weighted by the colour `parameter`.
+/// Makes an ideal component whose weight is the colour `parameter`.
 MaterialComponent component(Kind kind, const ParameterSet &p, const std::string &parameter) {
     MaterialComponent made;
     made.bxdf.kind = kind;
@@ -39,7 +40,7 @@ MaterialComponent with_dielectric(MaterialComponent made, double eta, bool compl
     return made;
 }
 
-/// Ideal or microfacet reflection or refraction, as the roughness says.
+/// Makes an ideal or a microfacet reflection or refraction, depending on the roughness.
 MaterialComponent surface(bool refracts, const ParameterSet &p, const std::string &parameter) {
     const Vector2d &alpha = p.get<Vector2d>("roughness");
     const bool rough = alpha.maxCoeff() > 0;
@@ -55,28 +56,30 @@ MaterialComponent surface(bool refracts, const ParameterSet &p, const std::strin
 void check_roughness(const ParameterSet &p) {
     const Vector2d &alpha = p.get<Vector2d>("roughness");
     if (alpha.maxCoeff() > 0 && alpha.minCoeff() < rows::roughness.min) {
-        throw input_error(fmt::format(
-            "roughness: [{}, {}] must be 0 along both axes, which is ideally smooth, or within {}",
-            alpha[0], alpha[1], rows::roughness.text()));
+        throw input_error(
+            fmt::format("roughness: [{}, {}] is out of range; use 0 for both axes (ideally smooth) "
+                        "or values within {}",
+                        alpha[0], alpha[1], rows::roughness.text()));
     }
 }
 
-/// As a rough interface approaches eta = 1 the refracted directions leave no half vector to find.
+/// Rejects rough interfaces with eta near 1, where refracted directions do not determine the half
+/// vector.
 void check_rough_refraction(const ParameterSet &p) {
     constexpr double nearest = 1e-3;
     check_roughness(p);
     const double eta = p.number("eta");
     if (p.get<Vector2d>("roughness").maxCoeff() > 0 && std::abs(eta - 1) < nearest) {
         throw input_error(
-            fmt::format("eta: {} does not refract, so it cannot be rough; make roughness 0 or eta "
-                        "differ from 1 by {}",
+            fmt::format("eta: {} does not refract, so it cannot be rough; set roughness to 0 or "
+                        "choose an eta that differs from 1 by at least {}",
                         eta, nearest));
     }
 }
 
 Parameter smooth_or_rough() {
-    return {"roughness", "along the tangent and across it, 0: ideally smooth", Vector2d(0, 0),
-            Need::defaulted, ranges::unit};
+    return {"roughness", "roughness along the tangent and across it; 0 is ideally smooth",
+            Vector2d(0, 0), Need::defaulted, ranges::unit};
 }
 
 Components expand_glass(const ParameterSet &p) {  // thesis (3.53)
@@ -91,8 +94,8 @@ Components expand_refraction(const ParameterSet &p) {
     return {made};
 }
 
-/// The microfacet models of metals; "ideal" has no microfacets. `parameter` is what the model
-/// needs.
+/// Surface models of metals. "ideal" has no microfacets. `parameter` is the name of the parameter
+/// that the model requires, or nullptr.
 struct MetalModel {
     const char *name;
     Kind kind;
@@ -122,13 +125,13 @@ ParameterTable metal_parameters() {
         {"preset", "a metal by name", std::string(), Need::optional, ranges::any, names(metals())},
         rows::conductor_eta("eta", Need::optional),
         rows::conductor_k("k", Need::optional),
-        rows::colour("reflectance", "factor", Need::defaulted),
-        {"model", "of the surface", std::string("ideal"), Need::defaulted, ranges::any,
-         names(metal_models)},
+        rows::colour("reflectance", "factor of the reflected light", Need::defaulted),
+        {"model", "microfacet model of the surface", std::string("ideal"), Need::defaulted,
+         ranges::any, names(metal_models)},
         rows::alpha("roughness", Need::optional),
         rows::exponent("exponent", Need::optional),
         {"fresnel",
-         "exact, thesis (3.28), or 1",
+         "Fresnel term: exact, approximate by thesis (3.28), or ideal, which is 1",
          std::string("exact"),
          Need::defaulted,
          ranges::any,
@@ -140,7 +143,7 @@ void check_metal(const ParameterSet &p) {
     const bool ideal = p.text("fresnel") == "ideal";
     const bool given = p.has("eta") || p.has("k");
     if (given && (p.has("preset") || !p.has("eta") || !p.has("k"))) {
-        throw input_error("a metal has a 'preset', or 'eta' and 'k'");
+        throw input_error("a metal takes either 'preset', or both 'eta' and 'k'");
     }
     if (!ideal && !given && !p.has("preset")) {
         throw input_error("a metal needs a 'preset', or 'eta' and 'k', or \"fresnel\": \"ideal\"");
@@ -150,7 +153,7 @@ void check_metal(const ParameterSet &p) {
         const bool needed = model.parameter != nullptr && std::string(model.parameter) == name;
         if (needed != p.has(name)) {
             throw input_error(fmt::format("a metal of model '{}' {} '{}'", model.name,
-                                          needed ? "needs" : "has no", name));
+                                          needed ? "needs" : "does not take", name));
         }
     }
 }
@@ -236,23 +239,24 @@ const std::vector<MaterialType> &material_types() {
                  }),
         material("oren_nayar", {colour("reflectance", "albedo"), sigma("sigma")},
                  expand_oren_nayar),
-        material("mirror", {colour("reflectance", "factor")},
+        material("mirror", {colour("reflectance", "factor of the reflected light")},
                  [](const ParameterSet &p) -> Components {
                      return {component(Kind::ideal_reflection, p, "reflectance")};
                  }),
         material("glass",
                  {dielectric_eta("eta"),
-                  colour("reflectance", "factor of what is reflected", Need::defaulted),
-                  colour("transmittance", "factor of what is refracted", Need::defaulted),
+                  colour("reflectance", "factor of the reflected light", Need::defaulted),
+                  colour("transmittance", "factor of the refracted light", Need::defaulted),
                   smooth_or_rough(), distribution("distribution")},
                  expand_glass, check_rough_refraction),
-        material("refraction", {dielectric_eta("eta"), colour("transmittance", "factor")},
+        material("refraction",
+                 {dielectric_eta("eta"), colour("transmittance", "factor of the refracted light")},
                  expand_refraction),
         material("metal", metal_parameters(), expand_metal, check_metal),
         material("plastic",
                  {colour("reflectance", "albedo of the base"),
-                  colour("specular", "factor of the coat", Need::defaulted), dielectric_eta("eta"),
-                  smooth_or_rough(), distribution("distribution")},
+                  colour("specular", "factor of the light reflected by the coat", Need::defaulted),
+                  dielectric_eta("eta"), smooth_or_rough(), distribution("distribution")},
                  expand_plastic, check_roughness),
         material("lambert_blinn",
                  {colour("reflectance", "albedo"), colour("specular", "weight of the highlight"),
@@ -262,7 +266,7 @@ const std::vector<MaterialType> &material_types() {
                  {colour("base", "albedo under the coat"),
                   dielectric_eta("eta"),
                   {"variant",
-                   "reciprocal, or as the thesis prints it",
+                   "symmetric: reciprocal; thesis: as in thesis (3.55)",
                    std::string("symmetric"),
                    Need::defaulted,
                    ranges::any,

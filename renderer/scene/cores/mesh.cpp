@@ -13,7 +13,7 @@ namespace rtrays {
 
 namespace {
 
-/// Texture coordinates beyond this would leave a float no fraction worth looking up.
+/// Largest texture coordinate. Beyond it a float would have no useful fraction.
 constexpr double largest_uv = 1e6;
 
 template <typename Vector, typename Legal>
@@ -30,8 +30,9 @@ void check_each(const std::vector<Vector> &vectors, const Legal &legal, const st
 
 void check_count(size_t count, size_t vertices, const std::string &mesh, const char *what) {
     if (count != 0 && count != vertices) {
-        throw input_error(fmt::format("mesh '{}' has {} {} for {} vertices: one each, or none",
-                                      mesh, count, what, vertices));
+        throw input_error(
+            fmt::format("mesh '{}': {} {} for {} vertices; give one per vertex, or none", mesh,
+                        count, what, vertices));
     }
 }
 
@@ -48,7 +49,7 @@ MeshCore::MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices,
 void MeshCore::set_geometry(Geometry geometry) {
     const size_t vertices = geometry.vertices.size();
     if (geometry.triangles.empty()) {
-        throw input_error(fmt::format("mesh '{}' has no triangle", name()));
+        throw input_error(fmt::format("mesh '{}' has no triangles", name()));
     }
     const auto finite = [](const auto &v) { return v.allFinite(); };
     check_each(geometry.vertices, finite, name(), "vertex", "is not finite");
@@ -56,8 +57,8 @@ void MeshCore::set_geometry(Geometry geometry) {
         for (const uint32_t index : geometry.triangles[i]) {
             if (index >= vertices) {
                 throw input_error(fmt::format(
-                    "mesh '{}': triangle {} has vertex {}, but there are only {} vertices", name(),
-                    i, index, vertices));
+                    "mesh '{}': triangle {} refers to vertex {}, but there are only {} vertices",
+                    name(), i, index, vertices));
             }
         }
     }
@@ -106,8 +107,8 @@ MeshCore::Geometry box() {
     const MeshCore::Geometry side = rectangle();
     for (int axis = 0; axis < 3; ++axis) {
         for (const double sign : {1.0, -1.0}) {
-            // The side z = 1 of the rectangle's frame, its axes renamed in a cycle; the opposite
-            // side is the same turned by half a turn about the axis next to it.
+            // The side z = 1 in a frame whose axes are permuted cyclically. The opposite side is
+            // turned by half a turn about the next axis.
             const auto first = static_cast<uint32_t>(geometry.vertices.size());
             for (const Eigen::Vector3d &corner : side.vertices) {
                 Eigen::Vector3d vertex;

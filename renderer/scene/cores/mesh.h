@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Triangle mesh cores.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,21 +10,22 @@
 
 namespace rtrays {
 
-/// Triangles in object space, double precision. The front of a triangle is where its vertices
-/// appear counter-clockwise. Shared by several nodes it is instanced: each has its own,
-/// transformed, records.
+/// Triangles in object space, in double precision. The front of a triangle is the side from which
+/// its vertices appear counter-clockwise. A mesh shared by several nodes is instanced: each node
+/// has its own, transformed, records.
 class MeshCore : public Core {
   public:
     struct Geometry {
         std::vector<Eigen::Vector3d> vertices;
         std::vector<Triangle> triangles;
-        std::vector<Eigen::Vector3d> normals{};  ///< per vertex, any length but zero; or empty
-        std::vector<Eigen::Vector2d> uvs{};      ///< per vertex; or empty
+        std::vector<Eigen::Vector3d> normals{};  ///< per vertex, any length but zero; may be empty
+        std::vector<Eigen::Vector2d> uvs{};      ///< per vertex; may be empty
     };
 
-    /// Throws `Error` (bad input) naming the mesh and the vertex or triangle when there is no
-    /// triangle, a coordinate is not finite, a normal has no direction, a texture coordinate is
-    /// beyond a million or an index or a length does not fit. Zero-area triangles are legal.
+    /// Throws `Error` (bad input) naming the mesh and the vertex or triangle if there are no
+    /// triangles, a coordinate is not finite, a normal has no direction, a texture coordinate is
+    /// beyond a million, or an index or the length of an array is wrong. Zero-area triangles are
+    /// legal.
     MeshCore(std::string name, Geometry geometry);
     MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices,
              std::vector<Triangle> triangles);
@@ -39,17 +41,19 @@ class MeshCore : public Core {
     void set_geometry(Geometry geometry);
 
   protected:
-    /// Moves the vertices: as many as there are, finite, with as many unit normals as there are.
+    /// Moves the vertices. The numbers of vertices and normals must not change; positions must be
+    /// finite and normals unit.
     void set_vertices(std::vector<Eigen::Vector3d> vertices, std::vector<Eigen::Vector3d> normals);
 
   private:
     Geometry geometry_;
 };
 
-/// The square z = 0, -1 <= x, y <= 1, facing +z, (u, v) from (0, 0) to (1, 1).
+/// Returns the square z = 0, -1 <= x, y <= 1, facing +z, with (u, v) from (0, 0) to (1, 1).
 MeshCore::Geometry rectangle();
 
-/// The cube -1 <= x, y, z <= 1, facing outwards; (u, v) from (0, 0) to (1, 1) on every side.
+/// Returns the cube -1 <= x, y, z <= 1, facing outwards, with (u, v) from (0, 0) to (1, 1) on each
+/// side.
 MeshCore::Geometry box();
 
 }  // namespace rtrays

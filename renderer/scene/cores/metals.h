@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Optical constants of metals.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,9 +13,9 @@ struct Metal {
     Eigen::Vector3d k;
 };
 
-/// Complex indices of refraction eta + i k of the metals of thesis figure 3.17: those of the SOPRA
-/// n&k database averaged over the linear Rec. 709 channels (as tabulated by Tungsten, B. Bitterli,
-/// ComplexIorData: Ag, Au, Cu).
+/// Returns the complex indices of refraction eta + i k of the metals in thesis figure 3.17. They
+/// are from the SOPRA n&k database, averaged over the linear Rec. 709 channels (as tabulated by
+/// Tungsten, B. Bitterli, ComplexIorData: Ag, Au, Cu).
 inline const std::vector<Metal> &metals() {
     static const std::vector<Metal> table = {
         {"silver",

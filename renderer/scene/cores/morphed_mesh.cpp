@@ -13,10 +13,10 @@ namespace rtrays {
 
 namespace {
 
-/// The first mesh, for the base class to begin with.
+/// Returns the mesh of the first keyframe, the initial value of the base class.
 MeshCore::Geometry first_mesh(const std::string &name, const std::vector<MorphedMesh::Key> &keys) {
     if (keys.empty()) {
-        throw input_error(fmt::format("mesh '{}': there is no keyframe", name));
+        throw input_error(fmt::format("mesh '{}': there are no keyframes; add at least one", name));
     }
     return keys.front().geometry;
 }
@@ -31,14 +31,14 @@ std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d> &a,
     return between;
 }
 
-/// The same of unit vectors; where two are opposite, that of the nearer keyframe.
+/// Interpolates unit vectors. Where two are opposite, returns that of the nearer keyframe.
 std::vector<Eigen::Vector3d> interpolate_normals(const std::vector<Eigen::Vector3d> &a,
                                                  const std::vector<Eigen::Vector3d> &b,
                                                  double weight) {
     std::vector<Eigen::Vector3d> between = interpolate(a, b, weight);
     for (size_t i = 0; i < between.size(); ++i) {
-        constexpr double opposite =
-            1e-9;  // shorter than this the direction is a matter of rounding
+        // The direction of a shorter vector is determined by rounding.
+        constexpr double opposite = 1e-9;
         between[i] = between[i].norm() > opposite ? between[i].normalized()
                      : weight < 0.5               ? a[i]
                                                   : b[i];
@@ -58,18 +58,19 @@ MorphedMesh::MorphedMesh(std::string name, std::vector<Key> keys)
             fail(i, "has no finite time");
         }
         if (i > 0 && !(keys[i].time > keys[i - 1].time)) {
-            fail(i, fmt::format("is at {} s, not after the one before it, at {} s", keys[i].time,
-                                keys[i - 1].time));
+            fail(i, fmt::format("is at {} s, but must be later than the previous one at {} s",
+                                keys[i].time, keys[i - 1].time));
         }
         MeshCore checked(fmt::format("{}, keyframe {}", name, i), std::move(keys[i].geometry));
         if (checked.vertices().size() != vertices().size() ||
             checked.normals().size() != normals().size()) {
-            fail(i, fmt::format("has {} vertices and {} normals, the first one {} and {}",
-                                checked.vertices().size(), checked.normals().size(),
-                                vertices().size(), normals().size()));
+            fail(i,
+                 fmt::format("has {} vertices and {} normals, but the first keyframe has {} and {}",
+                             checked.vertices().size(), checked.normals().size(), vertices().size(),
+                             normals().size()));
         }
         if (checked.triangles() != triangles()) {
-            fail(i, "has other triangles than the first one");
+            fail(i, "must have the same triangles as the first keyframe");
         }
         keys_.push_back({keys[i].time, checked.vertices(), checked.normals()});
     }

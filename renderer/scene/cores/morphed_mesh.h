@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Meshes animated by keyframes.
 #pragma once
 
 #include <string>
@@ -8,21 +9,21 @@
 
 namespace rtrays {
 
-/// A mesh whose vertices follow keyframes. Between two of them positions are interpolated linearly,
-/// and so are normals, to be unit again; at a keyframe the mesh is that of the keyframe to the bit;
-/// before the first and after the last it stays as it is there. Triangles and texture coordinates
-/// are those of the first keyframe.
+/// A mesh whose vertices follow keyframes. Between two keyframes positions and normals are
+/// interpolated linearly, and normals are normalised again. At a keyframe the mesh is bitwise equal
+/// to that of the keyframe. Before the first and after the last keyframe it is constant. Triangles
+/// and texture coordinates are those of the first keyframe.
 class MorphedMesh : public MeshCore {
   public:
-    /// What the mesh is at one time.
+    /// The mesh at one time.
     struct Key {
         double time;  ///< scene time, seconds
         Geometry geometry;
     };
 
-    /// Throws `Error` (bad input) naming mesh and keyframe when there is none, times are not finite
-    /// and ascending, a mesh is one that `MeshCore` refuses, or vertices, normals or triangles do
-    /// not answer to those of the first keyframe.
+    /// Throws `Error` (bad input) naming mesh and keyframe if there are no keyframes, times are not
+    /// finite and ascending, or `MeshCore` rejects a mesh. Also throws if the triangles, or the
+    /// numbers of vertices or normals, differ from those of the first keyframe.
     MorphedMesh(std::string name, std::vector<Key> keys);
 
     bool is_animated() const override { return true; }
@@ -35,7 +36,7 @@ class MorphedMesh : public MeshCore {
     };
 
     std::vector<Vertices> keys_;
-    double time_;  ///< that the vertices are of, held at the ends
+    double time_;  ///< time of the current vertices, clamped to the keyframes
 };
 
 }  // namespace rtrays

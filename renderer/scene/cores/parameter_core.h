@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Cores that are defined by a type and its table of parameters.
 #pragma once
 
 #include <functional>
@@ -12,16 +13,17 @@
 
 namespace rtrays {
 
-/// One row of a table of types: what scene files call it and what it is made from.
+/// A row of a table of types: the name in scene files and the parameters.
 struct CoreType {
     std::string name;
     ParameterTable parameters;
-    /// What the ranges of single parameters cannot say; throws `Error` (bad input). May be empty.
+    /// Checks conditions that the ranges of single parameters cannot express; throws `Error` (bad
+    /// input). May be empty.
     std::function<void(const ParameterSet &)> check;
 };
 
-/// The type of that name; throws `Error` (bad input) listing those there are. `what` is "light",
-/// "shape", ...
+/// Returns the type of that name. Throws `Error` (bad input) listing the types if it is unknown.
+/// `what` is "light", "shape", ...
 template <typename Type>
 const Type &find_type(const std::vector<Type> &types, const std::string &name, const char *what) {
     std::string names;
@@ -34,7 +36,7 @@ const Type &find_type(const std::vector<Type> &types, const std::string &name, c
     throw input_error(std::string(what) + " type '" + name + "' is not one of: " + names);
 }
 
-/// A core that is a type and values of its parameters.
+/// A core that consists of a type and the values of its parameters.
 class ParameterCore : public Core {
   public:
     const char *type_name() const override { return type_->name.c_str(); }
@@ -42,8 +44,8 @@ class ParameterCore : public Core {
 
     const ParameterSet &parameters() const { return parameters_; }
 
-    /// Throws `Error` (bad input), and changes nothing, when the value is illegal by itself or
-    /// beside the others.
+    /// Sets one parameter. Throws `Error` (bad input), and changes nothing, if the value is illegal
+    /// by itself or in combination with the others.
     void set(const std::string &name, const PropertyValue &value);
 
   protected:
@@ -53,7 +55,7 @@ class ParameterCore : public Core {
 
     const CoreType &type() const { return *type_; }
 
-    /// What a change of that parameter outdates.
+    /// Returns the records that a change of that parameter makes outdated.
     virtual Dirty outdated_by(const std::string &) const { return Dirty::object; }
 
   private:
@@ -61,7 +63,7 @@ class ParameterCore : public Core {
     ParameterSet parameters_;
 };
 
-/// A type of a table that lives as long as the program.
+/// Returns a pointer, without ownership, to a type of a table that lives as long as the program.
 template <typename Type>
 std::shared_ptr<const Type> static_type(const Type &type) {
     return {std::shared_ptr<const Type>(), &type};

@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 using Kind = ShapeArrays::Kind;
 using Need = Parameter::Need;
 
-/// |z| > 4 gives |z^2 + c| >= 16 - |c| > 4 while |c| < 12, so that the level sets |z_n| = 4 are
-/// nested. Every Julia set worth a picture has |c| < 2.
+/// Limit of |c|. |z| > 4 gives |z^2 + c| >= 16 - |c| > 4 while |c| < 12, so that the level sets
+/// |z_n| = 4 are nested. All Julia sets of visual interest have |c| < 2.
 constexpr double largest_julia_constant = 4;
 
 Parameter length(const char *name, const char *help, Need need = Need::required) {
@@ -41,8 +41,8 @@ void check_julia(const ParameterSet &julia) {
     const double size = julia.get<Eigen::Vector4d>("constant").norm();
     const double n = julia.number("iterations");
     if (size > largest_julia_constant) {
-        throw input_error(
-            fmt::format("constant: its length, {}, is beyond {}", size, largest_julia_constant));
+        throw input_error(fmt::format("constant: its length, {}, exceeds the limit of {}", size,
+                                      largest_julia_constant));
     }
     if (n != std::floor(n)) {
         throw input_error(fmt::format("iterations: {} is not a whole number", n));
@@ -52,14 +52,15 @@ void check_julia(const ParameterSet &julia) {
 }  // namespace
 
 const std::vector<ShapeType> &shape_types() {
-    static const ParameterTable round_and_high = {length("radius", "at z = 0, scene units"),
-                                                  length("height", "along z from 0, scene units")};
+    static const ParameterTable round_and_high = {
+        length("radius", "radius at z = 0, scene units"),
+        length("height", "height along z from 0, scene units")};
     static const std::vector<ShapeType> types = {
-        {{"sphere", {length("radius", "scene units", Need::defaulted)}, {}},
+        {{"sphere", {length("radius", "radius, scene units", Need::defaulted)}, {}},
          Kind::sphere,
          radius_all},
         {{"ellipsoid",
-          {{"radii", "along x, y and z, scene units", Vector3d(1, 1, 1), Need::required,
+          {{"radii", "radii along x, y and z, scene units", Vector3d(1, 1, 1), Need::required,
             ranges::positive}},
           {}},
          Kind::sphere,
@@ -67,34 +68,36 @@ const std::vector<ShapeType> &shape_types() {
         {{"cylinder", round_and_high, {}}, Kind::cylinder, radius_and_height},
         {{"cone", round_and_high, {}}, Kind::cone, radius_and_height},
         {{"paraboloid",
-          {length("radius", "at its rim, z = height, scene units"),
-           length("height", "along z from 0, scene units")},
+          {length("radius", "radius of the rim at z = height, scene units"),
+           length("height", "height along z from 0, scene units")},
           {}},
          Kind::paraboloid,
          radius_and_height},
         {{"hyperboloid",
-          {length("radius", "of the waist, z = 0, scene units"),
-           length("height", "along z, from -height / 2 to height / 2, scene units"),
+          {length("radius", "radius of the waist at z = 0, scene units"),
+           length("height", "height along z, from -height / 2 to height / 2, scene units"),
            {"flare",
-            "the rims' radius is that of the waist times sqrt(1 + flare)",
+            "the radius of the rims is the radius of the waist times sqrt(1 + flare)",
             1.0,
             Need::required,
             {1e-6, 1e6, true, true}}},
           {}},
          Kind::hyperboloid,
          radius_and_half_height},
-        {{"disc", {length("radius", "scene units", Need::defaulted)}, {}}, Kind::disc, radius_all},
+        {{"disc", {length("radius", "radius, scene units", Need::defaulted)}, {}},
+         Kind::disc,
+         radius_all},
         {{"plane", {}, {}}, Kind::plane, unscaled},
         {{"julia",
-          {{"constant", "c of z <- z^2 + c as (real, i, j, k)", Eigen::Vector4d(0, 0, 0, 0),
-            Need::required},
+          {{"constant", "constant c of z <- z^2 + c as (real, i, j, k)",
+            Eigen::Vector4d(0, 0, 0, 0), Need::required},
            {"slice",
-            "fourth coordinate of the slice that is seen",
+            "fourth coordinate of the rendered slice",
             0.0,
             Need::defaulted,
             {-4, 4, true, true}},
            {"iterations",
-            "n of the level set |z_n| = 4",
+            "number n of iterations for the level set |z_n| = 4",
             10.0,
             Need::defaulted,
             {1, 100, true, true}}},
@@ -134,7 +137,7 @@ Eigen::AlignedBox3d ShapeCore::canonical_bounds() const {
         case Kind::plane:
             return {};
         case Kind::julia: {
-            // |z_0| > sqrt(4 + |c|) gives |z_1| >= |z_0|^2 - |c| > 4, and all later iterates grow.
+            // |z_0| > sqrt(4 + |c|) gives |z_1| >= |z_0|^2 - |c| > 4, and later iterates grow.
             const double r = std::sqrt(4 + parameters().get<Eigen::Vector4d>("constant").norm());
             return {Vector3d(-r, -r, -r), Vector3d(r, r, r)};
         }

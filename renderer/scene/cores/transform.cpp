@@ -11,8 +11,8 @@ namespace rtrays {
 
 namespace {
 
-/// Determinant of the linear part with its columns normalised: 1 for orthogonal axes whatever their
-/// scale, 0 when they lie in a plane.
+/// Returns the determinant of the linear part with normalised columns: 1 for orthogonal axes of any
+/// scale (-1 if it mirrors), 0 for axes in a plane.
 double normalised_determinant(const Eigen::Matrix4d &matrix) {
     Eigen::Matrix3d axes = matrix.topLeftCorner<3, 3>();
     for (int i = 0; i < 3; ++i) {
@@ -33,13 +33,13 @@ TransformCore::TransformCore(std::string name, const Eigen::Matrix4d &parent_fro
 }
 
 void TransformCore::set_matrix(const Eigen::Matrix4d &parent_from_object) {
-    // Axes closer than this to one plane cannot be told from it in double precision.
+    // Below this value, double precision cannot distinguish the axes from coplanar ones.
     constexpr double flat = 1e-12;
     if (!parent_from_object.allFinite()) {
         throw input_error("transform: the matrix is not finite");
     }
     if (parent_from_object.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
-        throw input_error("transform: the matrix is not affine: its last row must be 0, 0, 0, 1");
+        throw input_error("transform: the matrix is not affine; its last row must be 0, 0, 0, 1");
     }
     if (std::abs(normalised_determinant(parent_from_object)) < flat) {
         throw input_error("transform: the matrix is not invertible");
@@ -88,13 +88,13 @@ Eigen::Matrix4d rotation(const Eigen::Vector3d &axis, double radians) {
 
 Eigen::Matrix4d look_at(const Eigen::Vector3d &origin, const Eigen::Vector3d &target,
                         const Eigen::Vector3d &up) {
-    // Below this sine `up` is parallel to the view for all that double precision can tell.
+    // Below this sine `up` is parallel to the view direction within double precision.
     constexpr double parallel = 1e-9;
     const Eigen::Vector3d back = origin - target;
     const double distance = back.stableNorm();
     const double up_length = up.stableNorm();
     if (!(distance > 0) || !std::isfinite(distance)) {
-        throw input_error("look_at: origin and target must be two points");
+        throw input_error("look_at: origin and target must be different points");
     }
     if (!(up_length > 0) || !std::isfinite(up_length)) {
         throw input_error("look_at: up has no direction");

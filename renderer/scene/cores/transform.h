@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Transform cores, and functions that make transforms.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +8,8 @@
 
 namespace rtrays {
 
-/// Object-to-world transform in double precision; a child's is applied before its parent's.
+/// Object-to-world transform in double precision. The transform of a child is applied first, then
+/// that of its parent.
 struct TransformAttribute : AttributeOf<TransformAttribute> {
     Eigen::Matrix4d world_from_object = Eigen::Matrix4d::Identity();
 
@@ -17,7 +19,7 @@ struct TransformAttribute : AttributeOf<TransformAttribute> {
 /// An affine transform of a node and everything below it.
 class TransformCore : public Core {
   public:
-    /// Throws `Error` (bad input) when the matrix is not finite, not affine or not invertible.
+    /// Throws `Error` (bad input) if the matrix is not finite, not affine or not invertible.
     TransformCore(std::string name, const Eigen::Matrix4d &parent_from_object);
 
     CoreRole role() const override { return CoreRole::transform; }
@@ -36,11 +38,12 @@ class TransformCore : public Core {
 Eigen::Matrix4d translation(const Eigen::Vector3d &offset);
 Eigen::Matrix4d scaling(const Eigen::Vector3d &factors);
 
-/// Counter-clockwise about `axis` (any length but zero) when it points at the viewer.
+/// Returns the rotation about `axis` (any length but zero), counter-clockwise if the axis points at
+/// the viewer.
 Eigen::Matrix4d rotation(const Eigen::Vector3d &axis, double radians);
 
-/// The rigid pose at `origin` whose -z axis points at `target` and whose +y axis is as near to `up`
-/// as can be. Throws `Error` (bad input) when these do not define one.
+/// Returns the rigid pose at `origin` whose -z axis points at `target` and whose +y axis is as
+/// close to `up` as possible. Throws `Error` (bad input) if the arguments do not define a pose.
 Eigen::Matrix4d look_at(const Eigen::Vector3d &origin, const Eigen::Vector3d &target,
                         const Eigen::Vector3d &up);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Visibility cores, which show or hide subtrees.
 #pragma once
 
 #include <utility>
@@ -7,7 +8,7 @@
 
 namespace rtrays {
 
-/// Whether geometry and its lights are in the scene at all: visible only if every node above is.
+/// Whether geometry and its lights are part of the scene: only if every node above is visible.
 struct VisibilityAttribute : AttributeOf<VisibilityAttribute> {
     bool visible = true;
 

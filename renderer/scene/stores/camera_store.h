@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The store of cameras.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +9,7 @@
 
 namespace rtrays {
 
+/// One record per node with a camera. Cameras cannot be hidden.
 class CameraStore : public Store {
   public:
     explicit CameraStore(CameraArrays &written) : arrays(written) {}
@@ -16,12 +18,10 @@ class CameraStore : public Store {
     bool concerns(const Node &node) const override {
         return node.core(CoreRole::camera) != nullptr;
     }
-    bool wants_record(const Node &, const AttributeSet &) const override {
-        return true;
-    }  // cannot be hidden
+    bool wants_record(const Node &, const AttributeSet &) const override { return true; }
 
     CameraArrays &arrays;
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the baked world
 
   protected:
     void append(const Node &node) override;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// A function that the stores of meshes and shapes share.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,14 +12,14 @@
 
 namespace rtrays {
 
-/// The record of the material that has accumulated at geometry; throws `Error` (bad input) when
-/// there is none.
+/// Returns the record of the material that has accumulated at geometry. Throws `Error` (bad input)
+/// if there is none.
 inline uint32_t material_slot(const MaterialStore &materials, const AttributeSet &attributes,
                               const char *what, const std::string &name) {
     const uint32_t slot = materials.slot_of_material(attributes.get<MaterialAttribute>().material);
     if (slot == no_index) {
         throw input_error(fmt::format(
-            "{} '{}' has no material: give one to its node or to a node above", what, name));
+            "{} '{}' has no material; assign one to its node or to a node above", what, name));
     }
     return slot;
 }

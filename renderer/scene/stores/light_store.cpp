@@ -26,7 +26,7 @@ const LightCore *light_of(const Node &node) {
     return static_cast<const LightCore *>(node.core(CoreRole::light));
 }
 
-/// The emissive material of the geometry at the node, or nullptr.
+/// Returns the emissive material of the geometry at the node, or nullptr.
 const MaterialCore *emission_of(const Node &node, const AttributeSet &attributes) {
     const MaterialCore *material = attributes.get<MaterialAttribute>().material;
     const bool emits =
@@ -74,8 +74,7 @@ void LightStore::write(uint32_t slot, const Node &node, const AttributeSet &attr
     const MaterialCore *emission = emission_of(node, attributes);
     if (light != nullptr && emission != nullptr) {
         throw input_error(fmt::format(
-            "light '{}': its geometry is a light already, by the emission of material '{}'; "
-            "remove one of them, or "
+            "light '{}': its geometry already emits through material '{}'; remove one of them, or "
             "give the light a node of its own",
             node.name(), emission->name()));
     }
@@ -155,14 +154,14 @@ double LightStore::shape_area(uint32_t shape, const std::string &name) const {
             if (const double radius = similarity_scale(world); radius > 0) {
                 return 4 * pi * radius * radius;
             }
-            throw input_error(fmt::format(
-                "light '{}': a sphere that emits must stay one: its transform or radii stretch "
-                "it; use a mesh",
-                name));
+            throw input_error(
+                fmt::format("light '{}': an emitting sphere must not be stretched by its transform "
+                            "or radii; use a mesh",
+                            name));
         default:
             throw input_error(
-                fmt::format("light '{}': of the shapes only spheres and discs can emit; use one of "
-                            "them or a mesh",
+                fmt::format("light '{}': among shapes only spheres and discs can emit; use one of "
+                            "these or a mesh",
                             name));
     }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The store of lights.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +12,8 @@ namespace rtrays {
 class MeshStore;
 class ShapeStore;
 
-/// Lights of nodes, and those that emissive materials make of geometry. To be written after the
-/// geometry: areas are those of what was baked.
+/// One record per node with a light core, or with geometry of an emissive material. Must be written
+/// after the geometry, because areas are those of the baked geometry.
 class LightStore : public Store {
   public:
     LightStore(LightArrays &written, const MeshStore &meshes, const ShapeStore &shapes)
@@ -22,11 +23,11 @@ class LightStore : public Store {
     bool concerns(const Node &node) const override;
     bool wants_record(const Node &node, const AttributeSet &attributes) const override;
 
-    /// The record of the light that the geometry of `node` is, or `no_index`.
+    /// Returns the record of the area light on the geometry of `node`, or `no_index`.
     uint32_t area_light_slot(const Node &node, const AttributeSet &attributes) const;
 
     LightArrays &arrays;
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the baked world
 
   protected:
     void append(const Node &node) override;

@@ -85,8 +85,8 @@ void MaterialStore::append(const Node &node) {
 void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &) {
     const auto &material = static_cast<const MaterialCore &>(*node.core(CoreRole::material));
     uint32_t at = arrays.first_component[slot];
-    for (const MaterialComponent &component :
-         material.components()) {  // as many as when it was appended
+    // The number of components has not changed since `append`.
+    for (const MaterialComponent &component : material.components()) {
         arrays.component[at] = component.bxdf;
         arrays.component[at].texture = textures_.record(component.texture);
         ++at;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The stores of materials and textures.
 #pragma once
 
 #include <memory>
@@ -12,15 +13,16 @@ namespace rtrays {
 class MaterialCore;
 class Texture;
 
-/// Textures have a record while a material's record refers to them.
+/// One record per texture, which exists while a material's record refers to it.
 class TextureStore {
   public:
     explicit TextureStore(TextureArrays &written) : arrays(written) {}
 
-    /// Index of the texture's record, written if it is new or has changed; `no_index` for nullptr.
+    /// Returns the index of the texture's record, or `no_index` for nullptr. Writes the record if
+    /// it is new or the texture has changed.
     uint32_t record(const std::shared_ptr<Texture> &texture);
 
-    /// Drops the records that no component refers to and puts the new indices into the components.
+    /// Removes the records that no component refers to, and updates the indices in the components.
     void keep_used(std::vector<BxdfComponent> &components);
 
     TextureArrays &arrays;
@@ -28,10 +30,10 @@ class TextureStore {
   private:
     std::unordered_map<const Texture *, uint32_t> slots_;
     std::vector<std::shared_ptr<Texture>> owners_;
-    std::vector<uint64_t> version_;  ///< of the texture when the record was written
+    std::vector<uint64_t> version_;  ///< version of the texture when the record was written
 };
 
-/// One record per material, however many nodes share it.
+/// One record per material, which any number of nodes may share.
 class MaterialStore : public Store {
   public:
     MaterialStore(MaterialArrays &written, TextureArrays &textures)
@@ -56,7 +58,7 @@ class MaterialStore : public Store {
 
   private:
     TextureStore textures_;
-    std::vector<uint64_t> version_;  ///< of the core when the record was written
+    std::vector<uint64_t> version_;  ///< version of the core when the record was written
 };
 
 }  // namespace rtrays

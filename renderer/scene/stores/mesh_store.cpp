@@ -21,13 +21,13 @@ const MeshCore &mesh_at(const Node &node) {
     return static_cast<const MeshCore &>(*node.core(CoreRole::geometry));
 }
 
-/// The inverse transpose of a linear transform, up to a positive factor: of the transform with its
-/// columns scaled to at most 1, so that neither it nor the normals it is applied to leave the range
-/// of double.
+/// Returns the inverse transpose of a linear transform, up to a positive factor. The columns are
+/// normalised before the inversion; their lengths then become factors of at most 1. Neither the
+/// result nor the transformed normals can exceed the range of double.
 Eigen::Matrix3d normal_transform(const Eigen::Matrix3d &linear) {
     Eigen::Vector3d lengths;
     for (int i = 0; i < 3; ++i) {
-        lengths[i] = linear.col(i).stableNorm();  // above zero: transforms are invertible
+        lengths[i] = linear.col(i).stableNorm();  // positive: transforms are invertible
     }
     Eigen::Matrix3d unit;
     for (int i = 0; i < 3; ++i) {
@@ -40,13 +40,13 @@ Eigen::Matrix3d normal_transform(const Eigen::Matrix3d &linear) {
     return transform;
 }
 
-/// Sets a flag of a mesh and the number of meshes that have it.
+/// Sets a flag of a mesh and updates the number of meshes that have it.
 void set_flag(uint8_t &flag, bool value, size_t &count) {
     count = count - flag + (value ? 1 : 0);
     flag = value ? 1 : 0;
 }
 
-/// Moves a range of per-vertex values down, if there are any.
+/// Moves a range of per-vertex values down, unless the array is empty.
 template <typename T>
 void move_range(std::vector<T> &values, uint32_t to, uint32_t from, uint32_t count) {
     if (!values.empty()) {

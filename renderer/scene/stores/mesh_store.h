@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The store of meshes.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@ namespace rtrays {
 class LightStore;
 class MaterialStore;
 
+/// One record per node with a mesh, baked to world space.
 class MeshStore : public Store {
   public:
     MeshStore(MeshArrays &written, const MaterialStore &materials, const LightStore &lights)
@@ -20,11 +22,12 @@ class MeshStore : public Store {
     bool concerns(const Node &node) const override;
     bool wants_record(const Node &node, const AttributeSet &attributes) const override;
 
-    /// Called after all objects of an update have been written.
+    /// Clears the arrays of normals and coordinates if no mesh uses them. Called after all objects
+    /// of an update have been written.
     void drop_unused();
 
     MeshArrays &arrays;
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the baked world
 
   protected:
     bool fits(uint32_t slot, const Node &node) const override;
@@ -35,8 +38,8 @@ class MeshStore : public Store {
   private:
     const MaterialStore &materials_;
     const LightStore &lights_;
-    size_t with_normals_ = 0;  ///< meshes
-    size_t with_uv_ = 0;
+    size_t with_normals_ = 0;  ///< number of meshes with normals
+    size_t with_uv_ = 0;       ///< number of meshes with texture coordinates
 };
 
 }  // namespace rtrays

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Decomposition of transforms to rigid poses.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,21 +7,22 @@
 
 namespace rtrays {
 
-/// A transform that is a rotation, a uniform scale and a translation.
+/// A transform that consists of a rotation, a uniform scale and a translation.
 struct Pose {
     Eigen::Matrix4d rigid;
     double scale;
 };
 
-/// The pose that the transform is; throws `Error` (bad input) naming `what` when it mirrors, shears
-/// or scales axes differently.
+/// Returns the pose that equals the transform. Throws `Error` (bad input) naming `what` if the
+/// transform mirrors, shears or scales the axes differently.
 Pose pose_of(const Eigen::Matrix4d &transform, const std::string &what);
 
-/// Scale of a transform that is a rotation, maybe a mirror, and a uniform scale; 0 when it is not.
+/// Returns the scale of a transform that consists of a rotation, possibly a mirroring, and a
+/// uniform scale; 0 for any other transform.
 double similarity_scale(const Eigen::Matrix4d &transform);
 
-/// A rigid frame at the transform's origin whose z axis is that of the transform (invertible,
-/// otherwise arbitrary).
+/// Returns a rigid frame at the origin of the transform, with the same z axis. The transform may be
+/// any invertible one.
 Eigen::Matrix4d frame_along_z(const Eigen::Matrix4d &transform);
 
 }  // namespace rtrays

@@ -45,7 +45,7 @@ void ShapeStore::write(uint32_t slot, const Node &node, const AttributeSet &attr
     Eigen::Matrix4d world =
         attributes.get<TransformAttribute>().world_from_object * shape.object_from_canonical();
     world.topRightCorner<3, 1>() -= origin;
-    // Its size must be a float as well as its place: the renderer inverts the transform.
+    // Size and position must both be floats, because the renderer inverts the transform.
     const Eigen::Vector3f sizes =
         world.topLeftCorner<3, 3>().colwise().stableNorm().transpose().cast<float>();
     if (!world.cast<float>().allFinite() || !sizes.allFinite() ||

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The store of shapes.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@ namespace rtrays {
 class LightStore;
 class MaterialStore;
 
+/// One record per node with a shape.
 class ShapeStore : public Store {
   public:
     ShapeStore(ShapeArrays &written, const MaterialStore &materials, const LightStore &lights)
@@ -21,7 +23,7 @@ class ShapeStore : public Store {
     bool wants_record(const Node &node, const AttributeSet &attributes) const override;
 
     ShapeArrays &arrays;
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the baked world
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the baked world
 
   protected:
     void append(const Node &node) override;

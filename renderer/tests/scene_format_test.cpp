@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The documentation of the scene format holds: its examples are read, and they, the schema and the
-// tables of types name the same things.
+// Tests the documentation of the scene format: its examples load, and the documentation, the schema
+// and the tables of types contain the same names.
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -20,9 +20,9 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// The JSON blocks of scenes/README.md, in order.
+/// Returns the JSON blocks of docs/scene-format.md, in order.
 std::vector<Json> examples() {
-    const std::string path = std::string(RTRAYS_SCENES) + "/README.md";
+    const std::string path = std::string(RTRAYS_SCENES) + "/../docs/scene-format.md";
     const std::string text = read_file(path);
     const std::string opening = "```json\n";
     std::vector<Json> blocks;
@@ -36,8 +36,8 @@ std::vector<Json> examples() {
     return blocks;
 }
 
-/// A whole scene around a part of one: what is missing is added, and a node for every shared
-/// material and geometry, so that all of them reach the arrays.
+/// Completes a part of a scene. Adds missing required members, and a node for every shared material
+/// and geometry, so that all of them reach the arrays.
 Json completed(Json part) {
     part.emplace("version", 1);
     part.emplace("film", Json{{"width", 1}, {"height", 1}});
@@ -62,8 +62,8 @@ Json completed(Json part) {
     return part;
 }
 
-/// The values of `key` wherever it stands below `value`, within objects that are the value of
-/// `owner` or an item of it.
+/// Collects the values of `key` at all depths below `value`, in objects that are the value of
+/// `owner` or an item of that value.
 void collect(const Json &value, const std::string &owner, const std::string &key, bool inside,
              Names &names) {
     if (inside && value.is_object() && value.contains(key)) {
@@ -104,9 +104,9 @@ Names names_of(const Table &table, Names names = {}) {
     return names;
 }
 
-class SceneReadme : public WithImages {};
+class SceneFormat : public WithImages {};
 
-TEST_F(SceneReadme, EveryExampleIsReadAndSerialized) {
+TEST_F(SceneFormat, EveryExampleIsReadAndSerialized) {
     std::ofstream(testing::TempDir() + "wood.png", std::ios::binary) << "P6 1 1 255\nabc";
     std::filesystem::copy_file(RTRAYS_CORPUS "/square.ply", testing::TempDir() + "bunny.ply",
                                std::filesystem::copy_options::overwrite_existing);
@@ -128,7 +128,7 @@ TEST_F(SceneReadme, EveryExampleIsReadAndSerialized) {
     EXPECT_GT(properties, 400u);
 }
 
-TEST_F(SceneReadme, ExamplesSchemaAndTablesNameTheSameTypes) {
+TEST_F(SceneFormat, ExamplesSchemaAndTablesNameTheSameTypes) {
     const Names materials = names_of(material_types(), {"composite"});
     EXPECT_EQ(schema_enum("material", "type"), materials);
     EXPECT_EQ(used({"materials", "material"}, "type"), materials);
@@ -152,7 +152,7 @@ TEST_F(SceneReadme, ExamplesSchemaAndTablesNameTheSameTypes) {
         fresnels);
 }
 
-/// Keys of a definition of the schema without those in `others`.
+/// Returns the keys of a definition of the schema, without those in `others`.
 Names schema_keys(const std::string &definition, const Names &others) {
     const Json schema =
         parse_json(std::string(embedded::scene_schemas().text("scene.schema.json")), "schema");
