@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""What the claims of chapter 4 are judged by: readers of finished runs, by the name that experiments/claims.json gives them.
+"""Reads the figures that judge the claims of chapter 4 from finished runs; experiments/claims.json
+names the readers.
 
-Each takes a run's folder and yields (name, {"value", "low", "high"}); agreements as run.json has them. Yielding nothing says
-that the run does not hold the figure.
+Each reader takes a run's folder and yields (name, {"value", "low", "high"}), or an agreement as
+run.json has it. A reader yields nothing if the run does not have the figure.
 """
 
-import csv
 import json
 
 import numpy
 
 import efficiency
 from efficiency import DRAWS, base_curve
-from run_document import Measurement, Run, RunError, label, usable_points, value
+from run_document import Measurement, Run, RunError, algorithm_name, label, usable_points, value
 
 
 def exact(number):
@@ -20,43 +20,53 @@ def exact(number):
 
 
 def inverse(interval):
-    return {"value": 1 / value(interval, "value"), "low": 1 / value(interval, "high"), "high": 1 / value(interval, "low")}
+    return {
+        "value": 1 / value(interval, "value"),
+        "low": 1 / value(interval, "high"),
+        "high": 1 / value(interval, "low"),
+    }
 
 
 def curve_of(run, name):
     for curve in run.curves:
         if value(curve, "id") == name:
             return curve
-    raise RunError(f"{run.folder / 'run.json'}: there is no curve {name}")
+    raise RunError(f"{run.folder / 'run.json'}: no curve {name}")
 
 
 def slopes(folder):
-    """Of log RMSE against log spp, every curve."""
+    """Slope of log RMSE against log spp, every curve."""
     for curve in Run(folder).curves:
         yield label(curve), value(curve, "slope")
 
 
 def agreements(folder):
-    """With the reference, every curve."""
+    """Agreement with the reference, every curve."""
     for curve in Run(folder).curves:
         yield label(curve), value(curve, "agreement")
 
 
 def gain(folder, of, curve="truncated_bdpt.mis", over="path_tracing.mis"):
-    """How many times fewer samples ("spp") or less device time ("seconds") a curve needs for the error of another."""
+    """How many times the samples ("spp") or the device time ("seconds") of a curve another needs
+    for equal error."""
     run = Run(folder)
     noise = run.get("reference.noise_floor.mse")
-    yield (f"{label(curve_of(run, curve))} over {label(curve_of(run, over))}",
-           efficiency.gain(curve_of(run, over), curve_of(run, curve), noise, of))
+    yield (
+        f"{label(curve_of(run, curve))} over {label(curve_of(run, over))}",
+        efficiency.gain(curve_of(run, over), curve_of(run, curve), noise, of),
+    )
 
 
 def sample_cost(folder, curve="truncated_bdpt.mis", over="path_tracing.mis"):
-    """Device time of a sample of a curve over that of another, medians over seeds with a bootstrap's interval."""
+    """Device time of a sample of a curve over that of another, medians over seeds with a
+    bootstrap's interval."""
     run, generator = Run(folder), numpy.random.default_rng(1)
 
     def medians(name):
         point = usable_points(curve_of(run, name))[-1]
-        seconds = numpy.array([value(r, "seconds_device") for r in value(point, "repetitions")]) / value(point, "spp")
+        seconds = numpy.array(
+            [value(r, "seconds_device") for r in value(point, "repetitions")]
+        ) / value(point, "spp")
         draws = seconds[generator.integers(0, len(seconds), (DRAWS, len(seconds)))]
         return numpy.median(seconds), numpy.median(draws, axis=1)
 
@@ -66,29 +76,37 @@ def sample_cost(folder, curve="truncated_bdpt.mis", over="path_tracing.mis"):
 
 
 def edge_errors(folder, curve="path_tracing.mis"):
-    """Mean squared error at edges over that elsewhere, of the mean image: the table that was made of the images."""
-    path = folder / "tables/edges.csv"
-    if path.exists():
-        for row in csv.DictReader(path.read_text().splitlines()):
-            if row["curve"] == curve:
-                yield "squared error at edges over elsewhere", {key: float(row[key]) for key in ("value", "low", "high")}
+    """Mean squared error of the mean image at edges over that elsewhere; edges.json has it
+    (tables.edges_document)."""
+    path = folder / "edges.json"
+    found = json.loads(path.read_text()) if path.exists() else {}
+    if curve in found:
+        yield "squared error at edges over elsewhere", found[curve]
 
 
 def memory(folder, curve, form):
-    """Bytes per path of a curve: "more" than path tracing's, or how many "times" those."""
+    """Bytes per path of a curve: how many "more" than path tracing, or how many "times" as many."""
     run = Run(folder)
     own = value(curve_of(run, curve), "render_report.bytes_per_path")
     base = value(base_curve(run), "render_report.bytes_per_path")
-    yield ("bytes per path beyond path tracing", exact(own - base)) if form == "more" else ("bytes per path over path tracing", exact(own / base))
+    if form == "more":
+        yield "bytes per path beyond path tracing", exact(own - base)
+    else:
+        yield "bytes per path over path tracing", exact(own / base)
 
 
 def control_gain(folder, scene):
-    """Device time without convergence control over that with it, at the error where it saves most."""
+    """Device time without convergence control over that with it, where it saves most."""
     path = folder / "convergence_control.json"
     rows = [row for row in value(json.loads(path.read_text()), "rows") if row["scene"] == scene]
     for algorithm in sorted({row["algorithm"] for row in rows}):
-        best = min((row for row in rows if row["algorithm"] == algorithm), key=lambda row: value(row, "seconds.value"))
-        yield f"{algorithm.replace('_', ' ')}, error {value(best, 'error'):g}", inverse(value(best, "seconds"))
+        best = min(
+            (row for row in rows if row["algorithm"] == algorithm),
+            key=lambda row: value(row, "seconds.value"),
+        )
+        yield f"{algorithm_name(algorithm)}, error {value(best, 'error'):g}", inverse(
+            value(best, "seconds")
+        )
 
 
 def contestant_of(entry, name):
@@ -96,29 +114,49 @@ def contestant_of(entry, name):
 
 
 def published_order(folder, contestant):
-    """Spearman's correlation of our build times with those the thesis prints, over the meshes that stand for its scenes."""
+    """Spearman's correlation of our build times with those of the thesis, over the meshes that
+    replace its scenes."""
     run = Measurement(folder)
     published = {row["mesh"]: row["ms"]["thesis"] for row in run.get("experiment.published.rows")}
     named = run.get("stand_ins")
-    pairs = [(published[named.get(row["mesh"], row["mesh"])], value(contestant_of(row, contestant), "processor_ms.value"))
-             for row in run.get("rows") if named.get(row["mesh"], row["mesh"]) in published]
+    pairs = [
+        (
+            published[named.get(row["mesh"], row["mesh"])],
+            value(contestant_of(row, contestant), "processor_ms.value"),
+        )
+        for row in run.get("rows")
+        if named.get(row["mesh"], row["mesh"]) in published
+    ]
     if len(pairs) > 2:
         ranks = numpy.argsort(numpy.argsort(numpy.array(pairs), axis=0), axis=0)
-        yield f"rank correlation over {len(pairs)} meshes", exact(float(numpy.corrcoef(ranks.T)[0, 1]))
+        yield f"rank correlation over {len(pairs)} meshes", exact(
+            float(numpy.corrcoef(ranks.T)[0, 1])
+        )
 
 
 def build_rate(folder, contestant):
-    """Million triangles per second on the wall, where it is largest."""
-    rows = [(row["mesh"], 1e-3 * value(row, "triangles"), inverse(value(contestant_of(row, contestant), "wall_ms")))
-            for row in Measurement(folder).get("rows")]
+    """Million triangles per second of wall time, the largest of all meshes."""
+    rows = [
+        (
+            row["mesh"],
+            1e-3 * value(row, "triangles"),
+            inverse(value(contestant_of(row, contestant), "wall_ms")),
+        )
+        for row in Measurement(folder).get("rows")
+    ]
     mesh, scale, rate = max(rows, key=lambda row: row[1] * row[2]["value"])
     yield f"{mesh.replace('_', ' ')}, Mtris/s", {key: scale * rate[key] for key in rate}
 
 
 def build_gain(folder, contestant):
-    """Speed over Embree's builder of medium quality, where it is largest."""
-    mesh, speed = max(((row["mesh"], value(contestant_of(row, contestant), "speed_over_embree"))
-                       for row in Measurement(folder).get("rows")), key=lambda entry: value(entry[1], "value"))
+    """Speed over Embree's builder of medium quality, the largest of all meshes."""
+    mesh, speed = max(
+        (
+            (row["mesh"], value(contestant_of(row, contestant), "speed_over_embree"))
+            for row in Measurement(folder).get("rows")
+        ),
+        key=lambda entry: value(entry[1], "value"),
+    )
     yield f"{mesh.replace('_', ' ')}, over Embree", speed
 
 
@@ -127,9 +165,12 @@ def scene_name(row):
 
 
 def quotient(over, under):
-    """Of two intervals; its ends are those that lie farthest apart."""
-    return {"value": value(over, "value") / value(under, "value"), "low": value(over, "low") / value(under, "high"),
-            "high": value(over, "high") / value(under, "low")}
+    """Quotient of two intervals; its ends are the extreme quotients."""
+    return {
+        "value": value(over, "value") / value(under, "value"),
+        "low": value(over, "low") / value(under, "high"),
+        "high": value(over, "high") / value(under, "low"),
+    }
 
 
 def frame_rate(folder, kind):
@@ -151,7 +192,7 @@ THESIS_FRAME = [1024, 768]
 
 
 def frame_time(folder):
-    """Milliseconds on the wall, every scene, where frames are as large as the thesis'."""
+    """Milliseconds of wall time, every scene, if frames are as large as those of the thesis."""
     run = Measurement(folder)
     if run.get("experiment.settings.size") == THESIS_FRAME:
         for row in run.get("rows"):
@@ -162,26 +203,44 @@ TRACING = ("intersect_nearest", "intersect_any")
 
 
 def traced_share(folder):
-    """Share of intersection in the device's time of a frame, every scene; ends as if all the rest went the other way."""
+    """Share of intersection in the device's time of a frame, every scene; the ends combine
+    opposite ends of both parts."""
     for row in Measurement(folder).get("rows"):
-        def together(end, tracing, stages=value(row, "stages")):
-            return sum(value(stage, f"ms.{end}") for stage in stages if (stage["name"] in TRACING) == tracing)
 
-        yield scene_name(row), {end: together(end, True) / (together(end, True) + together(other, False))
-                                for end, other in (("value", "value"), ("low", "high"), ("high", "low"))}
+        def together(end, tracing, stages=value(row, "stages")):
+            return sum(
+                value(stage, f"ms.{end}")
+                for stage in stages
+                if (stage["name"] in TRACING) == tracing
+            )
+
+        yield scene_name(row), {
+            end: together(end, True) / (together(end, True) + together(other, False))
+            for end, other in (("value", "value"), ("low", "high"), ("high", "low"))
+        }
 
 
 def wavefront_gain(folder, rival, bounces, best=False):
-    """Samples per second of the wavefront over a rival's at so many bounces: every scene, or where it is largest."""
-    found = [(scene_name(row), value(depth, "wavefront_over")[rival]) for row in Measurement(folder).get("rows")
-             for depth in value(row, "depths") if depth["bounces"] == bounces]
+    """Samples per second of the wavefront over those of a rival at so many bounces: every scene,
+    or the largest."""
+    found = [
+        (scene_name(row), value(depth, "wavefront_over")[rival])
+        for row in Measurement(folder).get("rows")
+        for depth in value(row, "depths")
+        if depth["bounces"] == bounces
+    ]
     yield from [max(found, key=lambda entry: value(entry[1], "value"))] if best and found else found
 
 
 def ablation(folder, setting, best=False):
-    """Speed of frames with a setting over those with the defaults: every scene, or the slowest alone, as a loss."""
-    found = [(scene_name(row), value(entry, "speed_over_defaults")) for row in Measurement(folder).get("rows")
-             for entry in value(row, "frames") if entry["name"] == setting]
+    """Speed of frames with a setting over those with the defaults: every scene, or the slowest,
+    inverted."""
+    found = [
+        (scene_name(row), value(entry, "speed_over_defaults"))
+        for row in Measurement(folder).get("rows")
+        for entry in value(row, "frames")
+        if entry["name"] == setting
+    ]
     if best and found:
         name, speed = min(found, key=lambda entry: value(entry[1], "value"))
         yield f"{name}, defaults over it", inverse(speed)
@@ -190,12 +249,36 @@ def ablation(folder, setting, best=False):
 
 
 def leaks(folder):
-    """Rays from inside closed shapes that hit nothing, the worst layout of each shape at the origin."""
+    """Number of rays from inside closed shapes that hit nothing, worst layout, for shapes that
+    must be closed exactly."""
     for row in Measurement(folder).get("rows"):
-        if row["check"] != "hits" and all(value(layout, "limit") == 0 for layout in value(row, "layouts")):
-            yield f"{row['mesh']}, {value(row, 'rays'):.3g} rays", exact(max(value(layout, "misses") for layout in row["layouts"]))
+        if row["check"] != "hits" and all(
+            value(layout, "limit") == 0 for layout in value(row, "layouts")
+        ):
+            yield f"{row['mesh']}, {value(row, 'rays'):.3g} rays", exact(
+                max(value(layout, "misses") for layout in row["layouts"])
+            )
 
 
-READERS = {reader.__name__: reader for reader in (
-    ablation, agreements, build_gain, build_rate, coherence, control_gain, edge_errors, frame_rate, frame_time, gain, leaks,
-    memory, published_order, sample_cost, slopes, traced_share, wavefront_gain)}
+READERS = {
+    reader.__name__: reader
+    for reader in (
+        ablation,
+        agreements,
+        build_gain,
+        build_rate,
+        coherence,
+        control_gain,
+        edge_errors,
+        frame_rate,
+        frame_time,
+        gain,
+        leaks,
+        memory,
+        published_order,
+        sample_cost,
+        slopes,
+        traced_share,
+        wavefront_gain,
+    )
+}

@@ -1,22 +1,29 @@
 # SPDX-License-Identifier: MIT
-"""Renders a scene that `rtrays-render SCENE --export NAME.blender.json` wrote, by Cycles of Blender 3.4.
+"""Renders a scene that `rtrays-render SCENE --export NAME.blender.json` wrote, with Cycles.
 
-    blender --background --factory-startup --python-exit-code 1 --python scripts/cycles_driver.py -- \\
-        NAME.blender.json OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
-    blender --background --factory-startup --python-exit-code 1 --python scripts/cycles_driver.py -- NAME.blender.json --serve
+Expects Blender 3.4:
 
-With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
-JSON for each image: file, seed, spp, mean of R, G and B, seconds (of Blender's render call, synchronisation included).
+    blender --background --factory-startup --python-exit-code 1 --python scripts/cycles_driver.py \\
+        -- NAME.blender.json OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
+    blender --background --factory-startup --python-exit-code 1 --python scripts/cycles_driver.py \\
+        -- NAME.blender.json --serve
 
-With --serve it renders whenever a line "MAX_DEPTH SPP SEED" comes on standard input, without roulette, keeps no image, and
-answers by a line of JSON: seconds of the render call and of all its threads.
+With --runs K, renders the seeds S .. S + K - 1 to OUT.S.exr and so on; their spread estimates the
+noise. Prints one line of JSON per image: file, seed, spp, mean of R, G and B, seconds. The seconds
+are those of Blender's render call, including synchronisation.
 
-The world is scaled to an extent of 1, since Cycles compares the edges of a bright triangle with a distance over an area
-(triangle_light_sample): in large units it takes lamps by solid angles that it knows to 1e-4 sr, and renders them up to
-2 % too dark from afar. Bright triangles are split for the same reason.
+With --serve, renders whenever a line "MAX_DEPTH SPP SEED" arrives on standard input. It renders
+without Russian roulette and keeps no image. It answers with a line of JSON: seconds of the render
+call and processor seconds of all its threads.
 
-Units. Emission nodes give radiance, W / (sr m^2); a sun's strength is the irradiance of a plane facing it, W / m^2; a
-point light of E watts whose shader emits 1 has E / (4 pi) W / sr. scripts/peers holds all of them against closed forms.
+The world is scaled to an extent of 1. Cycles compares the edges of an emissive triangle with a
+distance over an area (triangle_light_sample), so its choice depends on the unit of length. In large
+units it samples lamps by solid angles that are accurate to 1e-4 sr only, and distant lamps come out
+up to 2 % too dark. Emissive triangles are split for the same reason.
+
+Units. Emission nodes give radiance in W / (sr m^2). The strength of a sun is the irradiance of a
+plane that faces it, in W / m^2. A point light of E watts whose shader emits 1 has an intensity of
+E / (4 pi) W / sr. scripts/peers compares all of them with closed forms.
 """
 
 import argparse
@@ -30,7 +37,8 @@ try:
     import bpy
     import mathutils
 except ImportError:
-    print("cycles_driver: runs inside Blender; scripts/install --peers installs that", file=sys.stderr)
+    print("cycles_driver: not running inside Blender; scripts/install --peers installs Blender",
+          file=sys.stderr)
     sys.exit(77)
 import numpy
 
@@ -41,12 +49,12 @@ import cycles_shading  # noqa: E402
 from cycles_shading import Graph, Value  # noqa: E402
 
 WATTS_OF_UNIT_INTENSITY = 4 * math.pi
-MOST_BOUNCES = 1024  # of Cycles
-LONGEST_BRIGHT_EDGE = 0.05  # of the extent
+MOST_BOUNCES = 1024  # limit of Cycles
+LONGEST_BRIGHT_EDGE = 0.05  # relative to the extent
 
 
 class Images:
-    """Linear floats, each file loaded once."""
+    """Images with linear floating-point texels; loads each file once."""
 
     def __init__(self, folder):
         self.folder, self.loaded = folder, {}
@@ -80,7 +88,8 @@ def add_mesh(name, surface, material, scale):
     mesh = bpy.data.meshes.new(name)
     count = len(surface.triangles)
     mesh.vertices.add(len(surface.positions))
-    mesh.vertices.foreach_set("co", numpy.ascontiguousarray(surface.positions * scale, numpy.float32).reshape(-1))
+    mesh.vertices.foreach_set(
+        "co", numpy.ascontiguousarray(surface.positions * scale, numpy.float32).reshape(-1))
     mesh.loops.add(3 * count)
     corners = numpy.ascontiguousarray(surface.triangles, numpy.int32).reshape(-1)
     mesh.loops.foreach_set("vertex_index", corners)
@@ -90,14 +99,17 @@ def add_mesh(name, surface, material, scale):
     mesh.polygons.foreach_set("use_smooth", numpy.full(count, surface.normals is not None))
     if surface.uv is not None:
         uv = mesh.uv_layers.new(name="uv")
-        uv.data.foreach_set("uv", numpy.ascontiguousarray(surface.uv[corners], numpy.float32).reshape(-1))
+        uv.data.foreach_set(
+            "uv", numpy.ascontiguousarray(surface.uv[corners], numpy.float32).reshape(-1))
     mesh.update(calc_edges=True)
     if surface.normals is not None:
         mesh.use_auto_smooth = True
-        mesh.normals_split_custom_set_from_vertices(numpy.asarray(surface.normals, numpy.float32).tolist())
+        mesh.normals_split_custom_set_from_vertices(
+            numpy.asarray(surface.normals, numpy.float32).tolist())
     mesh.materials.append(material)
     made = link(name, mesh)
-    # These bend shadows where smooth normals leave the triangles; nobody else does that.
+    # These offsets bend shadows where smooth normals deviate from the triangles. No other renderer
+    # in the comparison does that.
     made.cycles.shadow_terminator_offset = 0.0
     made.cycles.shadow_terminator_geometry_offset = 0.0
 
@@ -109,7 +121,8 @@ def add_geometry(scene, folder, images, scale):
         key = (surface["material"], tuple(surface.get("radiance", ())))
         if key not in materials:
             entry = scene["materials"][surface["material"]]
-            materials[key] = cycles_shading.make_material(entry, surface.get("radiance"), scene, images)
+            materials[key] = cycles_shading.make_material(
+                entry, surface.get("radiance"), scene, images)
         return materials[key]
 
     for mesh in scene["meshes"]:
@@ -125,7 +138,8 @@ def add_camera(scene, film, scale):
     along_x = wanted["fov_axis"] == "x"
     camera.sensor_fit = "HORIZONTAL" if along_x else "VERTICAL"
     tangent = math.tan(wanted["fov"] / 2)
-    # Lens and sensor in millimetres, of which only the ratio counts; an open aperture fixes the lens (f-number 1).
+    # Lens and sensor are in millimetres, and only their ratio matters. An aperture larger than zero
+    # determines the lens (f-number 1).
     aperture = wanted["aperture_radius"] * scale
     lens = 2000 * aperture if aperture > 0 else 50.0
     stop = 1.0
@@ -139,7 +153,7 @@ def add_camera(scene, film, scale):
         camera.dof.aperture_blades = 0
         camera.dof.aperture_ratio = 1.0
         camera.dof.focus_distance = wanted["focus_distance"] * scale
-    camera.clip_start, camera.clip_end = 1e-5, 1e3  # nothing is clipped here
+    camera.clip_start, camera.clip_end = 1e-5, 1e3  # wide enough to clip nothing
     film.camera = link(wanted["name"], camera, scaled(wanted["world_from_camera"], scale))
 
 
@@ -155,47 +169,55 @@ def add_light(light, scale):
         lamp.energy = 1.0
     else:
         lamp.shadow_soft_size = 0.0
-        lamp.energy = WATTS_OF_UNIT_INTENSITY * scale * scale  # distances shrink
+        lamp.energy = WATTS_OF_UNIT_INTENSITY * scale * scale  # distances are scaled, too
     if kind == "spot":
-        # The falloff of Blender's own spot is another one; ours is linear in the angle from the axis, -z.
+        # The falloff of RTRays is linear in the angle from the axis, -z. Blender's spot light has
+        # another falloff, so a point light gets a shader.
         axis = [-row[2] for row in light["world_from_light"][:3]]
-        # "Incoming" points from what is shaded, here the light, to where the ray came from.
+        # "Incoming" points from the shaded point, here the light, to the origin of the ray.
         cosine = graph.dot(graph.geometry("Incoming"), axis).at_most(1.0).at_least(-1.0)
         angle = cosine.call("ARCCOSINE")
         inner, outer = light["inner_angle"], light["outer_angle"]
         strength = ((outer - angle) / (outer - inner)).at_least(0.0).at_most(1.0)
-    emission = graph.node("ShaderNodeEmission", {"Color": graph.vector(light["radiance"]), "Strength": strength})
+    emission = graph.node("ShaderNodeEmission", {"Color": graph.vector(light["radiance"]),
+                                                 "Strength": strength})
     graph.tree.links.new(emission.outputs[0], graph.output.inputs["Surface"])
     link(light["name"], lamp, scaled(light["world_from_light"], scale))
 
 
 def wrapped(image):
-    """The image with its last column before its first and the first behind the last: Cycles interpolates without
-    wrapping u, or wraps v too, across the poles."""
+    """Returns the image with its last column repeated before the first, and the first after the
+    last. Cycles either interpolates without wrapping u or also wraps v across the poles."""
     width, height = image.size
     texels = numpy.empty(width * height * 4, numpy.float32)
     image.pixels.foreach_get(texels)
     texels = texels.reshape(height, width, 4)
-    wide = bpy.data.images.new(image.name + " wrapped", width + 2, height, float_buffer=True, is_data=True)
+    wide = bpy.data.images.new(image.name + " wrapped", width + 2, height, float_buffer=True,
+                               is_data=True)
     Images.as_numbers(wide)
-    wide.pixels.foreach_set(numpy.concatenate([texels[:, -1:], texels, texels[:, :1]], 1).reshape(-1))
+    wide.pixels.foreach_set(
+        numpy.concatenate([texels[:, -1:], texels, texels[:, :1]], 1).reshape(-1))
     wide.pack()
     return wide
 
 
 def environment(graph, light, images):
-    """Radiance by direction; the convention is that of renderer/scene/stores.h."""
+    """Builds the radiance of an environment light as a function of direction, with the convention
+    of renderer/scene/stores.h. Returns the three channels."""
     image = images(light["file"])
     direction = graph.node("ShaderNodeTexCoord").outputs["Generated"]
-    x, y, z = (graph.dot(direction, [row[i] for row in light["world_from_light"][:3]]) for i in range(3))
+    x, y, z = (graph.dot(direction, [row[i] for row in light["world_from_light"][:3]])
+               for i in range(3))
     u = (x.call("ARCTAN2", 0.0 - z) / (2 * math.pi)).call("FRACT")
     v = 1.0 - y.at_most(1.0).at_least(-1.0).call("ARCCOSINE") / math.pi
     width = image.size[0]
     coordinates = graph.vector([(u * float(width) + 1.0) / float(width + 2), v, 0.0])
     node = graph.node(
-        "ShaderNodeTexImage", {"Vector": coordinates}, image=wrapped(image), interpolation="Linear", extension="EXTEND"
+        "ShaderNodeTexImage", {"Vector": coordinates}, image=wrapped(image), interpolation="Linear",
+        extension="EXTEND"
     )
-    return [texel * factor for texel, factor in zip(graph.separated(node.outputs["Color"]), light["radiance"])]
+    return [texel * factor for texel, factor in zip(
+        graph.separated(node.outputs["Color"]), light["radiance"])]
 
 
 def add_surroundings(lights, images, film):
@@ -205,19 +227,22 @@ def add_surroundings(lights, images, film):
     graph = Graph(world.node_tree, "ShaderNodeOutputWorld")
     shaders = []
     for light in lights:
-        colour = environment(graph, light, images) if light["kind"] == "environment" else light["radiance"]
+        colour = (environment(graph, light, images) if light["kind"] == "environment"
+                  else light["radiance"])
         inputs = {"Color": graph.vector(colour), "Strength": 1.0}
         shaders.append(graph.node("ShaderNodeBackground", inputs).outputs[0])
         if light["kind"] == "environment":
             world.cycles.sampling_method = "MANUAL"
-            world.cycles.sample_map_resolution = min(4096, max(512, 2 * images(light["file"]).size[0]))
+            world.cycles.sample_map_resolution = min(
+                4096, max(512, 2 * images(light["file"]).size[0]))
     if shaders:
         graph.tree.links.new(graph.sum(shaders), graph.output.inputs["Surface"])
 
 
 def set_up(scene, film, spp, max_depth):
     film.render.engine = "CYCLES"
-    film.render.resolution_x, film.render.resolution_y = scene["film"]["width"], scene["film"]["height"]
+    film.render.resolution_x, film.render.resolution_y = (
+        scene["film"]["width"], scene["film"]["height"])
     film.render.resolution_percentage = 100
     film.render.use_compositing = film.render.use_sequencer = False
     film.render.film_transparent = False
@@ -225,13 +250,15 @@ def set_up(scene, film, spp, max_depth):
     film.view_settings.view_transform = "Raw"
     output = film.render.image_settings
     for stamp in [name for name in dir(film.render) if name.startswith("use_stamp")]:
-        setattr(film.render, stamp, False)  # else dates and file names go into the image
-    output.file_format, output.color_mode, output.color_depth, output.exr_codec = "OPEN_EXR", "RGB", "32", "ZIP"
+        setattr(film.render, stamp, False)  # else the image contains dates and file names
+    output.file_format, output.color_mode, output.color_depth, output.exr_codec = (
+        "OPEN_EXR", "RGB", "32", "ZIP")
     cycles = film.cycles
     cycles.device = "CPU"
     cycles.samples = spp
-    # 3.4's progressive multi-jittered points, the default, are biased where there is much to choose from: of three lamps of
-    # 16,000 triangles each at 256 samples one came out 2.6 % too dark, whatever the seed.
+    # The default of Blender 3.4, progressive multi-jittered points, is biased where many triangles
+    # emit. With three lamps of 16,000 triangles each and 256 samples, one lamp came out 2.6 % too
+    # dark for every seed.
     cycles.sampling_pattern = "SOBOL"
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.time_limit = 0
@@ -256,7 +283,7 @@ def set_depth(cycles, max_depth, roulette):
 
 
 def mean_of(file):
-    """Of R, G and B."""
+    """Returns the means of R, G and B."""
     image = Images.as_numbers(bpy.data.images.load(str(file)))
     texels = numpy.empty(4 * image.size[0] * image.size[1], numpy.float32)
     image.pixels.foreach_get(texels)
@@ -270,11 +297,11 @@ def serve(film):
     for line in sys.stdin:
         depth, film.cycles.samples, film.cycles.seed = map(int, line.split())
         set_depth(film.cycles, depth, roulette=False)
-        film.update_tag()  # else persistent data keep the settings of the first render
+        film.update_tag()  # else persistent data keep the first render's settings
         start, processor = time.perf_counter(), time.process_time()
         bpy.ops.render.render()
-        print(json.dumps({"seconds": time.perf_counter() - start, "processor_seconds": time.process_time() - processor}),
-              flush=True)
+        print(json.dumps({"seconds": time.perf_counter() - start,
+                          "processor_seconds": time.process_time() - processor}), flush=True)
 
 
 def main(arguments):
@@ -288,10 +315,11 @@ def main(arguments):
     parser.add_argument("--runs", type=int)
     options = parser.parse_args(arguments)
     if not options.serve and options.output is None:
-        parser.error("OUT.exr is missing, or --serve")
+        parser.error("expected OUT.exr or --serve")
     scene = json.loads(options.description.read_text())
     if scene.get("format") != "rtrays scene for Blender" or scene.get("version") != 1:
-        raise ValueError(f"{options.description}: no description that `rtrays-render --export` wrote for this driver")
+        raise ValueError(f"{options.description}: not a scene for this driver; write one with "
+                         "`rtrays-render --export`")
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     film = bpy.context.scene
@@ -310,28 +338,30 @@ def main(arguments):
     if options.serve:
         serve(film)
         return
-    film.render.use_persistent_data = True  # further runs need not build the scene again
+    film.render.use_persistent_data = True  # avoids a rebuild of the scene for further runs
     for run in range(options.runs or 1):
         seed = options.seed + run
         film.cycles.seed = seed
-        film.update_tag()  # else persistent data keep the settings of the first render
+        film.update_tag()  # else persistent data keep the first render's settings
         output = options.output.resolve()
         if options.runs is not None:
             output = output.with_suffix(f".{seed}.exr")
-        part = output.with_name(output.name + ".part")  # whole or not at all
+        part = output.with_name(output.name + ".part")  # renamed when complete
         film.render.filepath = str(part)
         film.render.use_file_extension = False
         start = time.perf_counter()
         bpy.ops.render.render(write_still=True)
         part.replace(output)
-        record = {"file": str(output), "seed": seed, "spp": spp, "seconds": time.perf_counter() - start}
+        record = {"file": str(output), "seed": seed, "spp": spp,
+                  "seconds": time.perf_counter() - start}
         record["mean"] = mean_of(output)
-        print(json.dumps({**record, "engine": "Cycles of Blender " + bpy.app.version_string}), flush=True)
+        print(json.dumps({**record, "engine": "Cycles of Blender " + bpy.app.version_string}),
+              flush=True)
 
 
 if __name__ == "__main__":
     try:
-        main(sys.argv[sys.argv.index("--") + 1 :])
+        main(sys.argv[sys.argv.index("--") + 1:])
     except (OSError, ValueError) as error:
         print(f"cycles_driver: {error}", file=sys.stderr)
         sys.exit(2)

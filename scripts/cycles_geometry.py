@@ -1,29 +1,32 @@
 # SPDX-License-Identifier: MIT
-"""Meshes for Blender: our PLY files, and bright triangles cut into smaller ones."""
+"""Reads exported PLY meshes for Blender and splits emissive triangles into smaller ones."""
 
 import numpy
 
 
 class Triangles:
-    """positions (n, 3), normals (n, 3) or None, uv (n, 2) or None; triangles (m, 3), counter-clockwise seen from the
-    front."""
+    """A triangle mesh: positions (n, 3), normals (n, 3) or None, uv (n, 2) or None, and triangles
+    (m, 3), which are counter-clockwise seen from the front."""
 
     def __init__(self, positions, triangles, normals=None, uv=None):
         self.positions, self.triangles, self.normals, self.uv = positions, triangles, normals, uv
 
 
 def read_ply(path, mesh):
-    """A mesh as renderer/export/ply_file.cpp writes it; `mesh` is its entry of the description. Without the triangles that
-    name a vertex twice: they have no area, and Blender 3.4 crashes on smooth normals there."""
+    """Reads a mesh that renderer/export/ply_file.cpp wrote; `mesh` is its entry in the scene
+    description. Drops triangles that name a vertex twice: they have no area, and Blender 3.4
+    crashes on their smooth normals. Raises ValueError if the file does not match the entry."""
     with open(path, "rb") as file:
         data = file.read()
     begin = data.index(b"end_header\n") + len(b"end_header\n")
     columns = 3 + 3 * mesh["has_normals"] + 2 * mesh["has_uv"]
     vertices = numpy.frombuffer(data, "<f4", mesh["vertices"] * columns, begin).reshape(-1, columns)
     begin += vertices.nbytes
-    faces = numpy.frombuffer(data, numpy.dtype([("count", "u1"), ("vertices", "<u4", 3)]), mesh["triangles"], begin)
+    faces = numpy.frombuffer(data, numpy.dtype([("count", "u1"), ("vertices", "<u4", 3)]),
+                             mesh["triangles"], begin)
     if begin + faces.nbytes != len(data) or not (faces["count"] == 3).all():
-        raise ValueError(f"{path}: not the mesh of {mesh['vertices']} vertices that the description names")
+        raise ValueError(f"{path}: expected {mesh['vertices']} vertices and only triangles, "
+                         "as in the scene description; export the scene again")
     triangles = faces["vertices"].astype(numpy.int32)
     return Triangles(
         vertices[:, :3],
@@ -34,7 +37,8 @@ def read_ply(path, mesh):
 
 
 def split(surface, longest_edge):
-    """The same surface with each triangle cut into n^2 like it, so that no edge is longer."""
+    """Returns the surface with each triangle split into n^2 similar ones, so that no edge is longer
+    than `longest_edge`."""
     ends = surface.positions[surface.triangles]
     edges = numpy.linalg.norm(ends - ends[:, [1, 2, 0]], axis=2).max(1)
     if edges.max() <= longest_edge:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Shader nodes of Blender for our materials, lights and textures. Runs inside Blender."""
+"""Builds Blender shader nodes for materials, lights and textures. Runs inside Blender."""
 
 import math
 
@@ -7,16 +7,19 @@ import bpy
 
 
 class Value:
-    """A number of a shader: a constant or the output of a node. Arithmetic makes nodes, or folds constants."""
+    """A scalar in a shader: a constant or the output of a node. Arithmetic creates nodes or folds
+    constants."""
 
     def __init__(self, graph, source):
         self.graph, self.source = graph, source
 
     def _math(self, operation, fold, *others):
-        operands = [self.source] + [other.source if isinstance(other, Value) else other for other in others]
+        operands = [self.source] + [
+            other.source if isinstance(other, Value) else other for other in others]
         if all(isinstance(operand, (int, float)) for operand in operands):
             return Value(self.graph, fold(*operands))
-        return Value(self.graph, self.graph.node("ShaderNodeMath", operands, operation=operation).outputs[0])
+        return Value(self.graph, self.graph.node("ShaderNodeMath", operands,
+                                                 operation=operation).outputs[0])
 
     def __add__(self, other):
         return self._math("ADD", lambda a, b: a + b, other)
@@ -36,7 +39,7 @@ class Value:
     __radd__, __rmul__ = __add__, __mul__
 
     def call(self, operation, *others):
-        """A function of ShaderNodeMath that is never wanted of constants alone."""
+        """Applies a function of ShaderNodeMath. At least one operand must not be a constant."""
         return self._math(operation, None, *others)
 
     def sqrt(self):
@@ -50,7 +53,7 @@ class Value:
 
 
 class Graph:
-    """A node tree with nothing but its output."""
+    """A node tree that is emptied except for its output node."""
 
     def __init__(self, tree, output):
         self.tree = tree
@@ -59,7 +62,8 @@ class Graph:
         self._geometry = None
 
     def node(self, kind, inputs=(), **properties):
-        """Inputs by position or by name: constants or sockets; None leaves one unconnected."""
+        """Adds a node. Inputs are given by position or by name and are constants or sockets; None
+        leaves an input unconnected."""
         node = self.tree.nodes.new(kind)
         for name, value in properties.items():
             setattr(node, name, value)
@@ -81,11 +85,13 @@ class Graph:
         return Value(self, self.geometry("Backfacing"))
 
     def vector(self, values):
-        """Three values as the socket of a vector or colour; unlike a colour's own field this takes any number."""
+        """Combines three values into a socket for a vector or colour. Unlike a colour input, this
+        accepts values out of range."""
         return self.node("ShaderNodeCombineXYZ", list(values)).outputs[0]
 
     def separated(self, socket):
-        return [Value(self, output) for output in self.node("ShaderNodeSeparateXYZ", [socket]).outputs]
+        return [Value(self, output)
+                for output in self.node("ShaderNodeSeparateXYZ", [socket]).outputs]
 
     def dot(self, socket, direction):
         node = self.node("ShaderNodeVectorMath", operation="DOT_PRODUCT")
@@ -97,8 +103,9 @@ class Graph:
         return Value(self, node.outputs["Value"])
 
     def cosine(self):
-        """Of the angle between the direction of the eye and the shading normal."""
-        return self.dot(self.geometry("Incoming"), self.geometry("Normal")).call("ABSOLUTE").at_most(1.0)
+        """Returns the absolute cosine between the direction to the eye and the shading normal."""
+        return self.dot(
+            self.geometry("Incoming"), self.geometry("Normal")).call("ABSOLUTE").at_most(1.0)
 
     def sum(self, closures):
         total = closures[0]
@@ -108,7 +115,8 @@ class Graph:
 
 
 def _conductor(c, eta, k):
-    """Exact, in real numbers: Born and Wolf, 13.4; s is the square of the sine."""
+    """Exact Fresnel reflectance of a conductor in real arithmetic (Born and Wolf, section 13.4);
+    s is the squared sine."""
     s = 1.0 - c * c
     difference = (eta * eta - k * k) - s
     ab = (difference * difference + 4 * eta * eta * k * k).sqrt()  # a^2 + b^2
@@ -120,7 +128,7 @@ def _conductor(c, eta, k):
 
 
 def _conductor_approximate(c, eta, k):
-    """Thesis (3.28)."""
+    """Approximate Fresnel reflectance of a conductor, thesis (3.28)."""
     both, cross, square = eta * eta + k * k, 2 * eta * c, c * c
     parallel = (both * square - cross + 1.0) / (both * square + cross + 1.0)
     perpendicular = (both - cross + square) / (both + cross + square)
@@ -133,17 +141,19 @@ def _schlick(c, at_normal, _):
 
 
 def _fresnel(graph, component, is_boundary):
-    """Three values; `is_boundary`: from behind, light meets 1 / eta."""
+    """Returns the Fresnel term per channel. If `is_boundary`, the relative index of refraction is
+    1 / eta from behind."""
     kind = component["fresnel"]
     if kind == "ideal":
         return [1.0] * 3
     if kind == "dielectric":
         eta = component["eta"][0]
-        if not is_boundary:  # the node inverts it from behind: so do we, once more
+        if not is_boundary:  # cancels the node's inversion from behind
             eta = graph.backfacing() * (1 / eta - eta) + eta
         values = [Value(graph, graph.node("ShaderNodeFresnel", {"IOR": eta}).outputs[0])] * 3
     else:
-        function = {"conductor": _conductor, "conductor_approximate": _conductor_approximate, "schlick": _schlick}[kind]
+        function = {"conductor": _conductor, "conductor_approximate": _conductor_approximate,
+                    "schlick": _schlick}[kind]
         cosine = graph.cosine()
         values = [function(cosine, eta, k) for eta, k in zip(component["eta"], component["k"])]
     return [1.0 - value for value in values] if component["complement"] else values
@@ -151,7 +161,8 @@ def _fresnel(graph, component, is_boundary):
 
 def _texture(graph, texture, images):
     coordinates = graph.separated(graph.node("ShaderNodeTexCoord").outputs["UV"])
-    moved = [x * scale + offset for x, scale, offset in zip(coordinates, texture["uv_scale"], texture["uv_offset"])]
+    moved = [x * scale + offset for x, scale, offset in zip(
+        coordinates, texture["uv_scale"], texture["uv_offset"])]
     node = graph.node(
         "ShaderNodeTexImage",
         {"Vector": graph.vector(moved + [0.0])},
@@ -163,13 +174,15 @@ def _texture(graph, texture, images):
 
 
 def _closure(graph, component, is_boundary, scene, images):
-    colour = [weight * value for weight, value in zip(component["weight"], _fresnel(graph, component, is_boundary))]
+    colour = [weight * value for weight, value in zip(
+        component["weight"], _fresnel(graph, component, is_boundary))]
     if "texture" in component:
         texels = _texture(graph, scene["textures"][component["texture"]], images)
         colour = [texel * value for texel, value in zip(texels, colour)]
     kind, eta = component["kind"], component["eta"][0]
     if kind == "ideal_refraction":
-        # Cycles carries no factor of the radiance's change with the index: (1 / eta)^2 on the way in, eta^2 back.
+        # Cycles does not scale radiance at a change of the refractive index: (1 / eta)^2 on
+        # entering, eta^2 on leaving.
         scale = graph.backfacing() * (eta * eta - 1 / (eta * eta)) + 1 / (eta * eta)
         colour = [scale * value for value in colour]
     inputs, properties = {"Color": graph.vector(colour), "Roughness": 0.0}, {}
@@ -178,28 +191,33 @@ def _closure(graph, component, is_boundary, scene, images):
     elif kind == "ideal_reflection":
         shader, properties = "ShaderNodeBsdfGlossy", {"distribution": "SHARP"}
     elif kind == "microfacet_reflection":
-        shader, properties = "ShaderNodeBsdfGlossy", {"distribution": component["distribution"].upper()}
+        shader, properties = "ShaderNodeBsdfGlossy", {
+            "distribution": component["distribution"].upper()}
         inputs["Roughness"] = math.sqrt(component["alpha"])  # Cycles squares it
     elif kind == "ideal_refraction":
         shader, properties = "ShaderNodeBsdfRefraction", {"distribution": "SHARP"}
         inputs["IOR"] = eta
     else:
-        raise ValueError(f"component '{kind}' is not for Cycles")
+        raise ValueError(f"component '{kind}': Cycles has no such BSDF")
     return graph.node(shader, inputs, **properties).outputs[0]
 
 
 def make_material(material, radiance, scene, images):
-    """A material of the description; `radiance` of its front (W / (sr m^2)) or None."""
+    """Builds a material of the scene description. `radiance` is the emission of its front side in
+    W / (sr m^2), or None."""
     made = bpy.data.materials.new(material["name"])
     made.use_nodes = True
     graph = Graph(made.node_tree, "ShaderNodeOutputMaterial")
     components = [component for component in material["components"] if any(component["weight"])]
-    is_boundary = any(component["kind"] == "ideal_refraction" for component in material["components"])
+    is_boundary = any(
+        component["kind"] == "ideal_refraction" for component in material["components"])
     shader = None
     if components:
-        shader = graph.sum([_closure(graph, component, is_boundary, scene, images) for component in components])
+        shader = graph.sum([
+            _closure(graph, component, is_boundary, scene, images) for component in components])
         if not material["two_sided"] and not is_boundary:
-            shader = graph.node("ShaderNodeMixShader", [graph.backfacing(), shader, None]).outputs[0]
+            shader = graph.node(
+                "ShaderNodeMixShader", [graph.backfacing(), shader, None]).outputs[0]
     if radiance is not None:
         front = 1.0 - graph.backfacing()
         colour = graph.vector([front * value for value in radiance])

@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""Renders a Mitsuba 3 scene, for one `rtrays-render SCENE --export NAME.xml` wrote. Run by the Python that has Mitsuba
-(`scripts/install --peers` makes build/peers):
+"""Renders a scene with Mitsuba 3, such as one exported by `rtrays-render SCENE --export NAME.xml`.
 
-    build/peers/bin/python scripts/mitsuba_driver.py NAME.xml OUT.exr [--spp N] [--seed S] [--max-depth D] [--runs K]
+Needs a Python that has Mitsuba; `scripts/install --peers` installs one in build/peers.
+
+    build/peers/bin/python scripts/mitsuba_driver.py NAME.xml OUT.exr --spp N [--seed S]
+        [--max-depth D] [--runs K]
     build/peers/bin/python scripts/mitsuba_driver.py NAME.xml --serve [--variant V]
 
-With --runs K the images of seeds S .. S + K - 1 go to OUT.S.exr and so on: their spread is the noise. Prints a line of
-JSON for each image: file, seed, spp, seconds, mean of R, G and B. The depth is ours: Mitsuba counts one more. The
-reconstruction filter is a box of one pixel, also where the file names another.
+With --runs K, renders the seeds S .. S + K - 1 to OUT.S.exr and so on; their spread estimates the
+noise. Prints one line of JSON per image: file, seed, spp, seconds, mean of R, G and B. The depth
+follows RTRays' convention; Mitsuba's is larger by one. The reconstruction filter is always a box of
+one pixel; another filter in the file is ignored.
 
-With --serve it renders whenever a line "MAX_DEPTH SPP SEED" comes on standard input, without roulette, keeps no image, and
-answers by a line of JSON: seconds on the wall and of all its threads.
+With --serve, renders whenever a line "MAX_DEPTH SPP SEED" arrives on standard input. It renders
+without Russian roulette and keeps no image. It answers with a line of JSON: wall-clock seconds and
+processor seconds of all its threads.
 """
 
 import argparse
@@ -26,11 +30,12 @@ def serve(mitsuba, scene, variant):
     print(json.dumps({"engine": f"Mitsuba {mitsuba.__version__} {variant}"}), flush=True)
     for line in sys.stdin:
         depth, spp, seed = map(int, line.split())
-        integrator = mitsuba.load_dict({"type": "path", "max_depth": depth + 1, "rr_depth": 1 << 30})
+        integrator = mitsuba.load_dict({"type": "path", "max_depth": depth + 1,
+                                        "rr_depth": 1 << 30})
         start, processor = time.perf_counter(), time.process_time()
         mitsuba.Bitmap(mitsuba.render(scene, integrator=integrator, spp=spp, seed=seed))
-        print(json.dumps({"seconds": time.perf_counter() - start, "processor_seconds": time.process_time() - processor}),
-              flush=True)
+        print(json.dumps({"seconds": time.perf_counter() - start,
+                          "processor_seconds": time.process_time() - processor}), flush=True)
 
 
 def main():
@@ -40,14 +45,18 @@ def main():
     parser.add_argument("--serve", action="store_true")
     parser.add_argument("--spp", type=int)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--max-depth", type=int, help="scattering events, 0: no limit; the scene's by default")
+    parser.add_argument("--max-depth", type=int,
+                        help="scattering events, 0 for no limit; by default the scene's value")
     parser.add_argument("--runs", type=int)
-    parser.add_argument("--variant", default="llvm_ad_rgb", help="scalar_rgb is slower and needs no LLVM")
-    parser.add_argument("--define", action="append", default=[], metavar="NAME=VALUE", help="a <default> of the file")
+    parser.add_argument("--variant", default="llvm_ad_rgb",
+                        help="Mitsuba variant; scalar_rgb is slower and does not need LLVM")
+    parser.add_argument("--define", action="append", default=[], metavar="NAME=VALUE",
+                        help="sets a <default> parameter of the file")
     options = parser.parse_args()
     if not options.serve and (options.output is None or options.spp is None):
-        parser.error("OUT.exr and --spp are missing, or --serve")
-    # Dr.Jit takes any LLVM, and those below 19 fail on processors with AVX512-FP16 ("cannot select").
+        parser.error("expected OUT.exr and --spp, or --serve")
+    # Dr.Jit loads any LLVM it finds. Versions before 19 fail on processors with AVX512-FP16
+    # ("cannot select").
     libraries = sorted(pathlib.Path("/usr/lib/x86_64-linux-gnu").glob("libLLVM*19*.so*"))
     if libraries:
         os.environ.setdefault("DRJIT_LIBLLVM_PATH", str(libraries[0]))
@@ -71,17 +80,20 @@ def main():
 
     for run in range(options.runs or 1):
         seed = options.seed + run
-        output = options.output if options.runs is None else options.output.with_suffix(f".{seed}.exr")
+        output = (options.output if options.runs is None
+                  else options.output.with_suffix(f".{seed}.exr"))
         start = time.perf_counter()
         image = mitsuba.Bitmap(mitsuba.render(scene, spp=options.spp, seed=seed))
         seconds = time.perf_counter() - start
         formats = (mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False)
-        part = output.with_suffix(".part.exr")  # whole or not at all
+        part = output.with_suffix(".part.exr")  # renamed when complete
         image.convert(*formats).write(str(part))
         part.replace(output)
         record = {"file": str(output), "seed": seed, "spp": options.spp, "seconds": seconds}
-        record["mean"] = [float(x) for x in numpy.array(image, dtype=numpy.float64).mean((0, 1))[:3]]
-        print(json.dumps({**record, "engine": f"Mitsuba {mitsuba.__version__} {options.variant}"}), flush=True)
+        record["mean"] = [
+            float(x) for x in numpy.array(image, dtype=numpy.float64).mean((0, 1))[:3]]
+        print(json.dumps({**record, "engine": f"Mitsuba {mitsuba.__version__} {options.variant}"}),
+              flush=True)
     return 0
 
 

@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""Reads run.json: what tables, plots and the report are made of.
+"""Reads run.json, from which tables, plots and pages are made.
 
-Everything made from a run is a pure function of its folder. A missing value is an error, never a zero.
+Everything made from a run is a function of its folder and of the prose of experiments/NAME.json. A
+missing value is an error, never a zero.
 """
 
 import argparse
 import json
 import math
 import pathlib
+import re
 import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+EXPERIMENTS = ROOT / "experiments"
 
 
 class RunError(Exception):
-    """A run folder that cannot be used; the message names file, key and remedy."""
+    """A run folder that cannot be used; the message names the file, the key and the remedy."""
 
 
 class Run:
@@ -26,12 +31,17 @@ class Run:
         try:
             self.document = json.loads(path.read_text())
         except OSError as error:
-            raise RunError(f"{path}: {error.strerror}; rtrays-experiment run ... --out {folder} makes it") from error
+            raise RunError(
+                f"{path}: {error.strerror}; rtrays-experiment run ... --out {folder} makes it"
+            ) from error
         except ValueError as error:
             raise RunError(f"{path}: not JSON: {error}") from error
         version = value(self.document, "schema_version")
         if version != self.schema_version:
-            raise RunError(f"{path}: schema_version {version}, these scripts read {self.schema_version}; run it anew")
+            raise RunError(
+                f"{path}: schema_version {version}, these scripts read {self.schema_version}; run"
+                " the experiment again"
+            )
 
     @property
     def curves(self):
@@ -44,21 +54,45 @@ class Run:
         except RunError as error:
             raise RunError(f"{self.folder / 'run.json'}: {error}") from error
 
+    def prose(self, key):
+        """Returns the "title", "thesis", "claim", "questions" or "findings" of the experiment.
+
+        It comes from experiments/NAME.json where that file exists, so that its wording can improve
+        after the run; else from run.json. The numbers of a page come from run.json alone.
+        """
+        path = EXPERIMENTS / f"{self.get('experiment.name')}.json"
+        own = json.loads(path.read_text()).get(key) if path.is_file() else None
+        return own or value(self.document, "experiment").get(key) or ""
+
+    @property
+    def source(self):
+        """The part of the thesis that the experiment is about; empty for an experiment of one's
+        own."""
+        return "" if self.prose("thesis").lower() in ("", "none") else self.prose("thesis")
+
     @property
     def clock(self):
-        """The time that speeds compare: "wall" where a GPU works, else "processor", of all threads together."""
-        return "wall" if value(self.document, "context.device").get("type") == "gpu" else "processor"
+        """The time that speeds compare: "wall" of a GPU, else "processor", of all threads
+        together."""
+        return (
+            "wall" if value(self.document, "context.device").get("type") == "gpu" else "processor"
+        )
 
     def has_images(self):
-        """Whether they are there; a clone has the pages that were made of them."""
-        return (self.folder / self.get("reference.image")).with_suffix(".npy").exists()
+        """Whether the images are here; a clone has only the plots that were made from them."""
+        array = (self.folder / self.get("reference.image")).with_suffix(".npy")
+        if not array.exists() and array.with_suffix(".exr").exists():
+            raise RunError(
+                f"{array}: missing; rtrays-experiment report {self.folder} makes it from the EXR"
+            )
+        return array.exists()
 
     def image(self, relative):
         """Linear R, G, B of an image named in run.json, shape (height, width, 3)."""
         return self._array((self.folder / relative).with_suffix(".npy"))
 
     def layer(self, relative, name):
-        """The same of one of its layers, which add up to it."""
+        """Linear R, G, B of one layer of an image; the layers of an image add up to it."""
         return self._array((self.folder / relative).with_suffix(f".{name}.npy"))
 
     def _array(self, path):
@@ -68,7 +102,8 @@ class Run:
             return numpy.load(path)
         except OSError as error:
             raise RunError(
-                f"{path}: {error.strerror or error}; rtrays-experiment report {self.folder} makes it from the EXR"
+                f"{path}: {error.strerror or error}; rtrays-experiment report {self.folder} makes"
+                " it from the EXR"
             ) from error
 
 
@@ -92,29 +127,59 @@ def value(document, path):
 
 
 def shown_curves(run):
-    """Those whose images have figures, of path tracing by MIS and of truncated BDPT as it is by default; all of a run that
-    has neither. The viewer has the images of all."""
-    shown = [curve for curve in run.curves if value(curve, "id") in ("truncated_bdpt.mis", "path_tracing.mis")]
+    """Returns the curves whose images have figures: path tracing by MIS and truncated BDPT with
+    its defaults, or all curves of a run that has neither. The viewer has the images of all
+    curves."""
+    shown = [
+        curve
+        for curve in run.curves
+        if value(curve, "id") in ("truncated_bdpt.mis", "path_tracing.mis")
+    ]
     return shown or run.curves
 
 
 def is_blind(curve):
-    """Whether the algorithm does not see all light of the scene: of light tracing, what mirrors and glass show."""
-    return value(curve, "algorithm") == "light_tracing" and "delta" in value(curve, "render_report.features")
+    """Whether the algorithm misses light of the scene: light tracing does not see into mirrors and
+    glass."""
+    return value(curve, "algorithm") == "light_tracing" and "delta" in value(
+        curve, "render_report.features"
+    )
 
 
 def is_stratified(curve):
-    """Whether its samples fill the domain evenly, so that errors may fall faster than those of independent ones."""
+    """Whether the samples fill the domain evenly, so that errors may fall faster than with
+    independent samples."""
     return value(curve, "settings").get("integrator.sampler") == "sobol"
 
 
+def commit_of(context):
+    """The commit of a run, and whether the tree had changes."""
+    return value(context, "commit") + (
+        " with uncommitted changes" if value(context, "dirty") else ""
+    )
+
+
 def pilot_seconds(curve):
-    """Device time of the pilot that chose the number of light paths; zero where there was none."""
-    return value(curve, "render_report.pilot.seconds") if "pilot" in value(curve, "render_report") else 0.0
+    """Device time of the pilot that chose the number of light paths; zero without a pilot."""
+    return (
+        value(curve, "render_report.pilot.seconds")
+        if "pilot" in value(curve, "render_report")
+        else 0.0
+    )
+
+
+def seconds(curve, entry, clock):
+    """Seconds of a point or repetition, the pilot included, by `clock`: "device" or "wall".
+
+    In run.json the device's seconds include the pilot, those on the wall do not; its device time
+    is added to them.
+    """
+    return value(entry, f"seconds_{clock}") + (pilot_seconds(curve) if clock == "wall" else 0.0)
 
 
 def usable_points(curve):
-    """The points before the first where the reference's noise dominates: where curves stop."""
+    """Returns the points before the first one that the reference's noise dominates; curves stop
+    there."""
     points = []
     for point in value(curve, "points"):
         if value(point, "noise_dominates"):
@@ -124,7 +189,7 @@ def usable_points(curve):
 
 
 def slope_verdict(slope, expected, tolerance):
-    """Whether an interval lies within, outside of, or across expected +/- tolerance."""
+    """Judges whether an interval lies within, outside of, or across expected +/- tolerance."""
     low, high = expected - tolerance, expected + tolerance
     measured_low, measured_high = value(slope, "low"), value(slope, "high")
     if low <= measured_low and measured_high <= high:
@@ -135,36 +200,55 @@ def slope_verdict(slope, expected, tolerance):
 
 
 def gain_verdict(gain, claimed):
-    """Whether an interval reaches the factor claimed, is a gain at all, or a loss."""
+    """Judges whether an interval reaches the claimed factor, is a gain at all, or a loss."""
     if value(gain, "low") > 1:
         return "holds" if value(gain, "high") >= claimed else "holds partly"
     return "does not hold here" if value(gain, "high") < claimed else "undecided"
 
 
 def agreement_verdict(agreement):
-    """The image claim: the same picture as the reference, up to noise."""
+    """Judges whether the image equals the reference up to noise."""
     if not value(agreement, "agrees") or value(agreement, "equivalence") == "different":
         return "does not hold here"
     return "holds" if value(agreement, "equivalence") == "equivalent" else "undecided"
 
 
+NAMES = {"bdpt": "BDPT", "truncated_bdpt": "truncated BDPT", "mis": "MIS"}
+
+
+def algorithm_name(name):
+    """The name of an algorithm in text, of the harness' "path_tracing explicit" too."""
+    return " ".join(NAMES.get(word, word.replace("_", " ")) for word in name.split(" "))
+
+
 def label(curve):
-    """How a curve is called in tables and legends."""
+    """The name of a curve in tables and legends."""
     algorithm, _, settings = value(curve, "id").partition(".")
-    return f"{algorithm} ({settings})".replace("_", " ").replace(",", ", ").replace("=", " = ")
+    shown = [
+        NAMES.get(setting, setting.replace("_", " ").replace("=", " = "))
+        for setting in settings.split(",")
+    ]
+    return f"{algorithm_name(algorithm)} ({', '.join(shown)})"
+
+
+def file_name(text):
+    """A file name without blanks and commas, made from the id of a curve."""
+    return re.sub(r"[^\w.=-]+", "_", text)
 
 
 def write_text(path, text):
-    """Writes a file whole or not at all."""
+    """Writes a file completely or not at all."""
     temporary = path.with_name(path.name + ".tmp")
     temporary.write_text(text)
     temporary.replace(path)
 
 
 def run_script(program, description, body):
-    """A script's main: calls `body` with the runs of the folders named on the command line; returns the exit code.
+    """Calls `body` with the runs of the folders named on the command line, as a script's main;
+    returns the exit code.
 
-    An error becomes one line on stderr: exit code 2 for a folder that cannot be used, 1 for anything else.
+    An error becomes one line on stderr: exit code 2 for a folder that cannot be used, 1 for
+    anything else.
     """
     parser = argparse.ArgumentParser(prog=program, description=description)
     parser.add_argument("runs", metavar="DIR", nargs="+", help="folder of a finished run")
@@ -175,7 +259,10 @@ def run_script(program, description, body):
         print(f"{program}: {error}", file=sys.stderr)
         return 2
     except ImportError as error:
-        print(f"{program}: {error}; install python3-numpy, python3-matplotlib and python3-markdown", file=sys.stderr)
+        print(
+            f"{program}: {error}; install python3-numpy, python3-matplotlib and python3-jinja2",
+            file=sys.stderr,
+        )
         return 1
     except OSError as error:
         print(f"{program}: {error}", file=sys.stderr)

@@ -1,86 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""Tables of a run as rows of text, and their CSV, Markdown and LaTeX forms."""
+"""Tables of a run of curves."""
 
-import csv
-import io
+import json
 
+from cells import BASELINE, NONE, Table, interval, number
 from edges import edge_errors
 from efficiency import Cost, base_curve, gain
-from run_document import label, shown_curves, value, write_text
+from run_document import label, seconds, shown_curves, value, write_text
+from undecided import factor_of_agreement, with_advice
 
 POINT_METRICS = ("l2", "rmse", "mae", "relmse", "mse", "mse_unbiased")
+PILOT_NOTE = (
+    "Both times include the pilot that chooses the number of light paths; run.json has no wall time"
+    " of it, so that its device time is added to the wall time."
+)
 
 
-class Table:
-    """A caption, column heads, and rows of strings."""
-
-    def __init__(self, caption, columns, rows):
-        self.caption = caption
-        self.columns = columns
-        self.rows = rows
-
-    def csv(self):
-        stream = io.StringIO()
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(self.columns)
-        writer.writerows(self.rows)
-        return stream.getvalue()
-
-    def markdown(self):
-        def line(cells):
-            return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-
-        return "\n".join([line(self.columns), line(["---"] * len(self.columns)), *map(line, self.rows)]) + "\n"
-
-    def latex(self):
-        """A booktabs table; numbers are right-aligned."""
-
-        def line(cells):
-            return "    " + " & ".join(latex_escape(cell) for cell in cells) + r" \\"
-
-        return "\n".join(
-            [
-                r"\begin{table}",
-                r"  \centering",
-                rf"  \caption{{{latex_escape(self.caption)}}}",
-                rf"  \begin{{tabular}}{{l{'r' * (len(self.columns) - 1)}}}",
-                r"    \toprule",
-                line(self.columns),
-                r"    \midrule",
-                *map(line, self.rows),
-                r"    \bottomrule",
-                r"  \end{tabular}",
-                r"\end{table}",
-                "",
-            ]
-        )
-
-    def write(self, folder, name):
-        """NAME.csv, NAME.md and NAME.tex."""
-        write_text(folder / f"{name}.csv", self.csv())
-        write_text(folder / f"{name}.md", f"{self.caption}\n\n{self.markdown()}")
-        write_text(folder / f"{name}.tex", self.latex())
-
-
-LATEX_SPECIAL = {
-    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_",
-    "{": r"\{", "}": r"\}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-}
-
-
-def latex_escape(text):
-    return "".join(LATEX_SPECIAL.get(character, character) for character in text)
-
-
-def number(quantity):
-    """Four significant digits."""
-    return f"{quantity:.4g}"
-
-
-def interval(document, scale=1.0, form="{:.4g}"):
-    """value [low, high]"""
-    parts = [form.format(scale * value(document, key)) for key in ("value", "low", "high")]
-    return f"{parts[0]} [{parts[1]}, {parts[2]}]"
+def has_pilot(run):
+    return any("pilot" in value(curve, "render_report") for curve in run.curves)
 
 
 def errors_table(run):
@@ -90,47 +27,95 @@ def errors_table(run):
         for point in value(curve, "points"):
             rows.append(
                 [label(curve), str(value(point, "spp"))]
-                + [number(value(point, key)) for key in ("seconds_device", "seconds_wall")]
-                + [number(value(point, key)) for key in POINT_METRICS]
-                + ["below the noise floor" if value(point, "noise_dominates") else "yes"]
+                + [number(seconds(curve, point, clock), 4) for clock in ("device", "wall")]
+                + [number(value(point, key), 4) for key in POINT_METRICS]
+                + ["no" if value(point, "noise_dominates") else "yes"]
             )
-    columns = ["curve", "spp", "device s", "wall s", "L2", "RMSE", "MAE", "relMSE", "MSE", "MSE less reference noise",
-               "above floor"]
-    return Table(f"{run.get('experiment.title')}: error, medians over seeds", columns, rows)
+    columns = [
+        "curve",
+        "samples per pixel",
+        "device time, s",
+        "wall time, s",
+        "L2",
+        "RMSE",
+        "MAE",
+        "relMSE",
+        "MSE",
+        "MSE minus reference noise",
+        "above the noise floor",
+    ]
+    return Table(
+        "Errors and times, medians over seeds",
+        columns,
+        rows,
+        [PILOT_NOTE if has_pilot(run) else ""],
+    )
 
 
 def slopes_table(run):
     rows = [
-        [label(curve), interval(value(curve, "slope"), form="{:.4f}"),
-         interval(value(curve, "slope_unbiased"), form="{:.4f}"),
-         "{} to {}".format(*value(curve, "slope.spp"))]
+        [
+            label(curve),
+            interval(value(curve, "slope"), form="{:.4f}"),
+            interval(value(curve, "slope_unbiased"), form="{:.4f}"),
+            "{} to {}".format(*value(curve, "slope.spp")),
+        ]
         for curve in run.curves
     ]
-    return Table(f"{run.get('experiment.title')}: slope of log RMSE against log spp, 95 % intervals",
-                 ["curve", "slope", "slope less reference noise", "spp"], rows)
+    return Table(
+        "Slope of log RMSE against log samples per pixel, with 95 % intervals",
+        ["curve", "slope", "slope without reference noise", "samples per pixel"],
+        rows,
+    )
 
 
 def agreement_table(run):
     rows = []
     for curve in run.curves:
         agreement = value(curve, "agreement")
-        rows.append([
-            label(curve), str(value(curve, "image_spp")),
-            f"{value(agreement, 'rejected')} of {value(agreement, 'tests')}", str(agreement.get("unconfirmed", 0)),
-            number(value(agreement, "largest_z")),
-            interval(value(agreement, "relative_difference"), 100, "{:+.4f}"), value(agreement, "equivalence"),
-        ])
-    return Table(f"{run.get('experiment.title')}: agreement with the reference",
-                 ["curve", "spp", "tests rejected", "not confirmed", "largest |z|", "difference of the mean, %, 99 %",
-                  "within 0.1 %"], rows)
+        rows.append(
+            [
+                label(curve),
+                str(value(curve, "image_spp")),
+                f"{value(agreement, 'rejected')} of {value(agreement, 'tests')}",
+                str(agreement.get("unconfirmed", 0)),
+                number(value(agreement, "largest_z"), 4),
+                interval(value(agreement, "relative_difference"), 100, "{:+.4f}"),
+                with_advice(
+                    value(agreement, "equivalence"), lambda a=agreement: factor_of_agreement(a)
+                ),
+            ]
+        )
+    return Table(
+        "Agreement with the reference",
+        [
+            "curve",
+            "samples per pixel",
+            "block tests that reject",
+            "rejections not confirmed",
+            "largest |z|",
+            "difference of the mean, % [99 %]",
+            "mean within 0.1 %",
+        ],
+        rows,
+    )
 
 
 def cost_table(run):
-    """What is kept out of the curves: compilation and BVH construction."""
-    rows = [[label(curve), number(value(curve, "compile_seconds")), number(value(curve, "bvh_seconds"))]
-            for curve in run.curves]
-    return Table(f"{run.get('experiment.title')}: seconds outside of the curves",
-                 ["curve", "kernels compiled or loaded, first enqueue included", "BVH construction"], rows)
+    """Times that the curves do not include: compilation and BVH construction."""
+    rows = [
+        [
+            label(curve),
+            number(value(curve, "compile_seconds"), 4),
+            number(value(curve, "bvh_seconds"), 4),
+        ]
+        for curve in run.curves
+    ]
+    return Table(
+        "Times that the curves do not include",
+        ["curve", "kernels compiled or loaded, with the first enqueue, s", "BVH construction, s"],
+        rows,
+    )
 
 
 def efficiency_table(run):
@@ -140,17 +125,46 @@ def efficiency_table(run):
     rows = []
     for curve in run.curves:
         cost = Cost(curve, noise)
-        rows.append([label(curve), str(cost.spp), number(cost.mse.mean()), number(cost.seconds), number(cost.pilot_seconds),
-                     interval(gain(base, curve, noise, "spp")), interval(gain(base, curve, noise, "seconds"))])
-    name = label(base)
-    return Table(f"{run.get('experiment.title')}: against {name}, less reference noise, 95 % intervals over seeds; "
-                 "light that a curve cannot see counts as its error",
-                 ["curve", "at spp", "MSE", "device s without pilot", "pilot s", f"samples of {name} for one of its own",
-                  "times less MSE in equal time"], rows)
+        gains = (
+            [BASELINE] * 2
+            if curve is base
+            else [interval(gain(base, curve, noise, key), digits=4) for key in ("spp", "seconds")]
+        )
+        rows.append(
+            [
+                label(curve),
+                str(cost.spp),
+                number(cost.mse.mean()),
+                number(cost.seconds, 4),
+                number(cost.pilot_seconds),
+                *gains,
+            ]
+        )
+    return Table(
+        f"Efficiency over {label(base)}, with 95 % intervals over seeds",
+        [
+            "curve",
+            "samples per pixel",
+            "MSE minus reference noise",
+            "device time without pilot, s",
+            "pilot, s",
+            "gain in equal samples, times",
+            "gain in equal device time, times",
+        ],
+        rows,
+        [
+            f"Gain in equal samples: how many times the samples {label(base)} needs for the same"
+            " error. Gain in equal device time: how many times smaller the MSE is in the same"
+            " time. Light that an algorithm misses counts as error."
+        ],
+    )
 
 
-# What the thesis says of memory (2.8; full bidirectional: its figure of the literature).
-THESIS_MEMORY = {"truncated_bdpt": "path tracing and one scalar", "bdpt": "3.5 KB, 16 vertices from either end"}
+# Statements of the thesis about memory (section 2.8); full BDPT: its figure from the literature.
+THESIS_MEMORY = {
+    "truncated_bdpt": "path tracing and one scalar",
+    "bdpt": "3.5 KB, 16 vertices from either end",
+}
 
 
 def memory_table(run):
@@ -158,61 +172,109 @@ def memory_table(run):
     rows = []
     for curve in run.curves:
         report = value(curve, "render_report")
-        rows.append([label(curve), str(value(report, "bytes_per_path")), str(value(report, "light_vertex_bytes_per_path")),
-                     THESIS_MEMORY.get(value(curve, "algorithm"), "-")])
-    return Table(f"{run.get('experiment.title')}: bytes per path, whatever its length",
-                 ["curve", "bytes", "of light vertices", "thesis"], rows)
+        rows.append(
+            [
+                label(curve),
+                str(value(report, "bytes_per_path")),
+                str(value(report, "light_vertex_bytes_per_path")),
+                THESIS_MEMORY.get(value(curve, "algorithm"), NONE),
+            ]
+        )
+    return Table(
+        "Memory of a path in flight, whatever its length",
+        ["curve", "bytes per path", "bytes of light vertices", "thesis"],
+        rows,
+    )
 
 
 def throughput_table(run):
-    """Renderer against reference, or the reason why it was refused."""
+    """Renderer against reference, or the reason why the measurement was refused."""
     throughput = run.get("throughput")
-    columns = ["curve", "renderer, Msamples/s", "reference, Msamples/s", "ratio"]
-    if value(throughput, "accepted"):
-        cells = [interval(value(throughput, f"{side}_samples_per_second"), 1e-6) for side in ("renderer", "reference")]
-        row = [*cells, interval(value(throughput, "ratio"))]
-    else:
-        row = [f"refused: {value(throughput, 'reason')}", "error: no value", "error: no value"]
-    return Table(f"{run.get('experiment.title')}: samples per second, renderer and reference in turns", columns,
-                 [[value(throughput, "curve"), *row]])
+    columns = ["curve", "renderer, Msamples/s", "reference, Msamples/s", "renderer / reference"]
+    named = next(
+        (label(curve) for curve in run.curves if value(curve, "id") == value(throughput, "curve")),
+        value(throughput, "curve"),
+    )
+    if not value(throughput, "accepted"):
+        return Table(
+            "Samples per second of renderer and reference, interleaved repetitions",
+            columns,
+            [[named, *[NONE] * 3]],
+            [f"Refused: {value(throughput, 'reason')}."],
+        )
+    cells = [
+        interval(value(throughput, f"{side}_samples_per_second"), 1e-6, digits=4)
+        for side in ("renderer", "reference")
+    ]
+    return Table(
+        "Samples per second of renderer and reference, interleaved repetitions",
+        columns,
+        [[named, *cells, interval(value(throughput, "ratio"), digits=4)]],
+    )
+
+
+def edges_document(run):
+    """Returns where the error is, by curve: measured from the images if they are here, else as
+    kept in edges.json.
+
+    The figures outlive the images, which a clone does not have.
+    """
+    path = run.folder / "edges.json"
+    if not run.has_images():
+        return json.loads(path.read_text()) if path.is_file() else {}
+    found = {value(curve, "id"): edge_errors(run, curve) for curve in shown_curves(run)}
+    document = {name: ratio for name, ratio in found.items() if ratio}
+    write_text(path, json.dumps(document, indent=1) + "\n")
+    return document
 
 
 def edges_table(run):
-    """Where the error lies."""
-    rows = []
-    for curve in shown_curves(run):
-        ratio = edge_errors(run, curve)
-        if ratio:
-            rows.append([value(curve, "id"), *(number(value(ratio, key)) for key in ("value", "low", "high"))])
-    return Table("Mean squared error at edges of the image over that elsewhere, 95 % interval", ["curve", "value", "low", "high"], rows)
+    """Where the error is: at edges of the image or elsewhere."""
+    document = edges_document(run)
+    rows = [
+        [label(curve), interval(document[value(curve, "id")], digits=4)]
+        for curve in run.curves
+        if value(curve, "id") in document
+    ]
+    return Table(
+        "Mean squared error at edges of the image over that elsewhere, 95 % interval",
+        ["curve", "ratio"],
+        rows,
+    )
 
 
 def repetitions_table(run):
-    """Every raw measurement, one row each, with all digits."""
-    keys = ("seconds_device", "seconds_wall", "l2", "rmse", "mae", "relmse", "mse")
+    """Every raw measurement, one row each, with all digits; times include the pilot."""
+    keys = ("l2", "rmse", "mae", "relmse", "mse")
     rows = []
     for curve in run.curves:
         for point in value(curve, "points"):
             for repetition in value(point, "repetitions"):
-                rows.append([value(curve, "id"), str(value(point, "spp")), str(value(repetition, "seed"))]
-                            + [repr(value(repetition, key)) for key in keys])
-    return Table("all repetitions", ["curve", "spp", "seed", *keys], rows)
+                rows.append(
+                    [value(curve, "id"), str(value(point, "spp")), str(value(repetition, "seed"))]
+                    + [repr(seconds(curve, repetition, clock)) for clock in ("device", "wall")]
+                    + [repr(value(repetition, key)) for key in keys]
+                )
+    return Table(
+        "All repetitions", ["curve", "spp", "seed", "seconds_device", "seconds_wall", *keys], rows
+    )
 
 
 TABLES = {
+    "efficiency": efficiency_table,
     "errors": errors_table,
     "slopes": slopes_table,
-    "efficiency": efficiency_table,
-    "memory": memory_table,
     "agreement": agreement_table,
-    "cost": cost_table,
     "throughput": throughput_table,
+    "memory": memory_table,
     "edges": edges_table,
+    "cost": cost_table,
 }
 
 
 def write_tables(run, folder):
-    """All tables as CSV, Markdown and LaTeX, the raw repetitions as CSV; returns the tables by name."""
+    """Writes all tables as CSV, Markdown and LaTeX and the raw repetitions as CSV; returns the
+    tables by name."""
     folder.mkdir(parents=True, exist_ok=True)
     tables = {name: make(run) for name, make in TABLES.items()}
     for name, table in tables.items():

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the images of a run, which the page before it has put into `images`: [{name, width, height, data}], data
-// being RGBE (Ward 1991), row by row from the top, in base64. Exposure and difference are taken of linear values.
+// Compares the images of a run. The script images.js defines them: `images` is [{name, width, height, data}], where data
+// is RGBE (Ward 1991), row by row from the top, in base64. Exposure and difference apply to linear values.
 "use strict";
 
 function viewer(root, images) {

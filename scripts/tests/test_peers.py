@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Triangles for Cycles, and what scripts/peers says where no peer is installed."""
+"""Tests the meshes for Cycles, and the messages of scripts/peers if no peer is installed."""
 
 import pathlib
 import subprocess
@@ -28,7 +28,8 @@ class Reading(unittest.TestCase):
     def test_leaves_out_triangles_that_name_a_vertex_twice(self):
         positions = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
         faces = [[0, 1, 2], [0, 0, 2], [0, 1, 1], [2, 1, 2], [2, 1, 0]]
-        packed = numpy.array([(3, face) for face in faces], numpy.dtype([("count", "u1"), ("vertices", "<u4", 3)]))
+        packed = numpy.array([(3, face) for face in faces],
+                             numpy.dtype([("count", "u1"), ("vertices", "<u4", 3)]))
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "mesh.ply"
             file.write_bytes(b"ply\nend_header\n" + positions.tobytes() + packed.tobytes())
@@ -40,17 +41,21 @@ class Reading(unittest.TestCase):
 
 class Splitting(unittest.TestCase):
     def test_keeps_area_and_front(self):
-        whole = cycles_geometry.Triangles(numpy.array([[0.0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 1]]),
-                                          numpy.array([[0, 1, 2], [0, 3, 1]]), None,
-                                          numpy.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]))
+        whole = cycles_geometry.Triangles(
+            numpy.array([[0.0, 0, 0], [4, 0, 0], [0, 3, 0], [0, 0, 1]]),
+            numpy.array([[0, 1, 2], [0, 3, 1]]), None,
+            numpy.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]))
         pieces = cycles_geometry.split(whole, 0.7)
         self.assertAlmostEqual(area(pieces), area(whole), places=12)
-        numpy.testing.assert_allclose(face_normals(pieces).sum(0), face_normals(whole).sum(0), atol=1e-12)
+        numpy.testing.assert_allclose(face_normals(pieces).sum(0), face_normals(whole).sum(0),
+                                      atol=1e-12)
         corners = pieces.positions[pieces.triangles]
-        self.assertLess(numpy.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(), 0.7 + 1e-12)
+        self.assertLess(numpy.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(),
+                        0.7 + 1e-12)
         flat = pieces.positions[:, 2] == 0
-        numpy.testing.assert_allclose(pieces.uv[flat][:, 0][pieces.positions[flat][:, 1] == 0],
-                                      pieces.positions[flat][:, 0][pieces.positions[flat][:, 1] == 0] / 4, atol=1e-12)
+        numpy.testing.assert_allclose(
+            pieces.uv[flat][:, 0][pieces.positions[flat][:, 1] == 0],
+            pieces.positions[flat][:, 0][pieces.positions[flat][:, 1] == 0] / 4, atol=1e-12)
 
 
 class MissingPeers(unittest.TestCase):
@@ -60,8 +65,9 @@ class MissingPeers(unittest.TestCase):
             script.parent.mkdir()
             for name in ("peers", "peers_table.py"):
                 (script.parent / name).write_text((SCRIPTS / name).read_text())
-            done = subprocess.run([sys.executable, script, "--programs", folder], capture_output=True, text=True,
-                                  check=False, env={"PATH": folder})
+            done = subprocess.run([sys.executable, script, "--programs", folder],
+                                  capture_output=True, text=True, check=False,
+                                  env={"PATH": folder})
             self.assertEqual(done.returncode, 77, done.stderr)
             self.assertIn("scripts/install --peers", done.stderr)
             self.assertFalse((pathlib.Path(folder) / "build").exists())
