@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-# The two commands of a newcomer are `make test` and `make reproduce-chapter4`; each installs what is missing.
+# A newcomer needs two commands: `make test` and `make reproduce-chapter4`. Each installs missing
+# packages.
 
 PROFILE ?= quick
+PRESET ?= release
 REFERENCE_SPP ?= 100000
 JOBS ?= $(shell nproc)
 BENCH ?= .
@@ -11,8 +13,9 @@ STIFF_CASES = $(PROFILE:quick=ci)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors samplers mirror_ring glass_goblets door_ajar floor_lamps
 MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces binning ablations
+REPORT = $(if $(wildcard build/bin/rtrays-experiment),build/bin/rtrays-experiment report,/usr/bin/python3 scripts/report)
 
-.PHONY: all install programs build reproduce-chapter4 report test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
+.PHONY: all install programs picture build reproduce-chapter4 report check test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
 
 all: build
 
@@ -20,15 +23,19 @@ install:
 	scripts/install
 
 programs: install
-	cmake --preset release
-	cmake --build --preset release -j $(JOBS) --target rtrays-render rtrays-reference rtrays-experiment
+	cmake --preset $(PRESET)
+	cmake --build --preset $(PRESET) -j $(JOBS) --target rtrays-render rtrays-reference rtrays-experiment
+
+# The Cornell box as an image for display and as an EXR with all layers.
+picture: programs
+	build/bin/rtrays-render scenes/cornell_box/scene.json -o build/cornell_box.png -o build/cornell_box.exr --spp 256
 
 build: install
-	cmake --preset release
-	cmake --build --preset release -j $(JOBS)
+	cmake --preset $(PRESET)
+	cmake --build --preset $(PRESET) -j $(JOBS)
 
-# Kernels of what has no result yet come first, those of as many experiments at a time as there are cores: PoCL compiles on
-# one. The quick profile has the stiff cases that CI has.
+# Compiles the kernels of all experiments without a result first, one experiment per core, because
+# PoCL compiles on one core. In the quick profile, `stability` runs the cases of the ci profile.
 reproduce-chapter4: programs
 	@printf '%s\n' $(if $(wildcard $(CHAPTER4)/stability/stability.json),,"stability.json --profile $(STIFF_CASES)") \
 	    $(foreach e,$(EXPERIMENTS),$(if $(wildcard $(CHAPTER4)/$e/run.json),,"$e.json --profile $(PROFILE)")) \
@@ -45,25 +52,32 @@ reproduce-chapter4: programs
 	$(if $(filter full,$(PROFILE)),$(MAKE) --no-print-directory stiffness STIFFNESS=$(CHAPTER4)/stiffness)
 	$(MAKE) --no-print-directory report
 
-# Tables, plots and pages from the run.json files that are there.
+# Writes tables, plots, pages and the overview from the existing run.json files, those of all other
+# folders in $(CHAPTER4) too. Without a build, as in a fresh clone, the stored pictures are used.
 report:
-	/usr/bin/python3 scripts/measurements $(addprefix $(CHAPTER4)/,$(MEASUREMENTS))
-	build/bin/rtrays-experiment report $(addprefix $(CHAPTER4)/,$(EXPERIMENTS))
+	$(REPORT) $(addprefix $(CHAPTER4)/,$(EXPERIMENTS))
 
-# The renderer's host code under address and undefined-behaviour sanitizers, then everything; the last lines are ctest's summary.
+# Lint and the unit tests, which need no device: under two minutes after a build.
+check: build lint
+	ctest --test-dir build --output-on-failure -j $(JOBS) -L unit
+
+# Builds everything, runs the unit tests under the address and undefined-behaviour sanitizers, then
+# lint and all tests. The last lines are the summary of ctest.
 test: build test-asan lint
-	scripts/install --tests
 	ctest --test-dir build --output-on-failure -j $(JOBS)
 
 test-asan: install
 	cmake --preset asan
 	cmake --build --preset asan -j $(JOBS) --target host_tests
-	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L host
+	ctest --test-dir build-asan --output-on-failure -j $(JOBS) -L unit
 
-# The heavy versions, hours, resumable: 1e7 rays on every mesh and layout beside Embree's and 1e8 out of closed shapes; all
-# feature scenes by renderer and reference, with a contact sheet, and by every algorithm; every scene with what it needs
-# compiled in and with everything (that goes through all of them again, but with kernels from the cache). What they print is
-# evidence and is kept in results/.
+# Runs the full versions of tests; takes hours and is resumable:
+#   * 1e7 rays on every mesh and layout, compared with Embree, and 1e8 rays inside closed shapes;
+#   * all feature scenes with the renderer and the reference, with a contact sheet, and with every
+#     algorithm;
+#   * every scene with only the required features compiled in and with all features. This step starts
+#     over when resumed, but takes kernels from the cache.
+# The outputs are evidence and are kept in results/.
 test-full: programs
 	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/chapter4/traversal
 	/usr/bin/python3 scripts/measurements results/chapter4/traversal
@@ -76,48 +90,57 @@ test-full: programs
 	scripts/same_bits build/bin features > results/same_bits.txt.new
 	mv results/same_bits.txt.new results/same_bits.txt
 
-# Mitsuba 3 and Blender's Cycles (scripts/install --peers) against the Embree reference, resumable; exit code 77 where they
-# are not installed. RTRAYS_MESHES adds scene files of others.
+# Compares Mitsuba 3 and Blender's Cycles (scripts/install --peers) with the Embree reference;
+# resumable. The exit code of the script is 77 if they are not installed. RTRAYS_MESHES adds
+# third-party scenes.
 peers: programs
 	scripts/peers --profile full
 
-# What leaving out saves on the Cornell box; on an idle machine.
+# Measures the savings from specialised kernels on the Cornell box. Needs an idle machine.
 specialisation: programs
 	scripts/specialisation build/bin/rtrays-render scenes/cornell_box/scene.json > results/specialisation.md.new
 	mv results/specialisation.md.new results/specialisation.md
 
-# Stiff and extreme cases by every algorithm that can render them: a table, and exit code 3 if one fails.
+# Renders stiff and extreme cases with every algorithm that supports them, and writes a table. The
+# exit code of the program is 3 if a case fails.
 stability: programs
 	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out build/stability.$(PROFILE)
 
-# Roughness and light size towards zero: where each algorithm fails; on an idle machine, a quarter of an hour.
+# Measures where each algorithm fails as roughness and light size approach zero. Needs an idle
+# machine and takes a quarter of an hour.
 stiffness: programs
 	build/bin/rtrays-experiment run experiments/stiffness.json --profile full --out $(STIFFNESS)
 	/usr/bin/python3 scripts/stiffness $(STIFFNESS)
 
-# Instructions per ray by layout and by Embree, counted by Valgrind, which scripts/install does not install.
+# Counts the instructions per ray for each hierarchy layout and for Embree. Needs Valgrind, which
+# scripts/install does not install.
 instructions: programs
 	scripts/instructions build/bin/rtrays-render build/bin/rtrays-reference scenes/cornell_bumps/scene.json > results/instructions.md.new
 	mv results/instructions.md.new results/instructions.md
 
-# The hierarchy beside Embree's: rays per second by mesh and kind of ray, and how long it takes to build; on an idle machine.
-# A part of them: BENCH=sphere (a regular expression). The experiments bvh_build and ray_rates make tables of the same turns.
+# Benchmarks the hierarchy against Embree's: rays per second per mesh and ray type, and build times.
+# Needs an idle machine. BENCH=sphere, a regular expression, selects some of the benchmarks. The
+# experiments bvh_build and ray_rates write tables of the same measurements.
 bench: install
-	cmake --preset release
-	cmake --build --preset release -j $(JOBS) --target benchmark_ray_rates benchmark_bvh_build
+	cmake --preset $(PRESET)
+	cmake --build --preset $(PRESET) -j $(JOBS) --target benchmark_ray_rates benchmark_bvh_build
 	for program in ray_rates bvh_build; do \
 	    build/bin/benchmark_$$program --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
 	        --benchmark_out=build/$$program.json --benchmark_out_format=json || exit $$?; \
 	done
 
-# The references of results/references/, resumable: half a and half b of REFERENCE_SPP samples each.
+# Renders the references of results/references/, as halves a and b with REFERENCE_SPP samples per
+# pixel each. Resumable.
 references: programs
 	scripts/references $(REFERENCE_SPP)
 
 format:
-	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+	scripts/install --tests
+	git ls-files '*.h' '*.cpp' '*.cl' | xargs clang-format -i
 
+# Checks what no compiler checks: format, style of scripts, prose, links and generated blocks.
 lint:
+	scripts/install --tests
 	scripts/lint
 
 clean:

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 # rtrays_embed_text(TARGET NAME BASE_DIRECTORY FILE...)
 #
-# Puts text files (paths relative to BASE_DIRECTORY, which is relative to the calling folder) into TARGET.
-# They are read through `embedded/NAME.h`, which declares
+# Embeds text files in TARGET. Paths are relative to BASE_DIRECTORY, which is relative to the calling folder.
+# The files are read through `embedded/NAME.h`, which declares
 #
 #     namespace rtrays::embedded { EmbeddedFiles NAME(); }      // see renderer/base/embedded.h
 #
-# The table is regenerated whenever one of the files changes. Contents are written as bytes, so neither
-# their length nor any delimiter inside them matters.
+# The table is regenerated whenever one of the files changes. Contents are written as bytes, so that their
+# length and any delimiters in them do not matter.
 set(RTRAYS_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/write_embedded.cmake)
 
 function(rtrays_embed_text target name base_directory)

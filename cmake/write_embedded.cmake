@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Run by rtrays_embed_text: writes OUTPUT, a C++ table of the |-separated FILES below BASE, sorted by path.
+# Run by rtrays_embed_text: writes OUTPUT, a C++ table of FILES (separated by |) below BASE, sorted by path.
 string(REPLACE "|" ";" files "${FILES}")
 list(SORT files)
 
@@ -11,7 +11,7 @@ foreach(file IN LISTS files)
     string(LENGTH "${bytes}" digits)
     math(EXPR size "${digits} / 2")
     string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
-    # The closing zero keeps empty files legal; it is not part of the text.
+    # The trailing zero keeps arrays of empty files legal; it is not part of the text.
     string(APPEND arrays "const unsigned char bytes_${index}[] = {${bytes}0};\n")
     string(APPEND entries
            "    {\"${file}\", {reinterpret_cast<const char *>(bytes_${index}), ${size}}},\n")
