@@ -90,16 +90,24 @@ def samples_per_second(run):
 def speeds_over_defaults(run):
     """Frames and builds: a line for each setting, a marker for each scene."""
     rows = run.get("rows")
-    frames = [entry["name"] for entry in value(rows[0], "frames")][1:]
-    builds = [entry["name"] for entry in value(rows[0], "builds")][1:]
+    # A setting that only concerns frames has no builds, and the other way round.
+    names_of = {
+        what: [entry["name"] for entry in value(rows[0], what)][1:] for what in ("frames", "builds")
+    }
+    shown = {what: names for what, names in names_of.items() if names}
+    if not shown:
+        return {}
+    lengths = [len(names) for names in shown.values()]
     figure, panels = pyplot.subplots(
-        2,
+        len(shown),
         1,
-        figsize=(7, 0.24 * (len(frames) + len(builds)) + 2.2),
+        figsize=(7, 0.24 * sum(lengths) + 1.1 * len(shown)),
         layout="constrained",
-        gridspec_kw={"height_ratios": [len(frames), len(builds)]},
+        gridspec_kw={"height_ratios": lengths},
+        squeeze=False,
     )
-    for panel, what, names in zip(panels, ("frames", "builds"), (frames, builds)):
+    panels = panels[:, 0]
+    for panel, (what, names) in zip(panels, shown.items()):
         for i, row in enumerate(rows):
             middle, reach = reach_of(
                 [

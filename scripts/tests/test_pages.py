@@ -33,6 +33,18 @@ def run(*command):
     )
 
 
+class OneSetting(unittest.TestCase):
+    def test_a_measurement_without_builds_has_a_plot(self):
+        document = json.loads((STORED / "ablations/run.json").read_text())
+        for row in document["rows"]:
+            row["frames"], row["builds"] = row["frames"][:2], row["builds"][:1]
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "run.json").write_text(json.dumps(document))
+            result = run(SCRIPTS / "measurements", folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertTrue((pathlib.Path(folder) / "speeds_over_defaults.svg").exists())
+
+
 class Undecided(unittest.TestCase):
     def test_widths_fall_as_the_root_of_the_number_of_samples(self):
         figure = {"value": 1.0, "low": 0.6, "high": 1.2}
