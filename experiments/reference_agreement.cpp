@@ -20,6 +20,7 @@
 #include "reference/peer.h"
 #include "reference/renderer.h"
 #include "renderer/base/error.h"
+#include "renderer/base/resources.h"
 #include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
 
@@ -109,11 +110,9 @@ struct Contenders {
     }
 };
 
-const fs::path root = RTRAYS_SOURCE;
-
 Json row_of_scene(const std::string &name, const MeasurementSettings &wanted, uint32_t number,
                   DeviceContext &device) {
-    const fs::path path = root / "scenes" / name / "scene.json";
+    const fs::path path = resource_folder() / "scenes" / name / "scene.json";
     Scene scene = load_scene(path.string());
     Contenders contenders;
     for (const char *engine : engines) {
@@ -174,7 +173,8 @@ Contender rendered_by_peer(const Scene &scene, ReferenceSettings settings, const
 
 /// Renders a small scene that shows why renderers differ with all of them.
 Json row_of_probe(const std::string &name, uint64_t spp, DeviceContext &device) {
-    const Scene scene = load_scene((root / "scenes/probes" / (name + ".json")).string());
+    const Scene scene =
+        load_scene((resource_folder() / "scenes/probes" / (name + ".json")).string());
     ReferenceSettings settings;
     settings.width = scene.film_width();
     settings.height = scene.film_height();
@@ -198,7 +198,7 @@ Json row_of_probe(const std::string &name, uint64_t spp, DeviceContext &device) 
 }  // namespace
 
 fs::path references_manifest() {
-    return root / "results/references/manifest.json";
+    return resource_folder() / "results/references/manifest.json";
 }
 
 MeasurementPlan plan_reference_agreement(const MeasurementSettings &settings,

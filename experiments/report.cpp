@@ -16,6 +16,7 @@
 #include "experiments/document.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/resources.h"
 
 namespace rtrays {
 
@@ -78,9 +79,9 @@ int run_program(const std::vector<std::string> &command) {
 }  // namespace
 
 int make_report(const std::vector<fs::path> &runs) {
-    load_description(RTRAYS_SOURCE "/experiments/claims.json",
+    load_description(resource_folder() / "experiments/claims.json",
                      "claims.schema.json");  // refused here or not at all
-    std::vector<std::string> command{RTRAYS_PYTHON, RTRAYS_SCRIPTS "/report"};
+    std::vector<std::string> command{RTRAYS_PYTHON, resource_folder() / "scripts/report"};
     for (const auto &run : runs) {
         export_images(run);
         command.push_back(run.string());

@@ -13,6 +13,7 @@
 #include "renderer/base/json.h"
 #include "renderer/base/process.h"
 #include "renderer/base/progress.h"
+#include "renderer/base/resources.h"
 #include "renderer/export/export_scene.h"
 
 namespace rtrays::reference {
@@ -32,15 +33,15 @@ struct PeerKind {
     std::string version_suffix;  ///< other properties that the image depends on
 };
 
-const char *const python = RTRAYS_SOURCE "/build/peers/bin/python";
-
 PeerKind kind_of(const std::string &name) {
+    const std::string python = resource_folder() / "build/peers/bin/python";
+    const std::string scripts = resource_folder() / "scripts";
     if (name == "mitsuba") {
         return {"mitsuba",
                 "scene.xml",
                 64,
                 {python, "-c", "import mitsuba; print(mitsuba.__version__)"},
-                {python, RTRAYS_SOURCE "/scripts/mitsuba_driver.py"},
+                {python, scripts + "/mitsuba_driver.py"},
                 "Mitsuba ",
                 " llvm_ad_rgb"};
     }
@@ -49,7 +50,7 @@ PeerKind kind_of(const std::string &name) {
             256,
             {"blender", "--version"},
             {"blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-             RTRAYS_SOURCE "/scripts/cycles_driver.py", "--"},
+             scripts + "/cycles_driver.py", "--"},
             "Cycles of ",
             ", Sobol"};
 }

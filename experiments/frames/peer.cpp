@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/error.h"
+#include "renderer/base/resources.h"
 #include "renderer/export/export_scene.h"
 
 namespace rtrays {
@@ -21,22 +22,16 @@ constexpr uint64_t frames_of_cycles = 4;
 /// Exports the scene and returns the command that serves it.
 std::vector<std::string> served(const Scene &scene, const fs::path &folder,
                                 const std::string &kind) {
+    const std::string scripts = resource_folder() / "scripts";
     const fs::path file = folder / (kind == cycles ? "scene.blender.json" : "scene.xml");
     export_scene(scene, file);
     if (kind == cycles) {
-        return {"blender",
-                "--background",
-                "--factory-startup",
-                "--python-exit-code",
-                "1",
-                "--python",
-                RTRAYS_SCRIPTS "/cycles_driver.py",
-                "--",
-                file.string(),
-                "--serve"};
+        return {"blender",     "--background", "--factory-startup",           "--python-exit-code",
+                "1",           "--python",     scripts + "/cycles_driver.py", "--",
+                file.string(), "--serve"};
     }
-    return {RTRAYS_SOURCE "/build/peers/bin/python",
-            RTRAYS_SCRIPTS "/mitsuba_driver.py",
+    return {resource_folder() / "build/peers/bin/python",
+            scripts + "/mitsuba_driver.py",
             file.string(),
             "--serve",
             "--variant",

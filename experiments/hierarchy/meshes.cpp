@@ -11,6 +11,7 @@
 #include "experiments/hierarchy/buildings.h"
 #include "experiments/hierarchy/san_miguel.h"
 #include "renderer/base/error.h"
+#include "renderer/base/resources.h"
 #include "renderer/scene/scene.h"
 
 namespace rtrays {
@@ -146,7 +147,7 @@ bool is_present(const Source &source) {
 }
 
 fs::path scene_file(const std::string &name) {
-    return fs::path(RTRAYS_SOURCE) / "scenes" / name / "scene.json";
+    return resource_folder() / "scenes" / name / "scene.json";
 }
 
 /// Scatters spheres on a hilly floor of 10 x 10. The floor has a quarter of the triangles.
@@ -226,10 +227,12 @@ bool is_procedural(const std::string &name) {
 
 fs::path measured_file(const std::string &file) {
     if (file.rfind("scenes/", 0) == 0) {
-        return fs::path(RTRAYS_SOURCE) / file;
+        return resource_folder() / file;
     }
     const char *folder = std::getenv("RTRAYS_MESHES");
-    return fs::path(folder == nullptr ? RTRAYS_SOURCE "/../shared/meshes" : folder) / file;
+    return (folder == nullptr ? resource_folder().parent_path() / "shared/meshes"
+                              : fs::path(folder)) /
+           file;
 }
 
 void append(test::Mesh &mesh, const test::Mesh &part) {
