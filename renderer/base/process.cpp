@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 
 #include "renderer/base/error.h"
 
@@ -29,6 +31,37 @@ std::array<int, 2> make_pipe() {
     return ends;
 }
 
+/// Returns the variables "NAME=VALUE" of this program, with those of `environment` replaced.
+std::vector<std::string> merged_environment(
+    const std::vector<std::pair<std::string, std::string>> &environment) {
+    std::map<std::string, std::string> variables;
+    for (char **variable = environ; *variable != nullptr; ++variable) {
+        const std::string text = *variable;
+        const size_t equals = text.find('=');
+        if (equals != std::string::npos) {
+            variables[text.substr(0, equals)] = text.substr(equals + 1);
+        }
+    }
+    for (const auto &[name, value] : environment) {
+        variables[name] = value;
+    }
+    std::vector<std::string> texts;
+    for (const auto &[name, value] : variables) {
+        texts.push_back(name + "=" + value);
+    }
+    return texts;
+}
+
+/// Returns the null-terminated array that exec and spawn take; they do not write to it.
+std::vector<char *> pointers_to(const std::vector<std::string> &texts) {
+    std::vector<char *> pointers;
+    for (const std::string &text : texts) {
+        pointers.push_back(const_cast<char *>(text.c_str()));
+    }
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> python_environment() {
@@ -38,32 +71,32 @@ std::vector<std::pair<std::string, std::string>> python_environment() {
 
 Process::Process(const std::vector<std::string> &command,
                  const std::vector<std::pair<std::string, std::string>> &environment) {
-    std::vector<char *> arguments;
-    for (const std::string &word : command) {
-        arguments.push_back(const_cast<char *>(word.c_str()));
-    }
-    arguments.push_back(nullptr);
+    const std::vector<std::string> variables = merged_environment(environment);
+    std::vector<char *> arguments = pointers_to(command), environ_of_child = pointers_to(variables);
     const auto down = make_pipe(), up = make_pipe();
     // Writing to a program that has ended fails instead of raising SIGPIPE; the missing answer then
     // shows that the program has ended.
     std::signal(SIGPIPE, SIG_IGN);
-    process_ = fork();
-    if (process_ < 0) {
-        throw run_error(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
-    }
-    if (process_ == 0) {
-        for (const auto &[name, value] : environment) {
-            setenv(name.c_str(), value.c_str(), 1);
-        }
-        dup2(down[0], STDIN_FILENO);
-        dup2(up[1], STDOUT_FILENO);
-        execvp(arguments[0], arguments.data());
-        _exit(not_found);
-    }
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, down[0], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, up[1], STDOUT_FILENO);
+    const int error = posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(),
+                                   environ_of_child.data());
+    posix_spawn_file_actions_destroy(&actions);
     close(down[0]);
     close(up[1]);
     to_ = down[1];
     from_ = up[0];
+    if (error != 0) {
+        process_ = -1;
+        if (error != ENOENT) {
+            close(to_);
+            close(from_);
+            throw run_error(
+                fmt::format("cannot start {}: {}", command.front(), std::strerror(error)));
+        }
+    }
 }
 
 Process::~Process() {
@@ -99,6 +132,9 @@ std::optional<std::string> Process::read_line() {
 }
 
 int Process::wait() {
+    if (process_ < 0) {
+        return not_found;
+    }
     int status = 0;
     while (process_ > 0 && waitpid(process_, &status, 0) < 0) {
         if (errno != EINTR) {

@@ -15,9 +15,10 @@ namespace rtrays {
 /// destructor closes both, asks the process to terminate and waits for it.
 class Process {
   public:
-    /// Starts the program `command[0]`, which is searched in the PATH. `environment` is added to
-    /// the environment of this program. If the program does not exist, the process ends at once
-    /// without output. Throws `Error` (run failed) if no process can be created.
+    /// Starts the program `command[0]`, which is searched in the PATH of this program. The process
+    /// has the environment of this program, with the variables of `environment` replaced. If the
+    /// program does not exist, the process ends at once without output. Throws `Error` (run failed)
+    /// if no process can be created.
     explicit Process(const std::vector<std::string> &command,
                      const std::vector<std::pair<std::string, std::string>> &environment = {});
     ~Process();
