@@ -135,14 +135,23 @@ def gains_chart(folder):
             label=f"measured, {words}",
         )
     axes.axvline(1, color="black", linewidth=0.9, linestyle=":")
-    ticks = [0.5, 1, 2, 3, 4, 6, 8]
+    ends = [
+        end
+        for _, thesis, ours in entries
+        for key in KEYS
+        for end in (*thesis[key], value(ours[key], "low"), value(ours[key], "high"), 1)
+    ]
+    limits = min(ends) / 1.15, max(ends) * 1.15
+    ticks = [
+        tick for tick in (0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16) if limits[0] <= tick <= limits[1]
+    ]
     axes.set_xscale("log")
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.minorticks_off()
     axes.set_yticks(lines, [name(run) for run, _, _ in entries])
     axes.set(
         xlabel="gain of truncated BDPT over path tracing (MIS), times",
-        xlim=(0.7, 10),
+        xlim=limits,
         ylim=(len(entries) - 0.5, -0.5),
     )
     figure.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4)
