@@ -11,7 +11,7 @@ import numpy
 from cells import NONE, Table, interval, number
 from measurement_plots import reach_of
 from pages import Figure, Page, TableBlock
-from plots import COLOURS, MARKERS, pyplot
+from plots import COLOURS, MARKERS, pyplot, series_style
 from run_document import RunError, algorithm_name, file_name, value
 
 PASSING = ("ok", "out of reach")
@@ -337,10 +337,7 @@ def control_figure(rows):
             lines,
             xerr=reach,
             linestyle="none",
-            marker=MARKERS[i],
-            color=COLOURS[i],
-            markersize=4,
-            linewidth=1.0,
+            **series_style(i),
         )
         panel.axvline(1, color="black", linewidth=0.8, linestyle=":")
         panel.set(xlabel=label, xlim=(0, 1.1))

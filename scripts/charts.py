@@ -13,17 +13,9 @@ from claims import CLAIMS
 from efficiency import base_curve, curve_named, gain
 from frame_tables import rivals_of
 from measurement_plots import reach_of
-from measurement_tables import (
-    KINDS,
-    build_speeds,
-    fastest_layout,
-    geometric_mean,
-    name,
-    our_builders,
-    ray_speeds,
-    span,
-)
-from plots import COLOURS, MARKERS, save
+from measurement_tables import KINDS, build_speeds, fastest_layout, our_builders, ray_speeds
+from measurement_text import geometric_mean, name, span
+from plots import COLOURS, MARKERS, save, series_style
 from run_document import EXPERIMENTS, Measurement, Run, value
 
 
@@ -280,10 +272,7 @@ def hierarchy_chart(folder):
             [size for size, _ in by_size],
             middle,
             yerr=reach,
-            marker=MARKERS[i],
-            color=COLOURS[i],
-            markersize=4,
-            linewidth=1,
+            **series_style(i),
             label=name(builder),
         )
     left.set(

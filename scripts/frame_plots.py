@@ -6,8 +6,8 @@ from matplotlib import pyplot
 
 from frame_tables import shares, stage_order
 from measurement_plots import reach_of, save
-from measurement_tables import mesh_name, name
-from plots import COLOURS, MARKERS
+from measurement_text import mesh_name, name
+from plots import COLOURS, series_style
 from run_document import value
 
 
@@ -120,10 +120,7 @@ def speeds_over_defaults(run):
                 numpy.arange(len(names)) + 0.12 * (i - (len(rows) - 1) / 2),
                 xerr=reach,
                 linestyle="none",
-                color=COLOURS[i % len(COLOURS)],
-                marker=MARKERS[i % len(MARKERS)],
-                markersize=4,
-                linewidth=1.0,
+                **series_style(i),
                 label=mesh_name(run, row["mesh"]),
             )
         panel.axvline(1, color="black", linewidth=0.8, linestyle=":")

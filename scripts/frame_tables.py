@@ -2,7 +2,7 @@
 """Tables and findings of the measurements of whole frames."""
 
 from cells import NONE, Table, interval, number, ratio
-from measurement_tables import geometric_mean, mesh_name, mesh_note, name, span
+from measurement_text import geometric_mean, mesh_name, mesh_note, name, span
 from run_document import value
 
 TRACING = ("intersect_nearest", "intersect_any")

@@ -1,15 +1,24 @@
 # SPDX-License-Identifier: MIT
 """The page of a measurement."""
 
+from animation_tables import bvh_animation
 from curve_page import made_by
 from frame_plots import FRAME_PLOTS
 from frame_tables import FRAME_TABLES
 from measurement_plots import PLOTS
-from measurement_tables import TABLES, provenance
+from measurement_tables import HIERARCHY_TABLES
+from measurement_text import provenance
 from pages import Figure, Page, TableBlock
 from reference_tables import REFERENCE_TABLES
+from traversal_tables import traversal
 
-ALL_TABLES = {**TABLES, **FRAME_TABLES, **REFERENCE_TABLES}
+ALL_TABLES = {
+    **HIERARCHY_TABLES,
+    **FRAME_TABLES,
+    **REFERENCE_TABLES,
+    "bvh_animation": bvh_animation,
+    "traversal": traversal,
+}
 ALL_PLOTS = {**PLOTS, **FRAME_PLOTS}
 # What a plot shows, below its small picture in the overview.
 PICTURES = {

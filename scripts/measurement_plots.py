@@ -4,8 +4,9 @@
 import numpy
 from matplotlib import pyplot
 
-from measurement_tables import KINDS, name
-from plots import COLOURS, MARKERS
+from measurement_tables import KINDS
+from measurement_text import name
+from plots import COLOURS, MARKERS, series_style
 from reference_tables import scene_rows
 from run_document import value
 
@@ -53,10 +54,7 @@ def build_time(run):
             triangles,
             middle,
             yerr=reach,
-            color=COLOURS[i % len(COLOURS)],
-            marker=MARKERS[i % len(MARKERS)],
-            markersize=4,
-            linewidth=1.0,
+            **series_style(i),
             linestyle="-" if contestant["side"] == "ours" else "--",
             label=label,
         )
@@ -114,10 +112,7 @@ def speeds(run):
                 range(len(meshes)),
                 xerr=reach,
                 linestyle="none",
-                color=COLOURS[i % len(COLOURS)],
-                marker=MARKERS[i % len(MARKERS)],
-                markersize=4,
-                linewidth=1.0,
+                **series_style(i),
                 label=label,
             )
         panel.axvline(1, color="black", linewidth=0.8, linestyle=":")
@@ -171,10 +166,7 @@ def animation(run):
                     x,
                     middle,
                     yerr=reach,
-                    color=COLOURS[place],
-                    marker=MARKERS[place],
-                    markersize=4,
-                    linewidth=1.0,
+                    **series_style(place),
                     label=name(entry["name"]),
                 )
         column[0].set(
@@ -253,10 +245,7 @@ def mean_differences(run):
             [line + 0.2 * (i - (len(found) - 1) / 2) for line, _ in entries],
             xerr=[100 * part for part in reach],
             linestyle="none",
-            color=COLOURS[i],
-            marker=MARKERS[i],
-            markersize=4,
-            linewidth=1.0,
+            **series_style(i),
             label=image,
         )
     axes.axvspan(-0.1, 0.1, color="#0072B2", alpha=0.08, linewidth=0)

@@ -35,6 +35,16 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
+def series_style(index):
+    """Colour, marker and line of a series in a plot of points with intervals."""
+    return {
+        "color": COLOURS[index % len(COLOURS)],
+        "marker": MARKERS[index % len(MARKERS)],
+        "markersize": 4,
+        "linewidth": 1.0,
+    }
+
+
 def band(curve_points, key):
     """The central 95 % of the seeds at each point: (low, high)."""
     samples = [

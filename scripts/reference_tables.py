@@ -2,7 +2,7 @@
 """Tables of how references by several renderers and our own image agree."""
 
 from cells import NONE, Table, interval
-from measurement_tables import name
+from measurement_text import name
 from run_document import value
 from undecided import factor_of_agreement, with_advice
 

@@ -7,15 +7,8 @@ import json
 from cells import NONE, Link, Table, interval, number
 from charts import gain_entries, peer_entries
 from claims import all_counts, judge_all, markdown_name, summary
-from measurement_tables import (
-    KINDS,
-    build_speeds,
-    fastest_layout,
-    geometric_mean,
-    name,
-    our_builders,
-    span,
-)
+from measurement_tables import KINDS, build_speeds, fastest_layout, our_builders
+from measurement_text import geometric_mean, name, span
 from run_document import Measurement, value
 
 
