@@ -53,19 +53,30 @@ def speed_rows(folder):
     return Table("Samples per second", ["RTRays, samples per second over", *heads], rows)
 
 
-def embree_rows(folder):
+def ray_means(folder):
+    """The layout, and {kind of ray: rays per second over Embree, mean over the meshes}."""
+    rates = Measurement(folder / "ray_rates")
+    layout, means = fastest_layout(rates), rates.get("summary.geometric_means")
+    return layout, {kind: value(means, f"{kind}.{layout}") for kind in KINDS}
+
+
+def build_ratios(folder):
+    """Speed of BVH construction over Embree, {builder: one for each mesh}."""
+    build = Measurement(folder / "bvh_build")
+    return {
+        builder: [value(speed, "value") for _, speed in build_speeds(build, builder)]
+        for builder in our_builders(build)
+    }
+
+
+def embree_table(folder):
     """Rays and BVH construction over Embree, geometric means and ranges over the meshes."""
-    rates, build = Measurement(folder / "ray_rates"), Measurement(folder / "bvh_build")
-    layout = fastest_layout(rates)
+    layout, means = ray_means(folder)
     rows = [
-        [
-            f"{name(kind)} rays per second, {name(layout)}",
-            f"{value(rates.get('summary.geometric_means'), f'{kind}.{layout}'):.2f}",
-        ]
-        for kind in KINDS
+        [f"{name(kind)} rays per second, {name(layout)}", f"{mean:.2f}"]
+        for kind, mean in means.items()
     ]
-    for builder in our_builders(build):
-        speeds = [value(speed, "value") for _, speed in build_speeds(build, builder)]
+    for builder, speeds in build_ratios(folder).items():
         rows.append(
             [f"BVH construction, {name(builder)}", f"{geometric_mean(speeds):.2f} ({span(speeds)})"]
         )
@@ -118,7 +129,7 @@ def gpu_rows(results):
 
 def speeds(results):
     folder = results / "chapter4"
-    tables = [speed_rows(folder), embree_rows(folder), gpu_rows(results)]
+    tables = [speed_rows(folder), embree_table(folder), gpu_rows(results)]
     device = Measurement(folder / "bounces").get("context.device.name")
     return f"On {device} (above 1: RTRays is faster):\n\n" + "\n".join(
         table.markdown() for table in tables if table
@@ -128,10 +139,10 @@ def speeds(results):
 def speeds_at_a_glance(results):
     """The speeds for README: peers by path length, rays and hierarchy over Embree, GPUs."""
     folder = results / "chapter4"
-    peers, embree = speed_rows(folder), embree_rows(folder)
+    peers = speed_rows(folder)
     peers.rows = [row for row in peers.rows if "scalar" not in row[0] and row[0] != "megakernel"]
-    rays = span([float(row[1]) for row in embree.rows[: len(KINDS)]])
-    builds = span([float(row[1].split()[0]) for row in embree.rows[len(KINDS) :]])
+    rays = span(ray_means(folder)[1].values())
+    builds = span([geometric_mean(speeds) for speeds in build_ratios(folder).values()])
     text = f"Over Embree: {rays} of its rays per second, {builds} of its speed of BVH construction."
     for row in (gpu_rows(results) or Table("", [], [])).rows:
         if row[1].startswith("diffuse"):
