@@ -316,7 +316,7 @@ void add_output_options(CLI::App &app, std::vector<std::string> &outputs, double
                    "repeated")
         ->allow_extra_args(false);
     app.add_option("--exposure", exposure,
-                   "of .png and .jpg, in stops: radiance is multiplied by 2^EXPOSURE")
+                   "exposure of .png and .jpg in stops: radiance is multiplied by 2^EXPOSURE")
         ->check(CLI::Range(-100.0, 100.0))
         ->capture_default_str();
 }
