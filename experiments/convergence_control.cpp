@@ -20,7 +20,8 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
-#include "renderer/pipeline/render_session.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "renderer/base/json.h"
-#include "renderer/pipeline/settings.h"
+#include "renderer/session/settings.h"
 
 namespace rtrays {
 

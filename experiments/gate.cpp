@@ -9,6 +9,7 @@
 #include "experiments/gate_checks.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/files.h"
+#include "renderer/import/load_scene.h"
 
 namespace rtrays {
 

@@ -10,8 +10,8 @@
 #include "experiments/references.h"
 #include "experiments/statistics.h"
 #include "renderer/device/context.h"
-#include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -13,8 +13,8 @@
 #include "experiments/document.h"
 #include "renderer/base/error.h"
 #include "renderer/device/context.h"
-#include "renderer/pipeline/render_session.h"
 #include "renderer/scene/scene.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -21,8 +21,8 @@
 #include "reference/renderer.h"
 #include "renderer/base/error.h"
 #include "renderer/base/resources.h"
-#include "renderer/pipeline/render_session.h"
-#include "renderer/scene/scene.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -18,7 +18,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
-#include "renderer/scene/scene.h"
+#include "renderer/import/load_scene.h"
 
 namespace rtrays {
 

@@ -21,9 +21,10 @@
 #include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
+#include "renderer/compile/compile_scene.h"
 #include "renderer/device/context.h"
-#include "renderer/pipeline/compile_scene.h"
-#include "renderer/pipeline/render_session.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -21,7 +21,7 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
-#include "renderer/pipeline/render_session.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -10,6 +10,7 @@
 
 #include "experiments/expression.h"
 #include "renderer/base/error.h"
+#include "renderer/import/load_scene.h"
 
 namespace rtrays {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "experiments/description.h"
-#include "renderer/pipeline/settings.h"
 #include "renderer/scene/scene.h"
+#include "renderer/session/settings.h"
 
 namespace rtrays {
 

@@ -18,7 +18,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
-#include "renderer/scene/scene.h"
+#include "renderer/import/load_scene.h"
 
 namespace {
 

@@ -17,8 +17,8 @@
 #include "renderer/device/context.h"
 #include "renderer/export/display_image.h"
 #include "renderer/export/export_scene.h"
-#include "renderer/pipeline/render_session.h"
-#include "renderer/scene/scene.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

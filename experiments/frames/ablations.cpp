@@ -10,7 +10,7 @@
 #include "experiments/frames/scenes.h"
 #include "experiments/hierarchy/kinds.h"
 #include "renderer/bvh/builder.h"
-#include "renderer/pipeline/render_session.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -15,7 +15,7 @@
 #include "experiments/frames/scenes.h"
 #include "experiments/hierarchy/kinds.h"
 #include "reference/renderer.h"
-#include "renderer/pipeline/render_session.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

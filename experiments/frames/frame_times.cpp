@@ -7,7 +7,7 @@
 #include "experiments/document.h"
 #include "experiments/frames/scenes.h"
 #include "experiments/hierarchy/kinds.h"
-#include "renderer/pipeline/render_session.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 

@@ -8,7 +8,7 @@
 #include "experiments/document.h"
 #include "experiments/hierarchy/kinds.h"
 #include "experiments/host.h"
-#include "renderer/tests/full_sweep.h"
+#include "renderer/testing/full_sweep.h"
 
 namespace rtrays {
 

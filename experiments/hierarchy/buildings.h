@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "renderer/tests/bvh_meshes.h"
+#include "renderer/testing/bvh_meshes.h"
 
 namespace rtrays {
 

@@ -12,7 +12,7 @@
 #include "experiments/hierarchy/san_miguel.h"
 #include "renderer/base/error.h"
 #include "renderer/base/resources.h"
-#include "renderer/scene/scene.h"
+#include "renderer/import/load_scene.h"
 
 namespace rtrays {
 

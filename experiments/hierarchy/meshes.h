@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/tests/bvh_meshes.h"
+#include "renderer/testing/bvh_meshes.h"
 
 namespace rtrays {
 

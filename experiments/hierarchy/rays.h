@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/hierarchy/meshes.h"
-#include "renderer/tests/embree_scene.h"
+#include "renderer/testing/embree_scene.h"
 
 namespace rtrays {
 

@@ -15,9 +15,9 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
-#include "renderer/import/model_file_geometry.h"
-#include "renderer/import/model_file_ply.h"
-#include "renderer/import/model_file_scene.h"
+#include "renderer/import/models/geometry.h"
+#include "renderer/import/models/ply.h"
+#include "renderer/import/models/scene.h"
 #include "renderer/scene/cores/mesh.h"
 #include "renderer/scene/graph.h"
 

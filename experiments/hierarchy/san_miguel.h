@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "renderer/scene/scene.h"
-#include "renderer/tests/bvh_meshes.h"
+#include "renderer/testing/bvh_meshes.h"
 
 namespace rtrays {
 

@@ -11,7 +11,7 @@
 #include "renderer/bvh/builder.h"
 #include "renderer/device/kernel.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
-#include "renderer/tests/embree_scene.h"
+#include "renderer/testing/embree_scene.h"
 
 namespace rtrays {
 

@@ -13,8 +13,8 @@
 #include "experiments/hierarchy/tracers.h"
 #include "experiments/host.h"
 #include "renderer/base/progress.h"
-#include "renderer/tests/double_intersector.h"
-#include "renderer/tests/ray_sets.h"
+#include "renderer/testing/double_intersector.h"
+#include "renderer/testing/ray_sets.h"
 
 namespace rtrays {
 

@@ -10,8 +10,8 @@
 #include "experiments/metrics.h"
 #include "reference/renderer.h"
 #include "renderer/device/context.h"
-#include "renderer/pipeline/render_session.h"
-#include "renderer/scene/scene.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
 
 namespace rtrays {
 namespace {

@@ -6,7 +6,7 @@
 #include "reference/tests/statistics.h"
 #include "reference/tests/test_scenes.h"
 #include "renderer/base/error.h"
-#include "renderer/tests/chi_square.h"
+#include "renderer/testing/chi_square.h"
 
 namespace rtrays::reference {
 namespace {

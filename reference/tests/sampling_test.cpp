@@ -8,7 +8,7 @@
 #include "reference/bsdf.h"
 #include "reference/tests/statistics.h"
 #include "renderer/base/error.h"
-#include "renderer/tests/chi_square.h"
+#include "renderer/testing/chi_square.h"
 
 namespace rtrays::reference {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "renderer/tests/chi_square.h"
+#include "renderer/testing/chi_square.h"
 
 namespace rtrays::reference {
 

@@ -12,7 +12,7 @@
 #include "renderer/export/data_folder.h"
 #include "renderer/export/ply_file.h"
 #include "renderer/export/tessellation.h"
-#include "renderer/import/texture_file.h"
+#include "renderer/import/images/texture_file.h"
 #include "renderer/scene/cores/composite.h"
 #include "renderer/scene/cores/texture.h"
 #include "renderer/scene/graph.h"

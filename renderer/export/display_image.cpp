@@ -9,7 +9,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
-#include "renderer/import/texture_file.h"
+#include "renderer/import/images/texture_file.h"
 #include "renderer/scene/cores/texture.h"
 
 namespace rtrays {

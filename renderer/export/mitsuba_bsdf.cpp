@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "renderer/base/error.h"
-#include "renderer/import/mitsuba_plastic.h"
-#include "renderer/import/texture_file.h"
+#include "renderer/import/images/texture_file.h"
+#include "renderer/import/mitsuba/plastic.h"
 #include "renderer/scene/cores/composite.h"
 #include "renderer/scene/cores/texture.h"
 

@@ -10,7 +10,7 @@
 
 #include "renderer/export/data_folder.h"
 #include "renderer/export/mitsuba_writer.h"
-#include "renderer/import/mitsuba_xml_bsdf.h"
+#include "renderer/import/mitsuba/bsdf.h"
 #include "renderer/scene/stores.h"
 
 namespace rtrays::mitsuba {

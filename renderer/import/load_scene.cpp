@@ -6,10 +6,10 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
-#include "renderer/import/mitsuba_xml.h"
-#include "renderer/import/model_file.h"
-#include "renderer/import/scene_json.h"
-#include "renderer/scene/scene.h"
+#include "renderer/import/json/scene_json.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/import/mitsuba/mitsuba_xml.h"
+#include "renderer/import/models/model_file.h"
 
 namespace rtrays {
 

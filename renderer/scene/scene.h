@@ -77,9 +77,4 @@ class Scene {
     int film_height_ = 256;
 };
 
-/// Loads a scene, from JSON or from a model file (see model_file.h), and updates it to time 0.
-/// Prints progress on stderr unless `quiet`. Throws `Error` (bad input) naming file, line and
-/// remedy.
-Scene load_scene(const std::string &path, bool quiet = true);
-
 }  // namespace rtrays

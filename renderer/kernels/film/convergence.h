@@ -32,7 +32,7 @@ DEVICE uint half_film_add_sample(volatile GLOBAL long *half_film, ulong pixel, u
 }
 
 /// Returns a sum whose carries have been propagated, rounded to float. Words are added from the
-/// top, as on the host (pipeline/film.cpp).
+/// top, as on the host (film/film.cpp).
 DEVICE float film_sum(GLOBAL const long *words, uint sums) {
     float value = 0.0f;
     for (uint above = FILM_WORDS; above > 0u; --above) {

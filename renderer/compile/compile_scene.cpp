@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/compile/compile_scene.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "renderer/compile/shapes.h"
+#include "renderer/kernels/geometry/surface_point.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Compiles the corner normals of all triangles. A corner without a normal gets the geometric
+/// normal if other corners of its triangle have one.
+void compile_normals(const MeshArrays &meshes, CompiledScene &compiled) {
+    compiled.triangle_normals.resize(meshes.triangle.size());
+    for (size_t i = 0; i < meshes.triangle.size() && !meshes.normal.empty(); ++i) {
+        TriangleNormals &corners = compiled.triangle_normals[i];
+        for (size_t corner = 0; corner < 3; ++corner) {
+            const Eigen::Vector3f &normal = meshes.normal[meshes.triangle[i][corner]];
+            if (normal.isZero()) {
+                std::copy_n(compiled.surface_triangles[i].normal, 3, corners.normal[corner]);
+            } else {
+                copy3(normal, corners.normal[corner]);
+                corners.is_smooth = 1;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+SelectionTable selection_table(const std::vector<double> &weights) {
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    constexpr double scale = 0x1p32;
+    SelectionTable table;
+    double sum = 0;
+    double previous = 0;
+    for (size_t i = 0; i < weights.size(); ++i) {
+        sum += weights[i];
+        // All ends except the last stay below 2^32. The last end is 2^32, stored as 2^32 - 1.
+        const double end = i + 1 == weights.size()
+                               ? scale
+                               : std::min(std::round(sum / total * scale), scale - 1.0);
+        table.probability.push_back((end - previous) / scale);
+        table.end.push_back(static_cast<uint32_t>(std::min(end, scale - 1.0)));
+        previous = end;
+    }
+    return table;
+}
+
+CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width, int height) {
+    const Eigen::Matrix4d &world = cameras.world_from_camera[index];
+    const Eigen::Vector3d right = world.block<3, 1>(0, 0);
+    const Eigen::Vector3d up = world.block<3, 1>(0, 1);
+    const Eigen::Vector3d forward = -world.block<3, 1>(0, 2);
+    using FovAxis = CameraArrays::FovAxis;
+    const FovAxis axis = cameras.fov_axis[index];
+    const bool along_x = axis == FovAxis::x || (axis == FovAxis::smaller && width <= height) ||
+                         (axis == FovAxis::larger && width >= height);
+    // Pixels are square; `pixel` is their size on the plane at unit distance.
+    const double pixel = 2.0 * std::tan(0.5 * cameras.fov[index]) / (along_x ? width : height);
+
+    CameraRecord camera{};
+    camera.width = static_cast<uint32_t>(width);
+    camera.height = static_cast<uint32_t>(height);
+    camera.pixel_area = static_cast<float>(pixel * pixel);
+    copy3(Eigen::Vector3d(world.block<3, 1>(0, 3)), camera.position);
+    copy3(Eigen::Vector3d(forward - 0.5 * pixel * width * right + 0.5 * pixel * height * up),
+          camera.corner);
+    copy3(Eigen::Vector3d(pixel * right), camera.step_x);
+    copy3(Eigen::Vector3d(-pixel * up), camera.step_y);
+    copy3(right, camera.axis_x);
+    copy3(up, camera.axis_y);
+    camera.aperture_radius = static_cast<float>(cameras.aperture_radius[index]);
+    // A pinhole's image is in focus everywhere; with distance 1 the lens code gives the same bits
+    // as a pinhole.
+    camera.focus_distance =
+        camera.aperture_radius > 0.0f ? static_cast<float>(cameras.focus_distance[index]) : 1.0f;
+    return camera;
+}
+
+void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene &compiled) {
+    const MeshArrays &meshes = scene.meshes;
+    compiled.surface_triangles.reserve(meshes.triangle.size());
+    for (size_t i = 0; i < meshes.triangle.size(); ++i) {
+        const Triangle &t = meshes.triangle[i];
+        SurfaceTriangle surface{};
+        copy3(meshes.position[t[0]], surface.p0);
+        copy3(meshes.position[t[1]], surface.p1);
+        copy3(meshes.position[t[2]], surface.p2);
+        const float3 p0 = make_float3(surface.p0[0], surface.p0[1], surface.p0[2]);
+        const float3 p1 = make_float3(surface.p1[0], surface.p1[1], surface.p1[2]);
+        const float3 p2 = make_float3(surface.p2[0], surface.p2[1], surface.p2[2]);
+        const float3 normal = triangle_normal(p0, p1, p2);
+        copy3(Eigen::Vector3f(normal.x, normal.y, normal.z), surface.normal);
+        surface.extent = triangle_extent(p0, p1, p2);
+        surface.material = meshes.material[meshes.triangle_mesh[i]];
+        surface.emitter = NO_EMITTER;
+        compiled.surface_triangles.push_back(surface);
+    }
+    const auto any = [](const std::vector<uint8_t> &flags) {
+        return std::find(flags.begin(), flags.end(), 1) != flags.end();
+    };
+    const bool uv_read =
+        compiled.features.has(Feature::textures) || compiled.features.has(Feature::tangents);
+    compiled.features = compiled.features.with(Feature::triangles, !meshes.triangle.empty())
+                            .with(Feature::smooth_normals, any(meshes.has_normals))
+                            .with(Feature::texture_coordinates, uv_read && any(meshes.has_uv));
+    if (every_array || compiled.features.has(Feature::smooth_normals)) {
+        compile_normals(meshes, compiled);
+    }
+    if (every_array || compiled.features.has(Feature::texture_coordinates)) {
+        for (const Triangle &t : meshes.triangle) {
+            TriangleUv &uvs = compiled.triangle_uvs.emplace_back();
+            for (size_t corner = 0; corner < 3; ++corner) {
+                if (!meshes.uv.empty()) {
+                    std::copy_n(meshes.uv[t[corner]].data(), 2, uvs.uv[corner]);
+                }
+            }
+        }
+    }
+}
+
+CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings) {
+    CompiledScene compiled;
+    compiled.camera = compile_camera(scene.cameras(), static_cast<size_t>(scene.active_camera()),
+                                     settings.width, settings.height);
+    compiled.features =
+        compiled.features.with(Feature::lens, compiled.camera.aperture_radius > 0.0f);
+    compile_materials(scene.arrays(), compiled);
+    compile_triangles(scene.arrays(), settings.every_array, compiled);
+    compiled.shapes = compile_shapes(scene.arrays().shapes);
+    for (ShapeRecord &shape : compiled.shapes) {
+        shape.light = NO_EMITTER;  // compile_lights sets it for shapes that emit
+    }
+    compiled.shape_bounds = bound_shapes(compiled.shapes);
+    compiled.features = compiled.features | shape_features(scene.arrays().shapes);
+    compile_lights(scene.arrays(), settings, compiled);
+    return compiled;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Tests that every feature is optional: all stages compile with all features, with none, and with
+// each one disabled.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <numeric>
+#include <set>
+
+#include "renderer/compile/stages.h"
+#include "renderer/device/context.h"
+#include "renderer/integrators/algorithm.h"
+#include "renderer/integrators/megakernel.h"
+
+namespace rtrays {
+namespace {
+
+/// Returns a device that compiles without optimization, which takes PoCL less than two thirds of
+/// the time. The code is never run. It has a separate cache.
+DeviceContext &device() {
+    static const bool in_haste = setenv("POCL_EXTRA_BUILD_FLAGS", "-cl-opt-disable", 1) == 0 &&
+                                 setenv("POCL_CACHE_DIR", RTRAYS_FEATURE_BUILD_CACHE, 1) == 0;
+    EXPECT_TRUE(in_haste);
+    static DeviceContext context;
+    return context;
+}
+
+class FeatureBuild : public testing::TestWithParam<int> {};
+
+std::string name_of_build(int index) {
+    return index == -2 ? "all"
+           : index == -1
+               ? "none"
+               : "without_" + FeatureMask().with(static_cast<Feature>(index)).names().front();
+}
+
+TEST_P(FeatureBuild, Succeeds) {
+    const int index = GetParam();
+    const FeatureMask mask = index == -2 ? FeatureMask::all()
+                             : index == -1
+                                 ? FeatureMask()
+                                 : FeatureMask::all().with(static_cast<Feature>(index), false);
+    // One program contains all stages of a pass, so that shared code is parsed once.
+    const auto build = [](const Pass &pass, std::vector<std::string> stages) {
+        for (const RoundStage &stage : pass.round) {
+            stages.push_back(stage.name);
+        }
+        std::set<std::string> includes;
+        for (const std::string &stage : stages) {
+            includes.insert("#include \"" + stage_description(stage).file + "\"\n");
+        }
+        const std::string text = std::accumulate(includes.begin(), includes.end(), std::string());
+        EXPECT_NO_THROW({
+            const Program program(device(), "pass.cl",
+                                  stage_defines(pass.features, {64, 512, 4, true}),
+                                  {{"pass.cl", text}});
+            for (const std::string &stage : stages) {
+                Kernel(program, stage, 64);
+            }
+        }) << pass.name;
+    };
+    for (const Pass &pass : algorithm_passes("bdpt", mask, 1, 2)) {
+        build(pass, {"reset_streams", "carry_film"});
+    }
+    for (const Pass &pass : megakernel_passes(algorithm_passes("path_tracing", mask, 1, 2))) {
+        build(pass, {});
+    }
+    for (Pass pass : algorithm_passes("light_tracing", mask, 1, 2)) {
+        pass.round = pass.last_paths;
+        build(pass, {});
+    }
+    // For other algorithms, compile only the stages that the algorithms above do not have.
+    for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
+        pass.round = {pass.round[pass.round.size() - 2]};
+        build(pass, {"end_paths"});
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Masks, FeatureBuild, testing::Range(-2, static_cast<int>(Feature::count)),
+                         [](const auto &built) { return name_of_build(built.param); });
+
+}  // namespace
+}  // namespace rtrays

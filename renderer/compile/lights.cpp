@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// Compiles lights into records with selection probabilities.
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "renderer/base/error.h"
+#include "renderer/compile/compile_scene.h"
+
+namespace rtrays {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double triangle_area(const MeshArrays &meshes, uint32_t triangle) {
+    const Triangle &t = meshes.triangle[triangle];
+    const Eigen::Vector3d p0 = meshes.position[t[0]].cast<double>();
+    const Eigen::Vector3d e1 = meshes.position[t[1]].cast<double>() - p0;
+    const Eigen::Vector3d e2 = meshes.position[t[2]].cast<double>() - p0;
+    return 0.5 * e1.cross(e2).norm();
+}
+
+/// Sphere around all bounded surfaces.
+struct Extent {
+    Eigen::Vector3d centre;
+    double radius;
+};
+
+Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
+    // Centre and radius of every bounded shape.
+    std::vector<Extent> shapes;
+    for (size_t i = 0; i < scene.shapes.kind.size(); ++i) {
+        const ShapeRecord &record = compiled.shapes[i];
+        if (scene.shapes.kind[i] == ShapeArrays::Kind::plane) {
+            continue;
+        }
+        Eigen::Matrix<double, 3, 4> world;
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                world(row, column) = static_cast<double>(record.world_from_object[row][column]);
+            }
+        }
+        const bool flat = scene.shapes.kind[i] == ShapeArrays::Kind::disc;
+        const double stretch =
+            flat ? world.leftCols<2>().operatorNorm() : world.leftCols<3>().operatorNorm();
+        shapes.push_back({world.col(3), stretch * std::sqrt(static_cast<double>(record.bound2))});
+    }
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f &position : scene.meshes.position) {
+        box.extend(position.cast<double>());
+    }
+    for (const Extent &shape : shapes) {
+        box.extend(shape.centre + Eigen::Vector3d::Constant(shape.radius));
+        box.extend(shape.centre - Eigen::Vector3d::Constant(shape.radius));
+    }
+    if (box.isEmpty()) {
+        // The scene has only planes: light paths from infinity are traced towards the surroundings
+        // of the camera.
+        return {Eigen::Vector3f(compiled.camera.position).cast<double>(), 1.0};
+    }
+    Extent extent = {box.center(), 0};
+    for (const Eigen::Vector3f &position : scene.meshes.position) {
+        extent.radius = std::max(extent.radius, (position.cast<double>() - extent.centre).norm());
+    }
+    for (const Extent &shape : shapes) {
+        extent.radius =
+            std::max(extent.radius, (shape.centre - extent.centre).norm() + shape.radius);
+    }
+    return extent;
+}
+
+void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &light,
+                        CompiledScene &compiled) {
+    std::vector<double> areas(meshes.triangle_count[mesh]);
+    for (uint32_t i = 0; i < areas.size(); ++i) {
+        areas[i] = triangle_area(meshes, meshes.first_triangle[mesh] + i);
+    }
+    const SelectionTable table = selection_table(areas);
+    light.kind = LIGHT_MESH;
+    light.first_triangle = static_cast<uint32_t>(compiled.emitter_triangles.size());
+    light.triangle_count = meshes.triangle_count[mesh];
+    for (uint32_t i = 0; i < areas.size(); ++i) {
+        const uint32_t triangle = meshes.first_triangle[mesh] + i;
+        compiled.surface_triangles[triangle].emitter =
+            static_cast<uint32_t>(compiled.emitter_triangles.size());
+        const double density = areas[i] > 0.0 ? table.probability[i] / areas[i] : 0.0;
+        compiled.emitter_triangles.push_back({triangle,
+                                              static_cast<uint32_t>(compiled.lights.size()),
+                                              table.end[i], static_cast<float>(density)});
+    }
+}
+
+/// A light's record without its selection probability, and its power in W (mean of the channels),
+/// which drives selection. A light of power 0 is omitted.
+struct Compiled {
+    LightRecord record{};
+    double power = 0;
+};
+
+Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings &settings,
+                       const Extent &extent, CompiledScene &compiled) {
+    using Kind = LightArrays::Kind;
+    const LightArrays &lights = scene.lights;
+    Compiled light;
+    LightRecord &record = light.record;
+    copy3(lights.radiance[i], record.radiance);
+    const Eigen::Matrix4d &world = lights.world_from_light[i];
+    copy3(Eigen::Vector3d(world.block<3, 1>(0, 0)), record.axis_x);
+    copy3(Eigen::Vector3d(world.block<3, 1>(0, 1)), record.axis_y);
+    copy3(Eigen::Vector3d(world.block<3, 1>(0, 2)), record.axis_z);
+    copy3(Eigen::Vector3d(world.block<3, 1>(0, 3)), record.position);
+    const double mean = static_cast<double>(lights.radiance[i].mean());
+    // projected area of the scene's sphere, seen from infinity
+    const double disc = pi * extent.radius * extent.radius;
+    if (!(lights.radiance[i].maxCoeff() > 0.0f)) {
+        return light;
+    }
+    switch (lights.kind[i]) {
+        case Kind::diffuse_area:
+            light.power = pi * lights.area[i] * mean;
+            if (lights.mesh[i] != no_index) {
+                compile_mesh_light(scene.meshes, lights.mesh[i], record, compiled);
+                compiled.features = compiled.features.with(Feature::area_lights)
+                                        .with(Feature::light_triangles,
+                                              compiled.features.has(Feature::light_triangles) ||
+                                                  record.triangle_count > 1);
+            } else {
+                const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
+                record.kind = is_disc                    ? LIGHT_DISC
+                              : settings.spheres_by_area ? LIGHT_SPHERE_BY_AREA
+                                                         : LIGHT_SPHERE;
+                record.first_triangle = lights.shape[i];
+                record.area = static_cast<float>(lights.area[i]);
+                compiled.shapes[lights.shape[i]].light =
+                    static_cast<uint32_t>(compiled.lights.size());
+                compiled.features = compiled.features.with(Feature::shape_lights);
+            }
+            break;
+        case Kind::point:
+            record.kind = LIGHT_POINT;
+            light.power = 4.0 * pi * mean;
+            compiled.features = compiled.features.with(Feature::point_lights);
+            break;
+        case Kind::spot: {
+            record.kind = LIGHT_SPOT;
+            const double inner = lights.inner_angle[i], outer = lights.outer_angle[i];
+            record.outer_angle = static_cast<float>(outer);
+            // Differences of cosines are written as products of sines to avoid cancellation.
+            record.versine_outer = static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2));
+            record.versine_range = static_cast<float>(2.0 * std::sin(0.5 * (outer + inner)) *
+                                                      std::sin(0.5 * (outer - inner)));
+            record.angle_scale = static_cast<float>(1.0 / (outer - inner));
+            // Integral over directions of an intensity that falls linearly with the angle between
+            // the cones: 2 pi (1 - mean cosine between the cones).
+            light.power =
+                2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner)) * mean;
+            compiled.features = compiled.features.with(Feature::spot_lights);
+            break;
+        }
+        case Kind::directional:
+            record.kind = LIGHT_DIRECTIONAL;
+            light.power = disc * mean;
+            compiled.features = compiled.features.with(Feature::directional_lights);
+            break;
+        case Kind::dome:
+        case Kind::environment: {
+            if (compiled.lighting.infinite_light != NO_EMITTER) {
+                throw input_error(fmt::format(
+                    "light '{}': the scene has another dome or environment; only one is allowed",
+                    lights.name[i]));
+            }
+            const bool dome = lights.kind[i] == Kind::dome;
+            record.kind = dome ? LIGHT_DOME : LIGHT_ENVIRONMENT;
+            light.power =
+                disc * mean * (dome ? 4.0 * pi : compile_environment(*lights.image[i], compiled));
+            if (light.power > 0.0) {
+                compiled.lighting.infinite_light = static_cast<uint32_t>(compiled.lights.size());
+                compiled.features = compiled.features.with(Feature::infinite_lights)
+                                        .with(dome ? Feature::dome : Feature::environment);
+            }
+            break;
+        }
+    }
+    return light;
+}
+
+/// Sets the selection probabilities of next-event estimation: uniform, in proportion to power, the
+/// mean of both (which bounds the loss against either), or 1 for each light. A light path starts at
+/// a single light; with `independent`, that light is selected by the mean of both.
+void select_lights(const std::vector<double> &powers, LightSelection selection,
+                   std::vector<LightRecord> &lights) {
+    const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
+    const double by_power = selection == LightSelection::power     ? 1.0
+                            : selection == LightSelection::uniform ? 0.0
+                                                                   : 0.5;
+    std::vector<double> weights(lights.size());
+    for (size_t i = 0; i < lights.size(); ++i) {
+        weights[i] =
+            by_power * powers[i] / total + (1.0 - by_power) / static_cast<double>(lights.size());
+    }
+    const SelectionTable table = selection_table(weights);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        lights[i].selection_end = table.end[i];
+        lights[i].emission_selection = static_cast<float>(table.probability[i]);
+        lights[i].selection =
+            selection == LightSelection::independent ? 1.0f : lights[i].emission_selection;
+    }
+}
+
+/// Returns a point light at the camera. A white diffuse surface at the centre of the scene that
+/// faces it has radiance 1.
+Compiled headlight(const Extent &extent, CompiledScene &compiled) {
+    const double away =
+        (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
+    const double intensity = pi * std::pow(std::max(away, extent.radius), 2);
+    Compiled light;
+    light.record.kind = LIGHT_POINT;
+    copy3(Eigen::Vector3d::Constant(intensity).eval(), light.record.radiance);
+    std::copy_n(compiled.camera.position, 3, light.record.position);
+    light.power = 4.0 * pi * intensity;
+    compiled.features = compiled.features.with(Feature::point_lights);
+    return light;
+}
+
+}  // namespace
+
+void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
+                    CompiledScene &compiled) {
+    Extent extent = extent_of(scene, compiled);
+    // Adds a margin for the rounding of points on these surfaces, and keeps the radius above 0.
+    extent.radius =
+        std::max(extent.radius * (1.0 + 0x1p-10) + extent.centre.norm() * 0x1p-20, 1e-15);
+    LightingRecord &lighting = compiled.lighting;
+    lighting.infinite_light = NO_EMITTER;
+    copy3(extent.centre, lighting.scene_centre);
+    lighting.scene_radius = static_cast<float>(extent.radius);
+    const auto &kinds = scene.shapes.kind;
+    const auto last_plane = std::find(kinds.rbegin(), kinds.rend(), ShapeArrays::Kind::plane);
+    lighting.plane_end = static_cast<uint32_t>(kinds.rend() - last_plane);
+    // Beyond every point of the scene, except on planes, whose horizon is cut off at about a
+    // million radii. Shadow rays to infinity have this length; hits measured in units of it keep
+    // their relative precision.
+    const double camera =
+        (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
+    lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
+    std::vector<double> powers;
+    const auto add = [&](const Compiled &light) {
+        if (light.power > 0.0) {
+            compiled.lights.push_back(light.record);
+            powers.push_back(light.power);
+        }
+    };
+    for (size_t i = 0; i < scene.lights.name.size(); ++i) {
+        add(compile_light(scene, i, settings, extent, compiled));
+    }
+    if (settings.headlight && compiled.lights.empty()) {
+        add(headlight(extent, compiled));
+    }
+    if (!compiled.lights.empty()) {
+        select_lights(powers, settings.light_selection, compiled.lights);
+    }
+    lighting.light_count = static_cast<uint32_t>(compiled.lights.size());
+    const bool several = compiled.lights.size() > 1;
+    const bool independent = settings.light_selection == LightSelection::independent;
+    compiled.features = compiled.features.with(Feature::lights, !compiled.lights.empty())
+                            .with(Feature::many_lights, several && !independent)
+                            .with(Feature::independent_lights, several && independent);
+}
+
+}  // namespace rtrays

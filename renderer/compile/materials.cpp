@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Compiles materials and textures into records, and collects the features that they use.
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "renderer/compile/compile_scene.h"
+
+namespace rtrays {
+
+namespace {
+
+struct KindRow {
+    uint32_t record_kind;
+    Feature feature;
+};
+
+/// Rows are in the order of BxdfComponent::Kind.
+constexpr std::array<KindRow, 9> kinds = {{
+    {BXDF_LAMBERT, Feature::lambert},
+    {BXDF_OREN_NAYAR, Feature::oren_nayar},
+    {BXDF_IDEAL_REFLECTION, Feature::ideal_reflection},
+    {BXDF_IDEAL_REFRACTION, Feature::ideal_refraction},
+    {BXDF_BLINN, Feature::blinn},
+    {BXDF_WARD, Feature::ward},
+    {BXDF_WARD_ORIGINAL, Feature::ward_original},
+    {BXDF_MICROFACET_REFLECTION, Feature::microfacet_reflection},
+    {BXDF_MICROFACET_REFRACTION, Feature::microfacet_refraction},
+}};
+
+struct FresnelRow {
+    uint32_t flag;
+    Feature feature;
+};
+
+/// Rows are in the order of BxdfComponent::Fresnel.
+constexpr std::array<FresnelRow, 5> fresnels = {{
+    {FRESNEL_IDEAL, Feature::fresnel},  // needs no code
+    {FRESNEL_DIELECTRIC, Feature::fresnel_dielectric},
+    {FRESNEL_CONDUCTOR, Feature::fresnel_conductor},
+    {FRESNEL_CONDUCTOR_APPROXIMATE, Feature::fresnel_conductor_approximate},
+    {FRESNEL_SCHLICK, Feature::fresnel_schlick},
+}};
+
+bool is_delta(uint32_t kind) {
+    return kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION;
+}
+bool refracts(uint32_t kind) {
+    return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
+}
+
+BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &features) {
+    const KindRow &kind = kinds[static_cast<size_t>(component.kind)];
+    const FresnelRow &fresnel = fresnels[static_cast<size_t>(component.fresnel)];
+    const bool beckmann = component.distribution == BxdfComponent::Distribution::beckmann;
+    BxdfRecord record{};
+    record.kind = kind.record_kind;
+    record.flags = fresnel.flag | (component.complement ? BXDF_FLAG_COMPLEMENT : 0u) |
+                   (component.fresnel_of_wo ? BXDF_FLAG_FRESNEL_OF_WO : 0u) |
+                   (beckmann ? BXDF_FLAG_BECKMANN : 0u);
+    record.texture = component.texture == no_index ? NO_TEXTURE : component.texture;
+    record.parameter = static_cast<float>(
+        component.kind == BxdfComponent::Kind::blinn ? component.exponent : component.sigma);
+    record.alpha_x = static_cast<float>(component.alpha.x());
+    record.alpha_y = static_cast<float>(component.alpha.y());
+    copy3(component.weight, record.weight);
+    copy3(component.eta, record.eta);
+    copy3(component.k, record.k);
+
+    const bool microfacet =
+        record.kind == BXDF_MICROFACET_REFLECTION || record.kind == BXDF_MICROFACET_REFRACTION;
+    features = features.with(kind.feature);
+    if (component.fresnel != BxdfComponent::Fresnel::ideal) {
+        features = features.with(Feature::fresnel).with(fresnel.feature);
+    }
+    if (microfacet) {
+        features = features.with(beckmann ? Feature::beckmann : Feature::ggx);
+    }
+    if (is_delta(record.kind)) {
+        features = features.with(Feature::delta);
+    }
+    if (refracts(record.kind)) {
+        features = features.with(Feature::refraction);
+    }
+    if (record.alpha_x != record.alpha_y) {
+        features = features.with(Feature::tangents);
+    }
+    if (record.texture != NO_TEXTURE) {
+        features = features.with(Feature::textures);
+    }
+    return record;
+}
+
+void compile_texture(const TextureArrays &textures, size_t index, CompiledScene &compiled) {
+    const TextureImage &image = *textures.image[index];
+    TextureRecord record{};
+    record.first_word = static_cast<uint32_t>(compiled.texels.size());
+    record.width = static_cast<uint32_t>(image.width);
+    record.height = static_cast<uint32_t>(image.height);
+    record.flags =
+        (image.bytes.empty() ? TEXTURE_FLOAT : 0u) | (image.srgb ? TEXTURE_SRGB : 0u) |
+        (textures.filter[index] == TextureArrays::Filter::bilinear ? TEXTURE_BILINEAR : 0u) |
+        (textures.wrap[index] == TextureArrays::Wrap::clamp ? TEXTURE_CLAMP : 0u);
+    for (int i = 0; i < 2; ++i) {
+        record.uv_scale[i] = static_cast<float>(textures.uv_scale[index][i]);
+        record.uv_offset[i] = static_cast<float>(textures.uv_offset[index][i]);
+    }
+    compiled.textures.push_back(record);
+    for (size_t i = 0; i + 2 < image.bytes.size(); i += 3) {
+        compiled.texels.push_back(static_cast<uint32_t>(image.bytes[i]) |
+                                  static_cast<uint32_t>(image.bytes[i + 1]) << 8 |
+                                  static_cast<uint32_t>(image.bytes[i + 2]) << 16);
+    }
+    const size_t first = compiled.texels.size();
+    compiled.texels.resize(first + image.floats.size());
+    std::memcpy(compiled.texels.data() + first, image.floats.data(),
+                image.floats.size() * sizeof(float));
+}
+
+}  // namespace
+
+void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
+    const MaterialArrays &materials = scene.materials;
+    FeatureMask features;
+    for (size_t i = 0; i < materials.name.size(); ++i) {
+        MaterialRecord record{};
+        record.first_component = static_cast<uint32_t>(compiled.components.size());
+        bool all_delta = true;
+        for (uint32_t c = 0; c < materials.component_count[i]; ++c) {
+            const BxdfComponent &component = materials.component[materials.first_component[i] + c];
+            if (!(component.weight.maxCoeff() > 0.0f)) {
+                continue;  // a component without reflectance needs no code
+            }
+            const BxdfRecord compiled_component = compile_component(component, features);
+            record.flags |= refracts(compiled_component.kind) ? MATERIAL_BOUNDARY : 0u;
+            record.flags |=
+                compiled_component.alpha_x != compiled_component.alpha_y ? MATERIAL_TURNS : 0u;
+            all_delta = all_delta && is_delta(compiled_component.kind);
+            compiled.components.push_back(compiled_component);
+        }
+        record.component_count =
+            static_cast<uint32_t>(compiled.components.size()) - record.first_component;
+        record.flags |= (materials.two_sided[i] == 0 ? MATERIAL_ONE_SIDED : 0u) |
+                        (all_delta ? MATERIAL_DELTA : 0u);
+        features = features
+                       .with(Feature::composite,
+                             features.has(Feature::composite) || record.component_count != 1)
+                       .with(Feature::one_sided,
+                             features.has(Feature::one_sided) || materials.two_sided[i] == 0);
+        compiled.materials.push_back(record);
+    }
+    features = features.with(Feature::scattering, !compiled.components.empty());
+    if (features.has(Feature::textures)) {
+        for (size_t i = 0; i < scene.textures.name.size(); ++i) {
+            compile_texture(scene.textures, i, compiled);
+        }
+    }
+    compiled.features = compiled.features | features;
+}
+
+}  // namespace rtrays

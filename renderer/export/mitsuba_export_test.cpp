@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// Tests that scenes exported for Mitsuba and imported again are unchanged.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "renderer/base/files.h"
+#include "renderer/export/mitsuba_xml.h"
+#include "renderer/export/tessellation.h"
+#include "renderer/import/json/scene_json.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/scene/cores/texture.h"
+#include "renderer/testing/mitsuba_scenes.h"
+
+namespace rtrays {
+namespace {
+
+const std::string scenes = RTRAYS_SCENES;
+
+/// Relative tolerance for doubles that went through matrix products and back.
+constexpr double rounding = 1e-12;
+
+class MitsubaExport : public WithImages {
+  protected:
+    void SetUp() override {
+        WithImages::SetUp();
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+
+    Scene through_mitsuba(const Scene &scene) {
+        export_mitsuba_xml(scene, folder_ / "out.xml");
+        const Notices silent;
+        return load_scene((folder_ / "out.xml").string());
+    }
+
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "mitsuba_export";
+};
+
+template <typename Matrix>
+void expect_close(const Matrix &a, const Matrix &b, double tolerance) {
+    EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance * std::max(1.0, a.cwiseAbs().maxCoeff()))
+        << a << "\n"
+        << b;
+}
+
+void expect_same_image(const TextureImage &a, const TextureImage &b) {
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.srgb, b.srgb);
+    EXPECT_EQ(a.bytes, b.bytes);
+    EXPECT_EQ(a.floats, b.floats);
+}
+
+void expect_same_texture(const TextureArrays &a, uint32_t i, const TextureArrays &b, uint32_t j) {
+    expect_same_image(*a.image[i], *b.image[j]);
+    EXPECT_EQ(a.filter[i], b.filter[j]);
+    EXPECT_EQ(a.wrap[i], b.wrap[j]);
+    expect_close(a.uv_scale[i], b.uv_scale[j], rounding);
+    expect_close(a.uv_offset[i], b.uv_offset[j], rounding);
+}
+
+void expect_same_material(const SceneArrays &a, uint32_t i, const SceneArrays &b, uint32_t j) {
+    ASSERT_EQ(a.materials.component_count[i], b.materials.component_count[j]);
+    bool refracts = false;
+    for (uint32_t c = 0; c < a.materials.component_count[i]; ++c) {
+        const BxdfComponent &p = a.materials.component[a.materials.first_component[i] + c];
+        const BxdfComponent &q = b.materials.component[b.materials.first_component[j] + c];
+        EXPECT_EQ(p.kind, q.kind);
+        EXPECT_EQ(p.weight, q.weight);
+        EXPECT_EQ(p.fresnel, q.fresnel);
+        EXPECT_EQ(p.complement, q.complement);
+        EXPECT_EQ(p.eta, q.eta);
+        EXPECT_EQ(p.k, q.k);
+        EXPECT_EQ(p.alpha, q.alpha);
+        EXPECT_EQ(p.distribution, q.distribution);
+        ASSERT_EQ(p.texture == no_index, q.texture == no_index);
+        if (p.texture != no_index) {
+            expect_same_texture(a.textures, p.texture, b.textures, q.texture);
+        }
+        refracts = refracts || p.kind == BxdfComponent::Kind::ideal_refraction ||
+                   p.kind == BxdfComponent::Kind::microfacet_refraction;
+    }
+    // Both sides of a refracting material are visible in any case.
+    EXPECT_TRUE(refracts || a.materials.two_sided[i] == b.materials.two_sided[j]);
+}
+
+void expect_same_light(const LightArrays &a, uint32_t i, const LightArrays &b, uint32_t j) {
+    ASSERT_EQ(a.kind[i], b.kind[j]);
+    EXPECT_EQ(a.radiance[i], b.radiance[j]);
+    EXPECT_NEAR(a.inner_angle[i], b.inner_angle[j], rounding);
+    EXPECT_NEAR(a.outer_angle[i], b.outer_angle[j], rounding);
+    // For a light with an axis, only the axis and the position of its pose matter.
+    expect_close(Eigen::Matrix<double, 4, 2>(a.world_from_light[i].rightCols<2>()),
+                 Eigen::Matrix<double, 4, 2>(b.world_from_light[j].rightCols<2>()), rounding);
+    ASSERT_EQ(a.image[i] == nullptr, b.image[j] == nullptr);
+    if (a.image[i] != nullptr) {
+        expect_same_image(*a.image[i], *b.image[j]);
+        expect_close(a.world_from_light[i], b.world_from_light[j], rounding);
+    }
+}
+
+/// Expects that two scenes give the same image, apart from rounding of doubles and the order of
+/// materials and lights.
+void expect_same_scene(const Scene &first, const Scene &second) {
+    const SceneArrays &a = first.arrays();
+    const SceneArrays &b = second.arrays();
+    const auto camera = static_cast<size_t>(first.active_camera());
+    EXPECT_EQ(first.film_width(), second.film_width());
+    EXPECT_EQ(first.film_height(), second.film_height());
+    expect_close(a.cameras.world_from_camera[camera], b.cameras.world_from_camera[0], rounding);
+    EXPECT_NEAR(a.cameras.fov[camera], b.cameras.fov[0], rounding);
+    EXPECT_EQ(a.cameras.fov_axis[camera], b.cameras.fov_axis[0]);
+    EXPECT_EQ(a.cameras.aperture_radius[camera], b.cameras.aperture_radius[0]);
+
+    ASSERT_EQ(a.meshes.name, b.meshes.name);
+    EXPECT_EQ(a.meshes.position, b.meshes.position);
+    EXPECT_EQ(a.meshes.triangle, b.meshes.triangle);
+    EXPECT_EQ(a.meshes.uv, b.meshes.uv);
+    ASSERT_EQ(a.meshes.normal.size(), b.meshes.normal.size());
+    for (size_t i = 0; i < a.meshes.normal.size(); ++i) {  // normalised again
+        EXPECT_LE((a.meshes.normal[i] - b.meshes.normal[i]).cwiseAbs().maxCoeff(), 1.2e-7f);
+    }
+    ASSERT_EQ(a.shapes.name, b.shapes.name);
+    EXPECT_EQ(a.shapes.kind, b.shapes.kind);
+    for (uint32_t i = 0; i < a.shapes.name.size(); ++i) {
+        expect_close(a.shapes.world_from_object[i], b.shapes.world_from_object[i], rounding);
+        expect_same_material(a, a.shapes.material[i], b, b.shapes.material[i]);
+    }
+    for (uint32_t i = 0; i < a.meshes.name.size(); ++i) {
+        expect_same_material(a, a.meshes.material[i], b, b.meshes.material[i]);
+    }
+    std::map<std::string, uint32_t> named;
+    ASSERT_EQ(a.lights.name.size(), b.lights.name.size());
+    for (uint32_t i = 0; i < b.lights.name.size(); ++i) {
+        named[b.lights.name[i]] = i;
+    }
+    for (uint32_t i = 0; i < a.lights.name.size(); ++i) {
+        ASSERT_EQ(named.count(a.lights.name[i]), 1u) << a.lights.name[i];
+        expect_same_light(a.lights, i, b.lights, named[a.lights.name[i]]);
+    }
+}
+
+TEST_F(MitsubaExport, TheCornellBoxComesBack) {
+    const Scene box = load_scene(scenes + "/cornell_box/scene.json");
+    const Scene back = through_mitsuba(box);
+    expect_same_scene(box, back);
+    const std::string xml = read_file(folder_ / "out.xml");
+    EXPECT_NE(xml.find("<default name=\"max_depth\" value=\"-1\" />"), std::string::npos) << xml;
+    // A second round trip must not change a bit.
+    EXPECT_EQ(through_mitsuba(back).hash(), back.hash());
+}
+
+/// Feature scenes with a shape that is exported as a mesh.
+const std::set<std::string> tessellated_shapes = {"cone", "ellipsoid", "hyperboloid", "paraboloid"};
+
+/// What Mitsuba has not got of them.
+const std::map<std::string, const char *> &beyond_mitsuba() {
+    static const std::map<std::string, const char *> reasons = {
+        {"blinn_64", "no BSDF for blinn * conductor;"},
+        {"car_paint_thesis",
+         "no BSDF for ideal_reflection * dielectric + lambert * (1 - dielectric of wo);"},
+        {"conductor_approximate", "no BSDF for ideal_reflection * conductor_approximate;"},
+        {"julia", "no julia"},
+        {"lambert_blinn", "no BSDF for lambert + blinn;"},
+        {"oren_nayar_010", "no BSDF for oren_nayar;"},
+        {"plane", "'ground': Mitsuba has no plane, and it cannot be tessellated"},
+        {"refraction_13", "no BSDF for ideal_refraction;"},
+        {"rough_plastic",
+         "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},
+        {"schlick", "no BSDF for ideal_reflection * schlick;"},
+        {"ward_010",
+         "'object': material 'object': Mitsuba has no BSDF for ward; supported are: lambert; "},
+        {"ward_anisotropic", "no BSDF for ward * conductor;"},
+        {"ward_original", "no BSDF for ward_original;"},
+    };
+    return reasons;
+}
+
+TEST_F(MitsubaExport, ScenesOfSingleFeaturesComeBackOrAreErrors) {
+    int back = 0;
+    for (const auto &entry : std::filesystem::directory_iterator(scenes + "/features")) {
+        if (entry.path().extension() != ".json") {
+            continue;
+        }
+        const std::string name = entry.path().stem().string();
+        SCOPED_TRACE(name);
+        const Scene scene = load_scene(entry.path().string());
+        const auto reason = beyond_mitsuba().find(name);
+        if (reason != beyond_mitsuba().end()) {
+            expect_input_error(reason->second, [&] { through_mitsuba(scene); });
+            continue;
+        }
+        if (tessellated_shapes.count(name) > 0) {
+            continue;
+        }
+        try {
+            expect_same_scene(scene, through_mitsuba(scene));
+            ++back;
+        } catch (const Error &error) {  // other scenes with the same unsupported features
+            EXPECT_NE(std::string(error.what()).find("Mitsuba has no"), std::string::npos)
+                << error.what();
+        }
+    }
+    EXPECT_GE(back, 30);
+}
+
+TEST_F(MitsubaExport, ShapesThatMitsubaLacksComeBackAsMeshes) {
+    for (const std::string &name : tessellated_shapes) {
+        SCOPED_TRACE(name);
+        const Scene scene = load_scene(scenes + "/features/" + name + ".json");
+        const Scene back = through_mitsuba(scene);
+        const ShapeArrays &shapes = scene.arrays().shapes;
+        const MeshArrays &meshes = back.meshes();
+        const auto shape = static_cast<size_t>(
+            std::find(shapes.name.begin(), shapes.name.end(), "object") - shapes.name.begin());
+        const auto mesh = static_cast<size_t>(
+            std::find(meshes.name.begin(), meshes.name.end(), "object") - meshes.name.begin());
+        ASSERT_LT(shape, shapes.name.size());
+        ASSERT_LT(mesh, meshes.name.size());
+        const MeshArrays wanted = tessellated(shapes, static_cast<uint32_t>(shape));
+        ASSERT_EQ(meshes.vertex_count[mesh], wanted.vertex_count[0]);
+        ASSERT_EQ(meshes.triangle_count[mesh], wanted.triangle_count[0]);
+        for (uint32_t i = 0; i < wanted.vertex_count[0]; ++i) {
+            ASSERT_EQ(meshes.position[meshes.first_vertex[mesh] + i], wanted.position[i]);
+            ASSERT_LE((meshes.normal[meshes.first_vertex[mesh] + i] - wanted.normal[i])
+                          .cwiseAbs()
+                          .maxCoeff(),
+                      1.2e-7f);
+            ASSERT_EQ(meshes.uv[meshes.first_vertex[mesh] + i], wanted.uv[i]);
+        }
+        expect_same_material(scene.arrays(), shapes.material[shape], back.arrays(),
+                             meshes.material[mesh]);
+    }
+}
+
+TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "tile", "geometry": {"type": "rectangle"}, "material": {"type": "plastic", "eta": 1.5,
+         "reflectance": [0.5, 1, 1], "reflectance_texture": {"file": "assets/checker.png", "encoding": "srgb"}}}]})",
+                         "in.json", "in", scenes + "/features");
+    const Scene back = through_mitsuba(scene);
+    const BxdfComponent &before = scene.materials().component[1];
+    const BxdfComponent &after = back.materials().component[1];
+    const TextureImage &bytes = *scene.arrays().textures.image[before.texture];
+    const TextureImage &floats = *back.arrays().textures.image[after.texture];
+    ASSERT_EQ(floats.floats.size(), bytes.bytes.size());
+    for (size_t i = 0; i < floats.floats.size(); ++i) {
+        const auto channel = static_cast<Eigen::Index>(i % 3);
+        EXPECT_NEAR(after.weight[channel] * floats.floats[i],
+                    before.weight[channel] * srgb_decoded(bytes.bytes[i] / 255.0), 1e-6);
+    }
+}
+
+TEST_F(MitsubaExport, FarScenesStayWhereTheyAre) {
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "far", "transform": [{"translate": [1e6, 0, 0]}], "children": [
+         {"name": "eye", "transform": [{"translate": [0.1, 0, 3]}], "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+         {"name": "lamp", "light": {"type": "point", "intensity": [1, 1, 1]}},
+         {"name": "tile", "geometry": {"type": "rectangle"}, "material": {"type": "lambert", "reflectance": [1, 1, 1]}},
+         {"name": "ball", "geometry": {"type": "sphere"}, "material": {"type": "mirror", "reflectance": [1, 1, 1]}}]}]})",
+                         "in.json", "in");
+    ASSERT_GT(scene.origin().norm(), 9e5);
+    const Scene back = through_mitsuba(scene);
+    EXPECT_LT((back.origin() - scene.origin()).norm(), 1e-6);
+    expect_same_scene(scene, back);
+}
+
+TEST_F(MitsubaExport, WritesNothingOfWhatItCannotExpress) {
+    const Scene scene = load_scene(scenes + "/features/julia.json");
+    expect_input_error("Mitsuba has no julia",
+                       [&] { export_mitsuba_xml(scene, folder_ / "out.xml"); });
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.xml"));
+    expect_input_error("", [&] { export_mitsuba_xml(scene, folder_ / "none" / "out.xml"); });
+}
+
+TEST_F(MitsubaExport, TakesOneLightAllAround) {
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "a", "light": {"type": "dome", "radiance": [1, 1, 1]}},
+        {"name": "b", "light": {"type": "dome", "radiance": [1, 1, 1]}}]})",
+                         "in.json", "in");
+    expect_input_error(
+        "'b': Mitsuba supports at most one dome or environment light, and there is already 'a'",
+        [&] { through_mitsuba(scene); });
+}
+
+}  // namespace
+}  // namespace rtrays

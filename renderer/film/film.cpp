@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/film/film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/json.h"
+#include "renderer/shared/film_layout.h"
+
+namespace rtrays {
+
+namespace {
+
+constexpr int state_version = 3;
+const std::string magic = "RTRaysFilm";
+
+size_t pixel_words(const FilmState &film) {
+    return FILM_PIXEL_WORDS(film.variance);
+}
+
+/// Returns the number of words of one pass.
+size_t word_count(const FilmState &film) {
+    return static_cast<size_t>(film.width) * static_cast<size_t>(film.height) * pixel_words(film);
+}
+
+/// Returns the value of one sum whose words are `stride` apart: the sum of its words times their
+/// units. After carry propagation, all words except the top one are non-negative and smaller than
+/// the unit above. Adding from the top therefore cancels only where the result is exact, and the
+/// twelve roundings of 2^-53 keep the error below 2^-49 of the result.
+double sum_value(const int64_t *words, size_t stride, int lowest, int step) {
+    double value = 0;
+    for (int k = FILM_WORDS - 1; k >= 0; --k) {
+        value += std::ldexp(static_cast<double>(words[static_cast<size_t>(k) * stride]),
+                            lowest + k * step);
+    }
+    return value;
+}
+
+}  // namespace
+
+uint64_t FilmState::samples() const {
+    uint64_t count = 0;
+    for (const SampleRange &range : ranges) {
+        count += range.end - range.begin;
+    }
+    return count;
+}
+
+void FilmState::add_range(SampleRange range) {
+    if (range.begin == range.end) {
+        return;
+    }
+    for (const SampleRange &present : ranges) {
+        if (range.begin < present.end && present.begin < range.end) {
+            throw input_error(fmt::format(
+                "samples {}:{} overlap {}:{}, which are in the film already; render others",
+                range.begin, range.end, present.begin, present.end));
+        }
+    }
+    ranges.push_back(range);
+    std::sort(ranges.begin(), ranges.end(),
+              [](const SampleRange &a, const SampleRange &b) { return a.begin < b.begin; });
+    std::vector<SampleRange> joined;
+    for (const SampleRange &r : ranges) {
+        if (!joined.empty() && joined.back().end == r.begin) {
+            joined.back().end = r.end;
+        } else {
+            joined.push_back(r);
+        }
+    }
+    ranges = joined;
+}
+
+void require_valid(const FilmState &film) {
+    if (film.non_finite > 0 || film.out_of_range > 0) {
+        throw run_error(
+            fmt::format("{} samples were not finite and {} beyond the film's range of 2^40; they "
+                        "are not in the image",
+                        film.non_finite, film.out_of_range));
+    }
+}
+
+Image develop_film(const FilmState &film) {
+    Image image = Image::rgb(film.width, film.height);
+    const std::vector<std::string> colour = rgb_names(), variance = rgb_names("variance");
+    if (film.variance) {
+        for (const std::string &name : variance) {
+            image.add_channel(name);
+        }
+    }
+    std::vector<float> &samples = image.add_channel("samples");
+    for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
+        samples[pixel] = static_cast<float>(
+            film.convergence ? film.convergence->samples_of(pixel, film.samples())
+                             : film.samples());
+    }
+    const bool layers = film.passes.size() > 1;
+    for (size_t pass = 0; pass < film.passes.size() && layers; ++pass) {
+        for (const std::string &name : rgb_names(film.passes[pass])) {
+            image.add_channel(name);
+        }
+    }
+    if (film.samples() == 0) {
+        return image;
+    }
+    const size_t sums = FILM_PIXEL_SUMS(film.variance);
+    for (size_t c = 0; c < FILM_CHANNELS; ++c) {
+        std::vector<double> mean(image.pixel_count()), mean_variance(image.pixel_count());
+        for (size_t pass = 0; pass < film.passes.size(); ++pass) {
+            // A sample of a camera pass is one path per pixel. A sample of a light pass is the sum
+            // over `light_paths` paths.
+            const bool splats = film.passes[pass] == "light";
+            const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
+            const bool stops = !splats && film.convergence;
+            const int64_t *const first = film.words.data() + pass * word_count(film) + c;
+            std::vector<float> *const layer =
+                layers ? &image.channel(rgb_names(film.passes[pass])[c]) : nullptr;
+            for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
+                const int64_t *words = first + pixel * pixel_words(film);
+                const auto n = static_cast<double>(
+                    stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
+                const double own = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
+                mean[pixel] += own;
+                if (layer != nullptr) {
+                    (*layer)[pixel] = static_cast<float>(own);
+                }
+                if (film.variance && n * paths > 1) {
+                    // Each square is rounded by up to 2^-21. If all samples are equal, the
+                    // difference may fall below zero by that fraction of the mean's square, and 0
+                    // is the nearest variance.
+                    const double square = sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST,
+                                                    FILM_SQUARE_STEP) /
+                                          n;
+                    mean_variance[pixel] +=
+                        std::max(square - own * own / paths, 0.0) / (n - 1.0 / paths);
+                }
+            }
+        }
+        std::copy(mean.begin(), mean.end(), image.channel(colour[c]).begin());
+        if (film.variance) {
+            std::copy(mean_variance.begin(), mean_variance.end(),
+                      image.channel(variance[c]).begin());
+        }
+    }
+    return image;
+}
+
+void merge_film(FilmState &film, const FilmState &other) {
+    const auto require = [](bool same, const char *what) {
+        if (!same) {
+            throw input_error(fmt::format("films differ in {} and cannot be merged", what));
+        }
+    };
+    require(film.width == other.width && film.height == other.height, "size");
+    require(film.variance == other.variance, "layers");
+    require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1),
+            "passes");
+    require(film.seed == other.seed, "seed");
+    require(film.config == other.config, "scene or settings");
+    FilmState merged = film;
+    const bool other_pass = film.passes != other.passes;
+    if (other_pass) {
+        require(film.ranges == other.ranges, "samples, which different passes must share,");
+    } else if (film.convergence || other.convergence) {
+        throw input_error(
+            "films with convergence control depend on the order of their samples; only another "
+            "pass can be merged into them");
+    } else {
+        for (const SampleRange &range : other.ranges) {
+            merged.add_range(range);
+        }
+    }
+    merged.device_seconds += other.device_seconds;
+    merged.wall_seconds += other.wall_seconds;
+    merged.non_finite += other.non_finite;
+    merged.out_of_range += other.out_of_range;
+    if (other_pass) {
+        const bool first = film.passes.front() == "camera";
+        const FilmState &camera = first ? film : other, &light = first ? other : film;
+        merged.passes = {camera.passes.front(), light.passes.front()};
+        merged.light_paths = light.light_paths;
+        merged.words = camera.words;
+        merged.words.insert(merged.words.end(), light.words.begin(), light.words.end());
+        merged.convergence = camera.convergence;
+        film = std::move(merged);
+        return;
+    }
+    for (size_t i = 0; i < merged.words.size(); ++i) {
+        merged.words[i] += other.words[i];
+    }
+    const uint32_t sums = FILM_PIXEL_SUMS(merged.variance);
+    for (size_t pixel = 0; pixel < merged.words.size(); pixel += pixel_words(merged)) {
+        for (uint32_t sum = 0; sum < sums; ++sum) {
+            film_carry_sum(merged.words.data() + pixel, sums, sum);
+        }
+    }
+    film = std::move(merged);
+}
+
+void save_film(const FilmState &film, const std::filesystem::path &path) {
+    Json header = {{"version", state_version},
+                   {"width", film.width},
+                   {"height", film.height},
+                   {"variance", film.variance},
+                   {"seed", film.seed},
+                   {"config", film.config},
+                   {"ranges", Json::array()},
+                   {"device_seconds", film.device_seconds},
+                   {"non_finite", film.non_finite},
+                   {"out_of_range", film.out_of_range},
+                   {"wall_seconds", film.wall_seconds},
+                   {"passes", film.passes},
+                   {"light_paths", film.light_paths}};
+    for (const SampleRange &range : film.ranges) {
+        header["ranges"].push_back({range.begin, range.end});
+    }
+    if (film.convergence) {
+        const ConvergenceRule &rule = film.convergence->rule;
+        header["convergence"] = {
+            {"error", rule.error}, {"interval", rule.interval}, {"start", rule.start}};
+    }
+    std::string content = magic + "\n" + header.dump() + "\n";
+    const auto append = [&](const auto &values) {
+        content.append(reinterpret_cast<const char *>(values.data()),
+                       values.size() * sizeof values[0]);
+    };
+    append(film.words);
+    if (film.convergence) {
+        append(film.convergence->stopped_at);
+        append(film.convergence->half_words);
+    }
+    write_file(path, content_hash(content) + content);
+}
+
+FilmState load_film(const std::filesystem::path &path) {
+    const std::string file = read_file(path);
+    const auto fail = [&](const char *why) {
+        return input_error(fmt::format("{}: {}", path.string(), why));
+    };
+    if (file.compare(std::min(hash_digits, file.size()), magic.size(), magic) != 0) {
+        throw fail("not a film state; expected a file that --state wrote");
+    }
+    const std::string content = file.substr(hash_digits);
+    if (content_hash(content) != file.substr(0, hash_digits)) {
+        throw fail("film state is truncated or damaged (checksum); render it again");
+    }
+    const size_t header_begin = magic.size() + 1;
+    const size_t header_end = content.find('\n', header_begin);
+    const Json header =
+        parse_json(content.substr(header_begin, header_end - header_begin), path.string());
+    if (header.at("version").get<int>() != state_version) {
+        throw fail("film state of another version of the program; render it again");
+    }
+    FilmState film;
+    film.width = header.at("width");
+    film.height = header.at("height");
+    film.variance = header.at("variance");
+    film.seed = header.at("seed");
+    film.config = header.at("config");
+    film.device_seconds = header.at("device_seconds");
+    film.wall_seconds = header.at("wall_seconds");
+    film.passes = header.at("passes").get<std::vector<std::string>>();
+    film.light_paths = header.at("light_paths");
+    film.non_finite = header.at("non_finite");
+    film.out_of_range = header.at("out_of_range");
+    for (const Json &range : header.at("ranges")) {
+        film.add_range({range.at(0), range.at(1)});
+    }
+    film.words.resize(film.passes.size() * word_count(film));
+    if (header.contains("convergence")) {
+        const Json &rule = header.at("convergence");
+        const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
+        film.convergence =
+            ConvergenceState{{rule.at("error"), rule.at("interval"), rule.at("start")},
+                             std::vector<uint64_t>(pixels),
+                             std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
+    }
+    size_t at = header_end + 1;
+    const auto take = [&](auto &values) {
+        const size_t bytes = values.size() * sizeof values[0];
+        if (bytes > content.size() - at) {
+            throw fail("film state has the wrong length; render it again");
+        }
+        std::memcpy(values.data(), content.data() + at, bytes);
+        at += bytes;
+    };
+    take(film.words);
+    if (film.convergence) {
+        take(film.convergence->stopped_at);
+        take(film.convergence->half_words);
+    }
+    if (at != content.size()) {
+        throw fail("film state has the wrong length; render it again");
+    }
+    if (film.convergence && !film.convergence->is_consistent(film.samples())) {
+        throw fail("film state has pixels that stopped between checks; render it again");
+    }
+    return film;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The film's state on the host: development to an image, merging, and files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/base/image.h"
+#include "renderer/film/convergence.h"
+
+namespace rtrays {
+
+/// Half-open range of sample indices.
+struct SampleRange {
+    uint64_t begin;
+    uint64_t end;
+
+    bool operator==(const SampleRange &other) const {
+        return begin == other.begin && end == other.end;
+    }
+};
+
+/// Exact sums of a render (shared/film_layout.h), and their origin. They can be saved, resumed and
+/// merged without changing a bit of the result.
+struct FilmState {
+    int width = 0;
+    int height = 0;
+    bool variance = true;  ///< whether sums of squares are stored
+    /// Names of the rendered passes, whose images add up: "camera", "light".
+    std::vector<std::string> passes = {"camera"};
+    /// Light paths per sample of the image, 0 without a light pass.
+    uint64_t light_paths = 0;
+    uint32_t seed = 0;
+    /// Hash of scene and settings. Films of different configurations cannot be merged.
+    std::string config;
+    /// Ranges of samples in the film: sorted, disjoint, and with adjacent ranges merged.
+    std::vector<SampleRange> ranges;
+    /// Device time of the stages and of the pilot, if there was one.
+    double device_seconds = 0;
+    double wall_seconds = 0;
+    /// Samples that were not finite; they are not in the sums.
+    uint64_t non_finite = 0;
+    /// Samples of magnitude 2^40 or more; they are not in the sums.
+    uint64_t out_of_range = 0;
+    /// Words of the sums after carry propagation: pass by pass, FILM_PIXEL_WORDS per pixel.
+    std::vector<int64_t> words;
+    /// State of convergence control in the camera pass, if it is on.
+    std::optional<ConvergenceState> convergence;
+
+    /// Returns the number of samples per pixel. A pixel that convergence control has stopped has
+    /// fewer from the camera pass.
+    uint64_t samples() const;
+
+    /// Adds a range. Throws `Error` (bad input) when it overlaps a range of the film.
+    void add_range(SampleRange range);
+};
+
+/// Throws `Error` (run failed) with the numbers of samples that were not finite or out of the
+/// film's range, if there are any.
+void require_valid(const FilmState &film);
+
+/// Returns an image with these channels: R, G, B; variance.R, .G, .B (variance of the mean, from
+/// the squares); samples (camera paths of each pixel); and the images of the passes (camera.R, ...,
+/// light.R, ...) if there are several. Means are computed in double from the exact integers, so
+/// that their relative error is that of the rounding to float.
+///
+/// A light path adds to many pixels. The variances of a light pass are those of single pixels;
+/// neighbouring pixels are correlated.
+Image develop_film(const FilmState &film);
+
+/// Adds `other` to `film`: other samples of the same passes, or another pass of the same samples.
+/// Throws `Error` (bad input) when size, seed, configuration or layers differ, or when samples are
+/// already in the film. With convergence control, all samples from the first on decide where a
+/// pixel stops, so that only passes can be merged.
+void merge_film(FilmState &film, const FilmState &other);
+
+/// Writes the film to a file: a checksum, a line that names the format, a line of JSON and the
+/// words. The write is atomic. Throws `Error` (run failed) that names the path.
+void save_film(const FilmState &film, const std::filesystem::path &path);
+
+/// Reads a film that `save_film` wrote. Throws `Error` (bad input) that names the path when the
+/// file is missing, not a film, truncated or damaged.
+FilmState load_film(const std::filesystem::path &path);
+
+}  // namespace rtrays

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// Tests the exact sums of the film, with the device code on the host and on the device, and the
+// film state that is saved, resumed and merged.
+#define FEATURE_variance 1
+#define FEATURE_int64_atomics 1
+#include "renderer/kernels/film/film.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <tuple>
+
+#include "renderer/base/files.h"
+#include "renderer/device/kernel.h"
+#include "renderer/film/film.h"
+#include "renderer/testing/errors.h"
+
+namespace rtrays {
+namespace {
+
+constexpr size_t pixel_words = FILM_PIXEL_WORDS(true);
+
+FilmState empty_film() {
+    FilmState film;
+    film.width = film.height = 1;
+    film.seed = 7;
+    film.config = "config";
+    film.words.assign(pixel_words, 0);
+    return film;
+}
+
+void carry_pixel(std::vector<int64_t> &words) {
+    for (uint32_t sum = 0; sum < PIXEL_SUMS; ++sum) {
+        film_carry_sum(words.data(), PIXEL_SUMS, sum);
+    }
+}
+
+FilmState film_of(const std::vector<float> &samples) {
+    FilmState film = empty_film();
+    uint32_t additions = 0;
+    for (const float x : samples) {
+        EXPECT_EQ(film_add_sample(film.words.data(), make_float3(x, -x, 0.5f * x)), 0u);
+        if (++additions == FILM_ADDITIONS_BETWEEN_CARRIES) {
+            carry_pixel(film.words);
+            additions = 0;
+        }
+    }
+    carry_pixel(film.words);
+    film.add_range({0, samples.size()});
+    return film;
+}
+
+/// Returns samples of both signs over many decades.
+std::vector<float> heavy_tailed(size_t count, uint32_t seed) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<float> normal;
+    std::vector<float> samples(count);
+    for (float &x : samples) {
+        x = normal(generator) * std::exp(5.0f * normal(generator));
+    }
+    return samples;
+}
+
+float mean_of(const std::vector<float> &samples) {
+    return develop_film(film_of(samples)).channel("R")[0];
+}
+
+TEST(Film, TwoHundredThousandEqualSamplesAverageToTheSample) {
+    // A plain float sum would be off by 0.2 % here.
+    EXPECT_EQ(mean_of(std::vector<float>(200000, 0.1f)), 0.1f);
+    EXPECT_EQ(mean_of(std::vector<float>(200000, 1.0f / 3.0f)), 1.0f / 3.0f);
+}
+
+TEST(Film, KeepsSmallSamplesBesideAFirefly) {
+    std::vector<float> samples(200000, 1e-3f);
+    samples[100000] = 1e8f;
+    double exact = 0;
+    for (const float x : samples) {
+        exact += static_cast<double>(x);
+    }
+    EXPECT_EQ(mean_of(samples), static_cast<float>(exact / 200000.0));
+    // Subtracting the firefly must leave exactly the sum without it.
+    FilmState film = film_of(samples);
+    film_add_value(film.words.data(), PIXEL_SUMS, -1e8f, FILM_SUM_LOWEST, FILM_SUM_STEP);
+    carry_pixel(film.words);
+    std::vector<float> rest(199999, 1e-3f);
+    FilmState without = film_of(rest);
+    for (size_t k = 0; k < FILM_WORDS; ++k) {
+        EXPECT_EQ(film.words[k * PIXEL_SUMS], without.words[k * PIXEL_SUMS]);
+    }
+}
+
+TEST(Film, MatchesFloat64OverSeventeenDecades) {
+    std::mt19937 generator(1);
+    std::uniform_real_distribution<float> exponent(-20.0f, 20.0f);
+    std::vector<float> samples(200000);
+    long double sum = 0;
+    for (float &x : samples) {
+        x = std::exp(exponent(generator));
+        sum += static_cast<long double>(x);
+    }
+    const auto expected = static_cast<double>(sum / 200000.0L);
+    EXPECT_NEAR(mean_of(samples), expected, 1e-7 * expected);
+}
+
+TEST(Film, DoesNotDependOnTheOrderOfAdditions) {
+    std::vector<float> samples = heavy_tailed(5000, 2);
+    const FilmState first = film_of(samples);
+    std::shuffle(samples.begin(), samples.end(), std::mt19937(2));
+    EXPECT_EQ(film_of(samples).words, first.words);
+}
+
+TEST(Film, HoldsEveryFiniteMagnitudeBelowItsLimit) {
+    for (const float x : {0.0f, -0.0f, 1.4e-45f, 1e-38f, 0x1p-60f, 0x1.fffffep-41f, 0x1p-40f, 1.0f,
+                          0x1.fffffep-1f, 0x1p19f, 0x1.fffffep39f}) {
+        const double mean = static_cast<double>(mean_of({x}));
+        EXPECT_NEAR(mean, static_cast<double>(x), 0x1p-105) << x;
+        EXPECT_EQ(mean_of({x, -x}), 0.0f);
+    }
+}
+
+TEST(Film, ReportsWhatItCannotHold) {
+    std::vector<int64_t> words(pixel_words, 0);
+    const float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(film_add_sample(words.data(), make_float3(0.0f, NAN, 0.0f)), FILM_NON_FINITE);
+    EXPECT_EQ(film_add_sample(words.data(), make_float3(infinity, 0.0f, 0.0f)), FILM_NON_FINITE);
+    EXPECT_EQ(film_add_sample(words.data(), make_float3(0.0f, 0.0f, 0x1p40f)), FILM_OUT_OF_RANGE);
+    EXPECT_EQ(words, std::vector<int64_t>(pixel_words, 0)) << "nothing must be added";
+
+    FilmState film = empty_film();
+    EXPECT_NO_THROW(require_valid(film));
+    film.non_finite = 3;
+    expect_run_error("3 samples were not finite and 0 beyond", [&] { require_valid(film); });
+    film.non_finite = 0;
+    film.out_of_range = 2;
+    expect_run_error("0 samples were not finite and 2 beyond", [&] { require_valid(film); });
+}
+
+TEST(Film, VarianceOfTheMean) {
+    std::mt19937 generator(3);
+    std::lognormal_distribution<float> distribution(-3.0f, 1.5f);
+    std::vector<float> samples(10000);
+    for (float &x : samples) {
+        x = distribution(generator);
+    }
+    double mean = 0, square = 0;
+    for (const float x : samples) {
+        mean += static_cast<double>(x) / 10000.0;
+    }
+    for (const float x : samples) {
+        square += std::pow(static_cast<double>(x) - mean, 2.0);
+    }
+    const double expected = square / 9999.0 / 10000.0;
+    EXPECT_NEAR(develop_film(film_of(samples)).channel("variance.R")[0], expected, 1e-5 * expected);
+    EXPECT_EQ(develop_film(film_of(std::vector<float>(100, 0.25f))).channel("variance.R")[0], 0.0f);
+}
+
+TEST(Film, MergesExactlyInAnyOrder) {
+    std::mt19937 generator(4);
+    std::uniform_real_distribution<float> uniform(0.0f, 3.0f);
+    std::vector<float> samples(300);
+    std::generate(samples.begin(), samples.end(), [&] { return uniform(generator); });
+    const auto part = [&](size_t begin, size_t end) {
+        FilmState film = film_of(
+            {samples.begin() + static_cast<long>(begin), samples.begin() + static_cast<long>(end)});
+        film.ranges = {{begin, end}};
+        return film;
+    };
+    FilmState forward = part(0, 100), backward = part(200, 300);
+    merge_film(forward, part(100, 200));
+    merge_film(forward, part(200, 300));
+    merge_film(backward, part(100, 200));
+    merge_film(backward, part(0, 100));
+    EXPECT_EQ(forward.words, film_of(samples).words);
+    EXPECT_EQ(backward.words, forward.words);
+    EXPECT_EQ(backward.ranges.size(), 1u);
+    EXPECT_EQ(backward.samples(), 300u);
+}
+
+TEST(Film, RefusesWhatDoesNotBelongTogether) {
+    FilmState film = film_of({1.0f, 2.0f});
+    const FilmState before = film;
+    expect_input_error("samples 0:1 overlap 0:2", [&] { merge_film(film, film_of({1.0f})); });
+    const auto refuse = [&](const char *what, auto &&change) {
+        FilmState other = empty_film();
+        EXPECT_NO_THROW(merge_film(film, other));
+        change(other);
+        expect_input_error(std::string("films differ in ") + what,
+                           [&] { merge_film(film, other); });
+    };
+    refuse("size", [](FilmState &other) { other.width = 2; });
+    refuse("layers", [](FilmState &other) { other.variance = false; });
+    refuse("seed", [](FilmState &other) { other.seed = 8; });
+    refuse("scene or settings", [](FilmState &other) { other.config = "another"; });
+    EXPECT_EQ(film.words, before.words);
+    EXPECT_EQ(film.samples(), 2u);
+}
+
+TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
+    const auto path =
+        std::filesystem::temp_directory_path() / ("rtrays_film_" + std::to_string(getpid()));
+    FilmState film = film_of({0.5f, 1e-30f, 1e10f});
+    film.ranges = {{0, 1}, {7, 9}};
+    film.device_seconds = 1.5;
+    film.wall_seconds = 0.1;
+    film.non_finite = 4;
+    film.out_of_range = 5;
+    save_film(film, path);
+    const FilmState loaded = load_film(path);
+    EXPECT_EQ(loaded.words, film.words);
+    EXPECT_EQ(std::tie(loaded.width, loaded.height, loaded.variance, loaded.seed, loaded.config),
+              std::tie(film.width, film.height, film.variance, film.seed, film.config));
+    EXPECT_EQ(std::tie(loaded.device_seconds, loaded.wall_seconds, loaded.non_finite,
+                       loaded.out_of_range),
+              std::tie(film.device_seconds, film.wall_seconds, film.non_finite, film.out_of_range));
+    ASSERT_EQ(loaded.ranges.size(), 2u);
+    EXPECT_EQ(loaded.ranges[1].begin, 7u);
+    EXPECT_EQ(loaded.samples(), 3u);
+
+    const std::string content = read_file(path);
+    for (const size_t length : {size_t{0}, size_t{10}, size_t{40}, content.size() - 1}) {
+        write_file(path, content.substr(0, length));
+        expect_input_error(length < 42 ? "not a film state" : "truncated or damaged",
+                           [&] { load_film(path); });
+    }
+    std::string damaged = content;
+    damaged.back() = static_cast<char>(damaged.back() ^ 1);
+    write_file(path, damaged);
+    expect_input_error("truncated or damaged", [&] { load_film(path); });
+    std::filesystem::remove(path);
+}
+
+// Many concurrent work-items add the same bits, with 64-bit atomics and with the 32-bit fallback.
+TEST(Film, DeviceAddsTheSameBitsWithAndWithout64BitAtomics) {
+    const std::vector<float> samples = heavy_tailed(20000, 5);
+    const std::vector<int64_t> expected = film_of(samples).words;
+    const SourceOverlays source = {{"kernels/test.cl", R"(
+#include "kernels/film/film.h"
+__kernel void test(__global const float *samples, __global long *film, uint count) {
+    const uint i = get_global_id(0);
+    if (i < count) film_add_sample(film, make_float3(samples[i], -samples[i], 0.5f * samples[i]));
+})"}};
+    DeviceContext device;
+    for (const char *atomics : {"1", "0"}) {
+        if (std::string(atomics) == "1" && !device.info().has_int64_atomics) {
+            continue;
+        }
+        const Program program(device, "kernels/test.cl",
+                              {{"FEATURE_variance", "1"}, {"FEATURE_int64_atomics", atomics}},
+                              source);
+        Kernel kernel(program, "test", 64);
+        const Buffer<float> input(device, "samples", samples);
+        Buffer<int64_t> film(device, "film", std::vector<int64_t>(pixel_words, 0));
+        kernel.bind({input, film, static_cast<uint32_t>(samples.size())});
+        kernel.enqueue(samples.size());
+        device.finish();
+        std::vector<int64_t> words = film.read();
+        carry_pixel(words);
+        EXPECT_EQ(words, expected) << "int64 atomics " << atomics;
+    }
+}
+
+}  // namespace
+}  // namespace rtrays

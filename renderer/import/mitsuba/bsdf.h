@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Conversion of Mitsuba BSDFs and textures to our materials and textures.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "renderer/import/images/texture_file.h"
+#include "renderer/import/mitsuba/object.h"
+#include "renderer/scene/cores/material.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays::mitsuba {
+
+/// Our texture coordinates of a geometry in terms of Mitsuba's coordinates (u, v). The top of an
+/// image has v = 0 in Mitsuba and v = 1 in this renderer.
+enum class UvConvention {
+    none,     ///< unrelated, or without coordinates
+    same,     ///< (u, v)
+    flipped,  ///< (u, 1 - v)
+};
+
+/// Source of legal and unique object names. Dots are replaced, and repeated names are numbered.
+class NameList {
+  public:
+    std::string unique(const std::string &wanted);
+
+  private:
+    std::set<std::string> taken_;
+};
+
+/// Converts BSDFs to materials, each of them once.
+class MaterialReader {
+  public:
+    /// Registers materials and textures that have an id in the graph of `scene`, so that
+    /// `--set scene.materials.ID.PROPERTY` finds them.
+    MaterialReader(const Document &document, Scene &scene) : document_(document), scene_(scene) {}
+
+    /// Returns the material of a "bsdf" element on a geometry whose texture coordinates follow
+    /// `uv`. The material is named `default_name` if the element has no id. Throws `LocatedError`
+    /// if the BSDF is unsupported.
+    std::shared_ptr<MaterialCore> read(const Element &bsdf, UvConvention uv,
+                                       const std::string &default_name);
+
+    /// Returns the material of a shape without a BSDF: black if the shape emits, otherwise grey.
+    std::shared_ptr<MaterialCore> standard(bool emits);
+
+    TextureFiles &files() { return files_; }
+
+  private:
+    struct Material {
+        std::shared_ptr<MaterialCore> core;
+        bool depends_on_uv;
+        UvConvention uv;
+    };
+    struct Draft;
+    using Read = void (MaterialReader::*)(Object &, Draft &);
+    struct Type {
+        const char *name;
+        Read read;
+    };
+    static const std::vector<Type> &types();
+
+    Draft read_bsdf(const Element &bsdf, UvConvention uv);
+    void read_diffuse(Object &object, Draft &draft);
+    void read_dielectric(Object &object, Draft &draft);
+    void read_conductor(Object &object, Draft &draft);
+    void read_plastic(Object &object, Draft &draft);
+    void read_twosided(Object &object, Draft &draft);
+
+    void read_colour(Object &object, const char *property, const char *parameter, double initial,
+                     Draft &draft);
+    void read_roughness(Object &object, Draft &draft);
+    std::shared_ptr<Texture> texture(const Element &element, Draft &draft);
+
+    const Document &document_;
+    Scene &scene_;
+    TextureFiles files_;
+    NameList material_names_;
+    NameList texture_names_;
+    std::map<size_t, std::vector<Material>> materials_;  ///< by hash of the element
+    std::map<std::pair<size_t, UvConvention>, std::shared_ptr<Texture>> textures_;
+    std::shared_ptr<MaterialCore> standard_[2];
+};
+
+}  // namespace rtrays::mitsuba

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Conversion of Mitsuba shapes to our geometry.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "renderer/import/mitsuba/bsdf.h"
+#include "renderer/import/mitsuba/object.h"
+#include "renderer/scene/core.h"
+
+namespace rtrays::mitsuba {
+
+/// The geometry and transform of a shape, without its BSDF and emitter.
+struct Shape {
+    std::shared_ptr<Core> geometry;
+    Eigen::Matrix4d world_from_geometry;
+    UvConvention uv = UvConvention::none;
+    bool can_emit = true;
+    bool is_flipped = false;  ///< front and back are exchanged, which our geometry cannot express
+};
+
+/// Converts shapes to geometry. Equal geometry of several shapes is shared.
+class ShapeReader {
+  public:
+    /// Converts a shape. Leaves its BSDF and emitter in `object`. Throws `LocatedError` if the
+    /// shape is unsupported.
+    Shape read(Object &object);
+
+  private:
+    using Read = Shape (ShapeReader::*)(Object &);
+    struct Type {
+        const char *name;
+        Read read;
+    };
+    static const std::vector<Type> &types();
+
+    Shape read_rectangle(Object &object);
+    Shape read_cube(Object &object);
+    Shape read_sphere(Object &object);
+    Shape read_disk(Object &object);
+    Shape read_cylinder(Object &object);
+    Shape read_file(Object &object);
+
+    std::shared_ptr<Core> &shared(const std::string &key) { return shared_[key]; }
+
+    std::map<std::string, std::shared_ptr<Core>> shared_;
+};
+
+}  // namespace rtrays::mitsuba

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+// Tests the import of model files of all formats as scenes.
+#include "renderer/import/models/model_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/json.h"
+#include "renderer/base/notice.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/scene/cores/material.h"
+#include "renderer/scene/graph.h"
+#include "renderer/testing/errors.h"
+#include "renderer/testing/temporary_folder.h"
+
+namespace rtrays {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using Kind = BxdfComponent::Kind;
+using Fresnel = BxdfComponent::Fresnel;
+
+const std::filesystem::path corpus = RTRAYS_CORPUS;
+constexpr double degree = 3.14159265358979323846 / 180;
+
+/// A model with the notices of its import.
+struct Loaded {
+    explicit Loaded(const std::filesystem::path &path) {
+        const NoticeReceiver receiver([this](const std::string &text) { told += text + "\n"; });
+        scene = load_scene(path.string());
+    }
+
+    bool says(const std::string &text) const { return told.find(text) != std::string::npos; }
+
+    /// Returns the components of the material with that name.
+    std::vector<BxdfComponent> material(const std::string &name) const {
+        const MaterialArrays &m = scene.materials();
+        const auto found = std::find(m.name.begin(), m.name.end(), name);
+        if (found == m.name.end()) {
+            ADD_FAILURE() << "unknown material " << name;
+            return {};
+        }
+        const auto at = static_cast<size_t>(found - m.name.begin());
+        const auto first = m.component.begin() + m.first_component[at];
+        return {first, first + m.component_count[at]};
+    }
+
+    /// Returns the index of the light whose node has that name.
+    size_t light(const std::string &name) const {
+        const auto &names = scene.lights().name;
+        return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    }
+
+    std::string told;
+    Scene scene;
+};
+
+TEST(ModelFile, MapsTheMaterialsOfMtl) {
+    const Loaded model(corpus / "materials.obj");
+    EXPECT_EQ(model.scene.meshes().name.size(), 8u);
+    EXPECT_EQ(model.scene.meshes().triangle.size(), 16u);
+    EXPECT_EQ(model.scene.meshes().position.size(), 32u);  // merged; Assimp had six per square
+
+    const auto matte = model.material("matte");
+    ASSERT_EQ(matte.size(), 1u);
+    EXPECT_EQ(matte[0].kind, Kind::lambert);
+    EXPECT_EQ(matte[0].weight, Vector3f(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(matte[0].texture, no_index);
+
+    const auto checked = model.material("checked");
+    ASSERT_EQ(checked.size(), 1u);
+    ASSERT_NE(checked[0].texture, no_index);
+    const TextureImage &image = *model.scene.arrays().textures.image[checked[0].texture];
+    EXPECT_EQ(image.width, 4);
+    EXPECT_TRUE(image.srgb);
+
+    const auto shiny = model.material("shiny");
+    ASSERT_EQ(shiny.size(), 2u);
+    EXPECT_EQ(shiny[0].kind, Kind::lambert);
+    EXPECT_EQ(shiny[1].kind, Kind::blinn);
+    EXPECT_EQ(shiny[1].exponent, 50);
+    EXPECT_EQ(shiny[1].weight, Vector3f::Constant(0.25f));
+
+    const auto scaled = model.material("too_bright");  // the components would sum to 1.5 in red
+    ASSERT_EQ(scaled.size(), 2u);
+    EXPECT_LT((scaled[0].weight - Vector3f(0.5f, 1 / 3.0f, 1 / 3.0f)).norm(), 1e-6f);
+    EXPECT_LT((scaled[1].weight - Vector3f(0.5f, 1 / 3.0f, 1 / 6.0f)).norm(), 1e-6f);
+    EXPECT_TRUE(model.says("reflect more light than they receive are scaled down (1: too_bright)"))
+        << model.told;
+
+    const auto glass = model.material("glass");
+    ASSERT_EQ(glass.size(), 2u);
+    EXPECT_EQ(glass[0].kind, Kind::ideal_reflection);
+    EXPECT_EQ(glass[1].kind, Kind::ideal_refraction);
+    EXPECT_FLOAT_EQ(static_cast<float>(glass[1].eta[0]), 1.4f);
+    EXPECT_EQ(glass[1].weight, Vector3f(0.9f, 0.8f, 0.7f));
+
+    const auto metal = model.material("metal");
+    ASSERT_EQ(metal.size(), 1u);
+    EXPECT_EQ(metal[0].kind, Kind::microfacet_reflection);
+    EXPECT_EQ(metal[0].fresnel, Fresnel::schlick);
+    EXPECT_NEAR(metal[0].alpha[0], 0.1, 1e-12);  // 2 / (198 + 2) = 0.1^2
+    EXPECT_LT((metal[0].eta - Vector3d(0.9, 0.6, 0.3)).norm(), 1e-6);
+
+    const auto veil = model.material("veil");  // opacity 1/4
+    ASSERT_EQ(veil.size(), 2u);
+    EXPECT_EQ(veil[0].weight, Vector3f::Constant(0.125f));
+    EXPECT_EQ(veil[1].kind, Kind::ideal_refraction);
+    EXPECT_EQ(veil[1].weight, Vector3f::Constant(0.75f));
+    EXPECT_EQ(veil[1].eta[0], 1);
+
+    const LightArrays &lights = model.scene.lights();
+    ASSERT_EQ(lights.name.size(), 1u);
+    EXPECT_EQ(lights.kind[0], LightArrays::Kind::diffuse_area);
+    EXPECT_EQ(lights.radiance[0], Vector3f(3, 2, 1));
+    EXPECT_EQ(lights.area[0], 1);
+    EXPECT_FALSE(model.says("it has no light"));
+}
+
+TEST(ModelFile, GivesAModelWithoutLightAndCameraBoth) {
+    const Loaded model(corpus / "triangle.stl");
+    EXPECT_TRUE(model.says("the file has no camera; added 'camera'")) << model.told;
+    EXPECT_TRUE(model.says("the file has no light; added the light 'dome' of radiance 1"))
+        << model.told;
+    ASSERT_EQ(model.scene.lights().kind, std::vector<LightArrays::Kind>{LightArrays::Kind::dome});
+    EXPECT_EQ(model.scene.lights().radiance[0], Vector3f(1, 1, 1));
+    EXPECT_EQ(model.material("default")[0].weight, Vector3f::Constant(0.6f));
+    EXPECT_FALSE(
+        model.scene.meshes().has_normals[0]);  // the normals in STL are those of the triangles
+    // The camera sees the full model: every vertex is within half the angle of view of the axis.
+    const CameraArrays &cameras = model.scene.cameras();
+    const Eigen::Matrix4d camera_from_world = cameras.world_from_camera[0].inverse();
+    for (const Vector3f &vertex : model.scene.meshes().position) {
+        const Eigen::Vector4d seen = camera_from_world * vertex.cast<double>().homogeneous();
+        EXPECT_LT(std::max(std::abs(seen.x()), std::abs(seen.y())),
+                  -seen.z() * std::tan(0.5 * cameras.fov[0]));
+    }
+}
+
+TEST(ModelFile, ReadsNodesInstancesLightsAndCamerasOfGltf) {
+    const Loaded model(corpus / "triangles.gltf");
+    const MeshArrays &meshes = model.scene.meshes();
+    ASSERT_EQ(meshes.name, (std::vector<std::string>{"left", "right"}));
+    EXPECT_EQ(model.scene.graph().find("left")->core(CoreRole::geometry),
+              model.scene.graph().find("right")->core(CoreRole::geometry));
+    EXPECT_EQ(meshes.position[1], Vector3f(-1, 0, 0));
+    EXPECT_EQ(meshes.position[4], Vector3f(1, 0, 0));
+    EXPECT_EQ(meshes.uv[0], Eigen::Vector2f(0, 0));  // glTF's v points down
+    EXPECT_EQ(meshes.uv[2], Eigen::Vector2f(0, 1));
+
+    const auto brass = model.material("brass");
+    ASSERT_EQ(brass.size(), 1u);
+    EXPECT_EQ(brass[0].kind, Kind::microfacet_reflection);
+    EXPECT_EQ(brass[0].fresnel, Fresnel::schlick);
+    EXPECT_NEAR(brass[0].alpha[0], 0.25, 1e-6);
+
+    const CameraArrays &cameras = model.scene.cameras();
+    ASSERT_EQ(cameras.name.size(), 1u);
+    EXPECT_EQ(cameras.fov_axis[0], CameraArrays::FovAxis::x);
+    // The field of view is 0.6 along y, and the aspect ratio is 2.
+    EXPECT_NEAR(std::tan(0.5 * cameras.fov[0]), 2 * std::tan(0.3), 1e-6);
+    EXPECT_EQ(cameras.world_from_camera[0].col(3), Eigen::Vector4d(0, 0, 5, 1));
+    EXPECT_EQ(model.scene.film_width(), 2 * model.scene.film_height());
+
+    const LightArrays &lights = model.scene.lights();
+    ASSERT_EQ(lights.name.size(), 3u);
+    const size_t bulb = model.light("bulb light");
+    EXPECT_EQ(lights.kind[bulb], LightArrays::Kind::point);
+    EXPECT_EQ(lights.radiance[bulb], Vector3f(8, 4, 2));
+    EXPECT_EQ(lights.world_from_light[bulb].col(3), Eigen::Vector4d(0, 3, 0, 1));
+    const size_t torch = model.light("torch light");
+    EXPECT_EQ(lights.kind[torch], LightArrays::Kind::spot);
+    EXPECT_NEAR(lights.inner_angle[torch], 0.2, 1e-6);
+    EXPECT_NEAR(lights.outer_angle[torch], 0.5, 1e-6);
+    const size_t sun = model.light("sun light");
+    EXPECT_EQ(lights.kind[sun], LightArrays::Kind::directional);
+    EXPECT_EQ(lights.radiance[sun], Vector3f(3, 3, 3));
+    // The light is rotated from -z to straight down.
+    EXPECT_LT((lights.world_from_light[sun].col(2) - Eigen::Vector4d(0, 1, 0, 0)).norm(), 1e-6);
+    EXPECT_TRUE(model.told.empty()) << model.told;
+}
+
+TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
+    // The file contains checker.png: half of its texels are (255, 128, 0), half are (0, 64, 255).
+    const std::string image =
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAGElEQVR42mNgcPj/v4EBSiJYDv8ZcMoAADqyFfGE/"
+        "XEFAAAAAElFTkSuQmCC";
+    Json model = parse_json(bytes_of(corpus / "triangles.gltf"), "triangles.gltf");
+    model["images"] = {{{"uri", image}}};
+    model["textures"] = {{{"source", 0}}};
+    Json &material = model["materials"][0];
+    material["emissiveFactor"] = {1, 1, 0.5};
+    material["emissiveTexture"] = {{"index", 0}};
+    material["normalTexture"] = {{"index", 0}};
+    material["alphaMode"] = "BLEND";
+    material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.8, 0.6, 0.4, 0.5}},
+                                        {"baseColorTexture", {{"index", 0}}},
+                                        {"metallicRoughnessTexture", {{"index", 0}}}};
+    const TemporaryFolder folder;
+    const Loaded loaded(folder.write("m.gltf", model.dump()));
+    const auto brass = loaded.material("brass");
+    ASSERT_EQ(brass.size(), 4u);
+    const double roughness = 0.5 * (128 + 64) / 255;
+    // Half of the surface is opaque, and half of that is metal.
+    EXPECT_EQ(brass[0].fresnel, Fresnel::schlick);
+    EXPECT_LT((brass[0].weight - Vector3f::Constant(0.25f)).norm(), 1e-6f);
+    EXPECT_NEAR(brass[0].alpha[0], roughness * roughness, 1e-6);
+    EXPECT_LT((brass[0].eta - Vector3d(0.8, 0.6, 0.4)).norm(), 1e-6);
+    EXPECT_NE(brass[0].texture, no_index);
+    EXPECT_EQ(brass[1].fresnel, Fresnel::dielectric);
+    EXPECT_EQ(brass[1].eta[0], 1.5);
+    EXPECT_EQ(brass[1].texture, no_index);
+    EXPECT_EQ(brass[2].kind, Kind::lambert);
+    EXPECT_TRUE(brass[2].complement);
+    EXPECT_LT((brass[2].weight - Vector3f(0.2f, 0.15f, 0.1f)).norm(), 1e-6f);
+    EXPECT_EQ(brass[2].texture, brass[0].texture);
+    EXPECT_EQ(brass[3].kind, Kind::ideal_refraction);
+    EXPECT_EQ(brass[3].weight, Vector3f::Constant(0.5f));
+    // The radiance is the mean of the decoded texels: red of (1, 0), green of (128, 64) / 255, blue
+    // of (0, 1).
+    const double green = 0.5 * (std::pow((128 / 255.0 + 0.055) / 1.055, 2.4) +
+                                std::pow((64 / 255.0 + 0.055) / 1.055, 2.4));
+    const LightArrays &lights = loaded.scene.lights();
+    const size_t glow = loaded.light("left");
+    ASSERT_LT(glow, lights.name.size());
+    EXPECT_LT((lights.radiance[glow].cast<double>() - Vector3d(0.5, green, 0.25)).norm(), 1e-6);
+    EXPECT_TRUE(loaded.says("emission maps are replaced by their mean (1: brass)")) << loaded.told;
+    EXPECT_TRUE(loaded.says("metalness and roughness maps are replaced by their mean"))
+        << loaded.told;
+    EXPECT_TRUE(loaded.says("bump and normal maps are ignored")) << loaded.told;
+}
+
+TEST(ModelFile, ReadsCollada) {
+    const Loaded model(corpus / "plane.dae");
+    // Z is up in the file, so (2, 2, 0) becomes (2, 0, -2).
+    EXPECT_LT((model.scene.meshes().position[2] - Vector3f(2, 0, -2)).norm(), 1e-6f);
+    EXPECT_NEAR(model.scene.cameras().fov[0], 50 * degree, 1e-6);
+    EXPECT_EQ(model.scene.cameras().fov_axis[0], CameraArrays::FovAxis::x);
+    EXPECT_LT(
+        (model.scene.cameras().world_from_camera[0].col(3) - Eigen::Vector4d(0, 7, 0, 1)).norm(),
+        1e-6);
+    EXPECT_EQ(model.scene.lights().radiance[0], Vector3f(4, 3, 2));
+    EXPECT_TRUE(model.says("fall off with the square of the distance")) << model.told;
+    const auto paint = model.material("paint");
+    ASSERT_EQ(paint.size(), 2u);
+    EXPECT_EQ(paint[1].exponent, 40);
+}
+
+TEST(ModelFile, TakesTheMaterialsOfPlyFromTheMtlBesideIt) {
+    for (const char *name : {"square.ply", "square_little.ply", "square_big.ply"}) {
+        SCOPED_TRACE(name);
+        const Loaded model(corpus / name);
+        EXPECT_EQ(model.scene.meshes().name, (std::vector<std::string>{"red", "blue"}));
+        EXPECT_EQ(model.scene.meshes().triangle_count, (std::vector<uint32_t>{2, 1}));
+        EXPECT_EQ(model.material("red")[0].weight, Vector3f(0.8f, 0.1f, 0.1f));
+        EXPECT_EQ(model.material("blue")[0].weight, Vector3f(0.1f, 0.1f, 0.8f));
+    }
+    const TemporaryFolder folder;
+    const auto alone = folder.write("alone.ply", bytes_of(corpus / "square.ply"));
+    EXPECT_TRUE(Loaded(alone).says("alone.mtl is missing"));
+    folder.write("alone.mtl", "newmtl only\nKd 0.5 0.5 0.5\n");
+    expect_input_error("alone.ply: material_index 1 is out of range; alone.mtl has only 1",
+                       [&] { Loaded model(alone); });
+}
+
+TEST(ModelFile, KeepsTheSquaresOfEveryFormat) {
+    Assimp::Importer importer;
+    const aiScene *squares = importer.ReadFile((corpus / "materials.obj").string(), 0);
+    ASSERT_NE(squares, nullptr);
+    const struct {
+        const char *id;
+        const char *file;
+    } formats[] = {{"obj", "a.obj"},     {"stl", "a.stl"},  {"stlb", "b.stl"},
+                   {"collada", "a.dae"}, {"3ds", "a.3ds"},  {"glb2", "a.glb"},
+                   {"x", "a.x"},         {"fbxa", "a.fbx"}, {"plyb", "a.ply"}};
+    const TemporaryFolder folder;
+    folder.write("checker.png", bytes_of(corpus / "checker.png"));
+    for (const auto &format : formats) {
+        SCOPED_TRACE(format.id);
+        Assimp::Exporter exporter;
+        ASSERT_EQ(exporter.Export(squares, format.id, (folder.path() / format.file).string()),
+                  aiReturn_SUCCESS);
+        const Loaded model(folder.path() / format.file);
+        EXPECT_EQ(model.scene.meshes().triangle.size(), 16u);
+        const Eigen::AlignedBox3d bounds = model.scene.graph().bounds();
+        // Z is up in 3DS files, so y becomes -z.
+        const bool is_turned = std::string(format.id) == "3ds";
+        const Vector3d front = is_turned ? Vector3d::UnitY() : Vector3d::UnitZ();
+        EXPECT_LT((bounds.min() - (is_turned ? Vector3d(0, 0, -1) : Vector3d(0, 0, 0))).norm(),
+                  1e-6);
+        EXPECT_LT((bounds.max() - (is_turned ? Vector3d(1, 0, 0) : Vector3d(1, 1, 0))).norm(),
+                  1e-6);
+        const auto mesh = load_mesh_file(folder.path() / format.file, "m");
+        EXPECT_EQ(mesh->triangles().size(), 16u);
+        // The front must not change.
+        for (const Triangle &t : mesh->triangles()) {
+            const Vector3d &a = mesh->vertices()[t[0]];
+            EXPECT_GT((mesh->vertices()[t[1]] - a).cross(mesh->vertices()[t[2]] - a).dot(front), 0);
+        }
+    }
+}
+
+TEST(ModelFile, SaysWhatIsWrong) {
+    const TemporaryFolder folder;
+    const std::string obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    const auto path = folder.write("m.obj", obj);
+    folder.write("m.mtl", "newmtl a\nmap_Kd nowhere.png\n");
+    const std::string missing = error_of(ExitCode::bad_input, [&] { Loaded model(path); });
+    EXPECT_NE(missing.find("material 'a'"), std::string::npos) << missing;
+    EXPECT_NE(missing.find("nowhere.png: no such file"), std::string::npos) << missing;
+    folder.write("nowhere.png", "not a picture");
+    expect_input_error("nowhere.png", [&] { Loaded model(path); });
+    // For a path of another machine, the file beside the model is used.
+    folder.write("m.mtl", "newmtl a\nmap_Kd C:\\work\\tiles.png\n");
+    folder.write("tiles.png", bytes_of(corpus / "checker.png"));
+    EXPECT_EQ(Loaded(path).scene.arrays().textures.name, std::vector<std::string>{"tiles"});
+    folder.write("m.mtl", "newmtl a\nKd -1 0 0\n");
+    expect_input_error("material 'a'", [&] { Loaded model(path); });
+
+    expect_input_error("gone.obj: no such file", [&] { Loaded model(folder.path() / "gone.obj"); });
+    expect_input_error("empty.obj", [&] { Loaded model(folder.write("empty.obj", "")); });
+    expect_input_error("a.gltf", [&] { Loaded model(folder.write("a.gltf", "{}")); });
+    expect_input_error("points.obj: the file has no", [&] {
+        Loaded model(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"));
+    });
+    expect_input_error("unknown scene format '.foo'",
+                       [&] { Loaded model(folder.write("a.foo", "")); });
+    expect_input_error("unknown scene format '.assbin'",
+                       [&] { Loaded model(folder.write("a.assbin", "")); });
+    // This file makes Assimp 5.2.5 abort in the child process.
+    expect_input_error("damaged.3mf: cannot read the model: ",
+                       [&] { Loaded model(corpus / "damaged.3mf"); });
+    // Binary STL that claims four billion triangles, and one with the right number.
+    std::string stl(80, ' ');
+    expect_input_error("a.stl", [&] {
+        Loaded model(folder.write("a.stl", stl + "\xff\xff\xff\xff" + std::string(50, '\0')));
+    });
+    expect_input_error("a.stl", [&] { Loaded model(folder.write("a.stl", "solid")); });
+}
+
+}  // namespace
+}  // namespace rtrays

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Conversion of Assimp scenes to our scenes. A build without Assimp has the errors of
+// model_file_without_assimp.cpp instead.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "renderer/import/models/names.h"
+#include "renderer/import/models/notes.h"
+#include "renderer/scene/cores/material.h"
+#include "renderer/scene/cores/mesh.h"
+#include "renderer/scene/node.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays {
+
+/// Returns whether Assimp reads files with this extension, such as ".obj".
+bool assimp_reads(const std::string &extension);
+
+/// Reads all triangles of the file, transformed by its nodes.
+MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &notes,
+                                       bool quiet);
+
+/// Adds the nodes, meshes, materials, lights and cameras of the file to an empty scene.
+void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
+                      ModelNotes &notes, bool quiet);
+
+/// Reads the materials of an MTL file in its order and registers them in the scene's graph.
+std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path,
+                                                                Scene &scene, ModelNotes &notes);
+
+/// Returns the grey material of meshes without a material.
+std::shared_ptr<MaterialCore> default_model_material();
+
+/// Adds a node with a transform and visibility. Throws `Error` (bad input) if the transform is
+/// not finite, affine and invertible.
+Node &add_model_node(Node &parent, const std::string &name, const Eigen::Matrix4d &transform);
+
+}  // namespace rtrays

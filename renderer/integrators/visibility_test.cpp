@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Tests which algorithms see the caustic of a point light, and its image in a mirror.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "renderer/device/context.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
+
+namespace rtrays {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Returns the mean of the green channel over the image, and its standard error from 32 batches.
+std::pair<double, double> mean_of(const std::string &scene, const std::string &algorithm,
+                                  uint32_t max_depth) {
+    static DeviceContext device;
+    RenderSettings settings;
+    settings.algorithm = algorithm;
+    settings.max_depth = max_depth;
+    RenderSession session(load_scene(RTRAYS_SCENES "/analytic/" + scene), settings, device);
+    constexpr uint64_t batches = 32, spp = 512;
+    double sum = 0, squares = 0;
+    for (uint64_t batch = 0; batch < batches; ++batch) {
+        session.restart(3);
+        session.render(batch * spp, (batch + 1) * spp);
+        double mean = 0;
+        const Image image = session.develop();
+        for (const float value : image.channel("G")) {
+            mean += static_cast<double>(value) / static_cast<double>(image.pixel_count());
+        }
+        sum += mean;
+        squares += mean * mean;
+    }
+    const double mean = sum / batches;
+    return {mean, std::sqrt((squares / batches - mean * mean) / (batches - 1))};
+}
+
+/// Returns the mean radiance of the visible floor, with midpoints of 4 x 4 sub-pixels of 16 x 16
+/// pixels.
+double expected_radiance() {
+    double sum = 0;
+    const double half = 1.2 * std::tan(10 * pi / 180);
+    for (int i = 0; i < 64; ++i) {
+        for (int j = 0; j < 64; ++j) {
+            const double x = 1.2 + half * ((i + 0.5) / 32 - 1), z = half * ((j + 0.5) / 32 - 1);
+            const double d = std::sqrt(x * x + z * z + 9);
+            sum += 0.5 / pi * 20 * 3 / (d * d * d);
+        }
+    }
+    return sum / (64 * 64);
+}
+
+TEST(Visibility, LightPathsSeeTheCausticOfAPointLight) {
+    const double expected = expected_radiance();
+    for (const char *algorithm : {"light_tracing", "bdpt", "truncated_bdpt"}) {
+        const auto [mean, error] = mean_of("caustic.json", algorithm, 2);
+        // With 3.5 standard errors for each of three means, the family-wise level is 0.005
+        // (Student's t with 31 degrees of freedom).
+        EXPECT_LT(std::abs(mean - expected), 3.5 * error) << algorithm;
+        EXPECT_LT(error, 0.02 * expected) << "statistical power";
+    }
+    EXPECT_EQ(mean_of("caustic.json", "path_tracing", 2).first, 0);
+}
+
+TEST(Visibility, NothingSeesItInAMirror) {
+    for (const char *algorithm : {"path_tracing", "light_tracing", "bdpt", "truncated_bdpt"}) {
+        EXPECT_EQ(mean_of("caustic_in_mirror.json", algorithm, 0).first, 0) << algorithm;
+    }
+}
+
+}  // namespace
+}  // namespace rtrays

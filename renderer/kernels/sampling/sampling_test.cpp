@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+// Tests random numbers, discrete choices and their weights, with the device code compiled for the
+// host. Tests of light samplers are in light_sampling_test.cpp, of BSDF samplers in
+// bsdf_sampling_test.cpp.
+#define FEATURE_sobol 1
+#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/kernels/sampling/sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+
+#include "renderer/compile/compile_scene.h"
+#include "renderer/testing/chi_square.h"
+
+namespace rtrays {
+namespace {
+
+constexpr double level = 0.01;  // level of a single chi-square test
+constexpr double pi = 3.14159265358979323846;
+constexpr uint32_t sample_count = 1'000'000;
+
+uint4 words(uint32_t sample, uint32_t block = 0) {
+    return random_words(11, 0, 3, sample, block);
+}
+
+// Known answers from the test suite of Random123 (kat_vectors: philox4x32 10).
+TEST(Random, PhiloxKnownAnswers) {
+    const uint4 zero = random_words(0, 0, 0, 0, 0);
+    EXPECT_EQ(zero.x, 0x6627e8d5u);
+    EXPECT_EQ(zero.y, 0xe169c58du);
+    EXPECT_EQ(zero.z, 0xbc57ac4cu);
+    EXPECT_EQ(zero.w, 0x9b00dbd8u);
+    const uint4 ones = random_words(~0u, ~0u, ~0u, ~0ul, ~0u);
+    EXPECT_EQ(ones.x, 0x408f276du);
+    EXPECT_EQ(ones.y, 0x41c83b0eu);
+    EXPECT_EQ(ones.z, 0xa20bc7c6u);
+    EXPECT_EQ(ones.w, 0x6d5451fdu);
+}
+
+TEST(Random, CountsBeyond32Bits) {
+    EXPECT_NE(random_words(1, 0, 0, 5, 0).x, random_words(1, 0, 0, 5 + (1ul << 32), 0).x);
+}
+
+TEST(Random, UniformFloatsStayBelowOne) {
+    EXPECT_EQ(uniform_float(0), 0.0f);
+    EXPECT_LT(uniform_float(~0u), 1.0f);
+}
+
+TEST(ChiSquare, GivesKnownProbabilitiesAndLeavesNoSampleOut) {
+    // The p-value is erfc(sqrt(x / 2)) for one degree of freedom, and exp(-x / 2) for two.
+    EXPECT_NEAR(chi_square_p({600, 400}, {500, 500}) / std::erfc(std::sqrt(20.0)), 1.0, 1e-9);
+    EXPECT_NEAR(chi_square_p({104, 100, 84}, {96, 96, 96}) / std::exp(-(64.0 + 16 + 144) / 96 / 2),
+                1.0, 1e-9);
+    EXPECT_EQ(chi_square_p({1, 500, 499}, {0, 500, 500}), 0.0);
+    EXPECT_LT(chi_square_p({50, 100, 1000}, {1e-6, 100, 1000}), 1e-5)
+        << "a cell with an expectation near 0";
+}
+
+TEST(Random, UniformFloatsPassChiSquareInPairs) {
+    constexpr int bins = 64;
+    std::vector<uint64_t> observed(bins * bins);
+    for (uint32_t i = 0; i < sample_count; ++i) {
+        const uint4 w = words(i);
+        ++observed[static_cast<size_t>(uniform_float(w.x) * bins) * bins +
+                   static_cast<size_t>(uniform_float(w.y) * bins)];
+    }
+    EXPECT_GT(chi_square_p(observed,
+                           std::vector<double>(bins * bins, sample_count / double(bins * bins))),
+              level);
+}
+
+TEST(Circle, PointsAreThoseOfTheirAngles) {
+    double largest = 0;
+    for (uint32_t i = 0; i < 1u << 24; i += 5) {
+        const float v = static_cast<float>(i) * 0x1p-24f;
+        const float2 point = point_on_circle(v);
+        const double angle = 2 * pi * static_cast<double>(v);
+        largest = std::max({largest, std::abs(static_cast<double>(point.x) - std::cos(angle)),
+                            std::abs(static_cast<double>(point.y) - std::sin(angle))});
+    }
+    EXPECT_LT(largest, 8.6e-8);
+    const float2 east = point_on_circle(0.0f), north = point_on_circle(0.25f),
+                 west = point_on_circle(0.5f), round = point_on_circle(1.0f);
+    EXPECT_EQ(std::pair(east.x, east.y), std::pair(1.0f, 0.0f));
+    EXPECT_EQ(std::pair(north.x, north.y), std::pair(0.0f, 1.0f));
+    EXPECT_EQ(std::pair(west.x, west.y), std::pair(-1.0f, 0.0f));
+    EXPECT_EQ(std::pair(round.x, round.y), std::pair(1.0f, 0.0f));
+}
+
+// Compares the direction numbers with those computed from the primitive polynomials and initial
+// values in the table of Joe & Kuo (new-joe-kuo-6).
+TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
+    struct Row {
+        uint32_t degree, coefficients;
+        std::vector<uint64_t> m;
+    };
+    for (uint32_t i = 0; i < 32; ++i) {
+        EXPECT_EQ(plain_sobol_point(1u << i).x, 1u << (31 - i));
+    }
+    uint32_t dimension = 0;
+    for (Row row : {Row{1, 0, {1}}, Row{2, 1, {1, 3}}, Row{3, 1, {1, 3, 1}}}) {
+        for (uint32_t i = row.degree; i < 32; ++i) {
+            uint64_t m = row.m[i - row.degree] ^ (row.m[i - row.degree] << row.degree);
+            for (uint32_t k = 1; k < row.degree; ++k) {
+                m ^= (row.coefficients >> (row.degree - 1 - k) & 1u) != 0 ? row.m[i - k] << k : 0;
+            }
+            row.m.push_back(m);
+        }
+        for (uint32_t i = 0; i < 32; ++i) {
+            EXPECT_EQ(SOBOL_DIRECTIONS[dimension][i], static_cast<uint32_t>(row.m[i] << (31 - i)));
+        }
+        ++dimension;
+    }
+}
+
+uint4 stratified_words(uint32_t sampler, uint32_t seed, uint32_t pixel, uint64_t sample,
+                       uint32_t block) {
+    IntegratorSettings settings{};
+    settings.seed = seed;
+    settings.sampler = sampler;
+    return sample_words(settings, STREAM_CAMERA, pixel, sample, block);
+}
+uint4 sobol_words(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
+    return stratified_words(SAMPLER_SOBOL, seed, pixel, sample, block);
+}
+
+class Stratified : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(Stratified, EveryRunOfSamplesIs) {
+    // Tests elementary intervals of every shape in the first two dimensions, and each dimension
+    // separately.
+    for (const uint32_t log_count : {4u, 8u}) {
+        const uint32_t count = 1u << log_count;
+        for (const uint64_t first :
+             {uint64_t{0}, uint64_t{3} * count, (uint64_t{1} << 32) + count}) {
+            for (uint32_t split = 0; split <= log_count; ++split) {
+                std::vector<int> cells(count);
+                for (uint32_t i = 0; i < count; ++i) {
+                    const uint4 w = stratified_words(GetParam(), 5, 77, first + i, 3);
+                    const uint32_t x = split > 0 ? w.x >> (32 - split) : 0;
+                    const uint32_t y = split < log_count ? w.y >> (32 - (log_count - split)) : 0;
+                    ++cells[(y << split) + x];
+                }
+                EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), count)
+                    << "2^" << split << " columns";
+            }
+            std::vector<int> z(count), w(count);
+            for (uint32_t i = 0; i < count; ++i) {
+                const uint4 words = stratified_words(GetParam(), 5, 77, first + i, 3);
+                ++z[words.z >> (32 - log_count)];
+                ++w[words.w >> (32 - log_count)];
+            }
+            EXPECT_EQ(std::count(z.begin(), z.end(), 1), count);
+            EXPECT_EQ(std::count(w.begin(), w.end(), 1), count);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Samplers, Stratified, testing::Values(SAMPLER_SOBOL, SAMPLER_REGULAR));
+
+TEST(Regular, BeginsInTheCentreAndIsTheSameEverywhere) {
+    for (const uint32_t block : {0u, 1u, 7u}) {
+        const uint4 first = stratified_words(SAMPLER_REGULAR, 1, 5, 0, block);
+        EXPECT_EQ(uniform_float(first.x), 0.5f);
+        EXPECT_EQ(uniform_float(first.y), 0.5f);
+        EXPECT_EQ(uniform_float(first.z), 0.0f) << "radius on the lens";
+        EXPECT_EQ(uniform_float(first.w), 0.5f);
+        const uint4 here = stratified_words(SAMPLER_REGULAR, 1, 5, 9, block),
+                    there = stratified_words(SAMPLER_REGULAR, 2, 6, 9, block);
+        EXPECT_EQ(here.x, there.x);
+        EXPECT_EQ(here.w, there.w);
+    }
+    // Pairs of a coordinate in the pixel and a coordinate on a light must be uniform.
+    constexpr int bins = 32;
+    constexpr uint32_t pairs = 200'000;
+    std::vector<uint64_t> observed(bins * bins);
+    for (uint32_t i = 0; i < pairs; ++i) {
+        const float a = uniform_float(stratified_words(SAMPLER_REGULAR, 1, 0, i, BLOCK_CAMERA).x);
+        const float b = uniform_float(stratified_words(SAMPLER_REGULAR, 1, 0, i, BLOCK_LIGHT(0)).x);
+        ++observed[static_cast<size_t>(a * bins) * bins + static_cast<size_t>(b * bins)];
+    }
+    EXPECT_GT(chi_square_p(observed, std::vector<double>(bins * bins, pairs / double(bins * bins))),
+              level);
+}
+
+TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
+    // Pairs of the same sample in different pixels, blocks and seeds must be uniform.
+    constexpr int bins = 32;
+    constexpr uint32_t pairs = 200'000;
+    const auto uniform = [&](const std::function<std::pair<uint32_t, uint32_t>(uint32_t)> &pair) {
+        std::vector<uint64_t> observed(bins * bins);
+        for (uint32_t i = 0; i < pairs; ++i) {
+            const auto [a, b] = pair(i);
+            ++observed[static_cast<size_t>(uniform_float(a) * bins) * bins +
+                       static_cast<size_t>(uniform_float(b) * bins)];
+        }
+        return chi_square_p(observed,
+                            std::vector<double>(bins * bins, pairs / double(bins * bins)));
+    };
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i + 1, 6, 0).x);
+              }),
+              level / 4);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i, 6, 2).x);
+              }),
+              level / 4);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).y, sobol_words(2, i, 6, 0).y);
+              }),
+              level / 4);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_words(1, i, 6, 0).z, sobol_words(1, i, 6, 0).w);
+              }),
+              level / 4);
+}
+
+TEST(Frame, IsOrthonormalInAllDirections) {
+    for (uint32_t i = 0; i < 10000; ++i) {
+        const uint4 w = words(i, 3);
+        const float3 n =
+            i == 0   ? make_float3(0, 0, -1)
+            : i == 1 ? make_float3(0, 0, 1)
+                     : normalize(sample_uniform_sphere(uniform_float(w.x), uniform_float(w.y)));
+        const Frame f = frame_from_z(n);
+        EXPECT_NEAR(dot(f.x, f.y), 0.0f, 1e-6f);
+        EXPECT_NEAR(dot(f.x, f.z), 0.0f, 1e-6f);
+        EXPECT_NEAR(length(f.x), 1.0f, 1e-6f);
+        EXPECT_NEAR(dot(cross(f.x, f.y), f.z), 1.0f, 1e-6f);
+    }
+}
+
+TEST(SelectionTable, ProbabilitiesAreThoseOfTheWords) {
+    const SelectionTable table = selection_table({0.0, 1.0, 2.0, 0.0, 5.0, 1e-20, 0.0});
+    double sum = 0, previous = 0;
+    for (size_t i = 0; i < table.end.size(); ++i) {
+        const double end = i + 1 == table.end.size() ? 0x1p32 : table.end[i];
+        EXPECT_EQ(table.probability[i], (end - previous) * 0x1p-32);
+        previous = end;
+        sum += table.probability[i];
+    }
+    EXPECT_EQ(sum, 1.0);
+    EXPECT_EQ(table.probability[0], 0.0);
+    EXPECT_NEAR(table.probability[4], 5.0 / 8.0, 1e-9);
+}
+
+TEST(PowerHeuristic, StaysInRangeAndSumsToOne) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const float beta : {1.0f, 2.0f, 3.5f}) {
+        for (const float ratio : {0.0f, 1e-38f, 0.1f, 1.0f, 7.0f, 1e38f, infinity}) {
+            const float one = power_heuristic(ratio, beta);
+            const float other = power_heuristic(1.0f / ratio, beta);
+            EXPECT_NEAR(one + other, 1.0f, 1e-6f) << ratio;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rtrays

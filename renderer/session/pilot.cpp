@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/session/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/scene/scene.h"
+#include "renderer/session/render_session.h"
+
+namespace rtrays {
+
+namespace {
+
+constexpr uint64_t pilot_samples = 16;
+constexpr double pilot_pixels = 128 * 128;
+constexpr double most_per_pixel = 256;
+/// A trial must cost less than this fraction of the one before; otherwise further trials cost more
+/// than they gain.
+constexpr double worth_going_on = 0.9;
+
+/// Renders one setting, sample by sample, and estimates its variance from the scatter of the
+/// samples. Adds the device time to `seconds`.
+PilotTrial attempt(const Scene &scene, const RenderSettings &settings, DeviceContext &device,
+                   double &seconds) {
+    RenderSession session(scene, settings, device);
+    PilotTrial trial;
+    std::vector<double> sums, squares;
+    for (uint64_t sample = 0; sample < pilot_samples; ++sample) {
+        session.restart(settings.seed);
+        session.render(sample, sample + 1);
+        trial.rays += static_cast<double>(session.stats().rays);
+        seconds += session.stats().device_seconds;
+        const Image image = session.develop();
+        sums.resize(3 * image.pixel_count());
+        squares.resize(sums.size());
+        size_t i = 0;
+        for (const std::string &name : rgb_names()) {
+            for (const float value : image.channel(name)) {
+                sums[i] += static_cast<double>(value);
+                squares[i++] += static_cast<double>(value) * static_cast<double>(value);
+            }
+        }
+    }
+    const auto n = static_cast<double>(pilot_samples);
+    for (size_t i = 0; i < sums.size(); ++i) {
+        trial.variance += std::max(squares[i] - sums[i] * sums[i] / n, 0.0) / (n - 1);
+    }
+    trial.variance /= static_cast<double>(sums.size());
+    trial.rays /= n * static_cast<double>(sums.size()) / 3;
+    return trial;
+}
+
+}  // namespace
+
+Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings,
+                         DeviceContext &device) {
+    RenderSettings small = settings;
+    small.seed = ~settings.seed;
+    small.passes = "all";
+    small.variance = small.strategies_apart = false;
+    small.convergence_error = 0;
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    const double shrink = std::min(1.0, std::sqrt(pilot_pixels / pixels));
+    small.width = std::max(1, static_cast<int>(settings.width * shrink));
+    small.height = std::max(1, static_cast<int>(settings.height * shrink));
+    const double small_pixels = static_cast<double>(small.width) * small.height;
+
+    Pilot pilot;
+    const auto paths_of = [](double per_pixel, double of_pixels) {
+        return static_cast<uint32_t>(std::lround(per_pixel * of_pixels));
+    };
+    const auto cost = [](const PilotTrial &trial) { return trial.variance * trial.rays; };
+    const auto best = [&] {
+        return *std::min_element(
+            pilot.trials.begin(), pilot.trials.end(),
+            [&](const PilotTrial &a, const PilotTrial &b) { return cost(a) < cost(b); });
+    };
+    const auto add_trial = [&](double per_pixel) {
+        small.light_paths = paths_of(per_pixel, small_pixels);
+        pilot.trials.push_back(attempt(scene, small, device, pilot.seconds));
+        pilot.trials.back().per_pixel = per_pixel;
+    };
+    for (const double per_pixel : {0.0, 0.25, 1.0, 4.0}) {
+        add_trial(per_pixel);
+    }
+    const auto pays = [&] {
+        const auto last = pilot.trials.rbegin();
+        return cost(*last) < worth_going_on * cost(*(last + 1)) &&
+               best().per_pixel == last->per_pixel;
+    };
+    while (pays() && pilot.trials.back().per_pixel < most_per_pixel) {
+        add_trial(4 * pilot.trials.back().per_pixel);
+    }
+    pilot.light_paths = paths_of(best().per_pixel, pixels);
+    return pilot;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// A render of one scene on one device.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+
+#include "renderer/base/image.h"
+#include "renderer/film/film.h"
+#include "renderer/session/settings.h"
+
+namespace rtrays {
+
+class Scene;
+class DeviceContext;
+
+/// Times and counts of one session.
+struct RenderStats {
+    /// Building or loading programs, and the first enqueue of every kernel.
+    double compile_seconds = 0;
+    /// Device time of the BVH build or of its last update.
+    double bvh_seconds = 0;
+    /// Device time of all stages of `render` so far, and of the pilot, if there was one.
+    double device_seconds = 0;
+    /// Wall time of `render` so far, without compilation and BVH build.
+    double wall_seconds = 0;
+    /// Number of pixel samples: one per pixel and sample of the image, without those of pixels that
+    /// convergence control has stopped.
+    uint64_t samples = 0;
+    /// Closest-hit and shadow rays of `render` so far.
+    uint64_t rays = 0;
+};
+
+/// A render of one scene on one device. It compiles the scene and the kernels, accumulates ranges
+/// of samples in a film and develops the film. The image has the same bits for every group size and
+/// stream capacity, and for every split of the samples into ranges, sessions or merged films.
+class RenderSession {
+  public:
+    /// Compiles the scene and the kernels. Throws `Error` when settings contradict each other or
+    /// the device has too little memory.
+    RenderSession(const Scene &scene, const RenderSettings &settings, DeviceContext &device);
+    ~RenderSession();
+    RenderSession(RenderSession &&) noexcept;
+
+    /// Adds the samples [begin, end) of every pixel to the film. Returns early, at a batch
+    /// boundary, once `interrupted()` is true. The return value is the end of the rendered range.
+    /// `on_batch`, if given, is called with that end after each batch. With convergence control,
+    /// `begin` must be the end of the film's samples; otherwise throws `Error` (bad input).
+    uint64_t render(uint64_t begin, uint64_t end,
+                    const std::function<void(uint64_t)> &on_batch = {});
+
+    /// Returns whether no path is left to trace: convergence control has stopped all pixels, and
+    /// the algorithm traces no light paths.
+    bool is_complete() const;
+
+    /// Empties the film, resets the stats of rendering, and sets another seed. Kernels, buffers and
+    /// BVH are kept.
+    void restart(uint32_t seed);
+
+    /// Restarts with another seed and another maximum depth. Throws `Error` (bad input) if the old
+    /// or the new depth is unlimited, because kernels are compiled for one of the two cases, and
+    /// for whitted, whose memory depends on the depth.
+    void restart(uint32_t seed, uint32_t max_depth);
+
+    /// Empties the film and continues with the current state of `scene`. Kernels are kept. The BVH
+    /// is rebuilt or refitted (device.bvh_update); it is also rebuilt if the old tree does not fit
+    /// the new triangles. The session starts from scratch if the scene requires other features or
+    /// has another number of lights.
+    void update(const Scene &scene);
+
+    /// Returns the film so far.
+    FilmState film() const;
+
+    /// Replaces the film by a saved one. Throws `Error` (bad input) when it belongs to another
+    /// scene, other settings, another seed or size.
+    void restore(const FilmState &film);
+
+    /// Returns the developed film with its metadata. Throws `Error` (run failed) when samples were
+    /// not finite or out of the film's range.
+    Image develop() const;
+
+    RenderStats stats() const;
+
+    /// Returns the document that `--stats` writes: device, features, programs, stages with seconds
+    /// and launches, rays, buffers, bytes per path.
+    nlohmann::json report() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Sets the attributes of an image developed from `film`: standard names, and `rtrays:` names for
+/// its provenance.
+void describe_image(Image &image, const FilmState &film);
+
+}  // namespace rtrays

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// Batches of samples, passes over a batch, and rounds of stages until no path is in flight.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/base/error.h"
+#include "renderer/session/state.h"
+#include "renderer/shared/finish_paths.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Returns the number of paths of one batch. It is small enough to show progress and to react to an
+/// interrupt within seconds. It is also many times the number of paths in flight, because the last
+/// paths of a batch leave a device nearly idle. The work counter has 32 bits.
+uint64_t batch_paths(const DeviceInfo &device) {
+    return device.is_cpu ? 1u << 21 : 1u << 26;
+}
+
+/// Number of rounds that are enqueued between two reads of the counters.
+constexpr int rounds_per_check = 8;
+
+/// Number of counter reads between two collections of the profile, which keeps an event of every
+/// launch until then.
+constexpr int checks_per_profile = 64;
+
+/// Number of rounds of a batch's last few paths after which a kernel that advances them by many
+/// vertices per launch is worth its compilation.
+constexpr int many_rounds = 512;
+
+/// Binds the light or vertex of a stage. All stages share this argument, so it is bound only when
+/// the value changes for a stage that reads it.
+void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
+    const auto &inputs = stage_description(stage.name).inputs;
+    if (stage.chosen != pass.chosen &&
+        std::find(inputs.begin(), inputs.end(), StageInput::chosen) != inputs.end()) {
+        pass.stages.bind({{StageInput::chosen, {stage.chosen}}});
+        pass.chosen = stage.chosen;
+    }
+}
+
+}  // namespace
+
+uint64_t RenderSession::State::batch_size(uint64_t begin, uint64_t end) const {
+    const uint64_t batch =
+        batch_paths(device.info()) / std::max<uint64_t>(1, live_paths_per_sample());
+    uint64_t count =
+        std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_BETWEEN_CARRIES), end - begin);
+    if (convergence != nullptr && convergence->live_count() > 0) {
+        count = std::min(count, convergence->rule().next_check(begin) - begin);
+    }
+    return count;
+}
+
+void RenderSession::State::require_next(uint64_t begin, uint64_t end) const {
+    const uint64_t done = ranges.samples();
+    if (convergence != nullptr && begin < end && begin != done) {
+        throw input_error(fmt::format(
+            "convergence control needs all samples from 0 on in order; the film has {}: "
+            "expected sample {}, got {}",
+            done, done, begin));
+    }
+}
+
+void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, uint64_t paths) {
+    using Items = StageDescription::Items;
+    switch (stage_description(name).items) {
+        case Items::entries:
+            return pass.stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
+        case Items::paths:
+            return pass.stages.enqueue(name, (paths + layout.chunk - 1) / layout.chunk);
+        case Items::slots:
+            return pass.stages.enqueue(name, layout.capacity);
+        case Items::few_paths:
+            return pass.stages.enqueue(name, FEW_PATHS(layout.capacity));
+        case Items::film_sums:
+            return pass.stages.enqueue(name, film_sums());
+        case Items::one:
+            return pass.stages.enqueue(name, 1);
+    }
+}
+
+void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
+    for (CompiledPass &pass : passes) {
+        if (count == 0) {
+            carry_film(pass);  // the first enqueue compiles the kernel
+        }
+        make_room(pass, count);
+    }
+    if (features.has(Feature::vertex_joins)) {
+        // Each pass traces one path per pixel, chunk by chunk, so that both passes use the same
+        // light vertices.
+        const auto work = static_cast<uint32_t>(count * pixels());
+        for (uint32_t begin = 0; begin == 0 || begin < work; begin += layout.capacity) {
+            for (CompiledPass &pass : passes) {
+                run_pass(pass, first, begin, std::min(begin + layout.capacity, work));
+            }
+        }
+    } else {
+        for (CompiledPass &pass : passes) {
+            const auto work = static_cast<uint32_t>(count * live_paths_per_sample(pass));
+            if (work > 0 || count == 0) {
+                run_pass(pass, first, 0, work);
+            }
+        }
+    }
+    for (CompiledPass &pass : passes) {
+        if (pass.features.has(Feature::convergence) &&
+            (count == 0 || convergence->rule().is_check(first + count))) {
+            carry_film(pass);
+            convergence->check(pass.film, first + count);
+            pass.stages.bind(convergence->arguments());
+        }
+        collect_profile(pass);
+    }
+}
+
+void RenderSession::State::carry_film(CompiledPass &pass) {
+    enqueue(pass, "carry_film");
+    pass.additions = 0;
+}
+
+void RenderSession::State::make_room(CompiledPass &pass, uint64_t additions) {
+    if (pass.additions + additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
+        carry_film(pass);
+    }
+    pass.additions += additions;
+}
+
+std::vector<int64_t> RenderSession::State::read_film(CompiledPass &pass) {
+    if (pass.additions > 0) {
+        carry_film(pass);
+        collect_profile(pass);
+    }
+    return pass.film.read();
+}
+
+void RenderSession::State::collect_profile(CompiledPass &pass) {
+    device.finish();
+    for (const auto &[name, stage] : device.profiler().take()) {
+        pass.profile[name].seconds += stage.seconds;
+        pass.profile[name].launches += stage.launches;
+    }
+}
+
+void RenderSession::State::add_last_stages(CompiledPass &pass, uint64_t in_flight) {
+    collect_profile(pass);
+    make_room(pass, pass.splats * in_flight * FINISH_EVENTS);
+    const auto start = Clock::now();
+    for (const RoundStage &stage : pass.last_paths) {
+        if (!pass.stages.has(stage.name)) {
+            pass.stages.add({stage.name});
+        }
+        enqueue(pass, stage.name);  // the first enqueue compiles
+    }
+    device.finish();
+    compile_seconds += seconds_since(start);
+}
+
+void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t begin,
+                                    uint32_t end) {
+    pass.stages.bind({{StageInput::first_sample, {first}},
+                      {StageInput::first_work, {begin}},
+                      {StageInput::work, {end}}});
+    if (!pass.streams) {
+        enqueue(pass, pass.round.front().name,
+                std::max<uint64_t>(end - begin, 1));  // 1: the first enqueue compiles
+        return collect_profile(pass);
+    }
+    enqueue(pass, "reset_streams");
+    uint64_t in_flight = layout.capacity;
+    int rounds_of_few = 0;
+    // The host waits for the counters of the previous check, so that the device stays busy.
+    std::array<StreamCounters, 2> seen{};
+    std::array<ClEvent, 2> read;
+    for (int check = 0;; ++check) {
+        const bool few = in_flight <= FEW_PATHS(layout.capacity);
+        rounds_of_few += few ? rounds_per_check : 0;
+        if (rounds_of_few > many_rounds && !pass.last_paths.empty() && !pass.has_last_stages()) {
+            add_last_stages(pass, in_flight);
+        }
+        const bool takes_far = few && pass.has_last_stages();
+        for (int i = 0; i < rounds_per_check; ++i) {
+            // A camera path ends with one addition to its pixel, which run_batch counts. The splats
+            // of all light paths may go to the same pixel.
+            make_room(pass, pass.splats * in_flight * (takes_far ? FINISH_EVENTS : 1));
+            for (const RoundStage &stage : takes_far ? pass.last_paths : pass.round) {
+                if (stage.rounds > 0 &&
+                    static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
+                    continue;
+                }
+                bind_chosen(pass, stage);
+                enqueue(pass, stage.name);
+            }
+        }
+        if (check % checks_per_profile == checks_per_profile - 1) {
+            collect_profile(pass);
+        }
+        const int now = check % 2;
+        cl_event event = nullptr;
+        check_cl(clEnqueueReadBuffer(device.queue(), counters.get(), CL_FALSE, 0,
+                                     sizeof(StreamCounters), &seen[now], 0, nullptr, &event),
+                 "reading the stream counters");
+        read[now] = ClEvent(event);
+        check_cl(clFlush(device.queue()), "submitting work to the device");
+        if (check > 0) {
+            const int before = 1 - now;
+            const cl_event wanted = read[before].get();
+            check_cl(clWaitForEvents(1, &wanted), "waiting for the device");
+            const StreamCounters &c = seen[before];
+            if (c.overflow > 0) {
+                throw run_error(fmt::format("a stream overflowed {} times", c.overflow));
+            }
+            if (c.next_work >= end) {
+                in_flight = c.active[c.parity];
+            }
+            if (in_flight == 0) {
+                break;
+            }
+        }
+    }
+    collect_profile(pass);
+}
+
+}  // namespace rtrays

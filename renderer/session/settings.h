@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Render settings: names, values, defaults, consistency, and conversion for the other modules.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/compile/compile_scene.h"
+#include "renderer/device/source.h"
+#include "renderer/shared/integrator_settings.h"
+
+namespace rtrays {
+
+struct BvhBuildParameters;
+
+/// Special values of RenderSettings::light_paths: one per pixel, and a number that a pilot render
+/// chooses (truncated_bdpt only; session/pilot.h).
+constexpr uint32_t LIGHT_PATHS_LIKE_PIXELS = 0xffffffffu;
+constexpr uint32_t LIGHT_PATHS_AUTO = 0xfffffffeu;
+
+/// Everything that a render depends on besides the scene and the device. The names of the
+/// `integrator.*` and `device.*` settings are those of the fields; a field `convergence_x` is the
+/// setting integrator.convergence.x.
+struct RenderSettings {
+    std::string algorithm = "path_tracing";
+    int width = 0;   ///< image width in pixels, 0: from the scene's film
+    int height = 0;  ///< image height in pixels, 0: from the scene's film
+    uint32_t seed = 1;
+    /// Whether the film stores second moments, for the layers variance.R, .G, .B.
+    bool variance = true;
+    /// Passes of the algorithm that are rendered: all | camera | light.
+    std::string passes = "all";
+    /// Whether the image has a layer per strategy, with its contribution; this excludes `variance`.
+    bool strategies_apart = false;
+
+    // integrator.*
+    /// Strategies of path_tracing: implicit | explicit | mis.
+    std::string strategies = "mis";
+    /// Random numbers: independent | sobol | regular.
+    std::string sampler = "independent";
+    /// Passes of bdpt and truncated_bdpt that add emitters seen directly: mis (both) | camera.
+    std::string seen_emitters = "mis";
+    /// Light paths per sample of the image, or LIGHT_PATHS_LIKE_PIXELS or LIGHT_PATHS_AUTO.
+    uint32_t light_paths = LIGHT_PATHS_LIKE_PIXELS;
+    /// Vertices of each light path that bdpt stores. All strategies sample paths of at most one
+    /// scattering event more than that.
+    uint32_t bdpt_vertices = 8;
+    /// Exponent of the power heuristic, above 0.
+    float beta = 2.0f;
+    /// How paths end: roulette | fixed | adaptive.
+    std::string termination = "roulette";
+    /// Maximum number of scattering events, 0: no limit.
+    uint32_t max_depth = 0;
+    /// Largest continuation probability of Russian roulette, in (0, 1). The default is 1 - 2^-20.
+    float max_continuation = 0x1.ffffep-1f;
+    /// Throughput below which adaptive termination ends a path.
+    float adaptive_threshold = 0.01f;
+    /// Selection of lights: uniform | power | mixed | independent.
+    std::string light_selection = "mixed";
+    /// Sampling of sphere lights: cone | area.
+    std::string sphere_sampling = "cone";
+    /// Relative change of a pixel's mean below which the pixel stops (biased), 0: no pixel stops.
+    float convergence_error = 0.0f;
+    /// Samples between two convergence checks, even.
+    uint32_t convergence_interval = 50;
+    /// Samples before the first convergence check, even.
+    uint32_t convergence_start = 200;
+
+    // device.*
+    /// Work-items per group, 0: the device's default.
+    uint32_t group_size = 0;
+    /// Paths in flight, 0: the device's default.
+    uint32_t stream_capacity = 0;
+    /// Queue entries per work-item, 0: the device's default.
+    uint32_t stream_chunk = 0;
+    /// Layout of path states: auto | interleaved (all words of a path together) | arrays (an array
+    /// per word).
+    std::string path_layout = "auto";
+    /// Layout of the BVH: auto | bvh2 | bvh2_stackless | wide8.
+    std::string bvh_layout = "auto";
+    /// BVH builder: binned_sah | hploc.
+    std::string bvh_builder = "binned_sah";
+    /// Bins per axis of binned_sah: 4 | 8 | 16 | 32.
+    std::string bvh_bins = "16";
+    /// Axes that binned_sah bins: all | widest.
+    std::string bvh_axes = "all";
+    /// Update of the BVH when the scene has moved: rebuild | refit.
+    std::string bvh_update = "rebuild";
+    /// One kernel per stage, or one kernel for all of them: wavefront | megakernel.
+    std::string pipeline = "wavefront";
+    /// Ray counts in the document of `--stats`: in_all | by_depth.
+    std::string count_rays = "in_all";
+    /// Features that are compiled in: scene (those in use) | all.
+    std::string features = "scene";
+
+    /// Replaced kernel sources, with which tests plant errors.
+    SourceOverlays source_overlays;
+};
+
+/// Applies an assignment `NAME=VALUE`, for instance "integrator.beta=1". Throws `Error` (bad usage)
+/// that lists the alternatives when name or value is unknown, malformed or out of range.
+void apply_setting(RenderSettings &settings, const std::string &assignment);
+
+/// Throws `Error` (bad usage) when settings contradict each other or a named value is unknown.
+void require_consistent(const RenderSettings &settings);
+
+/// Returns consistent settings with the choices filled in that an algorithm makes itself. They
+/// concern ray_casting and whitted, which draw no random numbers (thesis 2.7.6).
+RenderSettings with_fixed_choices(RenderSettings settings);
+
+/// Returns all settings that decide the image (the algorithm and "integrator.*"), for provenance
+/// and for the hash of the configuration.
+nlohmann::json image_settings(const RenderSettings &settings);
+
+/// Returns the "integrator.*" settings that differ from the defaults, as "integrator.beta=1".
+std::vector<std::string> changed_settings(const RenderSettings &settings);
+
+/// Returns the names, defaults, values and meanings of all settings for --help, wrapped to 100
+/// columns.
+std::string describe_settings();
+
+/// Returns the names of all algorithms.
+const std::vector<std::string> &algorithm_names();
+
+// The functions below expect consistent settings.
+
+/// Returns the algorithm that is run: truncated_bdpt without light paths is path_tracing.
+std::string scheduled_algorithm(const RenderSettings &settings);
+
+/// Returns whether the algorithm traces paths from the lights, which splat to any pixel.
+bool has_light_pass(const RenderSettings &settings);
+
+/// Returns whether pixels stop when they have converged, which biases the image.
+bool has_convergence_control(const RenderSettings &settings);
+
+/// Returns the number of light paths per sample of the image, for algorithms that trace light
+/// paths. LIGHT_PATHS_AUTO must have been replaced.
+uint32_t light_paths_per_sample(const RenderSettings &settings);
+
+/// Returns the settings in the form that the stages receive.
+IntegratorSettings integrator_settings(const RenderSettings &settings);
+
+/// Returns the settings that decide the compiled scene.
+CompileSettings compile_settings(const RenderSettings &settings);
+
+/// Copies device.bvh_builder, bvh_bins and bvh_axes, which decide the BVH's tree, to `parameters`.
+void choose_builder(const RenderSettings &settings, BvhBuildParameters &parameters);
+
+/// Returns the features that the settings add to those of the scene.
+FeatureMask settings_features(const RenderSettings &settings);
+
+}  // namespace rtrays

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+// Construction of a session: settings, passes, BVH, buffers and bindings.
+#include "renderer/session/state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/integrators/count_rays.h"
+#include "renderer/integrators/megakernel.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shared/path_state.h"
+#include "renderer/shared/ray_counts.h"
+
+namespace rtrays {
+
+namespace {
+
+/// Returns the layout of streams for a device. On a CPU, path states should stay in cache, and a
+/// work-item should do enough work to be worth its call. A GPU needs enough paths to hide latency,
+/// though no more than its second-level cache holds, and neighbouring work-items should read
+/// neighbouring words.
+StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &info) {
+    const BvhLayout bvh = BvhBuildParameters::for_device(info).layout;
+    StreamLayout layout = info.is_cpu ? StreamLayout{1, 1u << 14, 64, true, bvh}
+                                      : StreamLayout{128, 1u << 18, 1, false, bvh};
+    layout.group_size = settings.group_size > 0 ? settings.group_size : layout.group_size;
+    layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
+    if (has_light_pass(settings)) {
+        // In a round each light path may splat twice, and all splats may go to the same pixel.
+        layout.capacity = std::min(layout.capacity, FILM_ADDITIONS_BETWEEN_CARRIES / 2);
+    }
+    layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
+    layout.interleaved =
+        settings.path_layout == "auto" ? layout.interleaved : settings.path_layout == "interleaved";
+    for (const NamedBvhLayout &named : bvh_layouts) {
+        layout.bvh = settings.bvh_layout == named.name ? named.layout : layout.bvh;
+    }
+    if (layout.group_size > info.max_group_size) {
+        throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}",
+                                      layout.group_size, info.name, info.max_group_size));
+    }
+    return layout;
+}
+
+FeatureMask select_features(const CompiledScene &compiled, const RenderSettings &settings,
+                            const DeviceInfo &info) {
+    FeatureMask features =
+        FeatureMask::all()
+            .with(Feature::variance, settings.variance)
+            .with(Feature::convergence, has_convergence_control(settings))
+            .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
+    if (settings.features == "scene") {
+        features = settings_features(settings) | compiled.features;
+    }
+    return features.with(Feature::int64_atomics, info.has_int64_atomics);
+}
+
+RenderSettings complete(RenderSettings settings, const Scene &scene) {
+    require_consistent(settings);
+    settings = with_fixed_choices(std::move(settings));
+    settings.width = settings.width > 0 ? settings.width : scene.film_width();
+    settings.height = settings.height > 0 ? settings.height : scene.film_height();
+    const uint64_t pixels =
+        static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
+    if (pixels > (1u << 30)) {
+        throw input_error(
+            fmt::format("{} x {} pixels: expected at most 2^30", settings.width, settings.height));
+    }
+    return settings;
+}
+
+/// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses. Returns the pilot, which is empty
+/// if none was needed.
+Pilot settle_light_paths(RenderSettings &settings, const Scene &scene, DeviceContext &device) {
+    if (settings.light_paths != LIGHT_PATHS_AUTO) {
+        return {};
+    }
+    Pilot pilot = choose_light_paths(scene, settings, device);
+    settings.light_paths = pilot.light_paths;
+    return pilot;
+}
+
+}  // namespace
+
+RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
+                            DeviceContext &device_context)
+    : device(device_context),
+      settings(complete(requested, scene)),
+      pilot(settle_light_paths(settings, scene, device_context)),
+      layout(stream_layout(settings, device_context.info())),
+      numbers(integrator_settings(settings)),
+      compiled(compile_scene(scene, compile_settings(settings))) {
+    std::vector<Pass> all_passes = algorithm_passes(
+        scheduled_algorithm(settings), select_features(compiled, settings, device.info()),
+        compiled.lighting.light_count, numbers.light_vertices, settings.strategies_apart);
+    if (settings.pipeline == "megakernel") {
+        all_passes = megakernel_passes(std::move(all_passes));
+    }
+    if (settings.count_rays == "by_depth") {
+        all_passes = counting_passes(std::move(all_passes));
+    }
+    for (const Pass &pass : all_passes) {
+        if (settings.passes == "all" || settings.passes == pass.name) {
+            passes.emplace_back(pass, device, layout, settings);
+            features = features | pass.features;
+            compile_seconds += passes.back().stages.build_seconds();
+        }
+    }
+    if (passes.empty()) {
+        throw input_error(settings.passes == "all"
+                              ? fmt::format("{}: the scene has no light", settings.algorithm)
+                              : fmt::format("{} has no pass '{}' in this scene", settings.algorithm,
+                                            settings.passes));
+    }
+    scene_hash = scene.hash();
+    config = content_hash(scene_hash + image_settings(settings).dump());
+    if (features.has(Feature::triangles)) {
+        build_bvh(scene.meshes());
+    }
+    allocate();
+    bind();
+    warm_up();
+}
+
+bool RenderSession::State::update(const Scene &scene) {
+    CompiledScene next = compile_scene(scene, compile_settings(settings));
+    if (next.features.bits() != compiled.features.bits() ||
+        next.lighting.light_count != compiled.lighting.light_count) {
+        return false;
+    }
+    compiled = std::move(next);
+    scene_hash = scene.hash();
+    config = content_hash(scene_hash + image_settings(settings).dump());
+    if (features.has(Feature::triangles)) {
+        update_bvh(scene.meshes());
+    }
+    scene_buffers = SceneBuffers(device, compiled, features);
+    bind();
+    reset_film();
+    return true;
+}
+
+void RenderSession::State::update_bvh(const MeshArrays &meshes) {
+    if (settings.bvh_update != "refit" ||
+        meshes.triangle.size() != bvh.report().triangles + bvh.report().left_out) {
+        return build_bvh(meshes);
+    }
+    const auto start = Clock::now();
+    const BvhInput input(device, meshes.position, meshes.triangle);
+    if (bvh_refitter == nullptr) {
+        bvh_refitter = std::make_unique<BvhRefitter>(device, bvh);
+    }
+    const bool fits = bvh_refitter->refit(bvh, input.positions, input.indices);
+    bvh_wall_seconds = seconds_since(start);
+    bvh_stages = device.profiler().take();
+    if (!fits) {
+        build_bvh(meshes);
+    }
+}
+
+void RenderSession::State::build_bvh(const MeshArrays &meshes) {
+    BvhBuildParameters parameters = BvhBuildParameters::for_device(device.info());
+    parameters.layout = layout.bvh;
+    choose_builder(settings, parameters);
+    if (bvh_builder == nullptr) {
+        bvh_builder = std::make_unique<BvhBuilder>(device, parameters);
+    }
+    bvh_refitter.reset();
+    const auto start = Clock::now();
+    bvh = bvh_builder->build(meshes.position, meshes.triangle);
+    device.finish();
+    bvh_wall_seconds = seconds_since(start);
+    bvh_stages = device.profiler().take();
+}
+
+void RenderSession::State::allocate() {
+    const uint64_t capacity = layout.capacity;
+    scene_buffers = SceneBuffers(device, compiled, features);
+    uint32_t words = 0;  // passes reuse the memory one after the other
+    for (const CompiledPass &pass : passes) {
+        words = std::max(words, path_state_words(pass.features));
+    }
+    const bool streams = passes.front().streams;
+    path_words = Buffer<uint32_t>(device, "path_states", streams ? capacity * words : 0);
+    vertex_words = Buffer<uint32_t>(device, "light_vertices", capacity * vertex_words_per_path());
+    branch_vertices = Buffer<uint32_t>(device, "branches", capacity * branch_words_per_path());
+    queues = Buffer<uint32_t>(device, "queues", streams ? capacity * STREAM_QUEUES : 0);
+    counters = Buffer<StreamCounters>(device, "counters", 1);
+    counters.write({StreamCounters{}});
+    for (CompiledPass &pass : passes) {
+        pass.film = Buffer<int64_t>(device, "film." + pass.name, film_words());
+        if (settings.count_rays == "by_depth") {
+            pass.ray_counts =
+                Buffer<int64_t>(device, "ray_counts." + pass.name, RAY_KINDS * RAY_DEPTHS);
+        }
+        pass.clear();
+        if (pass.features.has(Feature::convergence)) {
+            const ConvergenceRule rule{settings.convergence_error, settings.convergence_interval,
+                                       settings.convergence_start};
+            convergence = std::make_unique<ConvergenceControl>(
+                device, rule, static_cast<uint32_t>(pixels()), pass.features, layout.group_size,
+                settings.source_overlays);
+        }
+    }
+}
+
+void RenderSession::State::bind() {
+    using In = StageInput;
+    StageArguments arguments = scene_buffers.arguments(bvh);
+    arguments[In::camera] = {compiled.camera};
+    arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
+    arguments[In::first_sample] = {uint64_t{0}};
+    arguments[In::chosen] = {uint32_t{SELECT_LIGHT}};
+    arguments[In::first_work] = {uint32_t{0}};
+    arguments[In::work] = {uint32_t{0}};
+    arguments[In::vertices] = {};
+    if (features.has(Feature::vertex_joins)) {
+        arguments[In::vertices] = {vertex_words};
+    }
+    arguments[In::branches] = {};
+    if (features.has(Feature::branches)) {
+        arguments[In::branches] = {branch_vertices};
+    }
+    arguments[In::streams] = {path_words, queues, counters, layout.capacity};
+    arguments[In::counters] = {counters};
+    for (CompiledPass &pass : passes) {
+        arguments[In::settings] = {pass.numbers(numbers)};
+        arguments[In::film] = {pass.film};
+        arguments[In::ray_counts] = {pass.ray_counts};
+        arguments[In::half_film] = arguments[In::live_pixels] = {};
+        if (pass.features.has(Feature::convergence)) {
+            for (const auto &[input, list] : convergence->arguments()) {
+                arguments[input] = list;
+            }
+        }
+        pass.stages.bind(arguments);
+    }
+}
+
+void RenderSession::State::warm_up() {
+    const auto start = Clock::now();
+    run_batch(0, 0);
+    for (CompiledPass &pass : passes) {
+        pass.profile.clear();
+    }
+    compile_seconds += seconds_since(start);
+}
+
+void RenderSession::State::reset_film() {
+    for (CompiledPass &pass : passes) {
+        pass.clear();
+        if (pass.features.has(Feature::convergence)) {
+            convergence->reset();
+            pass.stages.bind(convergence->arguments());
+        }
+    }
+    counters.write({StreamCounters{}});
+    ranges = FilmState();
+    wall_seconds = 0;
+    samples = 0;
+}
+
+double RenderSession::State::device_seconds() const {
+    double seconds = pilot.seconds;
+    for (const CompiledPass &pass : passes) {
+        seconds += total_seconds(pass.profile);
+    }
+    return seconds;
+}
+
+FilmState RenderSession::State::film_header() const {
+    FilmState header = ranges;
+    header.width = settings.width;
+    header.height = settings.height;
+    header.variance = settings.variance;
+    header.passes.clear();
+    for (const CompiledPass &pass : passes) {
+        header.passes.push_back(pass.name);
+        header.light_paths = pass.name == "light" ? numbers.light_paths : header.light_paths;
+    }
+    header.seed = numbers.seed;
+    header.config = config;
+    return header;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// The state of a RenderSession: the compiled passes of its algorithm and the buffers they share.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/bvh/builder.h"
+#include "renderer/bvh/refit.h"
+#include "renderer/compile/compile_scene.h"
+#include "renderer/compile/scene_buffers.h"
+#include "renderer/compile/stages.h"
+#include "renderer/device/buffer.h"
+#include "renderer/device/profiler.h"
+#include "renderer/film/convergence_control.h"
+#include "renderer/film/film.h"
+#include "renderer/integrators/algorithm.h"
+#include "renderer/session/pilot.h"
+#include "renderer/session/render_session.h"
+#include "renderer/shared/branch.h"
+#include "renderer/shared/film_layout.h"
+#include "renderer/shared/light_vertex.h"
+#include "renderer/shared/ray_counts.h"
+#include "renderer/shared/stream_counters.h"
+
+namespace rtrays {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A compiled pass of the algorithm, with the film that it adds to.
+struct CompiledPass {
+    CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout,
+                 const RenderSettings &settings)
+        : name(pass.name),
+          features(pass.features),
+          round(pass.round),
+          adds_hits(pass.adds_hits),
+          streams(pass.streams),
+          last_paths(pass.last_paths),
+          splats(static_cast<uint64_t>(std::count_if(
+              round.begin(), round.end(),
+              [](const RoundStage &stage) { return stage.name == "splat_unblocked"; }))),
+          stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
+
+    static std::vector<std::string> stage_names(const Pass &pass) {
+        std::vector<std::string> names = {"carry_film"};
+        if (pass.streams) {
+            names.emplace_back("reset_streams");
+        }
+        for (const RoundStage &stage : pass.round) {
+            names.push_back(stage.name);
+        }
+        return names;
+    }
+
+    /// Returns whether the stages for the last few paths of a batch are compiled.
+    bool has_last_stages() const {
+        return !last_paths.empty() && stages.has(last_paths.front().name);
+    }
+
+    /// Returns the integrator's settings for this pass.
+    IntegratorSettings numbers(IntegratorSettings of_all) const {
+        of_all.strategies |= adds_hits ? 0u : STRATEGY_HITS_ELSEWHERE;
+        return of_all;
+    }
+
+    /// Empties film, ray counts and profile.
+    void clear() {
+        film.fill(0);
+        if (ray_counts.size() > 0) {
+            ray_counts.fill(0);
+        }
+        additions = 0;
+        profile.clear();
+    }
+
+    /// Returns the rays of one kind (RAY_*) by depth, up to the last depth that has any.
+    std::vector<int64_t> rays_by_depth(size_t kind) const {
+        const std::vector<int64_t> all = ray_counts.read();
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * RAY_DEPTHS);
+        std::vector<int64_t> rays(first, first + RAY_DEPTHS);
+        while (!rays.empty() && rays.back() == 0) {
+            rays.pop_back();
+        }
+        return rays;
+    }
+
+    std::string name;
+    FeatureMask features;
+    std::vector<RoundStage> round;
+    bool adds_hits;
+    bool streams;
+    std::vector<RoundStage> last_paths;
+    uint64_t splats;  ///< maximum number of splats per path in flight and round
+    StageSet stages;
+    Buffer<int64_t> film;
+    Buffer<int64_t> ray_counts;
+    uint32_t chosen = SELECT_LIGHT;  ///< value to which StageInput::chosen is bound
+    /// Maximum number of additions to one pixel since the last carry propagation.
+    uint64_t additions = 0;
+    std::map<std::string, Profiler::Stage> profile;  ///< profile of the stages in `render`
+};
+
+struct RenderSession::State {
+    State(const Scene &scene, const RenderSettings &requested, DeviceContext &device_context);
+
+    uint64_t pixels() const {
+        return static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
+    }
+
+    // session_state.cpp
+
+    /// Updates the session to a scene that has moved. Returns false if the scene requires other
+    /// features or has another number of lights.
+    bool update(const Scene &scene);
+
+    void build_bvh(const MeshArrays &meshes);
+
+    /// Rebuilds or refits the BVH, depending on device.bvh_update.
+    void update_bvh(const MeshArrays &meshes);
+    void allocate();
+    void bind();
+
+    /// Runs a batch without work: the first enqueue of a kernel compiles it for its group size.
+    void warm_up();
+
+    void reset_film();
+    double device_seconds() const;
+
+    /// Returns the film's metadata, without its words.
+    FilmState film_header() const;
+
+    /// Returns the number of 4-byte words of stored light vertices per path in flight.
+    uint32_t vertex_words_per_path() const {
+        return features.has(Feature::vertex_joins)
+                   ? numbers.light_vertices * light_vertex_words(features)
+                   : 0;
+    }
+
+    /// Returns the number of 4-byte words, per path in flight, of the vertices to which the path
+    /// may return to follow further branches.
+    uint32_t branch_words_per_path() const {
+        return features.has(Feature::branches) ? numbers.max_depth * branch_words(features) : 0;
+    }
+
+    uint64_t film_words() const { return pixels() * FILM_PIXEL_WORDS(settings.variance); }
+    uint64_t film_sums() const { return film_words() / FILM_WORDS; }
+
+    /// Returns the number of paths of a pass in one sample of the image.
+    uint64_t paths_per_sample(const CompiledPass &pass) const {
+        return pass.name == "light" ? numbers.light_paths : pixels();
+    }
+    /// Returns the number of paths of a pass in one sample of the image that convergence control
+    /// has not stopped.
+    uint64_t live_paths_per_sample(const CompiledPass &pass) const {
+        return pass.features.has(Feature::convergence) ? convergence->live_count()
+                                                       : paths_per_sample(pass);
+    }
+    /// Returns the number of live paths of all passes.
+    uint64_t live_paths_per_sample() const {
+        uint64_t paths = 0;
+        for (const CompiledPass &pass : passes) {
+            paths += live_paths_per_sample(pass);
+        }
+        return paths;
+    }
+
+    // session_rounds.cpp
+
+    /// Returns the number of samples from `begin` on that are rendered next: one batch, but not
+    /// beyond the next convergence check.
+    uint64_t batch_size(uint64_t begin, uint64_t end) const;
+
+    /// Throws `Error` (bad input) when `begin` is not the next sample, if convergence control is
+    /// on: all earlier samples decide where it stops a pixel.
+    void require_next(uint64_t begin, uint64_t end) const;
+
+    /// Renders `count` samples of the image from sample `first` on; with `count` 0, only compiles
+    /// all kernels.
+    void run_batch(uint64_t first, uint64_t count);
+
+    /// Traces the paths with indices [begin, end) of the batch that starts at sample `first`.
+    void run_pass(CompiledPass &pass, uint64_t first, uint32_t begin, uint32_t end);
+
+    /// Compiles the stages for the last few paths of a batch, of which `in_flight` are left, and
+    /// runs their first round.
+    void add_last_stages(CompiledPass &pass, uint64_t in_flight);
+
+    /// Enqueues a stage. `paths` is the number of paths that a stage of complete paths
+    /// (Items::paths) traces.
+    void enqueue(CompiledPass &pass, const std::string &name, uint64_t paths = 0);
+
+    /// Propagates carries in the film's sums.
+    void carry_film(CompiledPass &pass);
+
+    /// Reserves room for `additions` more additions to one pixel: propagates carries first if they
+    /// might overflow.
+    void make_room(CompiledPass &pass, uint64_t additions);
+
+    /// Returns the words of a pass's film after carry propagation.
+    std::vector<int64_t> read_film(CompiledPass &pass);
+
+    /// Waits for the device and adds its profile to that of the pass.
+    void collect_profile(CompiledPass &pass);
+
+    DeviceContext &device;
+    RenderSettings settings;
+    Pilot pilot;  ///< pilot that chose the number of light paths, if there was one
+    StreamLayout layout;
+    IntegratorSettings numbers;
+    CompiledScene compiled;
+    FeatureMask features;  ///< union over all passes
+    std::vector<CompiledPass> passes;
+    std::string scene_hash;
+    std::string config;
+
+    std::unique_ptr<BvhBuilder> bvh_builder;
+    std::unique_ptr<BvhRefitter> bvh_refitter;  ///< set once the BVH has been refitted
+    Bvh bvh;
+    std::map<std::string, Profiler::Stage> bvh_stages;
+    SceneBuffers scene_buffers;
+    Buffer<uint32_t> path_words;
+    Buffer<uint32_t> vertex_words;
+    Buffer<uint32_t> branch_vertices;
+    Buffer<uint32_t> queues;
+    Buffer<StreamCounters> counters;
+    /// Convergence control of the camera pass, if it is on.
+    std::unique_ptr<ConvergenceControl> convergence;
+
+    double compile_seconds = 0;
+    double bvh_wall_seconds = 0;
+    double wall_seconds = 0;
+    uint64_t samples = 0;
+    FilmState
+        /// Ranges, seconds and error counts of restored or rendered films, without words.
+        ranges;
+};
+
+}  // namespace rtrays

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Materials, directions and the chi-square test of the BSDF tests. All features of BSDFs are
+// compiled in.
+#pragma once
+
+#define FEATURE_scattering 1
+#ifndef FEATURE_smooth_normals
+#define FEATURE_smooth_normals 1
+#endif
+#define FEATURE_tangents 1
+#define FEATURE_composite 1
+#define FEATURE_one_sided 1
+#define FEATURE_delta 1
+#define FEATURE_refraction 1
+#define FEATURE_lambert 1
+#define FEATURE_oren_nayar 1
+#define FEATURE_ideal_reflection 1
+#define FEATURE_ideal_refraction 1
+#define FEATURE_blinn 1
+#define FEATURE_ward 1
+#define FEATURE_ward_original 1
+#define FEATURE_microfacet_reflection 1
+#define FEATURE_microfacet_refraction 1
+#define FEATURE_ggx 1
+#define FEATURE_beckmann 1
+#define FEATURE_fresnel 1
+#define FEATURE_fresnel_dielectric 1
+#define FEATURE_fresnel_conductor 1
+#define FEATURE_fresnel_conductor_approximate 1
+#define FEATURE_fresnel_schlick 1
+#define FEATURE_textures 1
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "renderer/kernels/bsdf/bsdf.h"
+#include "renderer/kernels/sampling/random.h"
+#include "renderer/testing/chi_square.h"
+#include "renderer/testing/direction_grid.h"
+
+namespace rtrays {
+
+/// A material with its components, and the device functions applied to it.
+struct TestMaterial {
+    std::string name;
+    std::vector<BxdfRecord> components;
+    uint flags = 0;
+
+    MaterialRecord record() const { return {0, static_cast<uint>(components.size()), flags, 0}; }
+    BsdfValue evaluate(const SurfaceFrame &frame, float3 wi) const {
+        const MaterialRecord material = record();
+        return bsdf_evaluate(&material, components.data(), nullptr, nullptr, 0, frame, wi);
+    }
+    BsdfSample sample(const SurfaceFrame &frame, float select, float u, float v) const {
+        const MaterialRecord material = record();
+        return bsdf_sample(&material, components.data(), nullptr, nullptr, 0, frame, select, u, v);
+    }
+};
+
+inline BxdfRecord component(uint kind, uint flags = 0) {
+    BxdfRecord record{};
+    record.kind = kind;
+    record.flags = flags;
+    record.texture = NO_TEXTURE;
+    std::fill_n(record.weight, 3, 1.0f);
+    std::fill_n(record.eta, 3, 1.0f);
+    record.alpha_x = record.alpha_y = 1.0f;
+    return record;
+}
+
+inline BxdfRecord oren_nayar(float sigma) {
+    BxdfRecord record = component(BXDF_OREN_NAYAR);
+    record.parameter = sigma;
+    return record;
+}
+
+inline BxdfRecord blinn(float exponent) {
+    BxdfRecord record = component(BXDF_BLINN);
+    record.parameter = exponent;
+    return record;
+}
+
+inline BxdfRecord rough(uint kind, float alpha_x, float alpha_y, uint flags = 0) {
+    BxdfRecord record = component(kind, flags);
+    record.alpha_x = alpha_x;
+    record.alpha_y = alpha_y;
+    return record;
+}
+
+inline BxdfRecord with_eta(BxdfRecord record, float eta, uint flags = 0) {
+    std::fill_n(record.eta, 3, eta);
+    record.flags |= flags;
+    return record;
+}
+
+inline BxdfRecord weighted(BxdfRecord record, float weight) {
+    std::fill_n(record.weight, 3, weight);
+    return record;
+}
+
+inline TestMaterial rough_glass(const std::string &name, float alpha_x, float alpha_y,
+                                uint distribution) {
+    return {name,
+            {with_eta(rough(BXDF_MICROFACET_REFLECTION, alpha_x, alpha_y, distribution), 1.5f,
+                      FRESNEL_DIELECTRIC),
+             with_eta(rough(BXDF_MICROFACET_REFRACTION, alpha_x, alpha_y, distribution), 1.5f,
+                      FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT)},
+            MATERIAL_BOUNDARY};
+}
+
+/// Car paint, thesis (3.55): a coat over a Lambert reflector. The version with `printed` follows
+/// the printed formula, which is not symmetric.
+inline TestMaterial car_paint(bool printed) {
+    const uint printed_flag = printed ? BXDF_FLAG_FRESNEL_OF_WO : 0;
+    return {printed ? "car paint as printed" : "car paint",
+            {with_eta(component(BXDF_IDEAL_REFLECTION), 1.5f, FRESNEL_DIELECTRIC),
+             with_eta(component(BXDF_LAMBERT), 1.5f,
+                      FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | printed_flag)}};
+}
+
+/// Returns the frame of a tilted surface that is seen at `theta` degrees from its normal, on its
+/// front or its back.
+inline SurfaceFrame tilted_frame(double theta, double phi = 0.6, bool front = true) {
+    const float3 n = normalize(make_float3(0.3f, -0.8f, -0.5f));
+    const Frame axes = frame_from_tangent(n, make_float3(0.2f, 0.1f, 0.9f));
+    const double t = theta * pi / 180;
+    const double z = front ? std::cos(t) : -std::cos(t);
+    const float3 local =
+        make_float3(static_cast<float>(std::sin(t) * std::cos(phi)),
+                    static_cast<float>(std::sin(t) * std::sin(phi)), static_cast<float>(z));
+    return make_surface_frame(n, n, axes.x, make_float2(0, 0), normalize(to_world(axes, local)));
+}
+
+inline uint4 bsdf_words(uint32_t sample, uint32_t block) {
+    return random_words(17, 0, 5, sample, block);
+}
+
+/// Sample counts of a sampler per cell of a grid. The last entry counts deltas and samples without
+/// a direction, which were lost below the horizon.
+struct SampledDirections {
+    std::vector<uint64_t> observed = std::vector<uint64_t>(DirectionGrid::cells + 1);
+
+    void add(const DirectionGrid &grid, float3 wi, float pdf_w) {
+        const bool direction = pdf_w > 0.0f && pdf_w < std::numeric_limits<float>::infinity();
+        ++observed[static_cast<size_t>(direction ? grid.cell(wi) : DirectionGrid::cells)];
+    }
+};
+
+/// The p-value of sampled directions against the material's density, and the p-value against a
+/// density with a planted error of 2 %. The planted density is multiplied by 1.02 on one side of
+/// the plane of incidence and by 0.98 on the other, which keeps the total.
+struct ChiSquare {
+    double p, planted;
+    double scattered;  ///< share of the samples with a direction and a finite density
+};
+
+inline ChiSquare test_directions(const TestMaterial &material, const SurfaceFrame &frame,
+                                 const DirectionGrid &grid, const SampledDirections &directions) {
+    const auto count = static_cast<double>(
+        std::accumulate(directions.observed.begin(), directions.observed.end(), uint64_t{0}));
+    std::vector<double> expected(directions.observed.size()), wrong(directions.observed.size());
+    double rest = count;
+    for (int cell = 0; cell < DirectionGrid::cells; ++cell) {
+        // The quadrature may miss a sliver above the horizon. The added constant makes such a cell
+        // rare instead of impossible, and rare cells are pooled.
+        const double e = 1e-3 + count * grid.integral(cell, [&](float3 wi) {
+            return static_cast<double>(material.evaluate(frame, wi).pdf_w);
+        });
+        const auto k = static_cast<size_t>(cell);
+        expected[k] = e;
+        wrong[k] =
+            e *
+            (cell % DirectionGrid::azimuth_cells < DirectionGrid::azimuth_cells / 2 ? 1.02 : 0.98);
+        rest -= e;
+    }
+    std::vector<uint64_t> observed = directions.observed;
+    if (count - rest < 50) {  // nearly all samples have no direction
+        return {observed.back() + 100 > static_cast<uint64_t>(count) ? 1.0 : 0.0, 0, 0};
+    }
+    // A rest below 0.1 % is rounding error and does not get a cell of its own. Next to the horizon,
+    // float cannot evaluate a density more exactly: with alpha = 0.01 and 0.001 degrees it
+    // integrates to 1 - 2e-4.
+    if (rest < 1e-3 * count) {
+        if (static_cast<double>(observed.back()) > 2e-3 * count) {
+            return {0, 1, 1};
+        }
+        observed.pop_back();
+        expected.pop_back();
+        wrong.pop_back();
+    } else {
+        expected.back() = wrong.back() = rest;
+    }
+    return {chi_square_p(observed, expected), chi_square_p(observed, wrong), 1 - rest / count};
+}
+
+}  // namespace rtrays
