@@ -13,6 +13,7 @@
 #include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/image.h"
+#include "renderer/base/named.h"
 #include "renderer/base/process.h"
 #include "renderer/testing/errors.h"
 
@@ -191,6 +192,16 @@ TEST(ContentHash, IsXxh3Of128Bits) {
     EXPECT_EQ(content_hash(""), "99aa06d3014798d86001c324468d497f");
     EXPECT_NE(content_hash("a"), content_hash("b"));
     EXPECT_NE(content_hash(std::string("a\0", 2)), content_hash("a"));
+}
+
+TEST(Named, PrintsAndParsesEveryRow) {
+    constexpr Named<int> table[] = {{3, "three"}, {1, "one"}};
+    for (const auto &[value, name] : table) {
+        EXPECT_STREQ(name_in(table, value), name);
+        EXPECT_EQ(find_named(table, name), value);
+    }
+    EXPECT_EQ(find_named(table, "thre"), std::nullopt);
+    EXPECT_EQ(find_named(table, ""), std::nullopt);
 }
 
 TEST(RunMain, TurnsErrorsIntoExitCodes) {

@@ -41,26 +41,26 @@ TEST_P(FeatureBuild, Succeeds) {
                                  ? FeatureMask()
                                  : FeatureMask::all().with(static_cast<Feature>(index), false);
     // One program contains all stages of a pass, so that shared code is parsed once.
-    const auto build = [](const Pass &pass, std::vector<std::string> stages) {
+    const auto build = [](const Pass &pass, std::vector<Stage> stages) {
         for (const RoundStage &stage : pass.round) {
-            stages.push_back(stage.name);
+            stages.push_back(stage.stage);
         }
         std::set<std::string> includes;
-        for (const std::string &stage : stages) {
-            includes.insert("#include \"" + stage_description(stage).file + "\"\n");
+        for (const Stage stage : stages) {
+            includes.insert(std::string("#include \"") + stage_description(stage).file + "\"\n");
         }
         const std::string text = std::accumulate(includes.begin(), includes.end(), std::string());
         EXPECT_NO_THROW({
             const Program program(device(), "pass.cl",
                                   stage_defines(pass.features, {64, 512, 4, true}),
                                   {{"pass.cl", text}});
-            for (const std::string &stage : stages) {
-                Kernel(program, stage, 64);
+            for (const Stage stage : stages) {
+                Kernel(program, to_string(stage), 64);
             }
-        }) << pass.name;
+        }) << to_string(pass.kind);
     };
     for (const Pass &pass : algorithm_passes("bdpt", mask, 1, 2)) {
-        build(pass, {"reset_streams", "carry_film"});
+        build(pass, {Stage::reset_streams, Stage::carry_film});
     }
     for (const Pass &pass : megakernel_passes(algorithm_passes("path_tracing", mask, 1, 2))) {
         build(pass, {});
@@ -72,7 +72,7 @@ TEST_P(FeatureBuild, Succeeds) {
     // For other algorithms, compile only the stages that the algorithms above do not have.
     for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
         pass.round = {pass.round[pass.round.size() - 2]};
-        build(pass, {"end_paths"});
+        build(pass, {Stage::end_paths});
     }
 }
 

@@ -276,7 +276,7 @@ TEST(ConvergenceFilm, IsNormalisedPixelByPixel) {
 
 TEST(ConvergenceFilm, TakesTheLightPassByAllSamples) {
     FilmState camera = stopped_film(), light = camera;
-    light.passes = {"light"};
+    light.passes = {PassKind::light};
     light.light_paths = 1;
     light.convergence.reset();
     const FilmState before = light;

@@ -102,7 +102,7 @@ Image develop_film(const FilmState &film) {
     }
     const bool layers = film.passes.size() > 1;
     for (size_t pass = 0; pass < film.passes.size() && layers; ++pass) {
-        for (const std::string &name : rgb_names(film.passes[pass])) {
+        for (const std::string &name : rgb_names(to_string(film.passes[pass]))) {
             image.add_channel(name);
         }
     }
@@ -115,12 +115,12 @@ Image develop_film(const FilmState &film) {
         for (size_t pass = 0; pass < film.passes.size(); ++pass) {
             // A sample of a camera pass is one path per pixel. A sample of a light pass is the sum
             // over `light_paths` paths.
-            const bool splats = film.passes[pass] == "light";
+            const bool splats = film.passes[pass] == PassKind::light;
             const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
             const bool stops = !splats && film.convergence;
             const int64_t *const first = film.words.data() + pass * word_count(film) + c;
             std::vector<float> *const layer =
-                layers ? &image.channel(rgb_names(film.passes[pass])[c]) : nullptr;
+                layers ? &image.channel(rgb_names(to_string(film.passes[pass]))[c]) : nullptr;
             for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
                 const int64_t *words = first + pixel * pixel_words(film);
                 const auto n = static_cast<double>(
@@ -181,7 +181,7 @@ void merge_film(FilmState &film, const FilmState &other) {
     merged.non_finite += other.non_finite;
     merged.out_of_range += other.out_of_range;
     if (other_pass) {
-        const bool first = film.passes.front() == "camera";
+        const bool first = film.passes.front() == PassKind::camera;
         const FilmState &camera = first ? film : other, &light = first ? other : film;
         merged.passes = {camera.passes.front(), light.passes.front()};
         merged.light_paths = light.light_paths;
@@ -215,8 +215,11 @@ void save_film(const FilmState &film, const std::filesystem::path &path) {
                    {"non_finite", film.non_finite},
                    {"out_of_range", film.out_of_range},
                    {"wall_seconds", film.wall_seconds},
-                   {"passes", film.passes},
+                   {"passes", Json::array()},
                    {"light_paths", film.light_paths}};
+    for (const PassKind pass : film.passes) {
+        header["passes"].push_back(to_string(pass));
+    }
     for (const SampleRange &range : film.ranges) {
         header["ranges"].push_back({range.begin, range.end});
     }
@@ -265,7 +268,14 @@ FilmState load_film(const std::filesystem::path &path) {
     film.config = header.at("config");
     film.device_seconds = header.at("device_seconds");
     film.wall_seconds = header.at("wall_seconds");
-    film.passes = header.at("passes").get<std::vector<std::string>>();
+    film.passes.clear();
+    for (const Json &name : header.at("passes")) {
+        const std::optional<PassKind> pass = find_named(pass_kinds, name.get<std::string>());
+        if (!pass) {
+            throw fail("film state with an unknown pass; render it again");
+        }
+        film.passes.push_back(*pass);
+    }
     film.light_paths = header.at("light_paths");
     film.non_finite = header.at("non_finite");
     film.out_of_range = header.at("out_of_range");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/base/image.h"
+#include "renderer/compile/pass_kind.h"
 #include "renderer/film/convergence.h"
 
 namespace rtrays {
@@ -29,8 +30,8 @@ struct FilmState {
     int width = 0;
     int height = 0;
     bool variance = true;  ///< whether sums of squares are stored
-    /// Names of the rendered passes, whose images add up: "camera", "light".
-    std::vector<std::string> passes = {"camera"};
+    /// Rendered passes, whose images add up.
+    std::vector<PassKind> passes = {PassKind::camera};
     /// Light paths per sample of the image, 0 without a light pass.
     uint64_t light_paths = 0;
     uint32_t seed = 0;

@@ -21,10 +21,10 @@ std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask fea
                                   .with(Feature::light_strategy, algorithm != "light_tracing")
                                   .closed();
     if (algorithm == "ray_casting") {
-        return {{"camera", camera, ray_casting_round(camera, light_count)}};
+        return {{PassKind::camera, camera, ray_casting_round(camera, light_count)}};
     }
     if (algorithm == "whitted") {
-        return {{"camera", camera, whitted_round(camera, light_count)}};
+        return {{PassKind::camera, camera, whitted_round(camera, light_count)}};
     }
     if (camera.has(Feature::vertex_joins)) {
         return bdpt_passes(camera, light, light_count, light_vertices, apart);
@@ -36,11 +36,11 @@ std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask fea
     // Truncated bidirectional path tracing (thesis 2.8) has both passes. The MIS weights of each
     // pass account for the strategies of the other.
     if (algorithm != "path_tracing" && features.has(Feature::lights)) {
-        passes.push_back({"light", light, light_tracing_round(light)});
+        passes.push_back({PassKind::light, light, light_tracing_round(light)});
     }
     for (Pass &pass : passes) {
         if (pass.features.has(Feature::scattering)) {
-            pass.last_paths = {{"finish_paths"}, {"end_round"}};
+            pass.last_paths = {{Stage::finish_paths}, {Stage::end_round}};
         }
     }
     return passes;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/compile/pass_kind.h"
+#include "renderer/compile/stage_table.h"
 #include "renderer/shared/features.h"
 #include "renderer/shared/scene_records.h"
 
@@ -12,7 +14,7 @@ namespace rtrays {
 
 /// A stage in a round.
 struct RoundStage {
-    std::string name;
+    Stage stage;
     /// Index of the light of sample_light (SELECT_LIGHT: one is selected at random), or of the
     /// light vertex of connect_vertices.
     uint32_t chosen = SELECT_LIGHT;
@@ -29,8 +31,7 @@ struct RoundStage {
 /// within each chunk. All paths of a chunk start in its first round, so that a path's depth equals
 /// the round's index.
 struct Pass {
-    /// "camera" or "light"; with separate strategies also "implicit", "explicit" or "joins".
-    std::string name;
+    PassKind kind;
     /// Features of the pass's kernels and path states.
     FeatureMask features;
     /// Stages in order, without those that the features do not require.

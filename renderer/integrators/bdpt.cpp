@@ -15,8 +15,9 @@ namespace {
 std::vector<RoundStage> with_stages(std::vector<RoundStage> round,
                                     const std::vector<RoundStage> &stages) {
     round.front().rounds = 1;
-    const auto extend = std::find_if(round.begin(), round.end(),
-                                     [](const RoundStage &s) { return s.name == "extend_path"; });
+    const auto extend = std::find_if(round.begin(), round.end(), [](const RoundStage &s) {
+        return s.stage == Stage::extend_path;
+    });
     round.insert(extend, stages.begin(), stages.end());
     return round;
 }
@@ -30,9 +31,9 @@ std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t li
         // In these rounds a connected path has at most `light_vertices` + 1 scattering events, the
         // number up to which all strategies sample paths (shared/integrator_settings.h).
         const uint32_t rounds = light_vertices - vertex;
-        joins.push_back({"connect_vertices", vertex, rounds});
-        joins.push_back({"intersect_any", SELECT_LIGHT, rounds});
-        joins.push_back({"end_shadow_rays", SELECT_LIGHT, rounds});
+        joins.push_back({Stage::connect_vertices, vertex, rounds});
+        joins.push_back({Stage::intersect_any, SELECT_LIGHT, rounds});
+        joins.push_back({Stage::end_shadow_rays, SELECT_LIGHT, rounds});
     }
     std::vector<Pass> passes = path_tracing_passes(camera, light_count, apart);
     for (Pass &pass : passes) {
@@ -40,13 +41,14 @@ std::vector<Pass> bdpt_passes(FeatureMask camera, FeatureMask light, uint32_t li
     }
     if (apart) {
         const FeatureMask joined_only = camera.with(Feature::explicit_light, false);
-        passes.push_back({"joins", camera,
+        passes.push_back({PassKind::connections, camera,
                           with_stages(path_tracing_round(joined_only, light_count, false), joins),
                           false});
     }
-    passes.insert(passes.begin(), {"light", light,
-                                   with_stages(light_tracing_round(light),
-                                               {{"store_vertex", SELECT_LIGHT, light_vertices}})});
+    passes.insert(passes.begin(),
+                  {PassKind::light, light,
+                   with_stages(light_tracing_round(light),
+                               {{Stage::store_vertex, SELECT_LIGHT, light_vertices}})});
     return passes;
 }
 

@@ -69,7 +69,7 @@ TEST(Contributions, AddUpToTheImage) {
         {"/cornell_box/scene.json",
          "bdpt",
          "integrator.bdpt_vertices=3",
-         {"implicit", "explicit", "joins", "light"}},
+         {"implicit", "explicit", "connections", "light"}},
         {"/features/combined_lights.json",
          "truncated_bdpt",
          "integrator.light_selection=independent",
@@ -77,7 +77,7 @@ TEST(Contributions, AddUpToTheImage) {
         {"/features/area_light.json",
          "bdpt",
          "device.features=scene",
-         {"implicit", "explicit", "joins", "light"}},
+         {"implicit", "explicit", "connections", "light"}},
     };
     for (const auto &[scene, algorithm, assignment, layers] : cases) {
         const std::string what = scene + " " + algorithm + " " + assignment;

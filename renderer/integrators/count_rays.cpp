@@ -7,10 +7,10 @@ std::vector<Pass> counting_passes(std::vector<Pass> passes) {
     for (Pass &pass : passes) {
         std::vector<RoundStage> round;
         for (const RoundStage &stage : pass.round) {
-            if (stage.name == "begin_round") {
-                round.push_back({"count_nearest_rays"});
-            } else if (stage.name == "end_shadow_rays") {
-                round.push_back({"count_shadow_rays", stage.chosen, stage.rounds});
+            if (stage.stage == Stage::begin_round) {
+                round.push_back({Stage::count_nearest_rays});
+            } else if (stage.stage == Stage::end_shadow_rays) {
+                round.push_back({Stage::count_shadow_rays, stage.chosen, stage.rounds});
             }
             round.push_back(stage);
         }

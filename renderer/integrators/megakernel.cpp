@@ -5,7 +5,7 @@ namespace rtrays {
 
 std::vector<Pass> megakernel_passes(std::vector<Pass> path_tracing) {
     for (Pass &pass : path_tracing) {
-        pass.round = {{"trace_paths"}};
+        pass.round = {{Stage::trace_paths}};
         pass.streams = false;
         pass.last_paths.clear();
     }

@@ -11,7 +11,7 @@ namespace rtrays {
 /// that of `Pass`. `secondary` is the stage that extends or ends paths.
 std::vector<RoundStage> path_tracing_round(FeatureMask features, uint32_t light_count,
                                            bool adds_hits = true,
-                                           const std::string &secondary = "extend_path");
+                                           Stage secondary = Stage::extend_path);
 
 /// Returns path tracing as one pass, or with `apart` as one pass per strategy.
 std::vector<Pass> path_tracing_passes(FeatureMask features, uint32_t light_count, bool apart);

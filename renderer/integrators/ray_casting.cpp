@@ -6,7 +6,7 @@
 namespace rtrays {
 
 std::vector<RoundStage> ray_casting_round(FeatureMask features, uint32_t light_count) {
-    return path_tracing_round(features, light_count, true, "end_paths");
+    return path_tracing_round(features, light_count, true, Stage::end_paths);
 }
 
 }  // namespace rtrays

@@ -9,7 +9,7 @@ namespace rtrays {
 std::vector<RoundStage> whitted_round(FeatureMask features, uint32_t light_count) {
     // If the scene has no mirror or smooth glass, no path continues beyond its first hit.
     return features.has(Feature::delta)
-               ? path_tracing_round(features, light_count, true, "follow_branches")
+               ? path_tracing_round(features, light_count, true, Stage::follow_branches)
                : ray_casting_round(features, light_count);
 }
 

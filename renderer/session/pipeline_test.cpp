@@ -427,14 +427,15 @@ TEST(AlgorithmsPage, ListsTheStagesOfEveryAlgorithm) {
     }
     EXPECT_EQ(algorithms, algorithm_names());
     // The page omits stages that only maintain counters.
-    const std::set<std::string> bookkeeping = {"begin_round", "end_shadow_rays", "end_round"};
+    const std::set<Stage> bookkeeping = {Stage::begin_round, Stage::end_shadow_rays,
+                                         Stage::end_round};
     for (const std::string &algorithm : algorithms) {
         std::set<std::string> used;
         for (const Pass &pass : algorithm_passes(algorithm, FeatureMask::all(), 1, 2)) {
             for (const std::vector<RoundStage> *stages : {&pass.round, &pass.last_paths}) {
                 for (const RoundStage &stage : *stages) {
-                    if (bookkeeping.count(stage.name) == 0) {
-                        used.insert(stage.name);
+                    if (bookkeeping.count(stage.stage) == 0) {
+                        used.insert(to_string(stage.stage));
                     }
                 }
             }

@@ -55,7 +55,7 @@ nlohmann::json RenderSession::report() const {
     for (const CompiledPass &pass : s.passes) {
         const auto add_programs = [&](const std::map<std::string, Program> &programs) {
             for (const auto &[file, program] : programs) {
-                report["programs"].push_back({{"pass", pass.name},
+                report["programs"].push_back({{"pass", to_string(pass.kind)},
                                               {"file", file},
                                               {"seconds", program.build_seconds()},
                                               {"from_cache", program.from_cache()}});
@@ -69,7 +69,7 @@ nlohmann::json RenderSession::report() const {
             add_programs(s.convergence->programs());
         }
         for (const auto &[name, stage] : pass.profile) {
-            report["stages"].push_back({{"pass", pass.name},
+            report["stages"].push_back({{"pass", to_string(pass.kind)},
                                         {"name", name},
                                         {"seconds", stage.seconds},
                                         {"launches", stage.launches}});
@@ -80,7 +80,7 @@ nlohmann::json RenderSession::report() const {
             fields.push_back({{"field", field.name}, {"bytes", field.words * sizeof(uint32_t)}});
             path_bytes += field.words * static_cast<uint32_t>(sizeof(uint32_t));
         }
-        report["passes"].push_back({{"name", pass.name},
+        report["passes"].push_back({{"name", to_string(pass.kind)},
                                     {"features", pass.features.names()},
                                     {"paths_per_sample", s.paths_per_sample(pass)},
                                     {"path_state", fields},

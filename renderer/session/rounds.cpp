@@ -34,9 +34,7 @@ constexpr int many_rounds = 512;
 /// Binds the light or vertex of a stage. All stages share this argument, so it is bound only when
 /// the value changes for a stage that reads it.
 void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
-    const auto &inputs = stage_description(stage.name).inputs;
-    if (stage.chosen != pass.chosen &&
-        std::find(inputs.begin(), inputs.end(), StageInput::chosen) != inputs.end()) {
+    if (stage.chosen != pass.chosen && stage_description(stage.stage).reads(StageInput::chosen)) {
         pass.stages.bind({{StageInput::chosen, {stage.chosen}}});
         pass.chosen = stage.chosen;
     }
@@ -65,21 +63,20 @@ void RenderSession::State::require_next(uint64_t begin, uint64_t end) const {
     }
 }
 
-void RenderSession::State::enqueue(CompiledPass &pass, const std::string &name, uint64_t paths) {
-    using Items = StageDescription::Items;
-    switch (stage_description(name).items) {
-        case Items::entries:
-            return pass.stages.enqueue(name, (layout.capacity + layout.chunk - 1) / layout.chunk);
-        case Items::paths:
-            return pass.stages.enqueue(name, (paths + layout.chunk - 1) / layout.chunk);
-        case Items::slots:
-            return pass.stages.enqueue(name, layout.capacity);
-        case Items::few_paths:
-            return pass.stages.enqueue(name, FEW_PATHS(layout.capacity));
-        case Items::film_sums:
-            return pass.stages.enqueue(name, film_sums());
-        case Items::one:
-            return pass.stages.enqueue(name, 1);
+void RenderSession::State::enqueue(CompiledPass &pass, Stage stage, uint64_t paths) {
+    switch (stage_description(stage).items) {
+        case StageItems::entries:
+            return pass.stages.enqueue(stage, (layout.capacity + layout.chunk - 1) / layout.chunk);
+        case StageItems::paths:
+            return pass.stages.enqueue(stage, (paths + layout.chunk - 1) / layout.chunk);
+        case StageItems::slots:
+            return pass.stages.enqueue(stage, layout.capacity);
+        case StageItems::few_paths:
+            return pass.stages.enqueue(stage, FEW_PATHS(layout.capacity));
+        case StageItems::film_sums:
+            return pass.stages.enqueue(stage, film_sums());
+        case StageItems::one:
+            return pass.stages.enqueue(stage, 1);
     }
 }
 
@@ -119,7 +116,7 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
 }
 
 void RenderSession::State::carry_film(CompiledPass &pass) {
-    enqueue(pass, "carry_film");
+    enqueue(pass, Stage::carry_film);
     pass.additions = 0;
 }
 
@@ -151,10 +148,10 @@ void RenderSession::State::add_last_stages(CompiledPass &pass, uint64_t in_fligh
     make_room(pass, pass.splats * in_flight * FINISH_EVENTS);
     const auto start = Clock::now();
     for (const RoundStage &stage : pass.last_paths) {
-        if (!pass.stages.has(stage.name)) {
-            pass.stages.add({stage.name});
+        if (!pass.stages.has(stage.stage)) {
+            pass.stages.add({stage.stage});
         }
-        enqueue(pass, stage.name);  // the first enqueue compiles
+        enqueue(pass, stage.stage);  // the first enqueue compiles
     }
     device.finish();
     compile_seconds += seconds_since(start);
@@ -166,11 +163,11 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
                       {StageInput::first_work, {begin}},
                       {StageInput::work, {end}}});
     if (!pass.streams) {
-        enqueue(pass, pass.round.front().name,
+        enqueue(pass, pass.round.front().stage,
                 std::max<uint64_t>(end - begin, 1));  // 1: the first enqueue compiles
         return collect_profile(pass);
     }
-    enqueue(pass, "reset_streams");
+    enqueue(pass, Stage::reset_streams);
     uint64_t in_flight = layout.capacity;
     int rounds_of_few = 0;
     // The host waits for the counters of the previous check, so that the device stays busy.
@@ -193,7 +190,7 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
                     continue;
                 }
                 bind_chosen(pass, stage);
-                enqueue(pass, stage.name);
+                enqueue(pass, stage.stage);
             }
         }
         if (check % checks_per_profile == checks_per_profile - 1) {

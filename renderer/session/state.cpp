@@ -104,7 +104,7 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
         all_passes = counting_passes(std::move(all_passes));
     }
     for (const Pass &pass : all_passes) {
-        if (settings.passes == "all" || settings.passes == pass.name) {
+        if (settings.passes == "all" || settings.passes == to_string(pass.kind)) {
             passes.emplace_back(pass, device, layout, settings);
             features = features | pass.features;
             compile_seconds += passes.back().stages.build_seconds();
@@ -192,10 +192,11 @@ void RenderSession::State::allocate() {
     counters = Buffer<StreamCounters>(device, "counters", 1);
     counters.write({StreamCounters{}});
     for (CompiledPass &pass : passes) {
-        pass.film = Buffer<int64_t>(device, "film." + pass.name, film_words());
+        pass.film =
+            Buffer<int64_t>(device, std::string("film.") + to_string(pass.kind), film_words());
         if (settings.count_rays == "by_depth") {
-            pass.ray_counts =
-                Buffer<int64_t>(device, "ray_counts." + pass.name, RAY_KINDS * RAY_DEPTHS);
+            pass.ray_counts = Buffer<int64_t>(
+                device, std::string("ray_counts.") + to_string(pass.kind), RAY_KINDS * RAY_DEPTHS);
         }
         pass.clear();
         if (pass.features.has(Feature::convergence)) {
@@ -279,8 +280,9 @@ FilmState RenderSession::State::film_header() const {
     header.variance = settings.variance;
     header.passes.clear();
     for (const CompiledPass &pass : passes) {
-        header.passes.push_back(pass.name);
-        header.light_paths = pass.name == "light" ? numbers.light_paths : header.light_paths;
+        header.passes.push_back(pass.kind);
+        header.light_paths =
+            pass.kind == PassKind::light ? numbers.light_paths : header.light_paths;
     }
     header.seed = numbers.seed;
     header.config = config;

@@ -39,7 +39,7 @@ inline double seconds_since(Clock::time_point start) {
 struct CompiledPass {
     CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout,
                  const RenderSettings &settings)
-        : name(pass.name),
+        : kind(pass.kind),
           features(pass.features),
           round(pass.round),
           adds_hits(pass.adds_hits),
@@ -47,23 +47,23 @@ struct CompiledPass {
           last_paths(pass.last_paths),
           splats(static_cast<uint64_t>(std::count_if(
               round.begin(), round.end(),
-              [](const RoundStage &stage) { return stage.name == "splat_unblocked"; }))),
-          stages(device, stage_names(pass), pass.features, layout, settings.source_overlays) {}
+              [](const RoundStage &s) { return s.stage == Stage::splat_unblocked; }))),
+          stages(device, stages_of(pass), pass.features, layout, settings.source_overlays) {}
 
-    static std::vector<std::string> stage_names(const Pass &pass) {
-        std::vector<std::string> names = {"carry_film"};
+    static std::vector<Stage> stages_of(const Pass &pass) {
+        std::vector<Stage> list = {Stage::carry_film};
         if (pass.streams) {
-            names.emplace_back("reset_streams");
+            list.push_back(Stage::reset_streams);
         }
         for (const RoundStage &stage : pass.round) {
-            names.push_back(stage.name);
+            list.push_back(stage.stage);
         }
-        return names;
+        return list;
     }
 
     /// Returns whether the stages for the last few paths of a batch are compiled.
     bool has_last_stages() const {
-        return !last_paths.empty() && stages.has(last_paths.front().name);
+        return !last_paths.empty() && stages.has(last_paths.front().stage);
     }
 
     /// Returns the integrator's settings for this pass.
@@ -83,9 +83,9 @@ struct CompiledPass {
     }
 
     /// Returns the rays of one kind (RAY_*) by depth, up to the last depth that has any.
-    std::vector<int64_t> rays_by_depth(size_t kind) const {
+    std::vector<int64_t> rays_by_depth(size_t ray_kind) const {
         const std::vector<int64_t> all = ray_counts.read();
-        const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * RAY_DEPTHS);
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(ray_kind * RAY_DEPTHS);
         std::vector<int64_t> rays(first, first + RAY_DEPTHS);
         while (!rays.empty() && rays.back() == 0) {
             rays.pop_back();
@@ -93,7 +93,7 @@ struct CompiledPass {
         return rays;
     }
 
-    std::string name;
+    PassKind kind;
     FeatureMask features;
     std::vector<RoundStage> round;
     bool adds_hits;
@@ -156,7 +156,7 @@ struct RenderSession::State {
 
     /// Returns the number of paths of a pass in one sample of the image.
     uint64_t paths_per_sample(const CompiledPass &pass) const {
-        return pass.name == "light" ? numbers.light_paths : pixels();
+        return pass.kind == PassKind::light ? numbers.light_paths : pixels();
     }
     /// Returns the number of paths of a pass in one sample of the image that convergence control
     /// has not stopped.
@@ -195,8 +195,8 @@ struct RenderSession::State {
     void add_last_stages(CompiledPass &pass, uint64_t in_flight);
 
     /// Enqueues a stage. `paths` is the number of paths that a stage of complete paths
-    /// (Items::paths) traces.
-    void enqueue(CompiledPass &pass, const std::string &name, uint64_t paths = 0);
+    /// (StageItems::paths) traces.
+    void enqueue(CompiledPass &pass, Stage stage, uint64_t paths = 0);
 
     /// Propagates carries in the film's sums.
     void carry_film(CompiledPass &pass);
