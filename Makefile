@@ -10,6 +10,7 @@ BENCH ?= .
 STIFFNESS ?= results/chapter4/stiffness
 
 STIFF_CASES = $(PROFILE:quick=ci)
+experiment = $(wildcard experiments/*/$(1).json)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors samplers mirror_ring glass_goblets door_ajar floor_lamps
 MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces binning ablations
@@ -37,18 +38,18 @@ build: install
 # Compiles the kernels of all experiments without a result first, one experiment per core, because
 # PoCL compiles on one core. In the quick profile, `stability` runs the cases of the ci profile.
 reproduce-chapter4: programs
-	@printf '%s\n' $(if $(wildcard $(CHAPTER4)/stability/stability.json),,"stability.json --profile $(STIFF_CASES)") \
-	    $(foreach e,$(EXPERIMENTS),$(if $(wildcard $(CHAPTER4)/$e/run.json),,"$e.json --profile $(PROFILE)")) \
-	    | (cd experiments && xargs -r -P $(JOBS) -L 1 -t ../build/bin/rtrays-experiment run --compile)
+	@printf '%s\n' $(if $(wildcard $(CHAPTER4)/stability/stability.json),,"$(call experiment,stability) --profile $(STIFF_CASES)") \
+	    $(foreach e,$(EXPERIMENTS),$(if $(wildcard $(CHAPTER4)/$e/run.json),,"$(call experiment,$e) --profile $(PROFILE)")) \
+	    | xargs -r -P $(JOBS) -L 1 -t build/bin/rtrays-experiment run --compile
 	@step() { n=$$((n + 1)); echo "[$$n of $(words $(MEASUREMENTS) $(EXPERIMENTS) stability convergence_control)] $$1"; }; n=0; \
 	for experiment in $(MEASUREMENTS) $(EXPERIMENTS); do \
 	    step $$experiment; \
-	    build/bin/rtrays-experiment run experiments/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
+	    build/bin/rtrays-experiment run experiments/*/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
 	done; \
 	step stability; \
-	build/bin/rtrays-experiment run experiments/stability.json --profile $(STIFF_CASES) --out $(CHAPTER4)/stability || [ $$? -eq 3 ] || exit 1; \
+	build/bin/rtrays-experiment run experiments/robustness/stability.json --profile $(STIFF_CASES) --out $(CHAPTER4)/stability || [ $$? -eq 3 ] || exit 1; \
 	step convergence_control; \
-	build/bin/rtrays-experiment control experiments/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
+	build/bin/rtrays-experiment control experiments/chapter4/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
 	$(if $(filter full,$(PROFILE)),$(MAKE) --no-print-directory stiffness STIFFNESS=$(CHAPTER4)/stiffness)
 	$(MAKE) --no-print-directory report
 
@@ -79,10 +80,10 @@ test-asan: install
 #     over when resumed, but takes kernels from the cache.
 # The outputs are evidence and are kept in results/.
 test-full: programs
-	build/bin/rtrays-experiment run experiments/traversal.json --profile full --out results/chapter4/traversal
+	build/bin/rtrays-experiment run experiments/robustness/traversal.json --profile full --out results/chapter4/traversal
 	/usr/bin/python3 scripts/measurements results/chapter4/traversal
 	for agreement in feature_scenes algorithms; do \
-	    build/bin/rtrays-experiment agree experiments/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
+	    build/bin/rtrays-experiment agree experiments/gates/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
 	    mkdir -p results/$$agreement; \
 	    cp build/$$agreement/agreement.json build/$$agreement/agreement.md results/$$agreement/; \
 	done
@@ -104,12 +105,12 @@ specialisation: programs
 # Renders stiff and extreme cases with every algorithm that supports them, and writes a table. The
 # exit code of the program is 3 if a case fails.
 stability: programs
-	build/bin/rtrays-experiment run experiments/stability.json --profile $(PROFILE) --out build/stability.$(PROFILE)
+	build/bin/rtrays-experiment run experiments/robustness/stability.json --profile $(PROFILE) --out build/stability.$(PROFILE)
 
 # Measures where each algorithm fails as roughness and light size approach zero. Needs an idle
 # machine and takes a quarter of an hour.
 stiffness: programs
-	build/bin/rtrays-experiment run experiments/stiffness.json --profile full --out $(STIFFNESS)
+	build/bin/rtrays-experiment run experiments/robustness/stiffness.json --profile full --out $(STIFFNESS)
 	/usr/bin/python3 scripts/stiffness $(STIFFNESS)
 
 # Counts the instructions per ray for each hierarchy layout and for Embree. Needs Valgrind, which

@@ -66,12 +66,12 @@ class Documentation(unittest.TestCase):
         for number, block in enumerate(found):
             with self.subTest(block=block):
                 # Paths in an experiment are relative to its folder.
-                folder = self.folder / "mine"
-                folder.mkdir(exist_ok=True)
+                folder = self.folder / "mine/questions"
+                folder.mkdir(exist_ok=True, parents=True)
                 file = folder / f"experiment_{number}.json"
                 file.write_text(block)
-                (folder / "schema").unlink(missing_ok=True)
-                (folder / "schema").symlink_to(ROOT / "experiments/schema")
+                (folder.parent / "schema").unlink(missing_ok=True)
+                (folder.parent / "schema").symlink_to(ROOT / "experiments/schema")
                 self.run_line(f"build/bin/rtrays-experiment run {file} --dry-run")
 
 

@@ -36,9 +36,9 @@ def expected_gains():
     """{experiment: its expected_gain}, of every experiment of the repository that has one, in the
     thesis' order."""
     found = {}
-    for path in EXPERIMENTS.glob("*.json"):
+    for path in EXPERIMENTS.rglob("*.json"):
         document = json.loads(path.read_text())
-        if "expected_gain" in document:
+        if "expected_gain" in document and "name" in document:
             found[document["name"]] = (document.get("thesis", ""), document["expected_gain"])
     return {
         run: expected for run, (_, expected) in sorted(found.items(), key=lambda entry: entry[1][0])

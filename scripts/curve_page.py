@@ -7,6 +7,7 @@ from pages import Figure, Page, TableBlock, Text, Viewer
 from run_document import (
     agreement_verdict,
     commit_of,
+    experiment_path,
     gain_verdict,
     is_blind,
     is_stratified,
@@ -217,7 +218,7 @@ def viewer_block(run):
     name = run.get("experiment.name")
     return Viewer(
         "The interactive comparison needs the measured images, which the repository does not keep."
-        f" This command makes them: rtrays-experiment run experiments/{name}.json --profile"
+        f" This command makes them: rtrays-experiment run {experiment_path(name)} --profile"
         f" {run.get('experiment.profile')} --out DIR"
     )
 

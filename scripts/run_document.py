@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Reads run.json, from which tables, plots and pages are made.
 
-Everything made from a run is a function of its folder and of the prose of experiments/NAME.json. A
+Everything made from a run is a function of its folder and of the prose of the experiment file. A
 missing value is an error, never a zero.
 """
 
@@ -14,6 +14,16 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 EXPERIMENTS = ROOT / "experiments"
+
+
+def experiment_file(name):
+    """Returns the path of an experiment below experiments/, or None if there is no such file."""
+    return next(EXPERIMENTS.rglob(f"{name}.json"), None)
+
+
+def experiment_path(name):
+    """Returns the path of an experiment relative to the repository, for commands in texts."""
+    return (experiment_file(name) or EXPERIMENTS / f"{name}.json").relative_to(ROOT).as_posix()
 
 
 class RunError(Exception):
@@ -57,11 +67,12 @@ class Run:
     def prose(self, key):
         """Returns the "title", "thesis", "claim", "questions" or "findings" of the experiment.
 
-        It comes from experiments/NAME.json where that file exists, so that its wording can improve
-        after the run; else from run.json. The numbers of a page come from run.json alone.
+        It comes from the file NAME.json below experiments/ where that exists, so that its wording
+        can improve after the run; else from run.json. The numbers of a page come from run.json
+        alone.
         """
-        path = EXPERIMENTS / f"{self.get('experiment.name')}.json"
-        own = json.loads(path.read_text()).get(key) if path.is_file() else None
+        path = experiment_file(self.get("experiment.name"))
+        own = json.loads(path.read_text()).get(key) if path else None
         return own or value(self.document, "experiment").get(key) or ""
 
     @property

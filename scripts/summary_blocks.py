@@ -9,7 +9,7 @@ from charts import gain_entries, peer_entries
 from claims import all_counts, judge_all, markdown_name, summary
 from measurement_tables import KINDS, build_speeds, fastest_layout, our_builders
 from measurement_text import geometric_mean, name, span
-from run_document import Measurement, value
+from run_document import Measurement, experiment_path, value
 
 
 def claims(results):
@@ -194,7 +194,7 @@ def run_rows(results):
         page = markdown_name(folder)
         cell = Link(place, place, page) if (folder / page).exists() else place
         command = (
-            f"`rtrays-experiment {command} experiments/{folder.name}.json --profile {profile}`"
+            f"`rtrays-experiment {command} {experiment_path(folder.name)} --profile {profile}`"
         )
         yield [cell, command, minutes(context), value(context, "commit")[:12]]
 

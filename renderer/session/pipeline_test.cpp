@@ -353,7 +353,7 @@ TEST(Pipeline, RestartsWithAnotherDepthToTheSameBits) {
 }
 
 // Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are not tested here
-// but in experiments/tests/estimators_test.cpp. All walls emit, and cos cos / d^2 has no finite
+// but in experiments/harness/estimators_test.cpp. All walls emit, and cos cos / d^2 has no finite
 // variance where two walls meet. The 12 means and the 3 means of the emitter below share a
 // family-wise level of 0.01, so each may be 3.5 standard errors off (two-sided, Bonferroni). The
 // standard errors are small enough to detect an error of 2 %.

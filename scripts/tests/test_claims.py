@@ -303,7 +303,9 @@ class Page(Folders):
             if source["read"] == "gain" and "curve" not in source
         }
         for name in ("mirror_ring", "glass_goblets", "door_ajar", "floor_lamps"):
-            expected = json.loads((CLAIMS.parent / f"{name}.json").read_text())["expected_gain"]
+            expected = json.loads((CLAIMS.parent / f"chapter4/{name}.json").read_text())[
+                "expected_gain"
+            ]
             self.assertEqual(
                 (rules[name, "spp"], rules[name, "seconds"]),
                 (expected["samples"], expected["time"]),

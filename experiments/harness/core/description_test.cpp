@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Tests of experiment and gate files: the shipped ones load, and broken ones are refused with a
+// message that names the error and its location.
+#include "experiments/harness/core/description.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "experiments/harness/kinds/gate.h"
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+
+namespace rtrays {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path shipped = RTRAYS_EXPERIMENTS;
+
+/// Loads the text as an experiment or a gate and returns the message of the error.
+std::string error_of(const std::string &text, bool as_gate = false) {
+    const fs::path path = fs::path(testing::TempDir()) / "broken_experiment.json";
+    write_file(path, text);
+    try {
+        if (as_gate) {
+            load_gate(path);
+        } else {
+            load_experiment(path, "quick");
+        }
+    } catch (const Error &error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string replaced(std::string text, const std::string &from, const std::string &to) {
+    const size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+TEST(Description, ShippedExperimentsLoadInEveryProfile) {
+    for (const char *name :
+         {"cornell_diffuse", "cornell_algorithms", "cornell_bumps", "cornell_mirrors",
+          "mirror_ring", "glass_goblets", "door_ajar", "floor_lamps", "samplers"}) {
+        for (const char *profile : {"quick", "full", "ci"}) {
+            const auto experiment =
+                load_experiment(shipped / "chapter4" / (std::string(name) + ".json"), profile);
+            EXPECT_EQ(experiment.name, name);
+            // Throughput is measured on the last curve, which is path tracing in all experiments.
+            EXPECT_EQ(experiment.curves.back().id(), "path_tracing.mis");
+            EXPECT_TRUE(experiment.scene.is_absolute());
+            for (const CurveDescription &curve : experiment.curves) {
+                EXPECT_GE(curve.seeds, 8u);
+                EXPECT_GE(curve.spp.size(), 3u);
+            }
+        }
+    }
+}
+
+TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
+    const std::string good = read_file(shipped / "chapter4/glass_goblets.json");
+    const auto capped = [&](const std::string &most) {
+        return replaced(good, "{\"truncated_bdpt.mis,light_paths=auto\": 8}", "{" + most + "}");
+    };
+    const auto ladder = [&](const std::string &most) {
+        const fs::path path = fs::path(testing::TempDir()) / "capped_experiment.json";
+        write_file(path, capped(most));
+        return load_experiment(path, "quick").curves;
+    };
+    for (const CurveDescription &curve : ladder("\"bdpt.mis\": 8")) {
+        const bool is_capped = curve.id() == "bdpt.mis";
+        EXPECT_EQ(curve.spp.back(), is_capped ? 8u : 16u);
+        EXPECT_EQ(curve.early_images,
+                  is_capped ? std::vector<uint64_t>{4} : std::vector<uint64_t>({4, 16}));
+    }
+    const auto error = [&](const std::string &most) { return error_of(capped(most)); };
+    EXPECT_NE(error("\"bdpt\": 8").find("unknown curve 'bdpt'"), std::string::npos);
+    EXPECT_NE(error("\"bdpt.mis\": 5").find("value of \"spp\", got 5"), std::string::npos);
+    EXPECT_NE(error("\"bdpt.mis\": 2").find("the third or a later value"), std::string::npos);
+}
+
+TEST(Description, CurvesThatTheProfileNamesHaveMoreSeeds) {
+    const std::string good = read_file(shipped / "chapter4/glass_goblets.json");
+    const auto with = [&](const std::string &more) {
+        return replaced(good, "\"early_images\": [4, 16]", "\"more_seeds\": {" + more + "}");
+    };
+    const fs::path path = fs::path(testing::TempDir()) / "more_seeds_experiment.json";
+    write_file(path, with("\"bdpt.mis\": 24"));
+    for (const CurveDescription &curve : load_experiment(path, "quick").curves) {
+        EXPECT_EQ(curve.seeds, curve.id() == "bdpt.mis" ? 24u : 8u);
+    }
+    EXPECT_NE(error_of(with("\"bdpt\": 24")).find("unknown curve 'bdpt'"), std::string::npos);
+    EXPECT_NE(error_of(with("\"bdpt.mis\": 4")).find("more_seeds"), std::string::npos);
+}
+
+TEST(Description, ErrorsNameTheKey) {
+    const std::string good = read_file(shipped / "chapter4/cornell_diffuse.json");
+    EXPECT_NE(error_of(replaced(good, "\"claim\"", "\"clam\"")).find("clam"), std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"title\"", "\"name\"")).find("duplicate key 'name'"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"seeds\": 8", "\"seeds\": 3")).find("seeds"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "[1, 2, 4, 8,", "[1, 4, 2, 8,")).find("must increase"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"integrator.strategies\": \"mis\"",
+                                "\"integrator.strategies\": \"miss\""))
+                  .find("implicit, explicit, mis"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"mis\"", "\"implicit\"")).find("two curves"),
+              std::string::npos);
+    EXPECT_NE(error_of("{").find("broken_experiment.json:1"), std::string::npos);
+}
+
+TEST(Description, UnknownProfileListsTheProfiles) {
+    try {
+        load_experiment(shipped / "chapter4/cornell_diffuse.json", "fast");
+        FAIL();
+    } catch (const Error &error) {
+        EXPECT_NE(std::string(error.what()).find("ci, full, quick"), std::string::npos);
+    }
+}
+
+TEST(Description, ErrorsOfGatesNameTheKey) {
+    const std::string good = read_file(shipped / "gates/gate_cornell_box.json");
+    EXPECT_NE(error_of(replaced(good, "\"split\": 3", "\"split\": 8"), true)
+                  .find("/bitwise/split: 8 must be less than"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "[2, 8, 32]", "[2, 32, 8]"), true)
+                  .find("/convergence/spp: values must increase"),
+              std::string::npos);
+    EXPECT_NE(error_of(replaced(good, "\"explicit\"", "\"implicit\""), true).find("two curves"),
+              std::string::npos);
+}
+
+TEST(Description, ShippedClaimsFitTheirSchema) {
+    EXPECT_FALSE(load_description(shipped / "claims.json", "claims.schema.json")
+                     .json.at("sections")
+                     .empty());
+}
+
+TEST(Description, ShippedGateLoads) {
+    const auto gate = load_gate(shipped / "gates/gate_cornell_box.json");
+    EXPECT_EQ(gate.width, 64);
+    EXPECT_GE(gate.convergence.renders, 16);
+    EXPECT_EQ(gate.planted.errors.size(), 10u);
+}
+
+}  // namespace
+}  // namespace rtrays

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/harness/core/report.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "experiments/harness/core/array_file.h"
+#include "experiments/harness/core/description.h"
+#include "experiments/harness/core/document.h"
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/base/resources.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void export_images(const fs::path &folder) {
+    if (!fs::exists(folder / "run.json")) {
+        throw input_error(
+            fmt::format("{}: no run.json; make it with: rtrays-experiment run FILE --out {}",
+                        folder.string(), folder.string()));
+    }
+    const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
+    const auto export_image = [&](const std::string &name, const Json &layers) {
+        const Image image = read_exr(folder / name);
+        write_array(image, (folder / name).replace_extension(".npy"));
+        for (const std::string layer : layers) {
+            write_array(image, (folder / name).replace_extension("." + layer + ".npy"), layer);
+        }
+    };
+    const std::string reference = run.at("reference").at("image");
+    // A clone has the stored pages and plots without the images.
+    if (!fs::exists(folder / reference) && fs::exists(folder / "report.md")) {
+        fmt::print(stderr, "{}: no images; the stored plots are used\n", folder.string());
+        return;
+    }
+    export_image(reference, Json::array());
+    for (const Json &curve : run.at("curves")) {
+        export_image(curve.at("image"), curve.at("layers"));
+        for (const Json &early : curve.at("early_images")) {
+            export_image(early.at("image"), Json::array());
+        }
+    }
+}
+
+int run_program(const std::vector<std::string> &command) {
+    std::vector<char *> arguments;
+    for (const auto &word : command) {
+        arguments.push_back(const_cast<char *>(word.c_str()));
+    }
+    arguments.push_back(nullptr);
+    pid_t child = 0;
+    const int error =
+        posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
+    if (error != 0) {
+        throw run_error(
+            fmt::format("cannot start {}: {}; install Python and its packages with scripts/install",
+                        command[0], std::strerror(error)));
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            throw run_error(fmt::format("{}: {}", command[0], std::strerror(errno)));
+        }
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ExitCode::run_failed);
+}
+
+}  // namespace
+
+int make_report(const std::vector<fs::path> &runs) {
+    load_description(resource_folder() / "experiments/claims.json",
+                     "claims.schema.json");  // refused here or not at all
+    std::vector<std::string> command{RTRAYS_PYTHON, resource_folder() / "scripts/report"};
+    for (const auto &run : runs) {
+        export_images(run);
+        command.push_back(run.string());
+    }
+    return run_program(command);
+}
+
+}  // namespace rtrays

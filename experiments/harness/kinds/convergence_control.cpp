@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/harness/kinds/convergence_control.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "experiments/harness/core/agreement.h"
+#include "experiments/harness/core/description.h"
+#include "experiments/harness/core/document.h"
+#include "experiments/harness/core/host.h"
+#include "experiments/harness/core/metrics.h"
+#include "experiments/harness/core/references.h"
+#include "experiments/harness/core/resumption.h"
+#include "experiments/harness/kinds/ladder.h"
+#include "renderer/base/commit.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+#include "renderer/device/context.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Description {
+    std::string name;
+    DescriptionFile file;
+    std::vector<fs::path> scenes;
+    std::vector<RenderSettings> curves;  ///< with size
+    std::vector<double> errors;
+    int size = 0;
+    uint64_t spp = 0;
+    uint32_t seeds = 0;
+};
+
+Description load(const fs::path &path, const std::string &profile) {
+    Description description{{}, load_description(path, "control.schema.json"), {}, {}, {}, 0, 0, 0};
+    const Json &json = description.file.json, &chosen = description.file.profile(profile);
+    json.at("name").get_to(description.name);
+    json.at("errors").get_to(description.errors);
+    chosen.at("size").get_to(description.size);
+    chosen.at("spp").get_to(description.spp);
+    chosen.at("seeds").get_to(description.seeds);
+    for (const Json &scene : chosen.at("scenes")) {
+        description.scenes.push_back(description.file.resolve(json.at("folder")) /
+                                     scene.get<std::string>() / "scene.json");
+    }
+    for (const Json &curve : json.at("curves")) {
+        RenderSettings settings = parse_render_settings(curve);
+        settings.width = settings.height = description.size;
+        settings.variance = false;
+        description.curves.push_back(settings);
+    }
+    return description;
+}
+
+RenderSettings with_error(RenderSettings settings, double error) {
+    apply_setting(settings, fmt::format("integrator.convergence.error={}", error));
+    return settings;
+}
+
+double sum_of(const Image &image) {
+    double sum = 0;
+    for (const std::string &channel : rgb_names()) {
+        for (const float value : image.channel(channel)) {
+            sum += static_cast<double>(value);
+        }
+    }
+    return sum;
+}
+
+/// Returns the mean of the images with zero variances, so that tests treat it as exact.
+Image mean_of(const std::vector<ControlledRender> &renders) {
+    Image mean = Image::rgb(renders.front().image.width(), renders.front().image.height());
+    for (const std::string &name : rgb_names("variance")) {
+        mean.add_channel(name);
+    }
+    for (const std::string &name : rgb_names()) {
+        std::vector<float> &values = mean.channel(name);
+        for (size_t i = 0; i < values.size(); ++i) {
+            double sum = 0;
+            for (const ControlledRender &render : renders) {
+                sum += static_cast<double>(render.image.channel(name)[i]);
+            }
+            values[i] = static_cast<float>(sum / static_cast<double>(renders.size()));
+        }
+    }
+    return mean;
+}
+
+/// Returns base + (with - without).
+Image shifted(const Image &base, const Image &with, const Image &without) {
+    Image image = Image::rgb(base.width(), base.height());
+    for (const std::string &name : rgb_names()) {
+        std::vector<float> &values = image.channel(name);
+        for (size_t i = 0; i < values.size(); ++i) {
+            values[i] = base.channel(name)[i] + (with.channel(name)[i] - without.channel(name)[i]);
+        }
+    }
+    return image;
+}
+
+ControlledRender render(RenderSession &session, uint32_t seed, uint64_t spp) {
+    session.restart(seed);
+    render_whole(session, 0, spp);
+    ControlledRender result;
+    result.image = session.develop();
+    const RenderStats stats = session.stats();
+    result.paths = static_cast<double>(stats.samples);
+    result.rays = static_cast<double>(stats.rays);
+    result.seconds = stats.device_seconds;
+    const nlohmann::json report = session.report();
+    if (report.contains("convergence") && !report.at("convergence").at("checks").empty()) {
+        result.live = report.at("convergence").at("checks").back().at("live");
+    }
+    return result;
+}
+
+/// Measures one scene with one curve: one row for each error limit.
+Json measure(const Description &description, const Scene &scene, const RenderSettings &curve,
+             const Image &reference, DeviceContext &device, const std::function<void()> &advance) {
+    std::vector<RenderSettings> settings = {curve};
+    for (const double error : description.errors) {
+        settings.push_back(with_error(curve, error));
+    }
+    std::vector<RenderSession> sessions;
+    for (const RenderSettings &s : settings) {
+        sessions.emplace_back(scene, s, device);
+    }
+    std::vector<std::vector<ControlledRender>> renders(sessions.size());
+    for (uint32_t seed = 1; seed <= description.seeds; ++seed) {
+        // The order alternates, so that other load on the machine affects all settings equally.
+        for (size_t turn = 0; turn < sessions.size(); ++turn) {
+            const size_t i = seed % 2 == 0 ? sessions.size() - 1 - turn : turn;
+            renders[i].push_back(render(sessions[i], seed, description.spp));
+            advance();
+        }
+    }
+    Json rows = Json::array();
+    for (size_t i = 0; i < description.errors.size(); ++i) {
+        Json row = compare_control(renders[i + 1], renders.front(), reference);
+        row["scene"] = scene.name();
+        row["algorithm"] = curve.algorithm;
+        row["error"] = description.errors[i];
+        row["settings"] = image_settings(settings[i + 1]);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::string table_of(const Json &document) {
+    std::string table = fmt::format(
+        "# Convergence control (thesis 3.3.7)\n\nRenders with control against equal renders "
+        "without it: {0} x {0} pixels, at most {1} samples each, {2} seeds.\n\n"
+        "*live*: pixels that control did not stop, %. *paths*, *rays*, *time*: camera paths, all "
+        "rays and device seconds, with control over without, %. *gain*: the rays that evenly "
+        "spread samples need for the RMSE reached, divided by those of control, with its 99 % "
+        "interval; below 1 is a loss. A pixel that stops by its own error estimate is biased. "
+        "*bias*: difference of the mean, %, with its 99 % interval. *blocks*: tests over blocks of "
+        "16 x 16 pixels and channels that detect the bias (Holm, 0.01), all tests, and tests that "
+        "are undecided because of skewness.\n\n"
+        "| scene | algorithm | error | live | paths | rays | time | RMSE | without | gain | from | "
+        "to | bias | from | to | blocks |\n"
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: "
+        "| ---: | ---: | --- |\n",
+        document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
+        document.at("seeds").get<uint32_t>());
+    const auto number = [](const Json &json, const char *key) {
+        return json.at(key).get<double>();
+    };
+    for (const Json &row : document.at("rows")) {
+        const Json &gain = row.at("efficiency"), &bias = row.at("bias"), &mean = bias.at("mean");
+        table += fmt::format("| {} | {} | {} ", row.at("scene").get<std::string>(),
+                             row.at("algorithm").get<std::string>(), number(row, "error"));
+        table += fmt::format("| {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.3g} | {:.3g} ",
+                             100 * number(row, "live"), 100 * number(row, "paths"),
+                             100 * number(row, "rays"), 100 * number(row.at("seconds"), "value"),
+                             number(row, "rmse"), number(row, "rmse_without"));
+        table += fmt::format("| {:.2f} | {:.2f} | {:.2f} ", number(gain, "value"),
+                             number(gain, "low"), number(gain, "high"));
+        table += fmt::format("| {:+.3f} | {:+.3f} | {:+.3f} ", 100 * number(mean, "value"),
+                             100 * number(mean, "low"), 100 * number(mean, "high"));
+        table += fmt::format("| {} of {}, {} |\n", bias.at("rejected").get<size_t>(),
+                             bias.at("tests").get<size_t>(), bias.at("undecided").get<size_t>());
+    }
+    return table;
+}
+
+}  // namespace
+
+nlohmann::json compare_control(const std::vector<ControlledRender> &with,
+                               const std::vector<ControlledRender> &without,
+                               const Image &reference) {
+    if (with.size() != without.size() || with.size() < 8) {
+        throw run_error(
+            fmt::format("a bias estimate needs at least 8 pairs of renders, got {} and {}",
+                        with.size(), without.size()));
+    }
+    const auto n = static_cast<double>(with.size());
+    const Image base = mean_of(without);
+    const double scale = sum_of(base);
+    std::vector<Image> batches;
+    std::vector<double> seconds, bias, cost_with, cost_without;
+    double paths = 0, paths_without = 0, rays = 0, rays_without = 0, live = 0, mse = 0,
+           mse_without = 0;
+    for (size_t i = 0; i < with.size(); ++i) {
+        const double own = compute_metrics(with[i].image, reference).mse,
+                     other = compute_metrics(without[i].image, reference).mse;
+        mse += own / n;
+        mse_without += other / n;
+        cost_with.push_back(own * with[i].rays);
+        cost_without.push_back(other * without[i].rays);
+        paths += with[i].paths;
+        paths_without += without[i].paths;
+        rays += with[i].rays;
+        rays_without += without[i].rays;
+        live += with[i].live / n;
+        seconds.push_back(with[i].seconds / without[i].seconds);
+        bias.push_back((sum_of(with[i].image) - sum_of(without[i].image)) / scale);
+        batches.push_back(shifted(base, with[i].image, without[i].image));
+    }
+    const Agreement blocks = test_agreement(batches, base);
+    const Interval change =
+        paired_error_ratio(cost_without, cost_with, 0.995);  // two one-sided bounds: 99 % together
+    return {{"paths", paths / paths_without},
+            {"rays", rays / rays_without},
+            {"live", live},
+            {"seconds", to_json(median_interval(seconds))},
+            {"rmse", std::sqrt(mse)},
+            {"rmse_without", std::sqrt(mse_without)},
+            {"efficiency", to_json(Interval{1 + change.value, 1 + change.low, 1 + change.high})},
+            {"bias",
+             {{"mean", to_json(mean_interval(bias, 0.99))},
+              {"tests", blocks.tests},
+              {"rejected", blocks.rejected},
+              {"undecided", blocks.undecided},
+              {"largest_z", blocks.largest_z},
+              {"largest_z_at", blocks.largest_z_at}}}};
+}
+
+fs::path run_control(const ControlOptions &options) {
+    const Description description = load(options.description, options.profile);
+    const fs::path out =
+        options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
+    const Json &wanted = description.file.json.at("reference");
+    std::vector<Scene> scenes;
+    std::vector<Image> references;
+    std::string inputs = description.file.of_profile(options.profile);
+    for (const fs::path &path : description.scenes) {
+        scenes.push_back(load_scene(path.string()));
+        StoredReference reference =
+            load_reference({description.file.resolve(wanted.at("folder")), scenes.back().name(),
+                            scenes.back().hash(), wanted.at("engine"), description.size,
+                            description.size, path.string()});
+        references.push_back(std::move(reference.reference.image));
+        inputs += reference.description.dump();
+    }
+    DeviceContext device(options.device);
+    const fs::path table = out / (description.name + ".md");
+    const Resumption resumption(out, description.name + ".json", inputs, device.info());
+    if (!resumption.finished([&](const Json &) { return fs::exists(table); }).is_null()) {
+        return table;
+    }
+    Json document = {{"schema_version", 1},
+                     {"commit", commit()},
+                     {"dirty", built_from_changed_sources()},
+                     {"device", device.info().name},
+                     {"profile", options.profile},
+                     {"size", description.size},
+                     {"spp", description.spp},
+                     {"seeds", description.seeds},
+                     {"load_average_start", load_average()},
+                     {"rows", Json::array()}};
+    const uint64_t renders_of_row = description.seeds * (description.errors.size() + 1);
+    Progress progress(description.name, renders_of_row * scenes.size() * description.curves.size(),
+                      "renders", options.quiet);
+    uint64_t finished = 0;
+    progress.update(finished);
+    for (size_t scene = 0; scene < scenes.size(); ++scene) {
+        for (const RenderSettings &curve : description.curves) {
+            const uint64_t before = finished;
+            const fs::path done = resumption.parts() /
+                                  fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm);
+            if (!fs::exists(done)) {
+                write_file(done, Json(measure(description, scenes[scene], curve, references[scene],
+                                              device, [&] { progress.update(++finished); }))
+                                         .dump(1) +
+                                     "\n");
+            }
+            const Json rows = load_json(done);
+            document["rows"].insert(document["rows"].end(), rows.begin(), rows.end());
+            progress.update(finished = before + renders_of_row);
+        }
+    }
+    document["load_average_end"] = load_average();
+    write_file(table, table_of(document));
+    resumption.finish(document);
+    return table;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/harness/kinds/gate.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "embedded/experiment_schemas.h"
+#include "experiments/harness/kinds/gate_checks.h"
+#include "renderer/base/commit.h"
+#include "renderer/base/files.h"
+#include "renderer/import/load_scene.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Json to_json(const StageErrors &stage) {
+    Json json = Json::object();
+    for (const auto &[spp, errors] : stage) {
+        json[std::to_string(spp)] = errors;
+    }
+    return json;
+}
+
+StageErrors parse_stage(const Json &json) {
+    StageErrors stage;
+    for (const auto &[spp, errors] : json.items()) {
+        stage[std::stoull(spp)] = errors.get<std::vector<double>>();
+    }
+    return stage;
+}
+
+/// Returns whether a curve was measured with these settings. Settings that did not exist when the
+/// baseline was measured count as their defaults.
+bool same_settings(const Json &stored, const RenderSettings &settings) {
+    Json before = image_settings(RenderSettings());
+    before.update(stored);
+    return before == image_settings(settings);
+}
+
+std::string update_command(const GateDescription &gate) {
+    return fmt::format("rtrays-experiment gate {} --update-baseline", gate.source);
+}
+
+Json load_baseline(const GateDescription &gate, const Scene &scene) {
+    if (!fs::exists(gate.baseline)) {
+        throw Error(ExitCode::reference_missing,
+                    fmt::format("the baseline {} does not exist; measure it with:\n  {}",
+                                gate.baseline.string(), update_command(gate)));
+    }
+    const std::string source = gate.baseline.string(), text = read_file(gate.baseline);
+    const Json baseline = parse_json(text, source);
+    validate_json(baseline,
+                  std::string(embedded::experiment_schemas().text("baseline.schema.json")), source,
+                  text);
+    if (baseline.at("scene_hash") != scene.hash() ||
+        baseline.at("size") != Json{gate.width, gate.height}) {
+        throw input_error(fmt::format(
+            "{} was measured with another version of the scene or another size; update it with:\n  "
+            "{}",
+            source, update_command(gate)));
+    }
+    return baseline;
+}
+
+std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredReference &reference) {
+    const Json baseline = load_baseline(bench.gate, bench.scene);
+    std::vector<CheckLine> lines;
+    for (const auto &curve : bench.gate.curves) {
+        if (!baseline.at("curves").contains(curve.id())) {
+            throw input_error(fmt::format("{} has no curve '{}'; update it with:\n  {}",
+                                          bench.gate.baseline.string(), curve.id(),
+                                          update_command(bench.gate)));
+        }
+        const Json &stored = baseline.at("curves").at(curve.id());
+        if (!same_settings(stored.at("settings"), curve.settings)) {
+            throw input_error(fmt::format(
+                "{}: curve '{}' was measured with other settings; update it with:\n  {}",
+                bench.gate.baseline.string(), curve.id(), update_command(bench.gate)));
+        }
+        const CurveBaseline errors{parse_stage(stored.at("first_stage")),
+                                   parse_stage(stored.at("second_stage"))};
+        for (auto &line : check_convergence(bench, curve, reference.reference, errors)) {
+            lines.push_back(std::move(line));
+        }
+    }
+    return lines;
+}
+
+/// Prints how an update changes the error of one curve at one sample count.
+void print_change(const std::string &id, const std::string &spp, const std::vector<double> &now,
+                  const Json &previous) {
+    const Json::json_pointer place("/curves/" + id + "/first_stage/" + spp);
+    if (!previous.contains(place) || previous.at(place).size() != now.size()) {
+        fmt::print("{} at {} spp: RMSE {:.5g} (new)\n", id, spp, median(now));
+        return;
+    }
+    const auto before = previous.at(place).get<std::vector<double>>();
+    fmt::print("{} at {} spp: RMSE {:.5g} -> {:.5g} ({:+.2f} %)\n", id, spp, median(before),
+               median(now), 100 * paired_error_ratio(now, before).value);
+}
+
+/// Prints the entries of the previous baseline that the new one lacks.
+void print_dropped(const Json &baseline, const Json &previous) {
+    const Json curves = previous.value("curves", Json::object());
+    for (const auto &[id, curve] : curves.items()) {
+        for (const auto &stage : curve.at("first_stage").items()) {
+            if (!baseline.contains(
+                    Json::json_pointer("/curves/" + id + "/first_stage/" + stage.key()))) {
+                fmt::print("{} at {} spp: dropped\n", id, stage.key());
+            }
+        }
+    }
+}
+
+void update_baseline(const GateBench &bench, const StoredReference &reference) {
+    const auto &gate = bench.gate;
+    const Json previous = fs::exists(gate.baseline) ? load_json(gate.baseline) : Json::object();
+    require_writable(gate.baseline);
+    Json baseline = {{"schema_version", 1},
+                     {"gate", gate.name},
+                     {"commit", version()},
+                     {"scene_hash", bench.scene.hash()},
+                     {"reference_spp", reference.description.at("spp")},
+                     {"size", {gate.width, gate.height}}};
+    for (const auto &curve : gate.curves) {
+        const auto first = measure_errors(bench, curve, reference.reference, first_stage_seed,
+                                          gate.convergence.renders);
+        const auto second = measure_errors(bench, curve, reference.reference, second_stage_seed,
+                                           gate.convergence.second_stage_renders);
+        baseline["curves"][curve.id()] = {{"settings", image_settings(curve.settings)},
+                                          {"first_stage", to_json(first)},
+                                          {"second_stage", to_json(second)}};
+        for (const auto &[spp, errors] : first) {
+            print_change(curve.id(), std::to_string(spp), errors, previous);
+        }
+    }
+    print_dropped(baseline, previous);
+    write_file(gate.baseline, baseline.dump(1) + "\n");
+    fmt::print("wrote {}\n", gate.baseline.string());
+}
+
+}  // namespace
+
+ExitCode run_gate(const GateOptions &options) {
+    const GateDescription gate = load_gate(options.gate);
+    const Scene scene = load_scene(gate.scene.string());
+    const auto wants = [&](const char *check) {
+        return options.check == "all" || options.check == check;
+    };
+    StoredReference reference;
+    if (options.update_baseline || wants("convergence") || wants("planted_errors")) {
+        reference = load_reference(gate, scene);  // before anything is rendered
+    }
+    if (options.check == "bitwise" && !gate.bitwise) {
+        throw input_error(fmt::format("{} has no checks \"bitwise\"", gate.source));
+    }
+    if (!options.update_baseline && wants("planted_errors")) {
+        require_plantable(gate.planted.errors);  // before anything is rendered
+    }
+    DeviceContext device(options.device);
+    const GateBench bench{gate, scene, device, options.quiet};
+    if (options.update_baseline) {
+        update_baseline(bench, reference);
+        return ExitCode::ok;
+    }
+
+    size_t checks = 0, failed = 0;
+    const auto report = [&](const std::vector<CheckLine> &lines) {
+        for (const auto &line : lines) {
+            fmt::print("{} {}\n", line.passed ? "ok  " : "FAIL", line.text);
+            failed += line.passed ? 0 : 1;
+        }
+        checks += lines.size();
+    };
+    if (gate.bitwise && wants("bitwise")) {
+        report(check_bitwise(bench));
+    }
+    if (wants("convergence")) {
+        report(check_all_curves(bench, reference));
+    }
+    if (wants("planted_errors")) {
+        report(check_planted_errors(bench, reference.reference));
+    }
+    fmt::print("{}\n", gate_summary(checks, failed));
+    return failed == 0 ? ExitCode::ok : ExitCode::regression;
+}
+
+}  // namespace rtrays

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Another renderer as a contestant: a separate process that renders on request.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/harness/core/contest.h"
+#include "renderer/base/process.h"
+#include "renderer/scene/scene.h"
+
+namespace rtrays {
+
+/// Process of `scripts/*_driver.py --serve`. Mitsuba 3 runs in the Python environment that
+/// `scripts/install --peers` creates; Cycles runs in Blender.
+class Peer {
+  public:
+    /// Exports the scene to `folder`, starts the renderer and waits until it has loaded the scene.
+    /// `kind` is a variant of Mitsuba ("scalar_rgb" or "llvm_ad_rgb") or "cycles". `is_there` is
+    /// false if the renderer or the variant is not installed.
+    Peer(const Scene &scene, const std::filesystem::path &folder, const std::string &kind);
+
+    bool is_there() const { return !engine_.empty(); }
+    const std::string &engine() const { return engine_; }  ///< "Mitsuba 3.9.1 scalar_rgb"
+
+    /// Returns the name of a kind that need not be installed: "Mitsuba 3 scalar_rgb".
+    static std::string name_of(const std::string &kind);
+
+    /// Renders one frame of path tracing without roulette and returns its duration, measured in the
+    /// process. `max_depth` has RTRays' meaning. Throws `Error` (run failed) if the process ends.
+    Seconds render(uint32_t max_depth, uint64_t spp);
+
+  private:
+    /// Returns the next line of JSON, or an empty text when the output ends. Other lines are
+    /// skipped, because Blender prints its own.
+    std::string next_record();
+
+    Process process_;
+    uint64_t frames_;  ///< frames in one call, more than one if a call has an overhead
+    std::string engine_;
+    uint32_t seed_ = 0;
+};
+
+}  // namespace rtrays

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/harness/kinds/scene_agreement.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "experiments/harness/core/agreement.h"
+#include "experiments/harness/core/array_file.h"
+#include "experiments/harness/core/description.h"
+#include "experiments/harness/core/document.h"
+#include "experiments/harness/kinds/ladder.h"
+#include "reference/film.h"
+#include "reference/renderer.h"
+#include "renderer/base/commit.h"
+#include "renderer/base/files.h"
+#include "renderer/base/progress.h"
+#include "renderer/compile/compile_scene.h"
+#include "renderer/device/context.h"
+#include "renderer/import/load_scene.h"
+#include "renderer/session/render_session.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Seeds of the generators of the two renderers. They need not differ.
+constexpr uint32_t renderer_seed = 21;  // of the first algorithm; the next ones use 22, 23, ...
+constexpr uint64_t reference_seed = 22;
+
+struct Description {
+    std::string name;
+    std::vector<fs::path> scenes;
+    int size = 0;  ///< pixels along a side
+    uint64_t spp = 0;
+    uint64_t reference_spp = 0;
+    std::vector<std::string> algorithms = {"path_tracing"};
+    std::string features = "scene";
+    AgreementPolicy policy;
+};
+
+constexpr uint64_t batches = 32;  ///< for each renderer, see `render_batches`
+
+Description load(const fs::path &path, const std::string &profile) {
+    const DescriptionFile file = load_description(path, "agreement.schema.json");
+    Description description;
+    file.json.at("name").get_to(description.name);
+    const Json &chosen = file.profile(profile);
+    for (const Json &scene : chosen.at("scenes")) {
+        const fs::path named = file.resolve(file.json.at("folder")) / scene.get<std::string>();
+        if (named.filename() != "*") {
+            description.scenes.push_back(named.string() + ".json");
+            continue;
+        }
+        const size_t before = description.scenes.size();
+        for (const auto &entry : fs::directory_iterator(named.parent_path())) {
+            if (entry.path().extension() == ".json") {
+                description.scenes.push_back(entry.path());
+            }
+        }
+        std::sort(description.scenes.begin() + static_cast<std::ptrdiff_t>(before),
+                  description.scenes.end());
+    }
+    chosen.at("size").get_to(description.size);
+    chosen.at("spp").get_to(description.spp);
+    chosen.at("reference_spp").get_to(description.reference_spp);
+    description.algorithms = file.json.value("algorithms", description.algorithms);
+    description.features = chosen.value("features", description.features);
+    // Bonferroni over all rows: each algorithm against the reference, and each pair of algorithms.
+    const size_t algorithms = description.algorithms.size();
+    description.policy.alpha /= static_cast<double>(
+        description.scenes.size() * (algorithms + algorithms * (algorithms - 1) / 2));
+    return description;
+}
+
+/// Returns alpha^2 of the narrowest glossy lobe of all materials (the product of both axes if
+/// anisotropic), or infinity if there is none.
+double narrowest_lobe(const MaterialArrays &materials) {
+    using Kind = BxdfComponent::Kind;
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (const BxdfComponent &component : materials.component) {
+        switch (component.kind) {
+            case Kind::lambert:
+            case Kind::oren_nayar:
+            case Kind::ideal_reflection:
+            case Kind::ideal_refraction:
+                break;
+            case Kind::blinn:  // Walter et al. 2007, section 5.2
+                narrowest = std::min(narrowest, 2 / (component.exponent + 2));
+                break;
+            case Kind::ward:
+            case Kind::ward_original:
+            case Kind::microfacet_reflection:
+            case Kind::microfacet_refraction:
+                narrowest = std::min(narrowest, component.alpha.prod());
+        }
+    }
+    return narrowest;
+}
+
+/// Light of a scene that an algorithm cannot see.
+struct BlindSpot {
+    std::string name;  ///< description, empty if the algorithm sees all light
+    /// The light that the algorithm sees, so that the reference can be restricted to it.
+    std::optional<JoinableLight> joinable;
+    bool judged = true;  ///< whether the sample counts suffice to test the rest
+};
+
+BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
+                     const Description &description) {
+    if (algorithm != "light_tracing") {
+        return {};
+    }
+    // Light tracing connects its last vertex to the camera. Light from infinity starts on the
+    // scene's bounding sphere.
+    const SceneArrays &arrays = scene.arrays();
+    std::vector<std::string> names;
+    const auto &components = arrays.materials.component;
+    if (std::any_of(components.begin(), components.end(), [](const BxdfComponent &component) {
+            return component.kind == BxdfComponent::Kind::ideal_reflection ||
+                   component.kind == BxdfComponent::Kind::ideal_refraction;
+        })) {
+        names.emplace_back("mirrors and smooth glass");
+    }
+    const auto &lights = arrays.lights.kind;
+    const bool seen_at_infinity =
+        std::any_of(lights.begin(), lights.end(), [](LightArrays::Kind kind) {
+            return kind == LightArrays::Kind::dome || kind == LightArrays::Kind::environment;
+        });
+    if (seen_at_infinity) {
+        names.emplace_back("infinitely distant light");
+    }
+    BlindSpot spot;
+    const auto &shapes = arrays.shapes.kind;
+    const bool parallel =
+        seen_at_infinity ||
+        std::find(lights.begin(), lights.end(), LightArrays::Kind::directional) != lights.end();
+    JoinableLight joinable;
+    if (parallel &&
+        std::find(shapes.begin(), shapes.end(), ShapeArrays::Kind::plane) != shapes.end()) {
+        names.emplace_back("planes beyond the scene's bounding sphere");
+        CompileSettings settings;
+        settings.width = settings.height = description.size;
+        const LightingRecord lighting = compile_scene(scene, settings).lighting;
+        joinable.centre = Eigen::Map<const Eigen::Vector3f>(lighting.scene_centre).cast<double>();
+        joinable.radius = static_cast<double>(lighting.scene_radius);
+    }
+    if (!names.empty()) {
+        spot.joinable = joinable;
+    }
+    // A connected path is not sampled from the lobe of its vertex. About alpha^2 / 2 of the paths
+    // that reach a block are in the lobe (the share of the half vectors), and each is weighted by
+    // the inverse. With fewer than 30 such paths, a t test cannot estimate the scatter.
+    const double paths =
+        static_cast<double>(description.spp) * std::pow(description.policy.block_size, 2);
+    if (paths * narrowest_lobe(arrays.materials) / 2 < 30) {
+        names.emplace_back("nearly specular lobes, too few paths");
+        spot.judged = false;
+    }
+    spot.name = fmt::format("{}", fmt::join(names, "; "));
+    return spot;
+}
+
+const char *verdict_of(const Agreement &agreement, const BlindSpot &blind) {
+    if (!blind.judged) {
+        return "not judged";
+    }
+    if (!agreement.agrees()) {
+        return "disagrees";
+    }
+    return agreement.tests > agreement.undecided ? "agrees" : "undecided";
+}
+
+/// Returns whether a row fails. A row against the reference must agree. A row of two algorithms may
+/// be undecided.
+bool fails(const Json &row) {
+    const auto verdict = row.at("verdict").get<std::string>();
+    return verdict == "disagrees" ||
+           (verdict == "undecided" && row.at("against").get<std::string>() == "reference");
+}
+
+/// Renders the image in batches.
+std::vector<Image> render(const Scene &scene, const Description &description,
+                          const std::string &algorithm, uint32_t seed, DeviceContext &device) {
+    RenderSettings settings;
+    settings.algorithm = algorithm;
+    settings.width = settings.height = description.size;
+    settings.seed = seed;
+    settings.features = description.features;
+    RenderSession session(scene, settings, device);
+    return render_batches(session, seed, description.spp, batches);
+}
+
+/// Returns the mean of R, G, B over the batches.
+Image mean_of(const std::vector<Image> &images) {
+    Image mean = Image::rgb(images.front().width(), images.front().height());
+    for (const std::string &name : rgb_names()) {
+        std::vector<float> &values = mean.channel(name);
+        for (size_t i = 0; i < values.size(); ++i) {
+            double sum = 0;
+            for (const Image &image : images) {
+                sum += static_cast<double>(image.channel(name)[i]);
+            }
+            values[i] = static_cast<float>(sum / static_cast<double>(images.size()));
+        }
+    }
+    return mean;
+}
+
+std::vector<Image> render_reference(const Scene &scene, const Description &description,
+                                    const std::optional<JoinableLight> &joinable_only) {
+    ReferenceSettings settings;
+    settings.joinable_only = joinable_only;
+    settings.width = settings.height = description.size;
+    settings.camera = static_cast<size_t>(scene.active_camera());
+    settings.seed = reference_seed;
+    ReferenceRenderer reference(scene.arrays(), settings);
+    std::vector<Image> images;
+    for (uint64_t batch = 0; batch < batches; ++batch) {
+        reference.restore(reference::Film(description.size, description.size, 0), 0);
+        render_whole(reference, batch * description.reference_spp / batches,
+                     (batch + 1) * description.reference_spp / batches);
+        images.push_back(reference.develop());
+    }
+    return images;
+}
+
+/// Renders and tests a scene with every algorithm and returns the rows. Stores the images in
+/// `folder` as the arrays NAME.ALGORITHM.npy, NAME.reference.npy and NAME.reference.ALGORITHM.npy.
+/// The last one is the reference restricted to the light that the algorithm sees.
+Json measure(const Scene &scene, const Description &description, DeviceContext &device,
+             const fs::path &folder) {
+    const std::vector<Image> whole = render_reference(scene, description, {});
+    write_array(mean_of(whole), folder / (scene.name() + ".reference.npy"));
+    Json rows = Json::array();
+    const auto add_row = [&](const std::string &algorithm, const std::string &against,
+                             const BlindSpot &blind, const Agreement &agreement) {
+        rows.push_back({{"scene", scene.name()},
+                        {"algorithm", algorithm},
+                        {"against", against},
+                        {"blind", blind.name},
+                        {"verdict", verdict_of(agreement, blind)},
+                        {"rejected", agreement.rejected},
+                        {"tests", agreement.tests},
+                        {"undecided", agreement.undecided},
+                        {"largest_z", agreement.largest_z},
+                        {"relative_difference", to_json(agreement.relative_difference)},
+                        {"equivalence", to_string(agreement.equivalence)}});
+    };
+    std::map<std::string, std::vector<Image>> seeing;  // by algorithm, of those that see all light
+    uint32_t seed = renderer_seed;
+    for (const std::string &algorithm : description.algorithms) {
+        const std::vector<Image> images = render(scene, description, algorithm, seed++, device);
+        write_array(mean_of(images), folder / fmt::format("{}.{}.npy", scene.name(), algorithm));
+        const BlindSpot blind = blind_spot(algorithm, scene, description);
+        const std::vector<Image> reference =
+            blind.joinable ? render_reference(scene, description, blind.joinable) : whole;
+        if (blind.joinable) {
+            write_array(mean_of(reference),
+                        folder / fmt::format("{}.reference.{}.npy", scene.name(), algorithm));
+        }
+        add_row(algorithm, "reference", blind,
+                test_agreement(images, reference, description.policy));
+        if (blind.name.empty()) {
+            for (const auto &[other, its_images] : seeing) {
+                add_row(algorithm, other, blind,
+                        test_agreement(images, its_images, description.policy));
+            }
+            seeing[algorithm] = images;
+        }
+    }
+    return rows;
+}
+
+/// Returns the key of a finished scene: everything that its result depends on.
+std::string key_of(const Scene &scene, const Description &description) {
+    return fmt::format("{} {} {} {} {} {} {}", scene.hash(), description.size, description.spp,
+                       description.reference_spp, fmt::join(description.algorithms, " "),
+                       description.features, version());
+}
+
+std::string line_of(const Json &row) {
+    const Json &difference = row.at("relative_difference");
+    const std::string blind = row.at("blind").get<std::string>();
+    return fmt::format(
+        "{}{}: {} against {}: {}, {} of {} tests reject, {} undecided, largest |z| {:.1f}, mean "
+        "{:+.3f} % [{:+.3f}, {:+.3f}]{}\n",
+        fails(row) ? "FAIL " : "ok   ", row.at("scene").get<std::string>(),
+        row.at("algorithm").get<std::string>(), row.at("against").get<std::string>(),
+        row.at("verdict").get<std::string>(), row.at("rejected").get<size_t>(),
+        row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(),
+        row.at("largest_z").get<double>(), 100 * difference.at("value").get<double>(),
+        100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
+        blind.empty() ? "" : "; not seen: " + blind);
+}
+
+std::string table_of(const Json &document) {
+    std::string table = fmt::format(
+        "Comparison of the renderer with the Embree reference, and of its algorithms with each "
+        "other: {0} x {0} pixels, {1} spp, {2} spp for the reference. Blocks of 16 x 16 pixels and "
+        "the full image are tested for each channel. The level is {3:.2g} over all rows, with "
+        "Holm's correction; the variances come from {4} batches. A block is undecided if its "
+        "batches are too skewed for a t test, and a row is undecided if most of its blocks are. "
+        "The last columns are the difference of the mean with its 99 % interval, in %, and the "
+        "light that the algorithm cannot see. The reference then excludes this light, too. "
+        "\"Nearly specular lobes\": a connected path is not sampled from the lobe of its vertex, "
+        "and fewer than 30 of the paths that reach a block are in the narrowest lobe. Such rows "
+        "are not judged.\n\n"
+        "| scene | algorithm | against | verdict | tests | undecided | rejected | largest z | "
+        "difference | from | to | not seen |\n"
+        "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
+        document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
+        document.at("reference_spp").get<uint64_t>(), AgreementPolicy().alpha, batches);
+    for (const Json &row : document.at("rows")) {
+        const Json &difference = row.at("relative_difference");
+        table += fmt::format(
+            "| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:+.3f} | {:+.3f} | {:+.3f} | {} |\n",
+            row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(),
+            row.at("against").get<std::string>(), row.at("verdict").get<std::string>(),
+            row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(),
+            row.at("rejected").get<size_t>(), row.at("largest_z").get<double>(),
+            100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
+            100 * difference.at("high").get<double>(), row.at("blind").get<std::string>());
+    }
+    return table;
+}
+
+}  // namespace
+
+ExitCode run_agreement(const AgreeOptions &options) {
+    const Description description = load(options.description, options.profile);
+    const fs::path out =
+        options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
+    const fs::path partial = out / "partial";
+    fs::create_directories(partial);
+    fs::create_directories(out / "images");
+    DeviceContext device(options.device);
+    Json document = {{"schema_version", 1},
+                     {"commit", version()},
+                     {"device", device.info().name},
+                     {"size", description.size},
+                     {"spp", description.spp},
+                     {"reference_spp", description.reference_spp},
+                     {"features", description.features}};
+    bool agrees = true;
+    Progress progress(description.name, description.scenes.size(), "scenes", options.quiet);
+    size_t finished = 0;
+    for (const fs::path &path : description.scenes) {
+        const Scene scene = load_scene(path.string());
+        const fs::path done = partial / (scene.name() + ".json");
+        const std::string key = key_of(scene, description);
+        Json result = fs::exists(done) ? load_json(done) : Json::object();
+        if (result.value("key", "") != key) {
+            result = {{"key", key}, {"rows", measure(scene, description, device, out / "images")}};
+            write_file(done, result.dump(1) + "\n");
+        }
+        for (const Json &row : result.at("rows")) {
+            fmt::print("{}", line_of(row));
+            agrees = agrees && !fails(row);
+            document["rows"].push_back(row);
+        }
+        std::fflush(stdout);
+        progress.update(++finished);
+    }
+    write_file(out / "agreement.json", document.dump(1) + "\n");
+    write_file(out / "agreement.md", table_of(document));
+    return agrees ? ExitCode::ok : ExitCode::regression;
+}
+
+}  // namespace rtrays
