@@ -43,6 +43,7 @@ struct Options {
     bool quiet = false;
     bool dry_run = false;
     bool print_scene = false;
+    std::string algorithm = algorithms::path_tracing.name;
     RenderSettings settings;
 };
 
@@ -208,6 +209,7 @@ ExitCode run(Options &options) {
             apply_setting(options.settings, assignment);
         }
     }
+    options.settings.algorithm = &algorithm_named(options.algorithm);
     scene.update(options.scene_time);
     if (options.print_scene) {
         fmt::print("{}", scene.describe());
@@ -342,7 +344,7 @@ ExitCode parse_and_run(int argc, char **argv) {
     app.add_option(
         "--export", options.exported,
         "write the scene for Mitsuba 3 (.xml) or Blender's Cycles (.blender.json) and stop");
-    app.add_option("--algorithm", options.settings.algorithm, "see --list-algorithms")
+    app.add_option("--algorithm", options.algorithm, "see --list-algorithms")
         ->capture_default_str();
     app.add_option("--passes", options.settings.passes,
                    "passes to render: all, camera or light; truncated_bdpt has both, for merge")

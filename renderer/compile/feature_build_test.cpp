@@ -40,6 +40,9 @@ TEST_P(FeatureBuild, Succeeds) {
                              : index == -1
                                  ? FeatureMask()
                                  : FeatureMask::all().with(static_cast<Feature>(index), false);
+    const auto passes = [&](const Algorithm &algorithm) {
+        return algorithm_passes(algorithm, {mask, 1, true, 2});
+    };
     // One program contains all stages of a pass, so that shared code is parsed once.
     const auto build = [](const Pass &pass, std::vector<Stage> stages) {
         for (const RoundStage &stage : pass.round) {
@@ -59,18 +62,18 @@ TEST_P(FeatureBuild, Succeeds) {
             }
         }) << to_string(pass.kind);
     };
-    for (const Pass &pass : algorithm_passes("bdpt", mask, 1, 2)) {
+    for (const Pass &pass : passes(algorithms::bdpt)) {
         build(pass, {Stage::reset_streams, Stage::carry_film});
     }
-    for (const Pass &pass : megakernel_passes(algorithm_passes("path_tracing", mask, 1, 2))) {
+    for (const Pass &pass : megakernel_passes(passes(algorithms::path_tracing))) {
         build(pass, {});
     }
-    for (Pass pass : algorithm_passes("light_tracing", mask, 1, 2)) {
+    for (Pass pass : passes(algorithms::light_tracing)) {
         pass.round = pass.last_paths;
         build(pass, {});
     }
     // For other algorithms, compile only the stages that the algorithms above do not have.
-    for (Pass pass : algorithm_passes("whitted", mask, 1, 2)) {
+    for (Pass pass : passes(algorithms::whitted)) {
         pass.round = {pass.round[pass.round.size() - 2]};
         build(pass, {Stage::end_paths});
     }

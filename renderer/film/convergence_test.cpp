@@ -33,7 +33,7 @@ Scene cornell_box() {
 RenderSettings small(const std::vector<std::string> &assignments = {},
                      const std::string &algorithm = "path_tracing") {
     RenderSettings settings;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm_named(algorithm);
     settings.width = settings.height = 32;
     settings.stream_capacity = 512;
     settings.convergence_start = start;

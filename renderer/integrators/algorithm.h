@@ -1,59 +1,77 @@
 // SPDX-License-Identifier: MIT
-// Algorithms as passes, and passes as rounds of stages.
+// Algorithms: what each of them computes, sees and supports, and its passes.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "renderer/compile/pass_kind.h"
-#include "renderer/compile/stage_table.h"
-#include "renderer/shared/features.h"
-#include "renderer/shared/scene_records.h"
+#include "renderer/integrators/pass.h"
+#include "renderer/integrators/sight.h"
 
 namespace rtrays {
 
-/// A stage in a round.
-struct RoundStage {
-    Stage stage;
-    /// Index of the light of sample_light (SELECT_LIGHT: one is selected at random), or of the
-    /// light vertex of connect_vertices.
-    uint32_t chosen = SELECT_LIGHT;
-    /// The stage is launched in the first `rounds` rounds of a chunk of work, 0: in every round.
-    uint32_t rounds = 0;
+/// Numbers of light paths that an algorithm can trace in a sample of the image.
+enum class LightPaths {
+    none,
+    any,                  ///< also 0: the algorithm then has only its paths from the camera
+    at_least_one,         ///< the image consists of light paths alone
+    one_per_camera_path,  ///< passes share the light paths, because their vertices are connected
 };
 
-/// A pass traces paths from one end, the camera or the lights. Each round advances every path in
-/// flight by one vertex, and rounds repeat until all paths have ended. An algorithm's image is the
-/// sum over its passes.
-///
-/// Passes are independent of each other unless they have `vertex_joins`. With that feature the work
-/// is cut into chunks of as many paths as the streams hold, and the passes follow one another
-/// within each chunk. All paths of a chunk start in its first round, so that a path's depth equals
-/// the round's index.
-struct Pass {
-    PassKind kind;
-    /// Features of the pass's kernels and path states.
+/// An algorithm: a row of the registry. A file of this folder defines each of them.
+struct Algorithm {
+    const char *name = nullptr;
+    /// Contents of the image, in a few words.
+    const char *computes = nullptr;
+    /// Classes of light paths in the image.
+    Sight sees;
+    bool traces_camera_paths = true;
+    LightPaths light_paths = LightPaths::none;
+    /// Whether it draws random numbers. Otherwise its samples use a fixed set of points, and every
+    /// vertex is connected to every light.
+    bool is_random = true;
+    /// Whether integrator.strategies selects its strategies.
+    bool selects_strategies = false;
+    /// Whether convergence control may stop its camera paths in a pixel.
+    bool stops_pixels = false;
+    /// Whether one kernel can trace complete paths (device.pipeline=megakernel).
+    bool has_megakernel = false;
+    /// Maximum number of scattering events that replaces every other, 0: integrator.max_depth is
+    /// valid.
+    uint32_t fixed_depth = 0;
+    /// Maximum number of scattering events if integrator.max_depth is 0, 0: no limit.
+    uint32_t default_depth = 0;
+    /// Features that no other algorithm has.
     FeatureMask features;
-    /// Stages in order, without those that the features do not require.
-    std::vector<RoundStage> round;
-    /// Whether this pass adds the emission that its paths hit; otherwise another pass adds it.
-    bool adds_hits = true;
-    /// Whether streams of paths connect the pass's stages; otherwise its only stage runs once and
-    /// traces all paths to their ends.
-    bool streams = true;
-    /// Round for the last few paths, which advances each of them by many vertices. Empty if they
-    /// use the normal round to the end.
-    std::vector<RoundStage> last_paths = {};
+    /// Returns the passes, none if the scene has no light that the algorithm could see.
+    std::vector<Pass> (*passes)(const PassRequest &request) = nullptr;
+
+    bool traces_light_paths() const { return light_paths != LightPaths::none; }
 };
 
-/// Returns the passes of an algorithm (settings.h lists the names) for a scene and settings with
-/// these features. `light_count` is the number of lights, each of which is sampled separately if
-/// `independent_lights` is on. `light_vertices` is the number of vertices stored per light path if
-/// the algorithm connects them to camera paths. With `apart`, paths from the camera are traced once
-/// for each strategy that ends them, weighted against all strategies: each pass's image is the
-/// contribution of its strategy (thesis, figures 4.8 to 4.17).
-std::vector<Pass> algorithm_passes(const std::string &algorithm, FeatureMask features,
-                                   uint32_t light_count, uint32_t light_vertices,
-                                   bool apart = false);
+namespace algorithms {
+
+extern const Algorithm ray_casting;
+extern const Algorithm whitted;
+extern const Algorithm path_tracing;
+extern const Algorithm light_tracing;
+extern const Algorithm bdpt;
+extern const Algorithm truncated_bdpt;
+
+}  // namespace algorithms
+
+/// Returns all algorithms, in the order of messages and documentation.
+const std::vector<const Algorithm *> &all_algorithms();
+
+/// Returns the names of all algorithms.
+const std::vector<std::string> &algorithm_names();
+
+/// Returns the algorithm of that name. Throws `Error` (bad usage) that lists the names if there is
+/// none.
+const Algorithm &algorithm_named(const std::string &name);
+
+/// Returns the passes of an algorithm. Features that belong to other algorithms are switched off:
+/// with device.features=all the request has them.
+std::vector<Pass> algorithm_passes(const Algorithm &algorithm, PassRequest request);
 
 }  // namespace rtrays

@@ -21,7 +21,7 @@ Image render(const std::string &scene, const std::string &algorithm, bool apart,
     static DeviceContext device;
     RenderSettings settings;
     settings.width = settings.height = 32;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm_named(algorithm);
     settings.variance = false;
     settings.strategies_apart = apart;
     settings.stream_capacity = 512;

@@ -2,7 +2,7 @@
 // Ray counts by depth for the rounds of any algorithm.
 #pragma once
 
-#include "renderer/integrators/algorithm.h"
+#include "renderer/integrators/pass.h"
 
 namespace rtrays {
 

@@ -2,7 +2,7 @@
 // Path tracing with a single kernel instead of a wavefront of stages.
 #pragma once
 
-#include "renderer/integrators/algorithm.h"
+#include "renderer/integrators/pass.h"
 
 namespace rtrays {
 

@@ -121,7 +121,7 @@ TEST(Megakernel, HasOneStageAndNoStreams) {
 TEST(Megakernel, RefusesOtherAlgorithms) {
     for (const std::string &algorithm : algorithm_names()) {
         RenderSettings settings;
-        settings.algorithm = algorithm;
+        settings.algorithm = &algorithm_named(algorithm);
         settings.pipeline = "megakernel";
         if (algorithm == "path_tracing") {
             EXPECT_NO_THROW(require_consistent(settings));

@@ -31,7 +31,7 @@ struct Rendered {
 Rendered render(const Scene &scene, const std::string &algorithm,
                 const std::vector<std::string> &assignments, uint64_t samples = 5) {
     RenderSettings settings;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm_named(algorithm);
     settings.width = settings.height = 16;
     settings.stream_capacity = 100;
     for (const std::string &assignment : assignments) {

@@ -16,11 +16,11 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// Returns the mean of the green channel over the image, and its standard error from 32 batches.
-std::pair<double, double> mean_of(const std::string &scene, const std::string &algorithm,
+std::pair<double, double> mean_of(const std::string &scene, const Algorithm &algorithm,
                                   uint32_t max_depth) {
     static DeviceContext device;
     RenderSettings settings;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm;
     settings.max_depth = max_depth;
     RenderSession session(load_scene(RTRAYS_SCENES "/analytic/" + scene), settings, device);
     constexpr uint64_t batches = 32, spp = 512;
@@ -55,21 +55,26 @@ double expected_radiance() {
     return sum / (64 * 64);
 }
 
-TEST(Visibility, LightPathsSeeTheCausticOfAPointLight) {
+// The algorithms without random numbers see no caustic, and their samples have no scatter.
+TEST(Visibility, IsThatOfTheRegistryForTheCausticOfAPointLight) {
     const double expected = expected_radiance();
-    for (const char *algorithm : {"light_tracing", "bdpt", "truncated_bdpt"}) {
-        const auto [mean, error] = mean_of("caustic.json", algorithm, 2);
+    for (const Algorithm *algorithm : all_algorithms()) {
+        const auto [mean, error] = mean_of("caustic.json", *algorithm, 2);
+        if (algorithm->sees.of(PathClass::delta_light_caustics) == Visibility::no) {
+            EXPECT_EQ(mean, 0) << algorithm->name;
+            continue;
+        }
         // With 3.5 standard errors for each of three means, the family-wise level is 0.005
         // (Student's t with 31 degrees of freedom).
-        EXPECT_LT(std::abs(mean - expected), 3.5 * error) << algorithm;
+        EXPECT_LT(std::abs(mean - expected), 3.5 * error) << algorithm->name;
         EXPECT_LT(error, 0.02 * expected) << "statistical power";
     }
-    EXPECT_EQ(mean_of("caustic.json", "path_tracing", 2).first, 0);
 }
 
-TEST(Visibility, NothingSeesItInAMirror) {
-    for (const char *algorithm : {"path_tracing", "light_tracing", "bdpt", "truncated_bdpt"}) {
-        EXPECT_EQ(mean_of("caustic_in_mirror.json", algorithm, 0).first, 0) << algorithm;
+TEST(Visibility, IsThatOfTheRegistryForItsMirrorImage) {
+    for (const Algorithm *algorithm : all_algorithms()) {
+        EXPECT_EQ(algorithm->sees.of(PathClass::mirrored_delta_light_caustics), Visibility::no);
+        EXPECT_EQ(mean_of("caustic_in_mirror.json", *algorithm, 0).first, 0) << algorithm->name;
     }
 }
 

@@ -38,7 +38,7 @@ Scene scene_of(const std::string &nodes) {
 RenderSettings settings_of(const std::string &algorithm,
                            const std::vector<std::string> &assignments = {}) {
     RenderSettings settings;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm_named(algorithm);
     settings.stream_capacity = 300;
     for (const std::string &assignment : assignments) {
         apply_setting(settings, assignment);

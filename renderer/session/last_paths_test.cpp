@@ -38,7 +38,7 @@ Rendered render(const Scene &scene, const std::string &algorithm,
                 const std::vector<std::string> &assignments) {
     static DeviceContext device;
     RenderSettings settings;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm_named(algorithm);
     settings.width = 12;
     settings.height = 9;
     settings.stream_capacity = 200;

@@ -21,7 +21,7 @@ DeviceContext &device() {
 
 RenderSettings settings_of(uint32_t light_paths, const std::string &algorithm = "truncated_bdpt") {
     RenderSettings settings;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm_named(algorithm);
     settings.width = settings.height = 32;
     settings.stream_capacity = 512;
     settings.light_paths = light_paths;

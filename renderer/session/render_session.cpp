@@ -58,7 +58,7 @@ void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
         state_->features.has(Feature::branches)) {
         throw input_error(
             fmt::format("{}: integrator.max_depth={} cannot become {}; start a new session",
-                        state_->settings.algorithm, state_->settings.max_depth, max_depth));
+                        state_->settings.algorithm->name, state_->settings.max_depth, max_depth));
     }
     state_->numbers.max_depth = state_->settings.max_depth = max_depth;
     state_->config = content_hash(state_->scene_hash + image_settings(state_->settings).dump());

@@ -192,36 +192,6 @@ T parse_number(const std::string &assignment, const std::string &text, T low, T 
     return value;
 }
 
-/// Properties of an algorithm.
-struct Algorithm {
-    std::string name;
-    bool from_camera;  ///< it traces paths from the camera
-    bool from_light;   ///< it traces paths from the lights
-    bool draws;        ///< it draws random numbers
-    bool stops;        ///< it supports convergence control
-};
-
-const std::vector<Algorithm> &algorithm_table() {
-    static const std::vector<Algorithm> table = {
-        {"ray_casting", true, false, false, false}, {"whitted", true, false, false, false},
-        {"path_tracing", true, false, true, true},  {"light_tracing", false, true, true, false},
-        {"bdpt", true, true, true, false},          {"truncated_bdpt", true, true, true, true},
-    };
-    return table;
-}
-
-const Algorithm &algorithm_of(const RenderSettings &settings) {
-    const auto &table = algorithm_table();
-    const auto found = std::find_if(table.begin(), table.end(), [&](const Algorithm &a) {
-        return a.name == settings.algorithm;
-    });
-    if (found == table.end()) {
-        throw input_error(fmt::format("unknown algorithm '{}'; algorithms are: {}",
-                                      settings.algorithm, fmt::join(algorithm_names(), ", ")));
-    }
-    return *found;
-}
-
 void require_value(const Setting &setting, const TextSetting &text, const std::string &value) {
     if (std::find(text.values.begin(), text.values.end(), value) == text.values.end()) {
         throw input_error(fmt::format("{}={}: unknown value; the values of {} are: {}",
@@ -234,16 +204,16 @@ void require_consistent_convergence(const RenderSettings &settings) {
     if (!has_convergence_control(settings)) {
         return;
     }
-    if (!algorithm_of(settings).stops) {
+    if (!settings.algorithm->stops_pixels) {
         std::vector<std::string> names;
-        for (const Algorithm &algorithm : algorithm_table()) {
-            if (algorithm.stops) {
-                names.push_back(algorithm.name);
+        for (const Algorithm *algorithm : all_algorithms()) {
+            if (algorithm->stops_pixels) {
+                names.emplace_back(algorithm->name);
             }
         }
         throw input_error(fmt::format(
             "integrator.convergence.error={}: {} does not support convergence control; {} do",
-            settings.convergence_error, settings.algorithm, fmt::join(names, " and ")));
+            settings.convergence_error, settings.algorithm->name, fmt::join(names, " and ")));
     }
     if (settings.strategies_apart) {
         throw input_error(
@@ -262,17 +232,6 @@ void require_consistent_convergence(const RenderSettings &settings) {
 }
 
 }  // namespace
-
-const std::vector<std::string> &algorithm_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list;
-        for (const Algorithm &algorithm : algorithm_table()) {
-            list.push_back(algorithm.name);
-        }
-        return list;
-    }();
-    return names;
-}
 
 void apply_setting(RenderSettings &settings, const std::string &assignment) {
     const size_t equals = assignment.find('=');
@@ -308,48 +267,49 @@ void apply_setting(RenderSettings &settings, const std::string &assignment) {
 }
 
 void require_consistent(const RenderSettings &settings) {
-    const bool draws = algorithm_of(settings).draws;
+    const Algorithm &algorithm = *settings.algorithm;
     for (const Setting &setting : setting_table()) {
         if (const auto *text = std::get_if<TextSetting>(&setting.kind)) {
             require_value(setting, *text, settings.*text->field);
         }
     }
-    if (settings.algorithm != "path_tracing" && settings.strategies != "mis") {
+    if (!algorithm.selects_strategies && settings.strategies != "mis") {
         throw input_error(fmt::format(
             "integrator.strategies={}: {} has fixed strategies; this setting is for path_tracing",
-            settings.strategies, settings.algorithm));
+            settings.strategies, algorithm.name));
     }
-    if (draws && settings.sampler == "regular") {
+    if (algorithm.is_random && settings.sampler == "regular") {
         throw input_error(fmt::format(
             "integrator.sampler=regular: {} needs random numbers; use independent or sobol",
-            settings.algorithm));
+            algorithm.name));
     }
-    if (!draws && settings.sampler == "sobol") {
-        throw input_error(
-            fmt::format("integrator.sampler=sobol: {} draws no random numbers; use regular",
-                        settings.algorithm));
+    if (!algorithm.is_random && settings.sampler == "sobol") {
+        throw input_error(fmt::format(
+            "integrator.sampler=sobol: {} draws no random numbers; use regular", algorithm.name));
     }
-    if (!draws && (settings.light_selection == "uniform" || settings.light_selection == "power")) {
+    if (!algorithm.is_random &&
+        (settings.light_selection == "uniform" || settings.light_selection == "power")) {
         throw input_error(fmt::format(
             "integrator.light_selection={}: {} samples every light at every point; use independent",
-            settings.light_selection, settings.algorithm));
+            settings.light_selection, algorithm.name));
     }
-    if (settings.algorithm == "bdpt" && settings.light_paths != LIGHT_PATHS_LIKE_PIXELS) {
+    if (algorithm.light_paths == LightPaths::one_per_camera_path &&
+        settings.light_paths != LIGHT_PATHS_LIKE_PIXELS) {
         throw input_error(
             "integrator.light_paths: bdpt traces one light path per camera path; use pixels");
     }
-    if (settings.light_paths == LIGHT_PATHS_AUTO && settings.algorithm != "truncated_bdpt") {
+    if (settings.light_paths == LIGHT_PATHS_AUTO && algorithm.light_paths != LightPaths::any) {
         throw input_error(
             fmt::format("integrator.light_paths=auto: not supported by {}; use pixels, a number or "
                         "truncated_bdpt",
-                        settings.algorithm));
+                        algorithm.name));
     }
-    if (settings.light_paths == 0 && settings.algorithm == "light_tracing") {
+    if (settings.light_paths == 0 && algorithm.light_paths == LightPaths::at_least_one) {
         throw input_error(
             "integrator.light_paths=0: light_tracing needs light paths; use pixels or a number "
             "above 0");
     }
-    if (settings.algorithm == "bdpt" && settings.passes != "all") {
+    if (algorithm.light_paths == LightPaths::one_per_camera_path && settings.passes != "all") {
         throw input_error(fmt::format(
             "passes={}: the passes of bdpt share their light paths; use all", settings.passes));
     }
@@ -359,11 +319,11 @@ void require_consistent(const RenderSettings &settings) {
             "share "
             "their paths");
     }
-    if (settings.pipeline == "megakernel" && settings.algorithm != "path_tracing") {
+    if (settings.pipeline == "megakernel" && !algorithm.has_megakernel) {
         throw input_error(
             fmt::format("device.pipeline=megakernel: supports path_tracing only; {} needs "
                         "device.pipeline=wavefront",
-                        settings.algorithm));
+                        algorithm.name));
     }
     if (settings.pipeline == "megakernel" && settings.count_rays == "by_depth") {
         throw input_error(
@@ -374,11 +334,11 @@ void require_consistent(const RenderSettings &settings) {
         throw input_error(
             "layers of strategies: not supported by megakernel; use device.pipeline=wavefront");
     }
-    if (settings.strategies_apart && !draws) {
+    if (settings.strategies_apart && !algorithm.is_random) {
         throw input_error(
-            fmt::format("layers of strategies: {} has only one strategy", settings.algorithm));
+            fmt::format("layers of strategies: {} has only one strategy", algorithm.name));
     }
-    if (draws && settings.termination == "fixed" && settings.max_depth == 0) {
+    if (algorithm.is_random && settings.termination == "fixed" && settings.max_depth == 0) {
         throw input_error(
             "integrator.termination=fixed: needs a limit; use --set integrator.max_depth=N");
     }
@@ -386,21 +346,24 @@ void require_consistent(const RenderSettings &settings) {
 }
 
 RenderSettings with_fixed_choices(RenderSettings settings) {
-    if (!algorithm_of(settings).draws) {
+    const Algorithm &algorithm = *settings.algorithm;
+    if (!algorithm.is_random) {
         settings.strategies = "explicit";
         settings.sampler = "regular";
         settings.light_selection = "independent";
         settings.termination = settings.termination == "roulette" ? "fixed" : settings.termination;
-        settings.max_depth = settings.algorithm == "ray_casting" ? 1
-                             : settings.max_depth == 0           ? 8
-                                                                 : settings.max_depth;
+    }
+    if (algorithm.fixed_depth > 0) {
+        settings.max_depth = algorithm.fixed_depth;
+    } else if (settings.max_depth == 0) {
+        settings.max_depth = algorithm.default_depth;
     }
     return settings;
 }
 
 nlohmann::json image_settings(const RenderSettings &requested) {
     const RenderSettings settings = with_fixed_choices(requested);
-    nlohmann::json document = {{"algorithm", settings.algorithm}};
+    nlohmann::json document = {{"algorithm", settings.algorithm->name}};
     for (const Setting &setting : setting_table()) {
         if (setting.name.rfind("integrator.", 0) == 0) {
             document[setting.name] = value_text(settings, setting);
@@ -437,13 +400,8 @@ std::string describe_settings() {
     return description;
 }
 
-std::string scheduled_algorithm(const RenderSettings &settings) {
-    return settings.algorithm == "truncated_bdpt" && settings.light_paths == 0 ? "path_tracing"
-                                                                               : settings.algorithm;
-}
-
 bool has_light_pass(const RenderSettings &settings) {
-    return algorithm_of(settings).from_light && settings.light_paths != 0;
+    return settings.algorithm->traces_light_paths() && settings.light_paths != 0;
 }
 
 bool has_convergence_control(const RenderSettings &settings) {
@@ -493,7 +451,7 @@ CompileSettings compile_settings(const RenderSettings &settings) {
             selection,
             settings.sphere_sampling == "area",
             settings.features == "all",
-            !algorithm_of(settings).draws};
+            !settings.algorithm->is_random};
 }
 
 void choose_builder(const RenderSettings &settings, BvhBuildParameters &parameters) {
@@ -505,14 +463,14 @@ void choose_builder(const RenderSettings &settings, BvhBuildParameters &paramete
 }
 
 FeatureMask settings_features(const RenderSettings &settings) {
-    const Algorithm &algorithm = algorithm_of(settings);
-    const bool both_ways = algorithm.from_camera && has_light_pass(settings);
-    return FeatureMask()
-        .with(Feature::implicit_light, algorithm.from_camera && settings.strategies != "explicit")
-        .with(Feature::explicit_light, algorithm.from_camera && settings.strategies != "implicit")
+    const Algorithm &algorithm = *settings.algorithm;
+    const bool both_ways = algorithm.traces_camera_paths && has_light_pass(settings);
+    return algorithm.features
+        .with(Feature::implicit_light,
+              algorithm.traces_camera_paths && settings.strategies != "explicit")
+        .with(Feature::explicit_light,
+              algorithm.traces_camera_paths && settings.strategies != "implicit")
         .with(Feature::light_strategy, both_ways)
-        .with(Feature::vertex_joins, settings.algorithm == "bdpt")
-        .with(Feature::branches, settings.algorithm == "whitted")
         .with(Feature::light_emitters, both_ways && settings.seen_emitters == "mis")
         .with(Feature::roulette, settings.termination == "roulette")
         .with(Feature::adaptive, settings.termination == "adaptive")

@@ -9,6 +9,7 @@
 
 #include "renderer/compile/compile_scene.h"
 #include "renderer/device/source.h"
+#include "renderer/integrators/algorithm.h"
 #include "renderer/shared/integrator_settings.h"
 
 namespace rtrays {
@@ -24,7 +25,7 @@ constexpr uint32_t LIGHT_PATHS_AUTO = 0xfffffffeu;
 /// `integrator.*` and `device.*` settings are those of the fields; a field `convergence_x` is the
 /// setting integrator.convergence.x.
 struct RenderSettings {
-    std::string algorithm = "path_tracing";
+    const Algorithm *algorithm = &algorithms::path_tracing;
     int width = 0;   ///< image width in pixels, 0: from the scene's film
     int height = 0;  ///< image height in pixels, 0: from the scene's film
     uint32_t seed = 1;
@@ -121,15 +122,9 @@ std::vector<std::string> changed_settings(const RenderSettings &settings);
 /// columns.
 std::string describe_settings();
 
-/// Returns the names of all algorithms.
-const std::vector<std::string> &algorithm_names();
-
 // The functions below expect consistent settings.
 
-/// Returns the algorithm that is run: truncated_bdpt without light paths is path_tracing.
-std::string scheduled_algorithm(const RenderSettings &settings);
-
-/// Returns whether the algorithm traces paths from the lights, which splat to any pixel.
+/// Returns whether paths from the lights are traced, which splat to any pixel.
 bool has_light_pass(const RenderSettings &settings);
 
 /// Returns whether pixels stop when they have converged, which biases the image.

@@ -95,8 +95,9 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
       numbers(integrator_settings(settings)),
       compiled(compile_scene(scene, compile_settings(settings))) {
     std::vector<Pass> all_passes = algorithm_passes(
-        scheduled_algorithm(settings), select_features(compiled, settings, device.info()),
-        compiled.lighting.light_count, numbers.light_vertices, settings.strategies_apart);
+        *settings.algorithm,
+        {select_features(compiled, settings, device.info()), compiled.lighting.light_count,
+         has_light_pass(settings), numbers.light_vertices, settings.strategies_apart});
     if (settings.pipeline == "megakernel") {
         all_passes = megakernel_passes(std::move(all_passes));
     }
@@ -112,9 +113,9 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
     }
     if (passes.empty()) {
         throw input_error(settings.passes == "all"
-                              ? fmt::format("{}: the scene has no light", settings.algorithm)
-                              : fmt::format("{} has no pass '{}' in this scene", settings.algorithm,
-                                            settings.passes));
+                              ? fmt::format("{}: the scene has no light", settings.algorithm->name)
+                              : fmt::format("{} has no pass '{}' in this scene",
+                                            settings.algorithm->name, settings.passes));
     }
     scene_hash = scene.hash();
     config = content_hash(scene_hash + image_settings(settings).dump());

@@ -112,6 +112,9 @@ class FeatureMask {
         const uint64_t bit = uint64_t{1} << static_cast<uint32_t>(feature);
         return FeatureMask(on ? bits_ | bit : bits_ & ~bit);
     }
+    constexpr FeatureMask without(FeatureMask others) const {
+        return FeatureMask(bits_ & ~others.bits_);
+    }
     constexpr FeatureMask operator|(FeatureMask other) const {
         return FeatureMask(bits_ | other.bits_);
     }

@@ -140,7 +140,7 @@ void read_ladders(const DescriptionFile &file, const std::string &pointer, const
 }  // namespace
 
 std::string CurveDescription::id() const {
-    std::string id = settings.algorithm + "." + settings.strategies;
+    std::string id = std::string(settings.algorithm->name) + "." + settings.strategies;
     const std::string root = "integrator.";
     for (const std::string &setting : changed_settings(settings)) {
         if (setting.rfind(root + "strategies", 0) != 0) {
@@ -159,7 +159,7 @@ void apply_settings(RenderSettings &settings, const Json &named) {
 
 RenderSettings parse_render_settings(const Json &curve) {
     RenderSettings settings;
-    settings.algorithm = curve.at("algorithm").get<std::string>();
+    settings.algorithm = &algorithm_named(curve.at("algorithm"));
     apply_settings(settings, curve.value("settings", Json::object()));
     require_consistent(settings);
     return settings;

@@ -147,7 +147,7 @@ Json measure(const Description &description, const Scene &scene, const RenderSet
     for (size_t i = 0; i < description.errors.size(); ++i) {
         Json row = compare_control(renders[i + 1], renders.front(), reference);
         row["scene"] = scene.name();
-        row["algorithm"] = curve.algorithm;
+        row["algorithm"] = curve.algorithm->name;
         row["error"] = description.errors[i];
         row["settings"] = image_settings(settings[i + 1]);
         rows.push_back(row);
@@ -286,8 +286,9 @@ fs::path run_control(const ControlOptions &options) {
     for (size_t scene = 0; scene < scenes.size(); ++scene) {
         for (const RenderSettings &curve : description.curves) {
             const uint64_t before = finished;
-            const fs::path done = resumption.parts() /
-                                  fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm);
+            const fs::path done =
+                resumption.parts() /
+                fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm->name);
             if (!fs::exists(done)) {
                 write_file(done, Json(measure(description, scenes[scene], curve, references[scene],
                                               device, [&] { progress.update(++finished); }))

@@ -132,7 +132,7 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     curve.update(ladder.cost);
     curve["id"] = description.id();
     curve["scene"] = task.scene.name();
-    curve["algorithm"] = description.settings.algorithm;
+    curve["algorithm"] = description.settings.algorithm->name;
     curve["strategies"] = description.settings.strategies;
     curve["settings"] = image_settings(task.settings);
     // Batches are tested even if the image has variance layers. With few samples a pixel's variance

@@ -34,8 +34,8 @@ std::string describe(const Agreement &agreement) {
 }
 
 CheckLine found_line(const PlantedError &error, bool found, const std::string &detail) {
-    return {fmt::format("planted error '{}' in {}: {}: {}", error.name, error.settings.algorithm,
-                        found ? "found" : "not found", detail),
+    return {fmt::format("planted error '{}' in {}: {}: {}", error.name,
+                        error.settings.algorithm->name, found ? "found" : "not found", detail),
             found};
 }
 

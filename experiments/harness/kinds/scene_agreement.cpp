@@ -191,7 +191,7 @@ bool fails(const Json &row) {
 std::vector<Image> render(const Scene &scene, const Description &description,
                           const std::string &algorithm, uint32_t seed, DeviceContext &device) {
     RenderSettings settings;
-    settings.algorithm = algorithm;
+    settings.algorithm = &algorithm_named(algorithm);
     settings.width = settings.height = description.size;
     settings.seed = seed;
     settings.features = description.features;
