@@ -14,7 +14,7 @@ experiment = $(wildcard experiments/*/$(1).json)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
 EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors samplers mirror_ring glass_goblets door_ajar floor_lamps
 MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces binning ablations
-REPORT = $(if $(wildcard build/bin/rtrays-experiment),build/bin/rtrays-experiment report,/usr/bin/python3 scripts/report)
+REPORT = $(if $(wildcard build/bin/rtrays-experiment),build/bin/rtrays-experiment report,scripts/results report)
 
 .PHONY: all install programs picture build reproduce-chapter4 report check test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
 
@@ -81,13 +81,13 @@ test-asan: install
 # The outputs are evidence and are kept in results/.
 test-full: programs
 	build/bin/rtrays-experiment run experiments/robustness/traversal.json --profile full --out results/chapter4/traversal
-	/usr/bin/python3 scripts/measurements results/chapter4/traversal
+	scripts/results page results/chapter4/traversal
 	for agreement in feature_scenes algorithms; do \
 	    build/bin/rtrays-experiment agree experiments/gates/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
 	    mkdir -p results/$$agreement; \
 	    cp build/$$agreement/agreement.json build/$$agreement/agreement.md results/$$agreement/; \
 	done
-	scripts/contact_sheet build/feature_scenes results/feature_scenes/contact_sheet.png
+	scripts/results contact-sheet build/feature_scenes results/feature_scenes/contact_sheet.png
 	scripts/same_bits build/bin features > results/same_bits.txt.new
 	mv results/same_bits.txt.new results/same_bits.txt
 
@@ -111,7 +111,7 @@ stability: programs
 # machine and takes a quarter of an hour.
 stiffness: programs
 	build/bin/rtrays-experiment run experiments/robustness/stiffness.json --profile full --out $(STIFFNESS)
-	/usr/bin/python3 scripts/stiffness $(STIFFNESS)
+	scripts/results page $(STIFFNESS)
 
 # Counts the instructions per ray for each hierarchy layout and for Embree. Needs Valgrind, which
 # scripts/install does not install.

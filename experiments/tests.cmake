@@ -27,7 +27,8 @@ add_test(NAME programs.experiment
 set_tests_properties(programs.experiment PROPERTIES TIMEOUT 900 RUN_SERIAL ON)
 
 add_test(NAME scripts
-    COMMAND ${RTRAYS_PYTHON} -m unittest discover -s ${PROJECT_SOURCE_DIR}/scripts/tests -v)
+    COMMAND ${RTRAYS_PYTHON} -m unittest discover -s ${PROJECT_SOURCE_DIR}/scripts/rtrays
+            -t ${PROJECT_SOURCE_DIR}/scripts -v)
 set_tests_properties(scripts PROPERTIES TIMEOUT 600)
 
 # Programs and data of an installation that was moved.

@@ -35,7 +35,7 @@ struct PeerKind {
 
 PeerKind kind_of(const std::string &name) {
     const std::string python = resource_folder() / "build/peers/bin/python";
-    const std::string scripts = resource_folder() / "scripts";
+    const std::string scripts = resource_folder() / "scripts/rtrays/peers";
     if (name == "mitsuba") {
         return {"mitsuba",
                 "scene.xml",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reference renders by other programs: Mitsuba 3 and Blender's Cycles, driven by
-// scripts/*_driver.py.
+// scripts/rtrays/peers/*_driver.py.
 #pragma once
 
 #include <cstdint>

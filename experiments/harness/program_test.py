@@ -182,7 +182,7 @@ class Program(unittest.TestCase):
 
     def tables(self, out):
         return subprocess.run(
-            [sys.executable, EXPERIMENTS.parent / "scripts/measurements", out],
+            [sys.executable, EXPERIMENTS.parent / "scripts/results", "page", out],
             capture_output=True, text=True, check=False)
 
     def test_measurements(self):

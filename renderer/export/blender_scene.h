@@ -10,9 +10,10 @@
 namespace rtrays {
 
 /// Writes the scene as last updated, seen by its active camera, as a JSON description.
-/// scripts/cycles_driver.py builds a scene of Blender 3.4 from it and renders that with Cycles.
-/// Meshes (binary PLY) and images (EXR, linear) go to the folder NAME.blender_data beside
-/// NAME.blender.json and replace files of the same names. The description itself is written last.
+/// scripts/rtrays/peers/cycles_driver.py builds a scene of Blender 3.4 from it and renders that
+/// with Cycles. Meshes (binary PLY) and images (EXR, linear) go to the folder NAME.blender_data
+/// beside NAME.blender.json and replace files of the same names. The description itself is written
+/// last.
 ///
 /// The description has the content of the arrays (stores.h), with their units, axes and names; the
 /// driver translates it to Blender's terms. Coordinates are those of the baked world. Texels are

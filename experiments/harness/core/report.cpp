@@ -81,7 +81,8 @@ int run_program(const std::vector<std::string> &command) {
 int make_report(const std::vector<fs::path> &runs) {
     load_description(resource_folder() / "experiments/claims.json",
                      "claims.schema.json");  // refused here or not at all
-    std::vector<std::string> command{RTRAYS_PYTHON, resource_folder() / "scripts/report"};
+    std::vector<std::string> command{RTRAYS_PYTHON, resource_folder() / "scripts/results",
+                                     "report"};
     for (const auto &run : runs) {
         export_images(run);
         command.push_back(run.string());

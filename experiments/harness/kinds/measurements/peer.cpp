@@ -22,7 +22,7 @@ constexpr uint64_t frames_of_cycles = 4;
 /// Exports the scene and returns the command that serves it.
 std::vector<std::string> served(const Scene &scene, const fs::path &folder,
                                 const std::string &kind) {
-    const std::string scripts = resource_folder() / "scripts";
+    const std::string scripts = resource_folder() / "scripts/rtrays/peers";
     const fs::path file = folder / (kind == cycles ? "scene.blender.json" : "scene.xml");
     export_scene(scene, file);
     if (kind == cycles) {

@@ -13,8 +13,8 @@
 
 namespace rtrays {
 
-/// Process of `scripts/*_driver.py --serve`. Mitsuba 3 runs in the Python environment that
-/// `scripts/install --peers` creates; Cycles runs in Blender.
+/// Process of `scripts/rtrays/peers/*_driver.py --serve`. Mitsuba 3 runs in the Python environment
+/// that `scripts/install --peers` creates; Cycles runs in Blender.
 class Peer {
   public:
     /// Exports the scene to `folder`, starts the renderer and waits until it has loaded the scene.

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""Curves of a run: their names, times, and the points that count."""
+
+from rtrays.documents.document import value
+
+NAMES = {"bdpt": "BDPT", "truncated_bdpt": "truncated BDPT", "mis": "MIS"}
+
+
+def algorithm_name(name):
+    """Returns the name of an algorithm in text; the harness' "path_tracing explicit" has one,
+    too."""
+    return " ".join(NAMES.get(word, word.replace("_", " ")) for word in name.split(" "))
+
+
+def label(curve):
+    """Returns the name of a curve in tables and legends."""
+    algorithm, _, settings = value(curve, "id").partition(".")
+    shown = [
+        NAMES.get(setting, setting.replace("_", " ").replace("=", " = "))
+        for setting in settings.split(",")
+    ]
+    return f"{algorithm_name(algorithm)} ({', '.join(shown)})"
+
+
+def curve_named(run, name):
+    """Returns the curve with this id, or None."""
+    return next((curve for curve in run.curves if value(curve, "id") == name), None)
+
+
+def base_curve(run):
+    """Returns the curve of path tracing with both strategies, or the last curve of a run without
+    it."""
+    return curve_named(run, "path_tracing.mis") or run.curves[-1]
+
+
+def shown_curves(run):
+    """Returns the curves whose images have figures: path tracing by MIS and truncated BDPT with
+    its defaults, or all curves of a run that has neither. The viewer has the images of all
+    curves."""
+    shown = [
+        curve
+        for curve in run.curves
+        if value(curve, "id") in ("truncated_bdpt.mis", "path_tracing.mis")
+    ]
+    return shown or run.curves
+
+
+def is_blind(curve):
+    """Whether the algorithm misses light of the scene: light tracing does not see into mirrors and
+    glass."""
+    features = value(curve, "render_report.features")
+    return value(curve, "algorithm") == "light_tracing" and "delta" in features
+
+
+def is_stratified(curve):
+    """Whether the samples fill the domain evenly, so that errors may fall faster than with
+    independent samples."""
+    return value(curve, "settings").get("integrator.sampler") == "sobol"
+
+
+def pilot_seconds(curve):
+    """Returns the device time of the pilot that chose the number of light paths; zero without a
+    pilot."""
+    has_pilot = "pilot" in value(curve, "render_report")
+    return value(curve, "render_report.pilot.seconds") if has_pilot else 0.0
+
+
+def seconds(curve, entry, clock):
+    """Returns the seconds of a point or repetition by `clock`, "device" or "wall"; they include the
+    pilot.
+
+    In run.json the device's seconds include the pilot, those on the wall do not. The pilot's device
+    time is added to the wall time.
+    """
+    return value(entry, f"seconds_{clock}") + (pilot_seconds(curve) if clock == "wall" else 0.0)
+
+
+def usable_points(curve):
+    """Returns the points before the first one that the reference's noise dominates; curves stop
+    there."""
+    points = []
+    for point in value(curve, "points"):
+        if value(point, "noise_dominates"):
+            break
+        points.append(point)
+    return points

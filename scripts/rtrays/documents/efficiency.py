@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""Compares the curves of a run with its path tracing, for equal error and in equal time.
+
+The mean squared error of an unbiased estimator falls as 1 / N, so that MSE x samples and MSE x
+seconds hardly depend on N. Curves are still compared at equal N: the last paths of a batch are a
+smaller share of the cost of many samples.
+"""
+
+import numpy
+
+from rtrays.documents.curves import pilot_seconds, usable_points
+from rtrays.documents.document import RunError, value
+
+DRAWS = 2000
+
+
+class Cost:
+    """MSE and device seconds of a curve at its last point above the reference's noise, or at
+    `spp`."""
+
+    def __init__(self, curve, noise, spp=None):
+        points = [
+            point for point in usable_points(curve) if spp is None or value(point, "spp") <= spp
+        ]
+        if not points:
+            raise RunError(
+                f"curve {value(curve, 'id')} has no point above the reference's noise; the"
+                " reference needs more samples"
+            )
+        point = points[-1]
+        self.spp = value(point, "spp")
+        self.pilot_seconds = pilot_seconds(curve)
+        repetitions = value(point, "repetitions")
+        self.mse = numpy.array([value(r, "mse") for r in repetitions]) - noise
+        self.seconds = (
+            float(numpy.median([value(r, "seconds_device") for r in repetitions]))
+            - self.pilot_seconds
+        )
+
+    def draws(self, generator):
+        """Returns the mean MSE of resampled seeds."""
+        return self.mse[generator.integers(0, len(self.mse), (DRAWS, len(self.mse)))].mean(axis=1)
+
+
+def ratio(base, curve, key):
+    """Returns MSE x key of `base` over that of `curve`, with the bootstrap's 95 % interval over
+    seeds."""
+    scale = getattr(base, key) / getattr(curve, key)
+    generator = numpy.random.default_rng(1)
+    low, high = numpy.quantile(
+        scale * base.draws(generator) / curve.draws(generator), [0.025, 0.975]
+    )
+    return {"value": scale * base.mse.mean() / curve.mse.mean(), "low": low, "high": high}
+
+
+def costs(base, curve, noise):
+    """Returns the costs of two curves at the last sample count that both have."""
+    spp = min(Cost(base, noise).spp, Cost(curve, noise).spp)
+    return Cost(base, noise, spp), Cost(curve, noise, spp)
+
+
+def gain(base, curve, noise, key):
+    """Returns how many times the samples ("spp") or the device time ("seconds") of `curve` are
+    needed by `base` for an equal error."""
+    return ratio(*costs(base, curve, noise), key)
+
+
+def share_of_pass(curve, name):
+    """Returns the share of a pass ("camera", "light") in the device time of all stages."""
+    stages = value(curve, "render_report.stages")
+    return sum(stage["seconds"] for stage in stages if stage["pass"] == name) / sum(
+        stage["seconds"] for stage in stages
+    )

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""HTML and Markdown pages of runs."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Plots and charts of runs, as SVG and PNG."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Generated blocks of the Markdown documents."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Tables of runs, as CSV, Markdown and LaTeX."""

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""Tables of a run of curves: what its samples cost and where its errors are."""
+
+from rtrays.documents.curves import base_curve, label
+from rtrays.documents.document import value
+from rtrays.documents.edges import edges_document
+from rtrays.documents.efficiency import Cost, gain
+from rtrays.tables.cells import BASELINE, NONE, interval, number
+from rtrays.tables.table import Table
+
+
+def efficiency_table(run):
+    """Every curve against path tracing: samples for the same error, error in the same time."""
+    noise = run.get("reference.noise_floor.mse")
+    base = base_curve(run)
+    rows = []
+    for curve in run.curves:
+        cost = Cost(curve, noise)
+        gains = (
+            [BASELINE] * 2
+            if curve is base
+            else [interval(gain(base, curve, noise, key), digits=4) for key in ("spp", "seconds")]
+        )
+        rows.append(
+            [
+                label(curve),
+                str(cost.spp),
+                number(cost.mse.mean()),
+                number(cost.seconds, 4),
+                number(cost.pilot_seconds),
+                *gains,
+            ]
+        )
+    return Table(
+        f"Efficiency over {label(base)}, with 95 % intervals over seeds",
+        [
+            "curve",
+            "samples per pixel",
+            "MSE minus reference noise",
+            "device time without pilot, s",
+            "pilot, s",
+            "gain in equal samples, times",
+            "gain in equal device time, times",
+        ],
+        rows,
+        [
+            f"Gain in equal samples: how many times the samples {label(base)} needs for the same"
+            " error. Gain in equal device time: how many times smaller the MSE is in the same"
+            " time. Light that an algorithm misses counts as error."
+        ],
+    )
+
+
+# Statements of the thesis about memory (section 2.8); full BDPT: its figure from the literature.
+THESIS_MEMORY = {
+    "truncated_bdpt": "path tracing and one scalar",
+    "bdpt": "3.5 KB, 16 vertices from either end",
+}
+
+
+def memory_table(run):
+    """Bytes for every path in flight, queues included."""
+    rows = []
+    for curve in run.curves:
+        report = value(curve, "render_report")
+        rows.append(
+            [
+                label(curve),
+                str(value(report, "bytes_per_path")),
+                str(value(report, "light_vertex_bytes_per_path")),
+                THESIS_MEMORY.get(value(curve, "algorithm"), NONE),
+            ]
+        )
+    return Table(
+        "Memory of a path in flight, whatever its length",
+        ["curve", "bytes per path", "bytes of light vertices", "thesis"],
+        rows,
+    )
+
+
+def throughput_table(run):
+    """Renderer against reference, or the reason why the measurement was refused."""
+    throughput = run.get("throughput")
+    columns = ["curve", "renderer, Msamples/s", "reference, Msamples/s", "renderer / reference"]
+    named = next(
+        (label(curve) for curve in run.curves if value(curve, "id") == value(throughput, "curve")),
+        value(throughput, "curve"),
+    )
+    if not value(throughput, "accepted"):
+        return Table(
+            "Samples per second of renderer and reference, interleaved repetitions",
+            columns,
+            [[named, *[NONE] * 3]],
+            [f"Refused: {value(throughput, 'reason')}."],
+        )
+    cells = [
+        interval(value(throughput, f"{side}_samples_per_second"), 1e-6, digits=4)
+        for side in ("renderer", "reference")
+    ]
+    return Table(
+        "Samples per second of renderer and reference, interleaved repetitions",
+        columns,
+        [[named, *cells, interval(value(throughput, "ratio"), digits=4)]],
+    )
+
+
+def edges_table(run):
+    """Where the error is: at edges of the image or elsewhere."""
+    document = edges_document(run)
+    rows = [
+        [label(curve), interval(document[value(curve, "id")], digits=4)]
+        for curve in run.curves
+        if value(curve, "id") in document
+    ]
+    return Table(
+        "Mean squared error at edges of the image over that elsewhere, 95 % interval",
+        ["curve", "ratio"],
+        rows,
+    )
