@@ -29,39 +29,37 @@ def interval(low, high):
     return {"value": (low + high) / 2, "low": low, "high": high}
 
 
+def made_up_errors(spp):
+    """Returns the times and errors of an image of so many samples per pixel."""
+    rmse = spp**-0.5
+    return {
+        "seconds_device": 0.1 * spp,
+        "seconds_wall": 0.2 * spp,
+        "l2": 10 * rmse,
+        "rmse": rmse,
+        "mae": rmse / 2,
+        "relmse": rmse**2,
+        "mse": rmse**2,
+    }
+
+
+def made_up_point(spp):
+    """Returns a point of a curve with its repetitions."""
+    errors = made_up_errors(spp)
+    repetitions = [
+        {**errors, "seed": seed, "rmse": errors["rmse"] * (1 + 0.01 * seed)} for seed in range(1, 9)
+    ]
+    return {
+        **errors,
+        "spp": spp,
+        "mse_unbiased": errors["mse"] - 0.01,
+        "noise_dominates": spp == 8,
+        "repetitions": repetitions,
+    }
+
+
 def made_up_curve(strategies):
     """Returns a curve of path tracing."""
-    points = []
-    for spp in (1, 2, 4, 8):
-        rmse = spp**-0.5
-        repetitions = [
-            {
-                "seed": seed,
-                "seconds_device": 0.1 * spp,
-                "seconds_wall": 0.2 * spp,
-                "l2": 10 * rmse,
-                "rmse": rmse * (1 + 0.01 * seed),
-                "mae": rmse / 2,
-                "relmse": rmse**2,
-                "mse": rmse**2,
-            }
-            for seed in range(1, 9)
-        ]
-        points.append(
-            {
-                "spp": spp,
-                "seconds_device": 0.1 * spp,
-                "seconds_wall": 0.2 * spp,
-                "l2": 10 * rmse,
-                "rmse": rmse,
-                "mae": rmse / 2,
-                "relmse": rmse**2,
-                "mse": rmse**2,
-                "mse_unbiased": rmse**2 - 0.01,
-                "noise_dominates": spp == 8,
-                "repetitions": repetitions,
-            }
-        )
     slope = {"value": -0.5, "low": -0.51, "high": -0.49, "confidence": 0.95, "spp": [1, 4]}
     return {
         "id": f"path_tracing.{strategies}",
@@ -77,7 +75,7 @@ def made_up_curve(strategies):
             "features": [],
             "stages": [{"pass": "camera", "seconds": 3}, {"pass": "light", "seconds": 1}],
         },
-        "points": points,
+        "points": [made_up_point(spp) for spp in (1, 2, 4, 8)],
         "slope": slope,
         "slope_unbiased": slope,
         "image": "images/ours.exr",

@@ -4,7 +4,7 @@
 from rtrays.documents.experiments import experiment_path
 from rtrays.pages.curve_findings import explanation, finding
 from rtrays.pages.page import Figure, Page, TableBlock, Text, Viewer
-from rtrays.pages.provenance import curve_provenance, made_by
+from rtrays.pages.provenance import curve_provenance, run_made_by
 from rtrays.plots.curve_plots import write_plots
 from rtrays.tables.cells import verdict_of
 from rtrays.tables.curve_tables import write_tables
@@ -56,5 +56,5 @@ def curve_page(run):
         verdicts=[word for word in (verdict_of(row[-1]) for row in verdicts.rows) if word],
         picture="plots/reference.png",
         picture_label=f"Reference image, {width} x {height}",
-        made=made_by(run.get("context"), run.get("experiment.profile")),
+        made=run_made_by(run),
     )

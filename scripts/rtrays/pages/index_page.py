@@ -46,6 +46,7 @@ class Index:
 
 
 def tally(words):
+    """Returns {word: how often it occurs}."""
     return {word: words.count(word) for word in dict.fromkeys(words)}
 
 
@@ -83,6 +84,7 @@ def made_line(pages):
 
 
 def runs_table(folder, pages):
+    """Returns where and when the runs were made."""
     rows = [
         [
             Link(page.title, relative(page.folder.resolve(), folder), page.markdown),
@@ -94,6 +96,7 @@ def runs_table(folder, pages):
 
 
 def experiments_table(folder, pages, cards):
+    """Returns finding and verdicts of all runs."""
     rows = [
         [
             Link(page.title, relative(page.folder.resolve(), folder), page.markdown),

@@ -2,7 +2,7 @@
 """The page of a measurement."""
 
 from rtrays.pages.page import Figure, Page, TableBlock
-from rtrays.pages.provenance import made_by, measurement_provenance
+from rtrays.pages.provenance import measurement_provenance, run_made_by
 from rtrays.plots.frame_plots import samples_per_second, speeds_over_defaults, stage_shares
 from rtrays.plots.hierarchy_plots import animation, build_time
 from rtrays.plots.ray_plots import hits, speeds
@@ -71,5 +71,5 @@ def measurement_page(run):
         provenance=measurement_provenance(run),
         picture=f"{first}.svg" if first else "",
         picture_label=PICTURES.get(first, ""),
-        made=made_by(run.get("context"), run.get("experiment.profile")),
+        made=run_made_by(run),
     )

@@ -29,6 +29,11 @@ def made_by(context, profile):
     }
 
 
+def run_made_by(run):
+    """Returns the entry of a run for the overview."""
+    return made_by(run.get("context"), run.get("experiment.profile"))
+
+
 def commit_text(context):
     """Returns the commit, and whether the tree had changes, as part of a sentence."""
     changed = " with uncommitted changes" if context.get("dirty") else ""

@@ -15,6 +15,7 @@ LONGEST_BRIGHT_EDGE = 0.05  # relative to the extent
 
 
 def link(name, data, matrix=None):
+    """Adds an object to the scene of Blender; returns it."""
     made = bpy.data.objects.new(name, data)
     if matrix is not None:
         made.matrix_world = mathutils.Matrix(matrix)
@@ -23,10 +24,12 @@ def link(name, data, matrix=None):
 
 
 def scaled(matrix, scale):
+    """Returns a transform with its translation scaled."""
     return [[*row[:3], row[3] * scale] for row in matrix[:3]] + [matrix[3]]
 
 
 def add_mesh(name, surface, material, scale):
+    """Adds a triangle mesh with its normals and texture coordinates."""
     mesh = bpy.data.meshes.new(name)
     count = len(surface.triangles)
     mesh.vertices.add(len(surface.positions))
@@ -60,6 +63,7 @@ def add_mesh(name, surface, material, scale):
 
 
 def add_geometry(scene, folder, images, scale):
+    """Adds all meshes of a scene description, with their materials."""
     materials = {}
 
     def material_of(surface):
@@ -79,6 +83,7 @@ def add_geometry(scene, folder, images, scale):
 
 
 def add_camera(scene, film, scale):
+    """Adds the camera."""
     wanted = scene["camera"]
     camera = bpy.data.cameras.new(wanted["name"])
     along_x = wanted["fov_axis"] == "x"
@@ -104,6 +109,7 @@ def add_camera(scene, film, scale):
 
 
 def add_light(light, scale):
+    """Adds a point, spot or directional light."""
     kind = light["kind"]
     lamp = bpy.data.lights.new(light["name"], "SUN" if kind == "directional" else "POINT")
     lamp.color = (1, 1, 1)

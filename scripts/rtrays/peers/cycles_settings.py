@@ -5,6 +5,7 @@ MOST_BOUNCES = 1024  # limit of Cycles
 
 
 def set_up(scene, film, spp, max_depth):
+    """Sets film, file format and sampling; turns off all that clamps, filters or skips light."""
     film.render.engine = "CYCLES"
     film.render.resolution_x, film.render.resolution_y = (
         scene["film"]["width"],
@@ -47,6 +48,7 @@ def set_up(scene, film, spp, max_depth):
 
 
 def set_depth(cycles, max_depth, roulette):
+    """Limits the depth of paths; 0 is the limit of Cycles."""
     bounces = MOST_BOUNCES if max_depth == 0 else min(max_depth - 1, MOST_BOUNCES)
     for kind in ("max", "diffuse", "glossy", "transmission"):
         setattr(cycles, kind + "_bounces", bounces)

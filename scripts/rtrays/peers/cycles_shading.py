@@ -30,6 +30,7 @@ def _conductor_approximate(c, eta, k):
 
 
 def _schlick(c, at_normal, _):
+    """Schlick's approximation of Fresnel reflectance."""
     m = 1.0 - c
     return at_normal + (1 - at_normal) * (m * m * m * m * m)
 
@@ -57,6 +58,7 @@ def _fresnel(graph, component, is_boundary):
 
 
 def _texture(graph, texture, images):
+    """Returns the channels of a texture at the texture coordinates."""
     coordinates = graph.separated(graph.node("ShaderNodeTexCoord").outputs["UV"])
     moved = [
         x * scale + offset
@@ -73,6 +75,7 @@ def _texture(graph, texture, images):
 
 
 def _closure(graph, component, is_boundary, scene, images):
+    """Returns the closure of one BSDF component."""
     colour = [
         weight * value
         for weight, value in zip(component["weight"], _fresnel(graph, component, is_boundary))

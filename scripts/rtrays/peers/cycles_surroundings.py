@@ -72,6 +72,7 @@ def environment(graph, light, images):
 
 
 def add_surroundings(lights, images, film):
+    """Adds the dome and environment lights as the world of the scene."""
     world = bpy.data.worlds.new("surroundings")
     film.world = world
     world.use_nodes = True

@@ -21,6 +21,7 @@ PILOT_NOTE = (
 
 
 def has_pilot(run):
+    """Whether any curve has a pilot."""
     return any("pilot" in value(curve, "render_report") for curve in run.curves)
 
 
@@ -57,6 +58,7 @@ def errors_table(run):
 
 
 def slopes_table(run):
+    """Returns the slopes of all curves, with and without the noise of the reference."""
     rows = [
         [
             label(curve),
@@ -74,6 +76,7 @@ def slopes_table(run):
 
 
 def agreement_table(run):
+    """Returns the agreement of all curves with the reference."""
     rows = []
     for curve in run.curves:
         agreement = value(curve, "agreement")
