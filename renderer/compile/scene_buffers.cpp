@@ -17,41 +17,45 @@ SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled,
     if (feature) {                                            \
         name##_ = Buffer<type>(device, #name, compiled.name); \
     }
-    BOUNDS_BUFFERS(ROW)
-    SURFACE_BUFFERS(ROW)
-    MATERIAL_BUFFERS(ROW)
-    LIGHT_BUFFERS(ROW)
+    SHAPE_BUFFERS(ROW)
+    SHADING_BUFFERS(ROW)
 #undef ROW
 }
 
+// The lists are in the order of the parameters in kernels/scene_view.h.
 StageArguments SceneBuffers::arguments(const Bvh &bvh) const {
     const FeatureMask features = features_;
     RTRAYS_FEATURES(FEATURE_VARIABLE)
-    StageArguments arguments;
-#define ROW(feature, type, name)     \
-    if (feature) {                   \
-        list->emplace_back(name##_); \
+    using Arguments = std::vector<KernelArgument>;
+    Arguments hierarchy, shapes, shading;
+#define ROW(list, feature, name)    \
+    if (feature) {                  \
+        list.emplace_back(name##_); \
     }
-    std::vector<KernelArgument> *list = &arguments[StageInput::geometry];
-    bvh.visit([&](const auto &bvh_nodes_, const auto &bvh_triangles_) { GEOMETRY_BUFFERS(ROW) });
-    arguments[StageInput::traversal] = *list;
-    ROW(FEATURE_shapes, ShapeRecord, shapes)
-    for (const StageInput input : {StageInput::geometry, StageInput::traversal}) {
-        list = &arguments[input];
-        BOUNDS_BUFFERS(ROW)
-        if (FEATURE_shapes) {
-            list->emplace_back(shape_count_);
-        }
-    }
-    list = &arguments[StageInput::surfaces];
-    SURFACE_BUFFERS(ROW)
-    list = &arguments[StageInput::materials];
-    MATERIAL_BUFFERS(ROW)
-    list = &arguments[StageInput::lights];
-    LIGHT_BUFFERS(ROW)
-    list->emplace_back(lighting_);
+#define HIERARCHY_ROW(feature, type, name) ROW(hierarchy, feature, name)
+#define SHAPE_ROW(feature, type, name) ROW(shapes, feature, name)
+#define SHADING_ROW(feature, type, name) ROW(shading, feature, name)
+    bvh.visit([&](const auto &bvh_nodes_, const auto &bvh_triangles_) {
+        HIERARCHY_BUFFERS(HIERARCHY_ROW)
+    });
+    SHAPE_BUFFERS(SHAPE_ROW)
+    SHADING_BUFFERS(SHADING_ROW)
+#undef SHADING_ROW
+#undef SHAPE_ROW
+#undef HIERARCHY_ROW
 #undef ROW
-    return arguments;
+    const auto joined = [](std::initializer_list<Arguments> lists) {
+        Arguments all;
+        for (const Arguments &list : lists) {
+            all.insert(all.end(), list.begin(), list.end());
+        }
+        return all;
+    };
+    const Arguments count = {shape_count_};
+    const Arguments values = {shape_count_, lighting_};
+    return {{StageInput::tracing, joined({hierarchy, shapes, count})},
+            {StageInput::shading, joined({shapes, shading, values})},
+            {StageInput::scene, joined({hierarchy, shapes, shading, values})}};
 }
 
 }  // namespace rtrays

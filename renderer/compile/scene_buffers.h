@@ -17,18 +17,16 @@ class SceneBuffers {
     SceneBuffers() = default;
     SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
 
-    /// Returns the arguments of the stage inputs surfaces, materials and lights, and with the given
-    /// BVH those of geometry and traversal. The BVH is read only if the scene has triangles.
+    /// Returns the arguments of the stage inputs tracing, shading and scene. The BVH is read only
+    /// if the scene has triangles.
     StageArguments arguments(const Bvh &bvh) const;
 
     /// Calls visit(buffer) for every buffer.
     template <typename Visit>
     void visit(const Visit &visit_buffer) const {
 #define ROW(feature, type, name) visit_buffer(name##_);
-        BOUNDS_BUFFERS(ROW)
-        SURFACE_BUFFERS(ROW)
-        MATERIAL_BUFFERS(ROW)
-        LIGHT_BUFFERS(ROW)
+        SHAPE_BUFFERS(ROW)
+        SHADING_BUFFERS(ROW)
 #undef ROW
     }
 
@@ -37,10 +35,8 @@ class SceneBuffers {
     LightingRecord lighting_{};
     uint32_t shape_count_ = 0;
 #define ROW(feature, type, name) Buffer<type> name##_;
-    BOUNDS_BUFFERS(ROW)
-    SURFACE_BUFFERS(ROW)
-    MATERIAL_BUFFERS(ROW)
-    LIGHT_BUFFERS(ROW)
+    SHAPE_BUFFERS(ROW)
+    SHADING_BUFFERS(ROW)
 #undef ROW
 };
 

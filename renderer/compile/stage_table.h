@@ -8,11 +8,9 @@ namespace rtrays {
 
 /// Inputs of a stage, in the order of its parameters. Each input is one or more kernel parameters.
 enum class StageInput {
-    geometry,
-    traversal,
-    surfaces,
-    materials,
-    lights,
+    tracing,
+    shading,
+    scene,
     camera,
     film,
     half_film,
@@ -46,35 +44,35 @@ enum class StageItems {
     X(reset_streams, "kernels/advance_streams.cl", slots, In::first_work, In::streams)             \
     X(generate_camera_rays, "kernels/generate_camera_rays.cl", entries, In::camera, In::settings,  \
       In::first_sample, In::work, In::live_pixels, In::streams)                                    \
-    X(generate_light_paths, "kernels/generate_light_paths.cl", entries, In::surfaces, In::lights,  \
-      In::settings, In::first_sample, In::work, In::vertices, In::streams)                         \
+    X(generate_light_paths, "kernels/generate_light_paths.cl", entries, In::shading, In::settings, \
+      In::first_sample, In::work, In::vertices, In::streams)                                       \
     X(begin_round, "kernels/advance_streams.cl", one, In::counters)                                \
-    X(intersect_nearest, "kernels/intersect_nearest.cl", entries, In::geometry, In::streams)       \
-    X(evaluate_emission, "kernels/evaluate_emission.cl", entries, In::surfaces, In::lights,        \
-      In::settings, In::streams)                                                                   \
-    X(sample_light, "kernels/sample_light.cl", entries, In::surfaces, In::materials, In::lights,   \
-      In::settings, In::first_sample, In::chosen, In::streams)                                     \
-    X(intersect_any, "kernels/intersect_any.cl", entries, In::geometry, In::streams)               \
-    X(connect_emitter, "kernels/connect_emitter.cl", entries, In::surfaces, In::lights,            \
-      In::camera, In::settings, In::first_sample, In::streams)                                     \
-    X(connect_camera, "kernels/connect_camera.cl", entries, In::surfaces, In::materials,           \
-      In::lights, In::camera, In::settings, In::first_sample, In::streams)                         \
-    X(store_vertex, "kernels/store_vertex.cl", entries, In::surfaces, In::materials, In::settings, \
-      In::vertices, In::streams)                                                                   \
-    X(connect_vertices, "kernels/connect_vertices.cl", entries, In::surfaces, In::materials,       \
-      In::settings, In::chosen, In::vertices, In::streams)                                         \
-    X(splat_unblocked, "kernels/splat_unblocked.cl", entries, In::geometry, In::film, In::streams) \
-    X(extend_path, "kernels/extend_path.cl", entries, In::surfaces, In::materials, In::film,       \
-      In::half_film, In::settings, In::first_sample, In::streams)                                  \
-    X(follow_branches, "kernels/follow_branches.cl", entries, In::surfaces, In::materials,         \
-      In::film, In::settings, In::branches, In::streams)                                           \
-    X(end_paths, "kernels/end_paths.cl", entries, In::film, In::streams)                           \
-    X(trace_paths, "kernels/trace_paths.cl", paths, In::traversal, In::surfaces, In::materials,    \
-      In::lights, In::camera, In::film, In::half_film, In::settings, In::first_sample,             \
-      In::first_work, In::work, In::live_pixels, In::counters)                                     \
-    X(finish_paths, "kernels/finish_paths.cl", few_paths, In::traversal, In::surfaces,             \
-      In::materials, In::lights, In::camera, In::film, In::half_film, In::settings,                \
+    X(intersect_nearest, "kernels/intersect_nearest.cl", entries, In::tracing, In::streams)        \
+    X(evaluate_emission, "kernels/evaluate_emission.cl", entries, In::shading, In::settings,       \
+      In::streams)                                                                                 \
+    X(sample_light, "kernels/sample_light.cl", entries, In::shading, In::settings,                 \
+      In::first_sample, In::chosen, In::streams)                                                   \
+    X(intersect_any, "kernels/intersect_any.cl", entries, In::tracing, In::streams)                \
+    X(connect_emitter, "kernels/connect_emitter.cl", entries, In::shading, In::camera,             \
+      In::settings, In::first_sample, In::streams)                                                 \
+    X(connect_camera, "kernels/connect_camera.cl", entries, In::shading, In::camera, In::settings, \
       In::first_sample, In::streams)                                                               \
+    X(store_vertex, "kernels/store_vertex.cl", entries, In::shading, In::settings, In::vertices,   \
+      In::streams)                                                                                 \
+    X(connect_vertices, "kernels/connect_vertices.cl", entries, In::shading, In::settings,         \
+      In::chosen, In::vertices, In::streams)                                                       \
+    X(splat_unblocked, "kernels/splat_unblocked.cl", entries, In::tracing, In::film,               \
+      In::half_film, In::streams)                                                                  \
+    X(extend_path, "kernels/extend_path.cl", entries, In::shading, In::film, In::half_film,        \
+      In::settings, In::first_sample, In::streams)                                                 \
+    X(follow_branches, "kernels/follow_branches.cl", entries, In::shading, In::film,               \
+      In::half_film, In::settings, In::branches, In::streams)                                      \
+    X(end_paths, "kernels/end_paths.cl", entries, In::film, In::half_film, In::streams)            \
+    X(trace_paths, "kernels/trace_paths.cl", paths, In::scene, In::camera, In::film,               \
+      In::half_film, In::settings, In::first_sample, In::first_work, In::work, In::live_pixels,    \
+      In::counters)                                                                                \
+    X(finish_paths, "kernels/finish_paths.cl", few_paths, In::scene, In::camera, In::film,         \
+      In::half_film, In::settings, In::first_sample, In::streams)                                  \
     X(end_shadow_rays, "kernels/advance_streams.cl", one, In::counters)                            \
     X(count_nearest_rays, "kernels/count_rays.cl", entries, In::ray_counts, In::streams)           \
     X(count_shadow_rays, "kernels/count_rays.cl", entries, In::ray_counts, In::streams)            \

@@ -52,16 +52,14 @@ DEVICE void count_rays(GLOBAL StreamCounters *counters, RayCounts rays) {
 
 /// Connects the path's hit to one light, or to each light with FEATURE_independent_lights, and adds
 /// unblocked light samples to the path.
-DEVICE void add_light_samples(PathStates paths,
-                              TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
-                                  LIGHT_PARAMETERS IntegratorSettings settings,
-                              ulong first_sample, PRIVATE RayCounts *rays) {
-    const uint count = FEATURE_independent_lights ? lighting.light_count : 1u;
+DEVICE void add_light_samples(PathStates paths, PRIVATE const SceneView *scene,
+                              IntegratorSettings settings, ulong first_sample,
+                              PRIVATE RayCounts *rays) {
+    const uint count = FEATURE_independent_lights ? scene->lighting.light_count : 1u;
     for (uint light = 0u; light < count; ++light) {
         const uint chosen = FEATURE_independent_lights ? light : SELECT_LIGHT;
-        if (join_to_light(paths, 0u, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings,
-                          first_sample, chosen)) {
-            add_unblocked(paths, 0u, GEOMETRY_ARGUMENTS get_ray_origin(paths, 0u),
+        if (join_to_light(paths, 0u, scene, settings, first_sample, chosen)) {
+            add_unblocked(paths, 0u, scene, get_ray_origin(paths, 0u),
                           get_shadow_vector(paths, 0u));
             ++rays->shadow;
         }
@@ -72,31 +70,25 @@ DEVICE void add_light_samples(PathStates paths,
 
 /// Advances the path in slot 0 by one event. Returns false if the path ends there. The connection
 /// of a light path's start to the camera is not part of it.
-DEVICE bool advance_path(PathStates paths,
-                         TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
-                             LIGHT_PARAMETERS MAYBE_UNUSED CameraRecord camera,
-                         MAYBE_UNUSED GLOBAL long *film, IntegratorSettings settings,
-                         ulong first_sample, PRIVATE RayCounts *rays,
-                         MAYBE_UNUSED GLOBAL StreamCounters *counters) {
-    find_hit(paths, 0u, GEOMETRY_ARGUMENTS get_ray_origin(paths, 0u), get_ray_direction(paths, 0u));
+DEVICE bool advance_path(PathStates paths, PRIVATE const SceneView *scene,
+                         MAYBE_UNUSED CameraRecord camera, MAYBE_UNUSED FilmView film,
+                         IntegratorSettings settings, ulong first_sample, PRIVATE RayCounts *rays) {
+    find_hit(paths, 0u, scene, get_ray_origin(paths, 0u), get_ray_direction(paths, 0u));
     ++rays->nearest;
 #if MEETS_LIGHT
-    add_emission(paths, 0u, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings);
+    add_emission(paths, 0u, scene, settings);
 #endif
 #if JOINS_LIGHT
-    add_light_samples(
-        paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings,
-        first_sample, rays);
+    add_light_samples(paths, scene, settings, first_sample, rays);
 #endif
 #if FEATURE_from_light
-    if (join_hit(paths, 0u, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera, settings,
-                 first_sample)) {
-        splat(paths, 0u, GEOMETRY_ARGUMENTS film, counters);
+    if (join_hit(paths, 0u, scene, camera, settings, first_sample)) {
+        splat(paths, 0u, scene, film);
         ++rays->shadow;
     }
 #endif
 #if FEATURE_scattering
-    return scatter(paths, 0u, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS settings, first_sample);
+    return scatter(paths, 0u, scene, settings, first_sample);
 #else
     return false;
 #endif

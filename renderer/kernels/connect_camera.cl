@@ -16,53 +16,51 @@
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 #if FEATURE_emission_density
 
 /// Returns log2 of p_o,explicit / (p_o E) at the first hit of a light path, where E is the density
 /// per area with which the path arrives (light/mis.h).
-DEVICE float explicit_over_light(PathStates paths, uint slot,
-                                 SURFACE_PARAMETERS LIGHT_PARAMETERS SurfaceHit hit) {
-    const LightRecord light = lights[get_light(paths, slot)];
+DEVICE float explicit_over_light(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                                 SurfaceHit hit) {
+    const LightRecord light = scene->lights[get_light(paths, slot)];
     SurfacePoint start;
     start.position = get_ray_origin(paths, slot);
     start.normal = get_ray_direction(paths, slot);
 #if FEATURE_shape_lights
     if (light.kind == LIGHT_SPHERE) {
-        start.normal = normalize(start.position - shape_centre(shapes + light.first_triangle));
+        start.normal =
+            normalize(start.position - shape_centre(scene->shapes + light.first_triangle));
     }
 #endif
     const float cosine = fabs(dot(hit.point.normal, get_ray_direction(paths, slot)));
     const float3 way = hit.point.position - start.position;
     const float squared = light.kind < LIGHT_DIRECTIONAL ? dot(way, way) : 1.0f;
     return get_log_arrival(paths, slot) +
-           log2_quotient(
-               sampling_over_emission(SURFACE_ARGUMENTS light, hit.point.position, start) * squared,
-               cosine);
+           log2_quotient(sampling_over_emission(scene, light, hit.point.position, start) * squared,
+                         cosine);
 }
 
 #endif
 
 /// Connects a hit to the camera and prepares the shadow ray. Returns false if the connection
 /// contributes nothing.
-DEVICE bool join_hit(PathStates paths, uint slot,
-                     SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
-                     IntegratorSettings settings, ulong first_sample) {
+DEVICE bool join_hit(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                     CameraRecord camera, IntegratorSettings settings, ulong first_sample) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
     if (primitive == NO_HIT) {
         return false;
     }
-    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
 #if FEATURE_emission_density
     if (depth == 0u) {
-        set_log_arrival(paths, slot,
-                        explicit_over_light(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS hit));
+        set_log_arrival(paths, slot, explicit_over_light(paths, slot, scene, hit));
     }
 #endif
 #if FEATURE_vertex_joins
@@ -79,7 +77,7 @@ DEVICE bool join_hit(PathStates paths, uint slot,
     }
 #endif
 #if FEATURE_delta
-    if ((materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
         return false;
     }
 #endif
@@ -102,8 +100,7 @@ DEVICE bool join_hit(PathStates paths, uint slot,
     // The BSDF is that of radiance from wi to wo, as for a camera path. f_cos contains the cosine
     // with the shading normal, while the path's area measure has the cosine with the geometric
     // normal (Veach 1997, section 5.3).
-    const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
-                                         shading_frame(MATERIAL_ARGUMENTS hit, wo), wi);
+    const BsdfValue bsdf = bsdf_evaluate(scene, hit.material, shading_frame(scene, hit, wo), wi);
     if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
         return false;
     }
@@ -144,18 +141,16 @@ DEVICE bool join_hit(PathStates paths, uint slot,
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void connect_camera(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS CameraRecord
-                                 camera,
-                             IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
+__kernel void connect_camera(SHADING_PARAMETERS, CameraRecord camera, IntegratorSettings settings,
+                             ulong first_sample, STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot =
-            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
-        if (join_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera,
-                     settings, first_sample)) {
+        const uint slot = shaded_path_at(&scene, paths, queue, i, i_end);
+        if (join_hit(paths, slot, &scene, camera, settings, first_sample)) {
             push_slot(&shadow, slot);
         }
     }

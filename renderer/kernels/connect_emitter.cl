@@ -12,9 +12,9 @@
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 #if FEATURE_light_strategy
 #define SEEN_BY_CAMERA_ALONE \
@@ -25,16 +25,14 @@
 
 /// Connects the start of a light path to the camera and prepares the shadow ray. Returns false if
 /// the camera does not see it or light paths do not show it.
-DEVICE bool join_start(PathStates paths, uint slot,
-                       SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
-                       IntegratorSettings settings, ulong first_sample) {
+DEVICE bool join_start(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                       CameraRecord camera, IntegratorSettings settings, ulong first_sample) {
     const uint path = get_pixel(paths, slot);
     const ulong sample = first_sample + get_sample(paths, slot);
     if (get_depth(paths, slot) > 0u || SEEN_BY_CAMERA_ALONE) {
         return false;
     }
-    const EmissionSample start =
-        path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, sample);
+    const EmissionSample start = path_start(scene, settings, path, sample);
     if (start.is_delta != 0u || start.at_infinity != 0u) {
         return false;
     }
@@ -51,7 +49,7 @@ DEVICE bool join_start(PathStates paths, uint slot,
     // n_L).
     const float camera_pdf_a = join.pdf_w * (facing / sqrt(squared)) / squared;
     const float light_pdf_a = start.pdf_origin * (float)settings.light_paths;  // p_o n_L
-    float3 radiance = light_radiance(lights[start.light]) * (camera_pdf_a / light_pdf_a);
+    float3 radiance = light_radiance(scene->lights[start.light]) * (camera_pdf_a / light_pdf_a);
 #if FEATURE_light_emitters
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L = P_1 / (n_L p_o) of a path with one edge (light/mis.h).
@@ -65,15 +63,15 @@ DEVICE bool join_start(PathStates paths, uint slot,
     return true;
 }
 
-__kernel void connect_emitter(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera,
-                              IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
+__kernel void connect_emitter(SHADING_PARAMETERS, CameraRecord camera, IntegratorSettings settings,
+                              ulong first_sample, STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
-        if (join_start(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS camera, settings,
-                       first_sample)) {
+        if (join_start(paths, slot, &scene, camera, settings, first_sample)) {
             push_slot(&shadow, slot);
         }
     }

@@ -12,12 +12,12 @@
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// One end of a connection: its BSDF and its densities.
 typedef struct JoinEnd {
@@ -33,12 +33,12 @@ typedef struct JoinEnd {
 
 /// Returns the end of a connection at `hit`. The path came from direction `before` and is connected
 /// along direction `other`; both are unit vectors away from the surface.
-DEVICE JoinEnd join_end(MATERIAL_PARAMETERS SurfaceHit hit, float3 before, float3 other,
+DEVICE JoinEnd join_end(PRIVATE const SceneView *scene, SurfaceHit hit, float3 before, float3 other,
                         bool from_camera, float log_arrival, float log_strategies, float beta) {
-    const BsdfValue onwards = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
-                                            shading_frame(MATERIAL_ARGUMENTS hit, before), other);
-    const BsdfValue back = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material,
-                                         shading_frame(MATERIAL_ARGUMENTS hit, other), before);
+    const BsdfValue onwards =
+        bsdf_evaluate(scene, hit.material, shading_frame(scene, hit, before), other);
+    const BsdfValue back =
+        bsdf_evaluate(scene, hit.material, shading_frame(scene, hit, other), before);
     JoinEnd end;
     end.f_cos = from_camera ? onwards.f_cos : back.f_cos;
     end.pdf_w = onwards.pdf_w;
@@ -53,10 +53,8 @@ DEVICE bool is_black(float3 value) {
 
 /// Connects a hit to a light vertex and prepares the shadow ray. Returns false if the connection
 /// contributes nothing.
-DEVICE bool join_to_vertex(PathStates paths, uint slot,
-                           SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS
-                               IntegratorSettings settings,
-                           uint chosen) {
+DEVICE bool join_to_vertex(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                           GLOBAL uint *vertex_words, IntegratorSettings settings, uint chosen) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint events = get_depth(paths, slot) + chosen + 2u;
     if (primitive == NO_HIT || !all_strategies(settings, events)) {
@@ -74,9 +72,9 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot,
     if (!has_light_vertex(place)) {
         return false;
     }
-    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
 #if FEATURE_delta
-    if ((materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
         return false;
     }
 #endif
@@ -85,7 +83,7 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot,
 #if FEATURE_shapes
     lit_at.z = vertex.hit_w;
 #endif
-    const SurfaceHit lit = surface_hit(SURFACE_ARGUMENTS vertex.hit_primitive, lit_at);
+    const SurfaceHit lit = surface_hit(scene, vertex.hit_primitive, lit_at);
     const float3 way = lit.point.position - hit.point.position;
     const float squared = dot(way, way);
     const float3 wi = way / sqrt(squared);
@@ -99,14 +97,13 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot,
           fabs(dot(hit.point.normal, wo)) > 0.0f)) {
         return false;
     }
-    const JoinEnd here =
-        join_end(MATERIAL_ARGUMENTS hit, wo, wi, true, get_log_arrival(paths, slot),
-                 get_log_strategies(paths, slot), settings.beta);
+    const JoinEnd here = join_end(scene, hit, wo, wi, true, get_log_arrival(paths, slot),
+                                  get_log_strategies(paths, slot), settings.beta);
     if (is_black(here.f_cos)) {
         return false;
     }
-    const JoinEnd there = join_end(MATERIAL_ARGUMENTS lit, from_light, -wi, false,
-                                   vertex.log_arrival, vertex.log_strategies, settings.beta);
+    const JoinEnd there = join_end(scene, lit, from_light, -wi, false, vertex.log_arrival,
+                                   vertex.log_strategies, settings.beta);
     if (is_black(there.f_cos)) {
         return false;
     }
@@ -127,18 +124,16 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot,
     return true;
 }
 
-__kernel void connect_vertices(SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
-                               uint chosen, VERTEX_PARAMETERS STREAM_PARAMETERS) {
+__kernel void connect_vertices(SHADING_PARAMETERS, IntegratorSettings settings, uint chosen,
+                               GLOBAL uint *vertex_words, STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot =
-            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
-        if (join_to_vertex(paths, slot,
-                           SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings,
-                           chosen)) {
+        const uint slot = shaded_path_at(&scene, paths, queue, i, i_end);
+        if (join_to_vertex(paths, slot, &scene, vertex_words, settings, chosen)) {
             push_slot(&shadow, slot);
         }
     }

@@ -9,7 +9,6 @@
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/ray_counts.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// Counts one ray. `counts` has RAY_DEPTHS entries of each kind.
 DEVICE void count_ray(GLOBAL long *counts, uint kind, uint depth) {

@@ -8,10 +8,10 @@
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
-__kernel void end_paths(GLOBAL long *film, STREAM_PARAMETERS) {
+__kernel void end_paths(GLOBAL long *film_words, GLOBAL long *half_film_words, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
+    const FilmView film = {film_words, half_film_words, counters};
     PushBuffer ended;
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
@@ -20,7 +20,7 @@ __kernel void end_paths(GLOBAL long *film, STREAM_PARAMETERS) {
         push_slot(&ended, slot);
     }
     for (uint i = 0u; i < ended.count; ++i) {
-        add_path(paths, ended.slots[i], film, counters);
+        add_path(paths, ended.slots[i], film);
     }
     append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);
 }

@@ -9,11 +9,11 @@
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// Emission that a path meets, with the densities of the other techniques that could have sampled
 /// the path.
@@ -29,29 +29,28 @@ typedef struct Emission {
 
 /// Returns false if nothing is emitted towards the path. Sets the density of light sampling if
 /// `by_light_sampling`, and that of light paths if `by_light_path`.
-DEVICE bool emission_met(PathStates paths, uint slot,
-                         SURFACE_PARAMETERS LIGHT_PARAMETERS bool by_light_sampling,
-                         MAYBE_UNUSED bool by_light_path, PRIVATE Emission *met) {
+DEVICE bool emission_met(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                         bool by_light_sampling, MAYBE_UNUSED bool by_light_path,
+                         PRIVATE Emission *met) {
     const uint primitive = get_hit_primitive(paths, slot);
     const float3 direction = get_ray_direction(paths, slot);
     MAYBE_UNUSED const float3 from = get_ray_origin(paths, slot);
     met->explicit_pdf_w = 0.0f;
     if (primitive == NO_HIT) {
 #if FEATURE_infinite_lights
-        if (lighting.infinite_light == NO_EMITTER) {
+        if (scene->lighting.infinite_light == NO_EMITTER) {
             return false;
         }
-        met->radiance = infinite_radiance(LIGHT_ARGUMENTS direction);
+        met->radiance = infinite_radiance(scene, direction);
         if (by_light_sampling) {
-            met->explicit_pdf_w = lights[lighting.infinite_light].selection *
-                                  infinite_pdf_w(LIGHT_ARGUMENTS direction);
+            met->explicit_pdf_w = scene->lights[scene->lighting.infinite_light].selection *
+                                  infinite_pdf_w(scene, direction);
         }
 #if FEATURE_light_strategy
         if (by_light_path) {
             // Light at infinity that the camera sees directly is not connected to the camera.
-            met->line_pdf = get_depth(paths, slot) > 0u
-                                ? infinite_line_pdf(LIGHT_ARGUMENTS from, direction)
-                                : 0.0f;
+            met->line_pdf =
+                get_depth(paths, slot) > 0u ? infinite_line_pdf(scene, from, direction) : 0.0f;
         }
 #endif
         return true;
@@ -60,22 +59,21 @@ DEVICE bool emission_met(PathStates paths, uint slot,
 #endif
     }
 #if FEATURE_area_lights || FEATURE_shape_lights
-    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
     if (hit.emitter == NO_EMITTER || !(dot(hit.point.normal, direction) < 0.0f)) {
         return false;
     }
-    const LightRecord light = lights[light_of_hit(LIGHT_ARGUMENTS primitive, hit.emitter)];
+    const LightRecord light = scene->lights[light_of_hit(scene, primitive, hit.emitter)];
     met->radiance = light_radiance(light);
     if (by_light_sampling) {
-        met->explicit_pdf_w = light_pdf_a(SURFACE_ARGUMENTS LIGHT_ARGUMENTS light, primitive,
-                                          hit.emitter, from, hit.point) *
+        met->explicit_pdf_w = light_pdf_a(scene, light, primitive, hit.emitter, from, hit.point) *
                               solid_angle_per_area(hit.point.position - from, hit.point.normal);
     }
 #if FEATURE_light_strategy
     if (by_light_path) {
         met->line_pdf = get_depth(paths, slot) > 0u
-                            ? emission_line_pdf(LIGHT_ARGUMENTS light, primitive, hit.emitter)
-                            : emission_pdf_a(LIGHT_ARGUMENTS light, primitive, hit.emitter);
+                            ? emission_line_pdf(scene, light, primitive, hit.emitter)
+                            : emission_pdf_a(scene, light, primitive, hit.emitter);
     }
 #endif
     return true;
@@ -88,13 +86,13 @@ DEVICE bool emission_met(PathStates paths, uint slot,
 
 /// Sets R_0 of kernels/light/mis.h at the first hit and, for vertex connections, A_i at every hit.
 /// At the first hit `pdf_w` is the density of the camera ray.
-DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSettings settings) {
+DEVICE void arrive(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                   IntegratorSettings settings) {
     const uint primitive = get_hit_primitive(paths, slot);
     const bool first = get_depth(paths, slot) == 0u;
     float log_arrival = -INFINITY;
     if (primitive != NO_HIT) {
-        const SurfacePoint hit =
-            surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot)).point;
+        const SurfacePoint hit = surface_hit(scene, primitive, get_hit_at(paths, slot)).point;
         const float3 way = hit.position - get_ray_origin(paths, slot);
         const float cosine = fabs(dot(hit.normal, get_ray_direction(paths, slot)));
         const float strategies = first ? (float)settings.light_paths : 1.0f;
@@ -111,15 +109,15 @@ DEVICE void arrive(PathStates paths, uint slot, SURFACE_PARAMETERS IntegratorSet
 #endif
 
 /// Adds emission to a path, with the MIS weight of its technique.
-DEVICE void add_emission(PathStates paths, uint slot,
-                         SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings) {
+DEVICE void add_emission(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                         IntegratorSettings settings) {
     bool by_light_sampling = false, by_light_path = false;
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         by_light_path = true;
         const bool first = get_depth(paths, slot) == 0u;
         if (FEATURE_vertex_joins || first) {
-            arrive(paths, slot, SURFACE_ARGUMENTS settings);
+            arrive(paths, slot, scene, settings);
         }
         if (first) {
             by_light_path = (settings.strategies & STRATEGY_LIGHT_EMITTERS) != 0u;
@@ -146,8 +144,7 @@ DEVICE void add_emission(PathStates paths, uint slot,
     }
 #endif
     Emission met;
-    if (!emission_met(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS by_light_sampling,
-                      by_light_path, &met)) {
+    if (!emission_met(paths, slot, scene, by_light_sampling, by_light_path, &met)) {
         return;
     }
     float3 radiance = met.radiance;
@@ -180,12 +177,13 @@ DEVICE void add_emission(PathStates paths, uint slot,
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void evaluate_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+__kernel void evaluate_emission(SHADING_PARAMETERS, IntegratorSettings settings,
                                 STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
-        add_emission(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings);
+        add_emission(paths, slot, &scene, settings);
     }
 }
 

@@ -13,21 +13,20 @@
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/live_pixels.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 #if FEATURE_scattering
 
 #include "renderer/kernels/bsdf/reverse.h"
 
 /// Samples scattering at the hit and moves the path's ray there. Returns false if the path ends.
-DEVICE bool scatter(PathStates paths, uint slot,
-                    SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
-                    ulong first_sample) {
+DEVICE bool scatter(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                    IntegratorSettings settings, ulong first_sample) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
     if (primitive == NO_HIT) {
@@ -47,19 +46,17 @@ DEVICE bool scatter(PathStates paths, uint slot,
         return false;
     }
 #endif
-    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
-    const SurfaceFrame frame =
-        shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
+    const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(paths, slot));
     const uint4 words = path_sample(settings, get_pixel(paths, slot),
                                     first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
-    const BsdfSample sample =
-        bsdf_sample(MATERIAL_ARGUMENTS hit.material, frame, uniform_float(words.w),
-                    uniform_float(words.x), uniform_float(words.y));
+    const BsdfSample sample = bsdf_sample(scene, hit.material, frame, uniform_float(words.w),
+                                          uniform_float(words.x), uniform_float(words.y));
     if (!(sample.pdf_w > 0.0f)) {
         return false;
     }
 #if FEATURE_light_strategy || FEATURE_from_light
-    const TwoWay both = look_back(MATERIAL_ARGUMENTS hit, frame, sample);
+    const TwoWay both = look_back(scene, hit, frame, sample);
 #endif
 #if FEATURE_from_light
     float3 throughput = get_throughput(paths, slot) * both.importance;
@@ -134,35 +131,33 @@ DEVICE bool scatter(PathStates paths, uint slot,
 #endif
 
 /// Adds a path that ends here to the film.
-DEVICE void end_path(PathStates paths, uint slot, GLOBAL long *film,
-                     HALF_FILM_PARAMETERS MAYBE_UNUSED ulong first_sample,
-                     GLOBAL StreamCounters *counters) {
+DEVICE void end_path(PathStates paths, uint slot, FilmView film, MAYBE_UNUSED ulong first_sample) {
 #if FEATURE_from_camera
 #if FEATURE_convergence
-    if (add_path(paths, slot, film, counters)) {
-        add_path_to_half(paths, slot, half_film, first_sample, counters);
+    if (add_path(paths, slot, film)) {
+        add_path_to_half(paths, slot, film, first_sample);
     }
 #else
-    add_path(paths, slot, film, counters);
+    add_path(paths, slot, film);
 #endif
 #endif
 }
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film,
-                          HALF_FILM_PARAMETERS IntegratorSettings settings, ulong first_sample,
-                          STREAM_PARAMETERS) {
+__kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL long *half_film_words,
+                          IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
+    const FilmView film = {film_words, half_film_words, counters};
     PushBuffer extended, ended;
     extended.count = 0u;
     ended.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot =
-            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
+        const uint slot = shaded_path_at(&scene, paths, queue, i, i_end);
 #if FEATURE_scattering
-        if (scatter(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS settings, first_sample)) {
+        if (scatter(paths, slot, &scene, settings, first_sample)) {
             push_slot(&extended, slot);
             continue;
         }
@@ -173,7 +168,7 @@ __kernel void extend_path(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *fi
         push_slot(&ended, slot);
     }
     for (uint i = 0u; i < ended.count; ++i) {
-        end_path(paths, ended.slots[i], film, HALF_FILM_ARGUMENTS first_sample, counters);
+        end_path(paths, ended.slots[i], film, first_sample);
     }
     append_active(queues, counters, capacity, 1u - counters->parity, &extended);
     append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);

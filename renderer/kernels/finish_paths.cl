@@ -12,10 +12,10 @@
 #include "renderer/kernels/advance_path.h"
 #include "renderer/shared/finish_paths.h"
 
-__kernel void finish_paths(TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
-                               LIGHT_PARAMETERS CameraRecord camera,
-                           GLOBAL long *film, HALF_FILM_PARAMETERS IntegratorSettings settings,
+__kernel void finish_paths(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *film_words,
+                           GLOBAL long *half_film_words, IntegratorSettings settings,
                            ulong first_sample, STREAM_PARAMETERS) {
+    const SceneView scene = SCENE_VIEW;
     const uint i = get_global_id(0);
     if (i >= active_count(counters)) {
         return;
@@ -26,16 +26,15 @@ __kernel void finish_paths(TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARA
     for (uint word = 0u; word < PATH_STATE_WORDS; ++word) {
         words[word] = path_words[STREAM_WORD(capacity, slot, word)];
     }
+    const FilmView film = {film_words, half_film_words, counters};
     RayCounts rays = {0u, 0u};
     bool goes_on = true;
     for (uint event = 0u; goes_on && event < FINISH_EVENTS; ++event) {
-        goes_on = advance_path(
-            paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera,
-            film, settings, first_sample, &rays, counters);
+        goes_on = advance_path(paths, &scene, camera, film, settings, first_sample, &rays);
     }
     count_rays(counters, rays);
     if (!goes_on) {
-        end_path(paths, 0u, film, HALF_FILM_ARGUMENTS first_sample, counters);
+        end_path(paths, 0u, film, first_sample);
         return;
     }
     for (uint word = 0u; word < PATH_STATE_WORDS; ++word) {

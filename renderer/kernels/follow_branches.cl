@@ -14,12 +14,12 @@
 #include "renderer/kernels/bsdf/shading_frame.h"
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/branch.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 #if FEATURE_delta && FEATURE_from_camera
 
@@ -45,21 +45,19 @@ DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settin
 
 /// Follows the next ideal component of the vertex with a nonzero contribution, and stores the
 /// vertex if it has more components. Returns false if no component is left.
-DEVICE bool follow(PathStates paths, uint slot,
-                   SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS IntegratorSettings
-                       settings,
+DEVICE bool follow(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                   MAYBE_UNUSED GLOBAL uint *branch_words, IntegratorSettings settings,
                    Branch vertex) {
 #if FEATURE_shapes
     const float3 at = make_float3(vertex.hit_u, vertex.hit_v, vertex.hit_w);
 #else
     const float3 at = make_float3(vertex.hit_u, vertex.hit_v, 0.0f);
 #endif
-    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS vertex.hit_primitive, at);
-    const SurfaceFrame frame = shading_frame(MATERIAL_ARGUMENTS hit, -vertex.direction);
-    const MaterialRecord material = materials[hit.material];
+    const SurfaceHit hit = surface_hit(scene, vertex.hit_primitive, at);
+    const SurfaceFrame frame = shading_frame(scene, hit, -vertex.direction);
+    const MaterialRecord material = scene->materials[hit.material];
     for (uint i = vertex.component; i < material.component_count; ++i) {
-        const BsdfSample sample =
-            bsdf_delta(MATERIAL_ARGUMENTS material, frame, material.first_component + i);
+        const BsdfSample sample = bsdf_delta(scene, material, frame, material.first_component + i);
         const float3 throughput = vertex.throughput * sample.weight;
         const float largest = max(throughput.x, max(throughput.y, throughput.z));
         if (!(sample.pdf_w > 0.0f && largest > 0.0f)) {
@@ -96,13 +94,11 @@ DEVICE bool follow(PathStates paths, uint slot,
 }
 
 /// Continues the path from its hit or from a stored vertex. Returns false if its tree is finished.
-DEVICE bool next_branch(PathStates paths, uint slot,
-                        SURFACE_PARAMETERS MATERIAL_PARAMETERS BRANCH_PARAMETERS IntegratorSettings
-                            settings) {
+DEVICE bool next_branch(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                        MAYBE_UNUSED GLOBAL uint *branch_words, IntegratorSettings settings) {
     Branch vertex;
     if (branch_of_hit(paths, slot, settings, &vertex) &&
-        follow(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings,
-               vertex)) {
+        follow(paths, slot, scene, branch_words, settings, vertex)) {
         return true;
     }
 #if FEATURE_branches
@@ -110,8 +106,7 @@ DEVICE bool next_branch(PathStates paths, uint slot,
         set_pending(paths, slot, pending - 1u);
         vertex = load_branch(record_place(branch_words, BRANCH_WORDS, paths.capacity,
                                           settings.max_depth, slot, pending - 1u));
-        if (follow(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings,
-                   vertex)) {
+        if (follow(paths, slot, scene, branch_words, settings, vertex)) {
             return true;
         }
     }
@@ -119,19 +114,21 @@ DEVICE bool next_branch(PathStates paths, uint slot,
     return false;
 }
 
-__kernel void follow_branches(SURFACE_PARAMETERS MATERIAL_PARAMETERS GLOBAL long *film,
-                              IntegratorSettings settings, BRANCH_PARAMETERS STREAM_PARAMETERS) {
+__kernel void follow_branches(SHADING_PARAMETERS, GLOBAL long *film_words,
+                              GLOBAL long *half_film_words, IntegratorSettings settings,
+                              GLOBAL uint *branch_words, STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
+    const FilmView film = {film_words, half_film_words, counters};
     PushBuffer extended, ended;
     extended.count = 0u;
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = path_at(paths, active_queue(queues, counters, capacity), i, i_end);
-        if (next_branch(paths, slot,
-                        SURFACE_ARGUMENTS MATERIAL_ARGUMENTS BRANCH_ARGUMENTS settings)) {
+        if (next_branch(paths, slot, &scene, branch_words, settings)) {
             push_slot(&extended, slot);
         } else {
-            add_path(paths, slot, film, counters);
+            add_path(paths, slot, film);
             push_slot(&ended, slot);
         }
     }

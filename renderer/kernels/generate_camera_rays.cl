@@ -12,7 +12,6 @@
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/live_pixels.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// Starts sample `sample` of the batch in pixel `pixel`.
 DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera,
@@ -48,31 +47,30 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera,
 /// that the pixel's film sums stay in a cache. Paths that are connected to light vertices instead
 /// cover all pixels sample by sample, as light paths do.
 DEVICE void start_item(PathStates paths, uint slot, CameraRecord camera,
-                       IntegratorSettings settings, ulong first_sample,
-                       LIVE_PIXELS_PARAMETERS uint item, MAYBE_UNUSED uint work) {
-    const uint pixels = LIVE_COUNT(camera.width * camera.height);
+                       IntegratorSettings settings, ulong first_sample, LivePixels live, uint item,
+                       MAYBE_UNUSED uint work) {
 #if FEATURE_vertex_joins
-    const uint pixel = item % pixels, sample = item / pixels;
+    const uint pixel = item % live.count, sample = item / live.count;
 #else
-    const uint samples = work / pixels;
+    const uint samples = work / live.count;
     const uint pixel = item / samples, sample = item % samples;
 #endif
-    start_path(paths, slot, camera, settings, first_sample, LIVE_PIXEL(pixel), sample);
+    start_path(paths, slot, camera, settings, first_sample, live_pixel(live, pixel), sample);
 }
 
 #if !PATH_STATES_PRIVATE
 
 __kernel void generate_camera_rays(CameraRecord camera, IntegratorSettings settings,
-                                   ulong first_sample, uint work,
-                                   LIVE_PIXELS_PARAMETERS STREAM_PARAMETERS) {
+                                   ulong first_sample, uint work, GLOBAL const uint *live_pixels,
+                                   uint live_count, STREAM_PARAMETERS) {
     const PathStates paths = {path_words, capacity};
+    const LivePixels live = make_live_pixels(live_pixels, live_count, camera.width * camera.height);
     const WorkItems items = take_work(counters);
     PushBuffer started;
     started.count = 0u;
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
-        start_item(paths, slot, camera, settings, first_sample,
-                   LIVE_PIXELS_ARGUMENTS items.first + i, work);
+        start_item(paths, slot, camera, settings, first_sample, live, items.first + i, work);
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);

@@ -15,18 +15,16 @@
 #if FEATURE_vertex_joins
 #include "renderer/shared/light_vertex.h"
 #endif
+#include "renderer/kernels/scene_view.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// Starts light path `path` of sample `sample` of the batch.
-DEVICE void start_path(PathStates paths, uint slot,
-                       SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
-                       ulong first_sample, uint path, uint sample) {
+DEVICE void start_path(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                       IntegratorSettings settings, ulong first_sample, uint path, uint sample) {
     set_pixel(paths, slot, path);
     set_sample(paths, slot, sample);
     set_depth(paths, slot, 0u);
-    const EmissionSample emission =
-        path_start(SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, path, first_sample + sample);
+    const EmissionSample emission = path_start(scene, settings, path, first_sample + sample);
     set_ray_origin(paths, slot, emission.origin);
     set_ray_direction(paths, slot, emission.direction);
 #if FEATURE_scattering
@@ -52,16 +50,17 @@ DEVICE void start_path(PathStates paths, uint slot,
 #endif
 }
 
-__kernel void generate_light_paths(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
-                                   ulong first_sample, uint work,
-                                   VERTEX_PARAMETERS STREAM_PARAMETERS) {
+__kernel void generate_light_paths(SHADING_PARAMETERS, IntegratorSettings settings,
+                                   ulong first_sample, uint work, GLOBAL uint *vertex_words,
+                                   STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
     const WorkItems items = take_work(counters);
     PushBuffer started;
     started.count = 0u;
     for (uint i = 0; i < items.count && items.first + i < work; ++i) {
         const uint slot = queues[QUEUE_FREE * capacity + items.slots + i];
-        start_path(paths, slot, SURFACE_ARGUMENTS LIGHT_ARGUMENTS settings, first_sample,
+        start_path(paths, slot, &scene, settings, first_sample,
                    (items.first + i) % settings.light_paths,
                    (items.first + i) / settings.light_paths);
 #if FEATURE_vertex_joins

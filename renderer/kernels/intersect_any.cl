@@ -10,20 +10,21 @@
 #include "renderer/shared/path_state.h"
 
 /// Adds the shadow radiance of a path unless its shadow ray is blocked.
-DEVICE void add_unblocked(PathStates paths, uint slot, GEOMETRY_PARAMETERS float3 origin,
-                          float3 way) {
-    if (!is_blocked(GEOMETRY_ARGUMENTS origin, way)) {
+DEVICE void add_unblocked(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                          float3 origin, float3 way) {
+    if (!is_blocked(scene, origin, way)) {
         set_radiance(paths, slot, get_radiance(paths, slot) + get_shadow_radiance(paths, slot));
     }
 }
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void intersect_any(GEOMETRY_PARAMETERS STREAM_PARAMETERS) {
+__kernel void intersect_any(TRACING_PARAMETERS, STREAM_PARAMETERS) {
+    const SceneView scene = TRACING_VIEW;
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, counters->shadow) {
         const uint slot = path_at(paths, queues + QUEUE_SHADOW * capacity, i, i_end);
-        add_unblocked(paths, slot, GEOMETRY_ARGUMENTS get_ray_origin(paths, slot),
+        add_unblocked(paths, slot, &scene, get_ray_origin(paths, slot),
                       get_shadow_vector(paths, slot));
     }
 }

@@ -14,18 +14,19 @@
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 #if FEATURE_light_strategy
 
 /// Returns log2 of p_L / p_E (light/mis.h). If light vertices are stored, p_L stands for all
 /// strategies that involve light paths.
-DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETERS SurfaceHit hit,
-                                 float3 wo, LightSample light, IntegratorSettings settings) {
+DEVICE float light_over_explicit(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                                 SurfaceHit hit, float3 wo, LightSample light,
+                                 IntegratorSettings settings) {
     const uint depth = get_depth(paths, slot);
     const float cos_wo = fabs(dot(hit.point.normal, wo));
     // A zero cosine would make log_back +INFINITY, and its sum with -INFINITY is NaN.
@@ -44,9 +45,9 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETER
     if (depth == 0u || (!all && !(log_ratio > -INFINITY))) {
         return log_ratio + log_arrive;
     }
-    const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, light.wi);
+    const SurfaceFrame back = shading_frame(scene, hit, light.wi);
     const float log_back =
-        log2_quotient(bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, wo).pdf_w, cos_wo);
+        log2_quotient(bsdf_evaluate(scene, hit.material, back, wo).pdf_w, cos_wo);
 #if FEATURE_vertex_joins
     if (all) {
         return log_arrive + strategies_before(get_log_strategies(paths, slot),
@@ -61,10 +62,8 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, MATERIAL_PARAMETER
 
 /// Connects the hit of a path to light `chosen`, or to a light selected at random for SELECT_LIGHT,
 /// and prepares the shadow ray. Returns false if the connection contributes nothing.
-DEVICE bool join_to_light(PathStates paths, uint slot,
-                          SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS IntegratorSettings
-                              settings,
-                          ulong first_sample, uint chosen) {
+DEVICE bool join_to_light(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                          IntegratorSettings settings, ulong first_sample, uint chosen) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
     if (primitive == NO_HIT || (settings.strategies & STRATEGY_EXPLICIT) == 0u) {
@@ -75,9 +74,9 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
         return false;
     }
 #endif
-    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS primitive, get_hit_at(paths, slot));
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
 #if FEATURE_delta
-    if ((materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
         return false;
     }
 #endif
@@ -85,14 +84,12 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
     const uint stream = chosen == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(chosen);
     const uint4 words = sample_words(settings, stream, get_pixel(paths, slot),
                                      first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
-    const LightSample light =
-        sample_lights(SURFACE_ARGUMENTS LIGHT_ARGUMENTS chosen, hit.point.position, words);
+    const LightSample light = sample_lights(scene, chosen, hit.point.position, words);
     if (!(light.pdf_w > 0.0f)) {
         return false;
     }
-    const SurfaceFrame frame =
-        shading_frame(MATERIAL_ARGUMENTS hit, -get_ray_direction(paths, slot));
-    const BsdfValue bsdf = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, frame, light.wi);
+    const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(paths, slot));
+    const BsdfValue bsdf = bsdf_evaluate(scene, hit.material, frame, light.wi);
     if (!(bsdf.f_cos.x > 0.0f || bsdf.f_cos.y > 0.0f || bsdf.f_cos.z > 0.0f)) {
         return false;
     }
@@ -105,7 +102,7 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
 #if FEATURE_light_strategy
     if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
         const float log_light =
-            light_over_explicit(paths, slot, MATERIAL_ARGUMENTS hit, frame.wo, light, settings);
+            light_over_explicit(paths, slot, scene, hit, frame.wo, light, settings);
         radiance *= camera_path_weight(by_implicit, log_light, settings.beta);
     } else
 #endif
@@ -122,19 +119,16 @@ DEVICE bool join_to_light(PathStates paths, uint slot,
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void sample_light(SURFACE_PARAMETERS MATERIAL_PARAMETERS LIGHT_PARAMETERS
-                               IntegratorSettings settings,
-                           ulong first_sample, uint chosen, STREAM_PARAMETERS) {
+__kernel void sample_light(SHADING_PARAMETERS, IntegratorSettings settings, ulong first_sample,
+                           uint chosen, STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
     PushBuffer shadow;
     shadow.count = 0u;
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot =
-            shaded_path_at(SURFACE_ARGUMENTS MATERIAL_ARGUMENTS paths, queue, i, i_end);
-        if (join_to_light(paths, slot,
-                          SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS settings,
-                          first_sample, chosen)) {
+        const uint slot = shaded_path_at(&scene, paths, queue, i, i_end);
+        if (join_to_light(paths, slot, &scene, settings, first_sample, chosen)) {
             push_slot(&shadow, slot);
         }
     }

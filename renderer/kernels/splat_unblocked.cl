@@ -11,24 +11,25 @@
 #include "renderer/shared/path_state.h"
 
 /// Adds the shadow radiance of a light path to the film unless its shadow ray is blocked.
-DEVICE void splat(PathStates paths, uint slot, GEOMETRY_PARAMETERS GLOBAL long *film,
-                  GLOBAL StreamCounters *counters) {
+DEVICE void splat(PathStates paths, uint slot, PRIVATE const SceneView *scene, FilmView film) {
     const uint pixel = get_splat_pixel(paths, slot);
     const float3 radiance = get_shadow_radiance(paths, slot);
     prefetch_pixel(film, pixel, radiance);
-    if (!is_blocked(GEOMETRY_ARGUMENTS get_ray_origin(paths, slot),
-                    get_shadow_vector(paths, slot))) {
-        add_to_pixel(film, pixel, radiance, counters);
+    if (!is_blocked(scene, get_ray_origin(paths, slot), get_shadow_vector(paths, slot))) {
+        add_to_pixel(film, pixel, radiance);
     }
 }
 
 #if !PATH_STATES_PRIVATE
 
-__kernel void splat_unblocked(GEOMETRY_PARAMETERS GLOBAL long *film, STREAM_PARAMETERS) {
+__kernel void splat_unblocked(TRACING_PARAMETERS, GLOBAL long *film_words,
+                              GLOBAL long *half_film_words, STREAM_PARAMETERS) {
+    const SceneView scene = TRACING_VIEW;
     const PathStates paths = {path_words, capacity};
+    const FilmView film = {film_words, half_film_words, counters};
     FOR_EACH_ENTRY(i, counters->shadow) {
         const uint slot = path_at(paths, queues + QUEUE_SHADOW * capacity, i, i_end);
-        splat(paths, slot, GEOMETRY_ARGUMENTS film, counters);
+        splat(paths, slot, &scene, film);
     }
 }
 

@@ -7,18 +7,17 @@
 
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
 /// Stores the hit of a light path as a light vertex, unless its material has only delta components.
-DEVICE void keep_hit(PathStates paths, uint slot,
-                     SURFACE_PARAMETERS MATERIAL_PARAMETERS VERTEX_PARAMETERS IntegratorSettings
-                         settings) {
+DEVICE void keep_hit(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                     GLOBAL uint *vertex_words, IntegratorSettings settings) {
     const uint depth = get_depth(paths, slot);
     LightVertex vertex;
     vertex.hit_primitive = get_hit_primitive(paths, slot);
@@ -27,8 +26,8 @@ DEVICE void keep_hit(PathStates paths, uint slot,
     }
     const float3 at = get_hit_at(paths, slot);
 #if FEATURE_delta
-    const SurfaceHit hit = surface_hit(SURFACE_ARGUMENTS vertex.hit_primitive, at);
-    if ((materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+    const SurfaceHit hit = surface_hit(scene, vertex.hit_primitive, at);
+    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
         return;
     }
 #endif
@@ -48,12 +47,13 @@ DEVICE void keep_hit(PathStates paths, uint slot,
         vertex);
 }
 
-__kernel void store_vertex(SURFACE_PARAMETERS MATERIAL_PARAMETERS IntegratorSettings settings,
-                           VERTEX_PARAMETERS STREAM_PARAMETERS) {
+__kernel void store_vertex(SHADING_PARAMETERS, IntegratorSettings settings,
+                           GLOBAL uint *vertex_words, STREAM_PARAMETERS) {
+    const SceneView scene = SHADING_VIEW;
     const PathStates paths = {path_words, capacity};
     FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = hit_path_at(SURFACE_ARGUMENTS paths,
-                                      active_queue(queues, counters, capacity), i, i_end);
-        keep_hit(paths, slot, SURFACE_ARGUMENTS MATERIAL_ARGUMENTS VERTEX_ARGUMENTS settings);
+        const uint slot =
+            hit_path_at(&scene, paths, active_queue(queues, counters, capacity), i, i_end);
+        keep_hit(paths, slot, &scene, vertex_words, settings);
     }
 }

@@ -11,22 +11,22 @@
 #include "renderer/kernels/advance_path.h"
 #include "renderer/kernels/generate_camera_rays.cl"
 
-__kernel void trace_paths(TRAVERSAL_PARAMETERS SURFACE_PARAMETERS MATERIAL_PARAMETERS
-                              LIGHT_PARAMETERS CameraRecord camera,
-                          GLOBAL long *film, HALF_FILM_PARAMETERS IntegratorSettings settings,
+__kernel void trace_paths(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *film_words,
+                          GLOBAL long *half_film_words, IntegratorSettings settings,
                           ulong first_sample, uint first_work, uint work,
-                          LIVE_PIXELS_PARAMETERS GLOBAL StreamCounters *counters) {
+                          GLOBAL const uint *live_pixels, uint live_count,
+                          GLOBAL StreamCounters *counters) {
+    const SceneView scene = SCENE_VIEW;
     uint words[PATH_STATE_WORDS];
     const PathStates paths = {words, 1u};
+    const FilmView film = {film_words, half_film_words, counters};
+    const LivePixels live = make_live_pixels(live_pixels, live_count, camera.width * camera.height);
     RayCounts rays = {0u, 0u};
     FOR_EACH_ENTRY(i, work - first_work) {
-        start_item(paths, 0u, camera, settings, first_sample, LIVE_PIXELS_ARGUMENTS first_work + i,
-                   work);
-        while (advance_path(
-            paths, TRAVERSAL_ARGUMENTS SURFACE_ARGUMENTS MATERIAL_ARGUMENTS LIGHT_ARGUMENTS camera,
-            film, settings, first_sample, &rays, counters)) {
+        start_item(paths, 0u, camera, settings, first_sample, live, first_work + i, work);
+        while (advance_path(paths, &scene, camera, film, settings, first_sample, &rays)) {
         }
-        end_path(paths, 0u, film, HALF_FILM_ARGUMENTS first_sample, counters);
+        end_path(paths, 0u, film, first_sample);
     }
     count_rays(counters, rays);
 }

@@ -219,21 +219,17 @@ void RenderSession::State::bind() {
     arguments[In::chosen] = {uint32_t{SELECT_LIGHT}};
     arguments[In::first_work] = {uint32_t{0}};
     arguments[In::work] = {uint32_t{0}};
-    arguments[In::vertices] = {};
-    if (features.has(Feature::vertex_joins)) {
-        arguments[In::vertices] = {vertex_words};
-    }
-    arguments[In::branches] = {};
-    if (features.has(Feature::branches)) {
-        arguments[In::branches] = {branch_vertices};
-    }
+    arguments[In::vertices] = {vertex_words};
+    arguments[In::branches] = {branch_vertices};
     arguments[In::streams] = {path_words, queues, counters, layout.capacity};
     arguments[In::counters] = {counters};
     for (CompiledPass &pass : passes) {
         arguments[In::settings] = {pass.numbers(numbers)};
         arguments[In::film] = {pass.film};
         arguments[In::ray_counts] = {pass.ray_counts};
-        arguments[In::half_film] = arguments[In::live_pixels] = {};
+        // Null pointers, which no kernel reads without convergence control.
+        arguments[In::half_film] = {Buffer<int64_t>()};
+        arguments[In::live_pixels] = {Buffer<uint32_t>(), uint32_t{0}};
         if (pass.features.has(Feature::convergence)) {
             for (const auto &[input, list] : convergence->arguments()) {
                 arguments[input] = list;

@@ -30,6 +30,11 @@
 #define FEATURE_fresnel_schlick 1
 #define FEATURE_textures 1
 
+// Must precede all device code.
+// clang-format off
+#include "testing/other_features.h"
+// clang-format on
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,11 +58,22 @@ struct TestMaterial {
     MaterialRecord record() const { return {0, static_cast<uint>(components.size()), flags, 0}; }
     BsdfValue evaluate(const SurfaceFrame &frame, float3 wi) const {
         const MaterialRecord material = record();
-        return bsdf_evaluate(&material, components.data(), nullptr, nullptr, 0, frame, wi);
+        const SceneView view = view_of(material);
+        return bsdf_evaluate(&view, 0, frame, wi);
     }
     BsdfSample sample(const SurfaceFrame &frame, float select, float u, float v) const {
         const MaterialRecord material = record();
-        return bsdf_sample(&material, components.data(), nullptr, nullptr, 0, frame, select, u, v);
+        const SceneView view = view_of(material);
+        return bsdf_sample(&view, 0, frame, select, u, v);
+    }
+
+  private:
+    /// Returns the view of a scene that has this material alone.
+    SceneView view_of(const MaterialRecord &material) const {
+        SceneView view{};
+        view.materials = &material;
+        view.components = components.data();
+        return view;
     }
 };
 

@@ -23,7 +23,7 @@
 
 // Must precede all device code.
 // clang-format off
-#include "renderer/testing/other_features.h"
+#include "testing/other_features.h"
 
 #include "renderer/kernels/light/emission.h"
 // clang-format on
@@ -33,6 +33,7 @@
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/testing/light_scene.h"
+#include "renderer/testing/scene_view.h"
 #include "renderer/testing/shapes_double.h"
 
 namespace rtrays {
@@ -50,13 +51,9 @@ inline double green(float3 v) {
     return static_cast<double>(v.y);
 }
 
-#define SURFACES scene.surface_triangles.data(), scene.shapes.data()
-#define LIGHTS                                                                            \
-    scene.lights.data(), scene.emitter_triangles.data(), scene.environment_texels.data(), \
-        scene.environment_ends.data(), scene.lighting
-
 inline EmissionSample emit(const CompiledScene &scene, uint32_t i) {
-    return sample_emission(SURFACES, LIGHTS, words(i, 0), words(i, 1));
+    const SceneView view = view_of(scene);
+    return sample_emission(&view, words(i, 0), words(i, 1));
 }
 
 /// Samples emission from a given light: replaces the random word that selects the light with a word
@@ -64,7 +61,8 @@ inline EmissionSample emit(const CompiledScene &scene, uint32_t i) {
 inline EmissionSample emit_from(const CompiledScene &scene, uint32_t light, uint32_t i) {
     uint4 a = words(i, 0);
     a.x = scene.lights[light].selection_end - 1u;
-    return sample_emission(SURFACES, LIGHTS, a, words(i, 1));
+    const SceneView view = view_of(scene);
+    return sample_emission(&view, a, words(i, 1));
 }
 
 inline uint32_t light_of(const CompiledScene &scene, uint32_t kind) {

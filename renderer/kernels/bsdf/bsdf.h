@@ -76,12 +76,12 @@ DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos
 }
 
 /// bsdf_evaluate for local directions whose sides agree.
-DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material,
+DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRecord material,
                                      SurfaceFrame frame, float3 wo, float3 wi) {
     BsdfValue value;
-    GLOBAL const BxdfRecord *component = components + material.first_component;
+    GLOBAL const BxdfRecord *component = scene->components + material.first_component;
     const float eta = component_eta(component, material.flags, frame.front);
-    const float3 colour = component_colour(MATERIAL_ARGUMENTS component, frame.uv);
+    const float3 colour = component_colour(scene, component, frame.uv);
     const Lobe lobe = component_evaluate(component, eta, wo, wi);
     value.pdf_w = lobe.pdf_w;
     value.f_cos = colour *
@@ -96,7 +96,7 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
         for (uint i = 1u; i < material.component_count; ++i) {
             GLOBAL const BxdfRecord *other = component + i;
             const float other_eta = component_eta(other, material.flags, frame.front);
-            const float3 other_colour = component_colour(MATERIAL_ARGUMENTS other, frame.uv);
+            const float3 other_colour = component_colour(scene, other, frame.uv);
             const float share = component_share(other, other_eta, wo, other_colour);
             const Lobe other_lobe = component_evaluate(other, other_eta, wo, wi);
             shares += share;
@@ -114,8 +114,9 @@ DEVICE BsdfValue bsdf_evaluate_local(MATERIAL_PARAMETERS MaterialRecord material
 
 /// Returns f |cos(ns, wi)| and the density of bsdf_sample. Both are 0 if the sides of the geometric
 /// and the shading normal disagree.
-DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float3 wi) {
-    const MaterialRecord record = materials[material];
+DEVICE BsdfValue bsdf_evaluate(PRIVATE const SceneView *scene, uint material, SurfaceFrame frame,
+                               float3 wi) {
+    const MaterialRecord record = scene->materials[material];
     const float3 local_wo = to_local(frame, frame.wo);
     const float3 local_wi = to_local(frame, wi);
     bool dark = !side_scatters(record, frame, local_wo.z) || !sides_agree(frame, wi, local_wi.z);
@@ -128,13 +129,13 @@ DEVICE BsdfValue bsdf_evaluate(MATERIAL_PARAMETERS uint material, SurfaceFrame f
         nothing.pdf_w = 0.0f;
         return nothing;
     }
-    return bsdf_evaluate_local(MATERIAL_ARGUMENTS record, frame, local_wo, local_wi);
+    return bsdf_evaluate_local(scene, record, frame, local_wo, local_wi);
 }
 
 /// Selects a component in proportion to its share. `probability` is the share over the sum of all
 /// shares. Returns false if all shares are 0.
-DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, SurfaceFrame frame,
-                             float3 wo, float select, PRIVATE uint *selected,
+DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord material,
+                             SurfaceFrame frame, float3 wo, float select, PRIVATE uint *selected,
                              PRIVATE float *probability) {
     *selected = material.first_component;
     *probability = 1.0f;
@@ -147,10 +148,10 @@ DEVICE bool select_component(MATERIAL_PARAMETERS MaterialRecord material, Surfac
     float shares = 0.0f, share = 0.0f;
     for (uint i = 0u; i < material.component_count; ++i) {
         const uint index = material.first_component + i;
-        GLOBAL const BxdfRecord *component = components + index;
+        GLOBAL const BxdfRecord *component = scene->components + index;
         const float eta = component_eta(component, material.flags, frame.front);
-        const float candidate = component_share(
-            component, eta, wo, component_colour(MATERIAL_ARGUMENTS component, frame.uv));
+        const float candidate =
+            component_share(component, eta, wo, component_colour(scene, component, frame.uv));
         if (candidate > 0.0f) {
             shares += candidate;
             const float take_over = candidate / shares;
@@ -187,9 +188,10 @@ DEVICE BsdfSample no_sample(SurfaceFrame frame) {
 
 /// Completes `sample`, whose component and probability are set, by a direction of that component,
 /// from u and v in [0, 1). `wo` is frame.wo in local coordinates, and its side scatters.
-DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame,
-                                   float3 wo, BsdfSample sample, float u, float v) {
-    GLOBAL const BxdfRecord *component = components + sample.component;
+DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecord record,
+                                   SurfaceFrame frame, float3 wo, BsdfSample sample, float u,
+                                   float v) {
+    GLOBAL const BxdfRecord *component = scene->components + sample.component;
     const float eta = component_eta(component, record.flags, frame.front);
     const float3 wi = component_direction(component, eta, wo, u, v);
     // Normalised, because rounding errors would otherwise grow along the path.
@@ -206,7 +208,7 @@ DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, Su
 #endif
 #if FEATURE_delta
     if (is_delta(component->kind)) {
-        sample.weight = component_colour(MATERIAL_ARGUMENTS component, frame.uv) *
+        sample.weight = component_colour(scene, component, frame.uv) *
                         component_fresnel(component, eta, wo.z, squared_sine(wo), wi) /
                         sample.probability;
         sample.weight *= sample.scale;
@@ -214,7 +216,7 @@ DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, Su
         return sample;
     }
 #endif
-    const BsdfValue value = bsdf_evaluate_local(MATERIAL_ARGUMENTS record, frame, wo, wi);
+    const BsdfValue value = bsdf_evaluate_local(scene, record, frame, wo, wi);
     if (value.pdf_w > 0.0f) {
         sample.pdf_w = value.pdf_w;
         sample.weight = value.f_cos / value.pdf_w;
@@ -223,33 +225,33 @@ DEVICE BsdfSample sample_component(MATERIAL_PARAMETERS MaterialRecord record, Su
 }
 
 /// Samples a direction from `select`, u and v in [0, 1).
-DEVICE BsdfSample bsdf_sample(MATERIAL_PARAMETERS uint material, SurfaceFrame frame, float select,
-                              float u, float v) {
+DEVICE BsdfSample bsdf_sample(PRIVATE const SceneView *scene, uint material, SurfaceFrame frame,
+                              float select, float u, float v) {
     BsdfSample sample = no_sample(frame);
-    const MaterialRecord record = materials[material];
+    const MaterialRecord record = scene->materials[material];
     const float3 wo = to_local(frame, frame.wo);
     if (!side_scatters(record, frame, wo.z) ||
-        !select_component(MATERIAL_ARGUMENTS record, frame, wo, select, &sample.component,
+        !select_component(scene, record, frame, wo, select, &sample.component,
                           &sample.probability)) {
         return sample;
     }
-    return sample_component(MATERIAL_ARGUMENTS record, frame, wo, sample, u, v);
+    return sample_component(scene, record, frame, wo, sample, u, v);
 }
 
 #if FEATURE_delta
 
 /// Returns the direction of an ideal reflection or refraction, with the coefficient of the delta as
 /// its weight. Returns no sample for other kinds of component or past the critical angle.
-DEVICE BsdfSample bsdf_delta(MATERIAL_PARAMETERS MaterialRecord record, SurfaceFrame frame,
-                             uint component) {
+DEVICE BsdfSample bsdf_delta(PRIVATE const SceneView *scene, MaterialRecord record,
+                             SurfaceFrame frame, uint component) {
     BsdfSample sample = no_sample(frame);
     const float3 wo = to_local(frame, frame.wo);
-    if (!is_delta(components[component].kind) || !side_scatters(record, frame, wo.z)) {
+    if (!is_delta(scene->components[component].kind) || !side_scatters(record, frame, wo.z)) {
         return sample;
     }
     sample.component = component;
     sample.probability = 1.0f;
-    return sample_component(MATERIAL_ARGUMENTS record, frame, wo, sample, 0.0f, 0.0f);
+    return sample_component(scene, record, frame, wo, sample, 0.0f, 0.0f);
 }
 
 #endif

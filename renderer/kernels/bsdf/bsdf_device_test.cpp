@@ -16,18 +16,27 @@ const std::string test_kernel = R"(
 #include "renderer/kernels/sampling/random.h"
 
 // Samples one material seen along wo; normal and wo by three words each. Per sample: wi, pdf_w.
-__kernel void test(MATERIAL_PARAMETERS GLOBAL const float *view, GLOBAL float *samples, uint count, uint block) {
+__kernel void test(GLOBAL const MaterialRecord *materials, GLOBAL const BxdfRecord *components,
+                   GLOBAL const TextureRecord *textures, GLOBAL const uint *texels,
+                   GLOBAL const float *view, GLOBAL float *samples, uint count, uint block) {
     const uint i = get_global_id(0);
     if (i >= count) {
         return;
     }
+    SceneView scene;
+    scene.materials = materials;
+    scene.components = components;
+#if FEATURE_textures
+    scene.textures = textures;
+    scene.texels = texels;
+#endif
     const float3 n = make_float3(view[0], view[1], view[2]);
     const SurfaceFrame frame = make_surface_frame(n, n, make_float3(view[3], view[4], view[5]), make_float2(0.0f, 0.0f),
                                                   make_float3(view[6], view[7], view[8]));
     const uint4 w = random_words(17u, 0u, 5u, i, block);
-    const BsdfSample s = bsdf_sample(MATERIAL_ARGUMENTS 0u, frame, uniform_float(w.x), uniform_float(w.y),
+    const BsdfSample s = bsdf_sample(&scene, 0u, frame, uniform_float(w.x), uniform_float(w.y),
                                      uniform_float(w.z));
-    const BsdfValue value = bsdf_evaluate(MATERIAL_ARGUMENTS 0u, frame, s.wi);
+    const BsdfValue value = bsdf_evaluate(&scene, 0u, frame, s.wi);
     samples[5u * i] = s.wi.x;
     samples[5u * i + 1u] = s.wi.y;
     samples[5u * i + 2u] = s.wi.z;
@@ -73,8 +82,7 @@ TEST(BsdfDevice, EveryKindCompilesAlone) {
 
 /// Returns, per sample, wi (3 words), pdf_w and the density from bsdf_evaluate for wi.
 std::vector<float> run_samples(DeviceContext &device, Kernel &kernel, const TestMaterial &material,
-                               const SurfaceFrame &frame, float3 tangent, uint count, uint block,
-                               bool textured) {
+                               const SurfaceFrame &frame, float3 tangent, uint count, uint block) {
     const Buffer<MaterialRecord> materials(device, "materials",
                                            std::vector<MaterialRecord>{material.record()});
     const Buffer<BxdfRecord> components(device, "components", material.components);
@@ -85,11 +93,7 @@ std::vector<float> run_samples(DeviceContext &device, Kernel &kernel, const Test
                              std::vector<float>{front.x, front.y, front.z, tangent.x, tangent.y,
                                                 tangent.z, frame.wo.x, frame.wo.y, frame.wo.z});
     const Buffer<float> samples(device, "samples", 5 * count);
-    if (textured) {
-        kernel.bind({materials, components, textures, texels, view, samples, count, block});
-    } else {
-        kernel.bind({materials, components, view, samples, count, block});
-    }
+    kernel.bind({materials, components, textures, texels, view, samples, count, block});
     kernel.enqueue(count);
     device.finish();
     return samples.read();
@@ -118,9 +122,9 @@ TEST(BsdfDevice, EverythingCompiledInChangesNoBit) {
             const SurfaceFrame frame = tilted_frame(35, 0.6, front);
             const float3 none = make_float3(0, 0, 0);
             const std::vector<float> a =
-                run_samples(device, alone, material, frame, none, 10'000, 2999, false);
+                run_samples(device, alone, material, frame, none, 10'000, 2999);
             const std::vector<float> b =
-                run_samples(device, all, material, frame, none, 10'000, 2999, true);
+                run_samples(device, all, material, frame, none, 10'000, 2999);
             EXPECT_TRUE(a == b) << material.name;
         }
     }
@@ -146,7 +150,7 @@ TEST(BsdfDevice, SamplesFollowTheHostsDensity) {
     for (const auto &[material, theta] : cases) {
         const SurfaceFrame frame = tilted_frame(theta);
         const std::vector<float> found =
-            run_samples(device, kernel, material, frame, frame.x, count, ++block, true);
+            run_samples(device, kernel, material, frame, frame.x, count, ++block);
         const float3 centre = 2.0f * dot(frame.ns, frame.wo) * frame.ns - frame.wo;
         const DirectionGrid grid(centre, frame.ns, 0.5);
         SampledDirections directions;

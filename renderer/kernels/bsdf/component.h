@@ -12,9 +12,9 @@
 #include "renderer/kernels/bsdf/microfacet.h"
 #include "renderer/kernels/bsdf/ward.h"
 #include "renderer/kernels/sampling/hemisphere.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/texture/texture.h"
 #include "renderer/shared/compat.h"
-#include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
 /// Returns the index of refraction beyond the surface over that on wo's side. Only boundaries
@@ -25,17 +25,16 @@ DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_fla
 }
 
 /// Returns weight times texture at `uv`.
-DEVICE float3 component_colour(MATERIAL_PARAMETERS GLOBAL const BxdfRecord *component, float2 uv) {
+DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
+                               float2 uv) {
     float3 colour = make_float3(component->weight[0], component->weight[1], component->weight[2]);
 #if FEATURE_textures
     if (component->texture != NO_TEXTURE) {
-        colour *= texture_lookup(textures + component->texture, texels, uv);
+        colour *= texture_lookup(scene->textures + component->texture, scene->texels, uv);
     }
 #else
     (void)uv;
 #endif
-    (void)materials;
-    (void)components;
     return colour;
 }
 

@@ -28,9 +28,9 @@ typedef struct TwoWay {
 
 /// Returns the probability with which a delta component is selected for frame.wo; 0 if the material
 /// scatters nothing.
-DEVICE float delta_probability(MATERIAL_PARAMETERS uint material, SurfaceFrame frame,
+DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, SurfaceFrame frame,
                                uint component) {
-    const MaterialRecord record = materials[material];
+    const MaterialRecord record = scene->materials[material];
     const float3 wo = to_local(frame, frame.wo);
     if (!side_scatters(record, frame, wo.z)) {
         return 0.0f;
@@ -39,10 +39,10 @@ DEVICE float delta_probability(MATERIAL_PARAMETERS uint material, SurfaceFrame f
     float shares = 0.0f, own = 0.0f;
     for (uint i = record.first_component; i < record.first_component + record.component_count;
          ++i) {
-        GLOBAL const BxdfRecord *other = components + i;
+        GLOBAL const BxdfRecord *other = scene->components + i;
         const float eta = component_eta(other, record.flags, frame.front);
         const float share =
-            component_share(other, eta, wo, component_colour(MATERIAL_ARGUMENTS other, frame.uv));
+            component_share(other, eta, wo, component_colour(scene, other, frame.uv));
         shares += share;
         own = i == component ? share : own;
     }
@@ -56,8 +56,9 @@ DEVICE float delta_probability(MATERIAL_PARAMETERS uint material, SurfaceFrame f
 #endif
 
 /// Returns both directions of `sample`, which was sampled in `frame` at `hit`.
-DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, BsdfSample sample) {
-    const SurfaceFrame back = shading_frame(MATERIAL_ARGUMENTS hit, sample.wi);
+DEVICE TwoWay look_back(PRIVATE const SceneView *scene, SurfaceHit hit, SurfaceFrame frame,
+                        BsdfSample sample) {
+    const SurfaceFrame back = shading_frame(scene, hit, sample.wi);
     const float cos_wo = fabs(dot(frame.ng, frame.wo));
     const float cos_wi = fabs(dot(frame.ng, sample.wi));
     TwoWay both;
@@ -84,8 +85,7 @@ DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, 
         const float ns_wo = fabs(dot(frame.ns, frame.wo)), ns_wi = fabs(dot(frame.ns, sample.wi));
         bend = (ns_wo / cos_wo) * (cos_wi / ns_wi);
 #endif
-        const float probability =
-            delta_probability(MATERIAL_ARGUMENTS hit.material, back, sample.component);
+        const float probability = delta_probability(scene, hit.material, back, sample.component);
         // n^2 |cos| dw is equal on both sides of a boundary.
         both.log_ratio =
             log2_quotient(probability, sample.probability) + log2_of(bend) + log2_of(sample.scale);
@@ -95,7 +95,7 @@ DEVICE TwoWay look_back(MATERIAL_PARAMETERS SurfaceHit hit, SurfaceFrame frame, 
         return both;
     }
 #endif
-    const BsdfValue value = bsdf_evaluate(MATERIAL_ARGUMENTS hit.material, back, frame.wo);
+    const BsdfValue value = bsdf_evaluate(scene, hit.material, back, frame.wo);
     both.log_forward = log2_quotient(sample.pdf_w, cos_wi);
     both.log_ratio = log2_quotient(value.pdf_w, cos_wo) - both.log_forward;
     both.importance = value.f_cos * (cos_wi / cos_wo / sample.pdf_w);

@@ -4,15 +4,15 @@
 
 #include "renderer/kernels/bsdf/surface_frame.h"
 #include "renderer/kernels/geometry/surface_hit.h"
-#include "renderer/shared/scene_buffers.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/shared/scene_records.h"
 
 /// Returns the frame in which a hit scatters, seen from wo. Its axes follow the surface's tangent
 /// only if the material is anisotropic.
-DEVICE SurfaceFrame shading_frame(MATERIAL_PARAMETERS SurfaceHit hit, float3 wo) {
+DEVICE SurfaceFrame shading_frame(PRIVATE const SceneView *scene, SurfaceHit hit, float3 wo) {
     float3 tangent = make_float3(0.0f, 0.0f, 0.0f);
 #if FEATURE_tangents
-    if ((materials[hit.material].flags & MATERIAL_TURNS) != 0u) {
+    if ((scene->materials[hit.material].flags & MATERIAL_TURNS) != 0u) {
         tangent = hit.tangent;
     }
 #endif

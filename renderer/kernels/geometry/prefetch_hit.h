@@ -18,13 +18,13 @@
     PREFETCH((GLOBAL const uint *)((record) + 1) - 1)
 
 /// Prefetches the records that triangle_hit reads.
-DEVICE void prefetch_triangle(SURFACE_PARAMETERS uint triangle) {
-    PREFETCH_RECORD(surface_triangles + triangle);
+DEVICE void prefetch_triangle(PRIVATE const SceneView *scene, uint triangle) {
+    PREFETCH_RECORD(scene->surface_triangles + triangle);
 #if FEATURE_smooth_normals
-    PREFETCH_RECORD(triangle_normals + triangle);
+    PREFETCH_RECORD(scene->triangle_normals + triangle);
 #endif
 #if FEATURE_texture_coordinates
-    PREFETCH_RECORD(triangle_uvs + triangle);
+    PREFETCH_RECORD(scene->triangle_uvs + triangle);
 #endif
 }
 
@@ -44,12 +44,13 @@ DEVICE void prefetch_texture(GLOBAL const TextureRecord *texture, GLOBAL const u
 }
 
 /// Prefetches the texels that the components of a material read at `uv`.
-DEVICE void prefetch_texels(MATERIAL_PARAMETERS uint material, float2 uv) {
-    GLOBAL const BxdfRecord *component = components + materials[material].first_component;
-    GLOBAL const BxdfRecord *end = component + materials[material].component_count;
+DEVICE void prefetch_texels(PRIVATE const SceneView *scene, uint material, float2 uv) {
+    GLOBAL const BxdfRecord *component =
+        scene->components + scene->materials[material].first_component;
+    GLOBAL const BxdfRecord *end = component + scene->materials[material].component_count;
     for (; component < end; ++component) {
         if (component->texture != NO_TEXTURE) {
-            prefetch_texture(textures + component->texture, texels, uv);
+            prefetch_texture(scene->textures + component->texture, scene->texels, uv);
         }
     }
 }
@@ -58,28 +59,28 @@ DEVICE void prefetch_texels(MATERIAL_PARAMETERS uint material, float2 uv) {
 #endif
 
 /// path_at, for a stage that reads the hit primitive.
-DEVICE uint hit_path_at(SURFACE_PARAMETERS PathStates paths, GLOBAL const uint *queue, uint i,
-                        uint end) {
+DEVICE uint hit_path_at(PRIVATE const SceneView *scene, PathStates paths, GLOBAL const uint *queue,
+                        uint i, uint end) {
 #if PREFETCHES && FEATURE_triangles
     const uint triangle = get_hit_primitive(paths, queue[min(i + 2u, end - 1u)]);
     if ((triangle & SHAPE_BIT) == 0u) {
-        prefetch_triangle(SURFACE_ARGUMENTS triangle);
+        prefetch_triangle(scene, triangle);
     }
 #endif
     return path_at(paths, queue, i, end);
 }
 
 /// path_at, for a stage that evaluates the material of the hit.
-DEVICE uint shaded_path_at(SURFACE_PARAMETERS MATERIAL_PARAMETERS PathStates paths,
+DEVICE uint shaded_path_at(PRIVATE const SceneView *scene, PathStates paths,
                            GLOBAL const uint *queue, uint i, uint end) {
 #if PREFETCHES && FEATURE_triangles && FEATURE_textures && FEATURE_scattering
     const uint next = queue[min(i + 1u, end - 1u)];
     const uint triangle = get_hit_primitive(paths, next);
     if ((triangle & SHAPE_BIT) == 0u) {
-        const SurfaceHit hit = triangle_hit(SURFACE_ARGUMENTS triangle, get_hit_u(paths, next),
-                                            get_hit_v(paths, next));
-        prefetch_texels(MATERIAL_ARGUMENTS hit.material, hit.uv);
+        const SurfaceHit hit =
+            triangle_hit(scene, triangle, get_hit_u(paths, next), get_hit_v(paths, next));
+        prefetch_texels(scene, hit.material, hit.uv);
     }
 #endif
-    return hit_path_at(SURFACE_ARGUMENTS paths, queue, i, end);
+    return hit_path_at(scene, paths, queue, i, end);
 }

@@ -4,8 +4,8 @@
 
 #include "renderer/kernels/geometry/shape_point.h"
 #include "renderer/kernels/geometry/surface.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// A hit point with shading data. Normals are those of the front.
 typedef struct SurfaceHit {
@@ -22,8 +22,8 @@ typedef struct SurfaceHit {
 #if FEATURE_triangles
 
 /// Returns the hit with barycentrics (1 - u - v, u, v) on a triangle.
-DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float v) {
-    GLOBAL const SurfaceTriangle *surface = surface_triangles + triangle;
+DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, float u, float v) {
+    GLOBAL const SurfaceTriangle *surface = scene->surface_triangles + triangle;
     SurfaceHit hit;
     hit.point = scene_point(surface, u, v);
     hit.normal = hit.point.normal;
@@ -33,7 +33,7 @@ DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float 
     hit.emitter = surface->emitter;
     MAYBE_UNUSED const float w = 1.0f - u - v;
 #if FEATURE_smooth_normals
-    GLOBAL const TriangleNormals *corners = triangle_normals + triangle;
+    GLOBAL const TriangleNormals *corners = scene->triangle_normals + triangle;
     if (corners->is_smooth != 0u) {
         const float3 n = make_float3(
             w * corners->normal[0][0] + u * corners->normal[1][0] + v * corners->normal[2][0],
@@ -45,7 +45,7 @@ DEVICE SurfaceHit triangle_hit(SURFACE_PARAMETERS uint triangle, float u, float 
     }
 #endif
 #if FEATURE_texture_coordinates
-    GLOBAL const TriangleUv *at = triangle_uvs + triangle;
+    GLOBAL const TriangleUv *at = scene->triangle_uvs + triangle;
     hit.uv = make_float2(w * at->uv[0][0] + u * at->uv[1][0] + v * at->uv[2][0],
                          w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
 #endif
@@ -96,16 +96,16 @@ DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point
 #if FEATURE_triangles || FEATURE_shapes
 
 /// Returns the hit of a path; `primitive` and `at` are those of the path state.
-DEVICE SurfaceHit surface_hit(SURFACE_PARAMETERS uint primitive, float3 at) {
+DEVICE SurfaceHit surface_hit(PRIVATE const SceneView *scene, uint primitive, float3 at) {
 #if FEATURE_shapes
 #if FEATURE_triangles
     if ((primitive & SHAPE_BIT) == 0u) {
-        return triangle_hit(SURFACE_ARGUMENTS primitive, at.x, at.y);
+        return triangle_hit(scene, primitive, at.x, at.y);
     }
 #endif
-    return shape_hit(shapes + (primitive & ~SHAPE_BIT), at);
+    return shape_hit(scene->shapes + (primitive & ~SHAPE_BIT), at);
 #else
-    return triangle_hit(SURFACE_ARGUMENTS primitive, at.x, at.y);
+    return triangle_hit(scene, primitive, at.x, at.y);
 #endif
 }
 

@@ -43,23 +43,22 @@ typedef struct EmissionSample {
 
 /// Samples a uniform point on the disc that rays of direction `d` (unit) from infinity cross before
 /// they meet the scene.
-DEVICE float3 sample_disc_origin(SURFACE_PARAMETERS LightingRecord lighting, float3 d, float u,
-                                 float v) {
+DEVICE float3 sample_disc_origin(PRIVATE const SceneView *scene, float3 d, float u, float v) {
     const Frame frame = frame_from_z(d);
     const float2 disc = sample_disc(u, v);
-    float3 origin =
-        make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]) +
-        (frame.x * disc.x + frame.y * disc.y - d) * lighting.scene_radius;
+    float3 origin = make_float3(scene->lighting.scene_centre[0], scene->lighting.scene_centre[1],
+                                scene->lighting.scene_centre[2]) +
+                    (frame.x * disc.x + frame.y * disc.y - d) * scene->lighting.scene_radius;
 #if FEATURE_quadrics
     // Planes extend beyond the sphere, so the ray starts before the first plane that it meets.
     // Planes beyond the length of shadow rays are ignored, as shadow rays ignore them.
     float back = 0.0f;
-    for (uint i = 0; i < lighting.plane_end; ++i) {
-        GLOBAL const ShapeRecord *shape = shapes + i;
+    for (uint i = 0; i < scene->lighting.plane_end; ++i) {
+        GLOBAL const ShapeRecord *shape = scene->shapes + i;
         if (shape->uv_kind == SHAPE_UV_PLANE) {
             const float way = vector_to_object(shape, origin - shape_centre(shape)).z /
                               vector_to_object(shape, d).z;
-            back = way < lighting.far_distance ? max(back, way) : back;
+            back = way < scene->lighting.far_distance ? max(back, way) : back;
         }
     }
     // The ray moves back twice as far; otherwise rounding would decide on which side of the plane
@@ -90,16 +89,16 @@ DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a
 #endif
 
 /// Samples the start of a light path from the words of `a` and the first two of `b`.
-DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 a,
+DEVICE EmissionSample sample_emission(PRIVATE const SceneView *scene, uint4 a,
                                       MAYBE_UNUSED uint4 b) {
     EmissionSample sample;
 #if FEATURE_many_lights || FEATURE_independent_lights
-    SELECT_BY_WORD(lights, .selection_end, 0u, lighting.light_count, a.x, selected)
+    SELECT_BY_WORD(scene->lights, .selection_end, 0u, scene->lighting.light_count, a.x, selected)
     sample.light = selected;
 #else
     sample.light = 0u;
 #endif
-    const LightRecord light = lights[sample.light];
+    const LightRecord light = scene->lights[sample.light];
     MAYBE_UNUSED const float u = uniform_float(a.z);
     MAYBE_UNUSED const float v = uniform_float(a.w);
     const float3 none = make_float3(0.0f, 0.0f, 0.0f);
@@ -113,7 +112,8 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
     switch (light.kind) {
 #if FEATURE_area_lights
         case LIGHT_MESH: {
-            const LightPoint on = sample_mesh_light(emitter_triangles, surface_triangles, light, a);
+            const LightPoint on =
+                sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, a);
             emit_from_surface(light, on.point, on.pdf_a, b, &sample);
             return sample;
         }
@@ -125,7 +125,7 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
             LightRecord by_area = light;
             by_area.kind = light.kind == LIGHT_DISC ? LIGHT_DISC : LIGHT_SPHERE_BY_AREA;
             const ShapeLightSample on = sample_shape_light(
-                by_area, shapes, shape_centre(shapes + light.first_triangle), u, v);
+                by_area, scene->shapes, shape_centre(scene->shapes + light.first_triangle), u, v);
             emit_from_surface(light, on.point, on.pdf_a, b, &sample);
             return sample;
         }
@@ -172,10 +172,12 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
 #endif
 #if FEATURE_environment
         case LIGHT_ENVIRONMENT: {
-            const EnvironmentSample towards = sample_environment(environment_ends, lighting, a);
+            const EnvironmentSample towards =
+                sample_environment(scene->environment_ends, scene->lighting, a);
             sample.direction = -from_light_space(light, towards.direction);
             sample.pdf_origin *= towards.pdf_w;
-            sample.weight *= environment_radiance(environment_texels, lighting, towards.direction) /
+            sample.weight *= environment_radiance(scene->environment_texels, scene->lighting,
+                                                  towards.direction) /
                              towards.pdf_w;
             sample.at_infinity = 1u;
             break;
@@ -186,9 +188,9 @@ DEVICE EmissionSample sample_emission(SURFACE_PARAMETERS LIGHT_PARAMETERS uint4 
     }
 #if FEATURE_infinite_lights || FEATURE_directional_lights
     if (sample.at_infinity != 0u) {
-        sample.origin = sample_disc_origin(SURFACE_ARGUMENTS lighting, sample.direction,
-                                           uniform_float(b.x), uniform_float(b.y));
-        sample.pdf_direction = disc_pdf_a_inside(lighting);
+        sample.origin =
+            sample_disc_origin(scene, sample.direction, uniform_float(b.x), uniform_float(b.y));
+        sample.pdf_direction = disc_pdf_a_inside(scene->lighting);
         sample.weight = sample.weight / sample.pdf_direction;
     }
 #endif

@@ -8,7 +8,7 @@
 #include "renderer/kernels/light/environment.h"
 #include "renderer/kernels/light/spot.h"
 #include "renderer/kernels/sampling/select.h"
-#include "renderer/shared/scene_buffers.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/shared/scene_records.h"
 
 #if FEATURE_shape_lights
@@ -95,15 +95,16 @@ DEVICE float3 from_light_space(LightRecord light, float3 d) {
 #if FEATURE_infinite_lights
 
 /// Returns the radiance that a path meets if it leaves the scene in direction d.
-DEVICE float3 infinite_radiance(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
-    const LightRecord light = lights[lighting.infinite_light];
+DEVICE float3 infinite_radiance(PRIVATE const SceneView *scene, MAYBE_UNUSED float3 d) {
+    const LightRecord light = scene->lights[scene->lighting.infinite_light];
 #if FEATURE_environment
 #if FEATURE_dome
     if (light.kind == LIGHT_ENVIRONMENT)
 #endif
     {
-        return light_radiance(light) *
-               environment_radiance(environment_texels, lighting, to_light_space(light, d));
+        return light_radiance(light) * environment_radiance(scene->environment_texels,
+                                                            scene->lighting,
+                                                            to_light_space(light, d));
     }
 #endif
 #if FEATURE_dome
@@ -113,14 +114,15 @@ DEVICE float3 infinite_radiance(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
 
 /// Returns the density per solid angle with which light sampling samples direction d, without the
 /// selection probability.
-DEVICE float infinite_pdf_w(LIGHT_PARAMETERS MAYBE_UNUSED float3 d) {
-    const LightRecord light = lights[lighting.infinite_light];
+DEVICE float infinite_pdf_w(PRIVATE const SceneView *scene, MAYBE_UNUSED float3 d) {
+    const LightRecord light = scene->lights[scene->lighting.infinite_light];
 #if FEATURE_environment
 #if FEATURE_dome
     if (light.kind == LIGHT_ENVIRONMENT)
 #endif
     {
-        return environment_pdf_w(environment_ends, lighting, to_light_space(light, d));
+        return environment_pdf_w(scene->environment_ends, scene->lighting,
+                                 to_light_space(light, d));
     }
 #endif
 #if FEATURE_dome
@@ -149,8 +151,8 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
 }
 
 /// Samples a direction from point `from` towards a given light.
-DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
-                                    float3 from, MAYBE_UNUSED uint4 words) {
+DEVICE LightSample sample_one_light(PRIVATE const SceneView *scene, LightRecord light, float3 from,
+                                    MAYBE_UNUSED uint4 words) {
     LightSample sample;
     sample.pdf_w = 0.0f;
     sample.is_delta = 0u;
@@ -162,7 +164,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
 #if FEATURE_area_lights
         case LIGHT_MESH: {
             const LightPoint on =
-                sample_mesh_light(emitter_triangles, surface_triangles, light, words);
+                sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, words);
             look_at_point(from, light, on.point, on.pdf_a, on.pdf_a, &sample);
             break;
         }
@@ -172,7 +174,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
         case LIGHT_SPHERE:
         case LIGHT_SPHERE_BY_AREA: {
             const ShapeLightSample on = sample_shape_light(
-                light, shapes, from, uniform_float(words.z), uniform_float(words.w));
+                light, scene->shapes, from, uniform_float(words.z), uniform_float(words.w));
             look_at_point(from, light, on.point, on.pdf_a, 1.0f / light.area, &sample);
             break;
         }
@@ -207,7 +209,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
 #if FEATURE_directional_lights
         case LIGHT_DIRECTIONAL:
             sample.wi = light_axis_z(light);
-            sample.target = from + sample.wi * lighting.far_distance;
+            sample.target = from + sample.wi * scene->lighting.far_distance;
             sample.radiance = light_radiance(light);
             sample.is_delta = 1u;
             sample.pdf_w = 1.0f;
@@ -216,18 +218,20 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
 #if FEATURE_dome
         case LIGHT_DOME:
             sample.wi = sample_uniform_sphere(uniform_float(words.z), uniform_float(words.w));
-            sample.target = from + sample.wi * lighting.far_distance;
+            sample.target = from + sample.wi * scene->lighting.far_distance;
             sample.radiance = light_radiance(light);
             sample.pdf_w = 0.25f * INV_PI;
             break;
 #endif
 #if FEATURE_environment
         case LIGHT_ENVIRONMENT: {
-            const EnvironmentSample towards = sample_environment(environment_ends, lighting, words);
+            const EnvironmentSample towards =
+                sample_environment(scene->environment_ends, scene->lighting, words);
             sample.wi = from_light_space(light, towards.direction);
-            sample.target = from + sample.wi * lighting.far_distance;
-            sample.radiance = light_radiance(light) *
-                              environment_radiance(environment_texels, lighting, towards.direction);
+            sample.target = from + sample.wi * scene->lighting.far_distance;
+            sample.radiance =
+                light_radiance(light) *
+                environment_radiance(scene->environment_texels, scene->lighting, towards.direction);
             sample.pdf_w = towards.pdf_w;
             break;
         }
@@ -237,7 +241,7 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
     }
 #if FEATURE_light_strategy && (FEATURE_infinite_lights || FEATURE_directional_lights)
     if (light.kind >= LIGHT_DIRECTIONAL) {
-        sample.arrival_pdf_a = disc_pdf_a(lighting, from, sample.wi);
+        sample.arrival_pdf_a = disc_pdf_a(scene->lighting, from, sample.wi);
     }
 #endif
     sample.pdf_w *= light.selection;
@@ -246,29 +250,31 @@ DEVICE LightSample sample_one_light(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRec
 
 /// Samples a direction from a point towards light `chosen`, or towards a light selected at random
 /// for SELECT_LIGHT.
-DEVICE LightSample sample_lights(SURFACE_PARAMETERS LIGHT_PARAMETERS uint chosen, float3 from,
+DEVICE LightSample sample_lights(PRIVATE const SceneView *scene, uint chosen, float3 from,
                                  uint4 words) {
     uint index = chosen;
     if (chosen == SELECT_LIGHT) {
 #if FEATURE_many_lights
-        SELECT_BY_WORD(lights, .selection_end, 0u, lighting.light_count, words.x, selected)
+        SELECT_BY_WORD(scene->lights, .selection_end, 0u, scene->lighting.light_count, words.x,
+                       selected)
         index = selected;
 #else
         index = 0u;
 #endif
     }
-    return sample_one_light(SURFACE_ARGUMENTS LIGHT_ARGUMENTS lights[index], from, words);
+    return sample_one_light(scene, scene->lights[index], from, words);
 }
 
 #if FEATURE_area_lights || FEATURE_shape_lights
 
 /// Returns the index of the light that an emitting surface belongs to.
-DEVICE uint light_of_hit(LIGHT_PARAMETERS MAYBE_UNUSED uint primitive, uint emitter) {
+DEVICE uint light_of_hit(PRIVATE const SceneView *scene, MAYBE_UNUSED uint primitive,
+                         uint emitter) {
 #if FEATURE_area_lights
 #if FEATURE_shape_lights
-    return (primitive & SHAPE_BIT) != 0u ? emitter : emitter_triangles[emitter].light;
+    return (primitive & SHAPE_BIT) != 0u ? emitter : scene->emitter_triangles[emitter].light;
 #else
-    return emitter_triangles[emitter].light;
+    return scene->emitter_triangles[emitter].light;
 #endif
 #else
     return emitter;
@@ -277,16 +283,16 @@ DEVICE uint light_of_hit(LIGHT_PARAMETERS MAYBE_UNUSED uint primitive, uint emit
 
 /// Returns the density per area, with the selection probability, with which `sample_lights` samples
 /// this point from `from`.
-DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
+DEVICE float light_pdf_a(PRIVATE const SceneView *scene, LightRecord light,
                          MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter,
                          MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint point) {
 #if FEATURE_shape_lights
     if ((primitive & SHAPE_BIT) != 0u) {
-        return light.selection * shape_light_pdf_a(light, shapes, from, point);
+        return light.selection * shape_light_pdf_a(light, scene->shapes, from, point);
     }
 #endif
 #if FEATURE_area_lights
-    return light.selection * emitter_triangles[emitter].pdf_a;
+    return light.selection * scene->emitter_triangles[emitter].pdf_a;
 #else
     return 0.0f;
 #endif
@@ -303,15 +309,15 @@ DEVICE float light_pdf_a(SURFACE_PARAMETERS LIGHT_PARAMETERS LightRecord light,
 /// Returns the density per area, with the selection probability, with which a light path starts at
 /// a point of this emitter (of SurfaceHit). Multiplied by 1 / pi, the cosine-weighted density per
 /// projected solid angle, it is the density of the ray from there.
-DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uint primitive,
-                            MAYBE_UNUSED uint emitter) {
+DEVICE float emission_pdf_a(PRIVATE const SceneView *scene, LightRecord light,
+                            MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter) {
 #if FEATURE_shape_lights
     if ((primitive & SHAPE_BIT) != 0u) {
         return light.emission_selection / light.area;
     }
 #endif
 #if FEATURE_area_lights
-    return light.emission_selection * emitter_triangles[emitter].pdf_a;
+    return light.emission_selection * scene->emitter_triangles[emitter].pdf_a;
 #else
     return 0.0f;
 #endif
@@ -319,8 +325,9 @@ DEVICE float emission_pdf_a(LIGHT_PARAMETERS LightRecord light, MAYBE_UNUSED uin
 
 /// Returns the density per area and projected solid angle, with the selection probability, of a
 /// light path along a ray that hits this emitter: pdf_origin pdf_direction / cos.
-DEVICE float emission_line_pdf(LIGHT_PARAMETERS LightRecord light, uint primitive, uint emitter) {
-    return INV_PI * emission_pdf_a(LIGHT_ARGUMENTS light, primitive, emitter);
+DEVICE float emission_line_pdf(PRIVATE const SceneView *scene, LightRecord light, uint primitive,
+                               uint emitter) {
+    return INV_PI * emission_pdf_a(scene, light, primitive, emitter);
 }
 
 #endif
@@ -329,9 +336,9 @@ DEVICE float emission_line_pdf(LIGHT_PARAMETERS LightRecord light, uint primitiv
 
 /// Returns the density, with the selection probability, of a light path from infinity that arrives
 /// at `point` from direction d: pdf_origin pdf_direction, per solid angle and area of the disc.
-DEVICE float infinite_line_pdf(LIGHT_PARAMETERS float3 point, float3 d) {
-    return lights[lighting.infinite_light].emission_selection * infinite_pdf_w(LIGHT_ARGUMENTS d) *
-           disc_pdf_a(lighting, point, d);
+DEVICE float infinite_line_pdf(PRIVATE const SceneView *scene, float3 point, float3 d) {
+    return scene->lights[scene->lighting.infinite_light].emission_selection *
+           infinite_pdf_w(scene, d) * disc_pdf_a(scene->lighting, point, d);
 }
 
 #endif
@@ -340,12 +347,12 @@ DEVICE float infinite_line_pdf(LIGHT_PARAMETERS float3 point, float3 d) {
 /// direction of a light, over the density with which light paths start there. The ratio is finite.
 /// The two differ in the selection probability if every light is sampled, and on spheres that are
 /// sampled by their cones. `on` (position and normal) is read for such spheres only.
-DEVICE float sampling_over_emission(SURFACE_PARAMETERS LightRecord light, MAYBE_UNUSED float3 from,
-                                    MAYBE_UNUSED SurfacePoint on) {
+DEVICE float sampling_over_emission(PRIVATE const SceneView *scene, LightRecord light,
+                                    MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint on) {
     float ratio = light.selection / light.emission_selection;
 #if FEATURE_shape_lights
     if (light.kind == LIGHT_SPHERE) {
-        ratio *= light.area * shape_light_pdf_a(light, shapes, from, on);
+        ratio *= light.area * shape_light_pdf_a(light, scene->shapes, from, on);
     }
 #endif
     return ratio;

@@ -5,6 +5,7 @@
 
 #include "renderer/testing/light_paths.h"
 
+#include "renderer/compile/scene_buffers.h"
 #include "renderer/device/buffer.h"
 #include "renderer/device/kernel.h"
 #include "renderer/kernels/camera/perspective.h"
@@ -22,14 +23,15 @@ const std::string test_kernel = R"(
 #define PUT1(x) *put++ = (x)
 
 // Per work-item: a start of a light path, a light sample, and the start as the camera sees it.
-__kernel void test(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera, GLOBAL float *found, uint count) {
+__kernel void test(SHADING_PARAMETERS, CameraRecord camera, GLOBAL float *found, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) {
         return;
     }
+    const SceneView scene = SHADING_VIEW;
     const uint4 a = random_words(5u, 0u, 1u, i, 0u), b = random_words(5u, 0u, 1u, i, 1u), c = random_words(5u, 0u, 1u, i, 2u);
     GLOBAL float *put = found + WORDS * i;
-    const EmissionSample e = sample_emission(SURFACE_ARGUMENTS LIGHT_ARGUMENTS a, b);
+    const EmissionSample e = sample_emission(&scene, a, b);
     PUT3(e.origin);
     PUT3(e.direction);
     PUT3(e.weight);
@@ -37,7 +39,7 @@ __kernel void test(SURFACE_PARAMETERS LIGHT_PARAMETERS CameraRecord camera, GLOB
     PUT1(e.pdf_direction);
     PUT1((float)(4u * e.light + 2u * e.is_delta + e.at_infinity));
     const float3 from = make_float3(uniform_float(c.x) - 0.5f, 0.25f, uniform_float(c.y));
-    const LightSample s = sample_lights(SURFACE_ARGUMENTS LIGHT_ARGUMENTS SELECT_LIGHT, from, c);
+    const LightSample s = sample_lights(&scene, SELECT_LIGHT, from, c);
     const bool any = s.pdf_w > 0.0f;
     PUT1(s.pdf_w);
     PUT3(any ? s.wi : from);
@@ -84,13 +86,11 @@ void append(std::vector<float> &list, float3 v) {
 std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &camera,
                                 uint count) {
     std::vector<float> list;
+    const SceneView view = view_of(scene);
     for (uint i = 0; i < count; ++i) {
         const uint4 a = random_words(5, 0, 1, i, 0), b = random_words(5, 0, 1, i, 1),
                     c = random_words(5, 0, 1, i, 2);
-        const EmissionSample e = sample_emission(
-            scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(),
-            scene.emitter_triangles.data(), scene.environment_texels.data(),
-            scene.environment_ends.data(), scene.lighting, a, b);
+        const EmissionSample e = sample_emission(&view, a, b);
         append(list, e.origin);
         append(list, e.direction);
         append(list, e.weight);
@@ -98,10 +98,7 @@ std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &
                     {e.pdf_origin, e.pdf_direction,
                      static_cast<float>(4u * e.light + 2u * e.is_delta + e.at_infinity)});
         const float3 from = make_float3(uniform_float(c.x) - 0.5f, 0.25f, uniform_float(c.y));
-        const LightSample s =
-            sample_lights(scene.surface_triangles.data(), scene.shapes.data(), scene.lights.data(),
-                          scene.emitter_triangles.data(), scene.environment_texels.data(),
-                          scene.environment_ends.data(), scene.lighting, SELECT_LIGHT, from, c);
+        const LightSample s = sample_lights(&view, SELECT_LIGHT, from, c);
         const bool any = s.pdf_w > 0.0f;
         list.push_back(s.pdf_w);
         append(list, any ? s.wi : from);
@@ -129,22 +126,11 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
         CameraRecord camera = scene.camera;
         camera.aperture_radius = 0.1f;
         camera.focus_distance = 5.0f;
-        const Buffer<SurfaceTriangle> surface_triangles(device, "surface_triangles",
-                                                        scene.surface_triangles);
-        const Buffer<TriangleNormals> normals(device, "triangle_normals", 1);
-        const Buffer<TriangleUv> uvs(device, "triangle_uvs", 1);
-        const Buffer<ShapeRecord> shapes(device, "shapes", scene.shapes);
-        const Buffer<LightRecord> lights(device, "lights", scene.lights);
-        const Buffer<EmitterTriangle> emitters(device, "emitter_triangles",
-                                               scene.emitter_triangles);
-        const bool image = infinite == LightArrays::Kind::environment;
-        const Buffer<float> texels(device, "environment_texels",
-                                   image ? scene.environment_texels : std::vector<float>(1));
-        const Buffer<uint> ends(device, "environment_ends",
-                                image ? scene.environment_ends : std::vector<uint>(1));
+        const SceneBuffers buffers(device, scene, FeatureMask::all());
         const Buffer<float> samples(device, "samples", count * word_count);
-        kernel.bind({surface_triangles, normals, uvs, shapes, lights, emitters, texels, ends,
-                     scene.lighting, camera, samples, count});
+        std::vector<KernelArgument> arguments = buffers.arguments(Bvh()).at(StageInput::shading);
+        arguments.insert(arguments.end(), {camera, samples, count});
+        kernel.bind(arguments);
         kernel.enqueue(count);
         device.finish();
         const std::vector<float> found = samples.read(),

@@ -403,6 +403,7 @@ TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
         const auto selection = infinite == LightArrays::Kind::dome ? LightSelection::mixed
                                                                    : LightSelection::independent;
         const CompiledScene scene = compile_light_scene(infinite, selection);
+        const SceneView view = view_of(scene);
         for (uint32_t light = 0; light < scene.lights.size(); ++light) {
             const LightRecord &record = scene.lights[light];
             Estimate sampled, emitted;
@@ -412,7 +413,7 @@ TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
                                              static_cast<double>(uniform_float(w.x)) * patch.x +
                                              static_cast<double>(uniform_float(w.y)) * patch.y;
                 const LightSample sample =
-                    sample_lights(SURFACES, LIGHTS, light, to_float3(from), words(i, 5));
+                    sample_lights(&view, light, to_float3(from), words(i, 5));
                 const double cosine = patch.normal.dot(to_double(sample.wi));
                 sampled.add(sample.pdf_w > 0.0f && cosine > 0
                                 ? patch.area * green(sample.radiance) * cosine *
@@ -442,6 +443,7 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
         const CompiledScene scene = compile_light_scene(
             infinite, infinite == LightArrays::Kind::dome ? LightSelection::independent
                                                           : LightSelection::mixed);
+        const SceneView view = view_of(scene);
         int other_cell = 0;
         for (uint32_t i = 0; i < 200'000; ++i) {
             const EmissionSample sample = emit(scene, i);
@@ -451,7 +453,7 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
             double told = 0, expected = emitted;
             if (sample.at_infinity != 0u && sample.is_delta == 0u) {
                 const float3 met = sample.origin + sample.direction * scene.lighting.scene_radius;
-                told = static_cast<double>(infinite_line_pdf(LIGHTS, met, -sample.direction));
+                told = static_cast<double>(infinite_line_pdf(&view, met, -sample.direction));
                 if (std::abs(told / expected - 1) > 1e-5) {
                     ++other_cell;  // rounding of the direction selects another texel
                     continue;
@@ -468,10 +470,10 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
                                    : 1u;
                     primitive = scene.emitter_triangles[emitter].triangle;
                 }
-                told = static_cast<double>(emission_line_pdf(LIGHTS, light, primitive, emitter));
+                told = static_cast<double>(emission_line_pdf(&view, light, primitive, emitter));
                 expected =
                     emitted / static_cast<double>(dot(sample.point.normal, sample.direction));
-                ASSERT_NEAR(static_cast<double>(emission_pdf_a(LIGHTS, light, primitive, emitter)),
+                ASSERT_NEAR(static_cast<double>(emission_pdf_a(&view, light, primitive, emitter)),
                             static_cast<double>(sample.pdf_origin),
                             1e-6 * static_cast<double>(sample.pdf_origin));
                 // At grazing angles, rounding of the direction dominates the cosine.
@@ -497,6 +499,7 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
         for (const LightSelection selection :
              {LightSelection::mixed, LightSelection::uniform, LightSelection::independent}) {
             const CompiledScene scene = compile_light_scene(infinite, selection);
+            const SceneView view = view_of(scene);
             const double disc = pi * std::pow(static_cast<double>(scene.lighting.scene_radius), 2);
             for (uint32_t i = 0; i < 100'000; ++i) {
                 const uint32_t index = i % static_cast<uint32_t>(scene.lights.size());
@@ -504,8 +507,7 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                 const float3 from =
                     to_float3(Eigen::Vector3f(scene.lighting.scene_centre).cast<double>() +
                               1.5 * test::uniform(random) * test::uniform_direction(random));
-                const LightSample sample =
-                    sample_lights(SURFACES, LIGHTS, index, from, words(i, 6));
+                const LightSample sample = sample_lights(&view, index, from, words(i, 6));
                 if (!(sample.pdf_w > 0.0f)) {
                     continue;
                 }
@@ -543,8 +545,8 @@ TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
                     ASSERT_NEAR(ratio * static_cast<double>(light.selection) / emission, 1, 1e-6);
                 }
                 ASSERT_NEAR(
-                    ratio * static_cast<double>(sampling_over_emission(SURFACES, light, from, on)),
-                    1, 1e-3)
+                    ratio * static_cast<double>(sampling_over_emission(&view, light, from, on)), 1,
+                    1e-3)
                     << light.kind;
             }
         }

@@ -66,14 +66,13 @@ TEST(Emission, SpotsKeepTheirDigitsInNarrowCones) {
             static_cast<float>(2 * std::sin((outer + inner) / 2) * std::sin((outer - inner) / 2));
         light.emission_selection = light.selection = 1;
         light.selection_end = ~0u;
-        LightingRecord lighting{};
-        lighting.light_count = 1;
+        SceneView scene{};
+        scene.lights = &light;
+        scene.lighting.light_count = 1;
         Estimate power;
         double least = 1e30, largest = 0;
         for (uint32_t i = 0; i < 100'000; ++i) {
-            const EmissionSample sample =
-                sample_emission(nullptr, nullptr, &light, nullptr, nullptr, nullptr, lighting,
-                                words(i, 7), words(i, 8));
+            const EmissionSample sample = sample_emission(&scene, words(i, 7), words(i, 8));
             const double angle = std::atan2(std::hypot(static_cast<double>(sample.direction.x),
                                                        static_cast<double>(sample.direction.y)),
                                             -static_cast<double>(sample.direction.z));
@@ -191,17 +190,18 @@ TEST(Emission, FromInfinityStartsBeforePlanes) {
 // strategies use must be 0 there.
 TEST(Emission, FromInfinityHasNoDensityBeyondItsDisc) {
     const CompiledScene scene = compile_text(ground + ball + dome);
+    const SceneView view = view_of(scene);
     const float3 down = make_float3(0, 1, 0);
-    const float inside = infinite_line_pdf(LIGHTS, make_float3(0.9f, -0.3f, 0), down);
+    const float inside = infinite_line_pdf(&view, make_float3(0.9f, -0.3f, 0), down);
     EXPECT_NEAR(inside,
                 0.25 / pi / (pi * std::pow(static_cast<double>(scene.lighting.scene_radius), 2)),
                 1e-6);
-    EXPECT_EQ(infinite_line_pdf(LIGHTS, make_float3(1.1f, -0.3f, 0), down), 0.0f);
-    EXPECT_GT(infinite_line_pdf(LIGHTS, make_float3(0, 1e3f, 0), down), 0.0f);
+    EXPECT_EQ(infinite_line_pdf(&view, make_float3(1.1f, -0.3f, 0), down), 0.0f);
+    EXPECT_GT(infinite_line_pdf(&view, make_float3(0, 1e3f, 0), down), 0.0f);
     int reached = 0, beyond = 0;
     for (uint32_t i = 0; i < 1000; ++i) {
         const float3 from = make_float3(2, -0.3f, 0);
-        const LightSample sample = sample_lights(SURFACES, LIGHTS, SELECT_LIGHT, from, words(i, 9));
+        const LightSample sample = sample_lights(&view, SELECT_LIGHT, from, words(i, 9));
         ASSERT_EQ(sample.arrival_pdf_a, disc_pdf_a(scene.lighting, from, sample.wi));
         ++(sample.arrival_pdf_a > 0.0f ? reached : beyond);
     }

@@ -16,7 +16,7 @@
 #define FEATURE_dome 1
 #define FEATURE_environment 1
 #include "renderer/testing/float_traps.h"
-#include "renderer/testing/other_features.h"
+#include "testing/other_features.h"
 
 #include "renderer/kernels/light/light.h"
 
@@ -27,6 +27,7 @@
 
 #include "renderer/compile/compile_scene.h"
 #include "renderer/testing/chi_square.h"
+#include "renderer/testing/scene_view.h"
 
 namespace rtrays {
 namespace {
@@ -258,17 +259,13 @@ struct MeshLights {
     }
 
     LightSample sample(float3 from, uint32_t i) const {
-        return sample_lights(compiled.surface_triangles.data(), compiled.lights.data(),
-                             compiled.emitter_triangles.data(), compiled.environment_texels.data(),
-                             compiled.environment_ends.data(), compiled.lighting, SELECT_LIGHT,
-                             from, words(i, 5));
+        const SceneView view = view_of(compiled);
+        return sample_lights(&view, SELECT_LIGHT, from, words(i, 5));
     }
     float pdf_a(uint32_t triangle) const {
-        return light_pdf_a(compiled.surface_triangles.data(), compiled.lights.data(),
-                           compiled.emitter_triangles.data(), compiled.environment_texels.data(),
-                           compiled.environment_ends.data(), compiled.lighting,
-                           compiled.lights[compiled.emitter_triangles[triangle].light], triangle,
-                           triangle, make_float3(0, 0, 0), SurfacePoint{});
+        const SceneView view = view_of(compiled);
+        return light_pdf_a(&view, compiled.lights[compiled.emitter_triangles[triangle].light],
+                           triangle, triangle, make_float3(0, 0, 0), SurfacePoint{});
     }
 
     /// Returns the p-value over triangles and, within each, four parts of equal area.
@@ -323,11 +320,11 @@ TEST(MeshLight, DensityIsPerSolidAngle) {
 }
 
 LightSample sample_single(const LightRecord &light, float3 from) {
-    LightingRecord lighting{};
-    lighting.light_count = 1;
-    lighting.far_distance = 1e6f;
-    return sample_lights(nullptr, &light, nullptr, nullptr, nullptr, lighting, 0, from,
-                         words(1, 6));
+    SceneView scene{};
+    scene.lights = &light;
+    scene.lighting.light_count = 1;
+    scene.lighting.far_distance = 1e6f;
+    return sample_lights(&scene, 0, from, words(1, 6));
 }
 
 LightRecord delta_light(uint32_t kind) {

@@ -4,13 +4,12 @@
 
 #include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/shared/integrator_settings.h"
-#include "renderer/shared/scene_buffers.h"
 
 /// Returns the start of light path `path` of sample `sample`. It is the same on every call.
-DEVICE EmissionSample path_start(SURFACE_PARAMETERS LIGHT_PARAMETERS IntegratorSettings settings,
+DEVICE EmissionSample path_start(PRIVATE const SceneView *scene, IntegratorSettings settings,
                                  uint path, ulong sample) {
-    return sample_emission(
-        SURFACE_ARGUMENTS LIGHT_ARGUMENTS path_sample(settings, path, sample, BLOCK_EMISSION(0u)),
-        path_sample(settings, path, sample, BLOCK_EMISSION(1u)));
+    return sample_emission(scene, path_sample(settings, path, sample, BLOCK_EMISSION(0u)),
+                           path_sample(settings, path, sample, BLOCK_EMISSION(1u)));
 }

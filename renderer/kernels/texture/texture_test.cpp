@@ -155,8 +155,12 @@ TEST(Texture, ScalesTheWeightOfAComponent) {
     const MaterialRecord material = {0, 1, 0, 0};
     SurfaceFrame frame = tilted_frame(20);
     frame.uv = make_float2(0.5f, 0.5f);
-    const BsdfValue value = bsdf_evaluate(&material, &lambert, &texture.record,
-                                          texture.texels.data(), 0, frame, frame.ns);
+    SceneView scene{};
+    scene.materials = &material;
+    scene.components = &lambert;
+    scene.textures = &texture.record;
+    scene.texels = texture.texels.data();
+    const BsdfValue value = bsdf_evaluate(&scene, 0, frame, frame.ns);
     EXPECT_NEAR(value.f_cos.x, 0.5 * texture.texel(2, 1, 0) / pi, 1e-6);
     EXPECT_NEAR(value.f_cos.y, texture.texel(2, 1, 1) / pi, 1e-6);
 }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "renderer/kernels/geometry/intersect_shapes.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/traversal/intersect_bvh.h"
-#include "renderer/shared/scene_buffers.h"
 #include "renderer/shared/scene_records.h"
 
 /// End of a shadow ray, as a fraction of its length. It is short of the light by more than the
@@ -13,15 +13,16 @@
 #define SHADOW_END (1.0f - 0x1p-20f)
 
 /// Returns whether a surface is between `origin` and `origin + way`.
-DEVICE bool is_blocked(GEOMETRY_PARAMETERS float3 origin, float3 way) {
+DEVICE bool is_blocked(PRIVATE const SceneView *scene, float3 origin, float3 way) {
 #if FEATURE_shapes
     // The few shape tests often avoid the traversal.
-    if (any_shape(shapes, shape_bounds, shape_count, origin, way, SHADOW_END)) {
+    if (any_shape(scene->shapes, scene->shape_bounds, scene->shape_count, origin, way,
+                  SHADOW_END)) {
         return true;
     }
 #endif
 #if FEATURE_triangles
-    return trace_any(bvh_nodes, bvh_triangles, origin, way, SHADOW_END);
+    return trace_any(scene->bvh_nodes, scene->bvh_triangles, origin, way, SHADOW_END);
 #else
     return false;
 #endif
