@@ -49,7 +49,7 @@ reproduce-chapter4: programs
 	step stability; \
 	build/bin/rtrays-experiment run experiments/robustness/stability.json --profile $(STIFF_CASES) --out $(CHAPTER4)/stability || [ $$? -eq 3 ] || exit 1; \
 	step convergence_control; \
-	build/bin/rtrays-experiment control experiments/chapter4/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
+	build/bin/rtrays-experiment run experiments/chapter4/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
 	$(if $(filter full,$(PROFILE)),$(MAKE) --no-print-directory stiffness STIFFNESS=$(CHAPTER4)/stiffness)
 	$(MAKE) --no-print-directory report
 
@@ -83,7 +83,7 @@ test-full: programs
 	build/bin/rtrays-experiment run experiments/robustness/traversal.json --profile full --out results/chapter4/traversal
 	scripts/results page results/chapter4/traversal
 	for agreement in feature_scenes algorithms; do \
-	    build/bin/rtrays-experiment agree experiments/gates/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
+	    build/bin/rtrays-experiment run experiments/gates/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
 	    mkdir -p results/$$agreement; \
 	    cp build/$$agreement/agreement.json build/$$agreement/agreement.md results/$$agreement/; \
 	done

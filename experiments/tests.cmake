@@ -2,11 +2,10 @@
 # Tests of the harness, and those that need all programs.
 rtrays_test(experiments_test HOST
     SOURCES
-        harness/core/contest_test.cpp harness/core/description_test.cpp harness/core/document_test.cpp
-        harness/core/expression_test.cpp harness/core/metrics_test.cpp harness/core/references_test.cpp
-        harness/core/statistics_test.cpp
-        harness/kinds/convergence_control_test.cpp harness/kinds/gate_test.cpp harness/kinds/stability_test.cpp
-        harness/kinds/throughput_test.cpp
+        harness/core/contest_test.cpp harness/core/document_test.cpp harness/core/expression_test.cpp
+        harness/core/metrics_test.cpp harness/core/references_test.cpp harness/core/statistics_test.cpp
+        harness/kinds/convergence_control_test.cpp harness/kinds/curves_description_test.cpp
+        harness/kinds/gate_test.cpp harness/kinds/stability_test.cpp harness/kinds/throughput_test.cpp
         harness/models/timed_scenes_test.cpp
     LIBRARIES rtrays_experiments)
 target_compile_definitions(experiments_test PRIVATE RTRAYS_EXPERIMENTS="${PROJECT_SOURCE_DIR}/experiments")
@@ -18,7 +17,7 @@ foreach(entry cornell_box.bitwise cornell_box.convergence cornell_box.planted_er
     list(GET scene_and_check 0 scene)
     list(GET scene_and_check 1 check)
     add_test(NAME gate.${entry}
-        COMMAND rtrays-experiment gate ${CMAKE_CURRENT_SOURCE_DIR}/gates/gate_${scene}.json --check ${check} --quiet)
+        COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/gates/gate_${scene}.json --check ${check} --quiet)
     set_tests_properties(gate.${entry} PROPERTIES TIMEOUT 900 LABELS gate)
 endforeach()
 
@@ -46,18 +45,18 @@ rtrays_test(analytic_test SOURCES harness/analytic_test.cpp LIBRARIES rtrays_exp
 
 # Agreement of renderer and reference on a dozen feature scenes; `make test-full` tests all of them.
 add_test(NAME features.agree
-    COMMAND rtrays-experiment agree ${CMAKE_CURRENT_SOURCE_DIR}/gates/gates/feature_scenes.json
+    COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/gates/feature_scenes.json
             --out ${CMAKE_BINARY_DIR}/feature_scenes.quick --quiet)
 set_tests_properties(features.agree PROPERTIES TIMEOUT 1200 LABELS gate)
 # Agreement of every algorithm with the reference on a dozen scenes.
 add_test(NAME algorithms.agree
-    COMMAND rtrays-experiment agree ${CMAKE_CURRENT_SOURCE_DIR}/gates/gates/algorithms.json
+    COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/gates/algorithms.json
             --out ${CMAKE_BINARY_DIR}/algorithms.quick --quiet)
 set_tests_properties(algorithms.agree PROPERTIES TIMEOUT 1200 LABELS gate)
 
 # A dozen stiff and extreme cases; `make stability` runs all of them.
 add_test(NAME stability
-    COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/robustness/robustness/stability.json --profile ci
+    COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/robustness/stability.json --profile ci
             --out ${CMAKE_BINARY_DIR}/stability.ci --quiet)
 set_tests_properties(stability PROPERTIES TIMEOUT 1200 LABELS gate)
 

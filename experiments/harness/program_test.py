@@ -61,10 +61,44 @@ class Program(unittest.TestCase):
     def test_bad_usage(self):
         self.refused(2, "--help")
         self.refused(2, "--profil", "run", "x.json", "--profil", "quick")
-        self.refused(2, "fast", "run", "x.json", "--profile", "fast")
+        self.refused(
+            2, "profiles are: ci, full, quick", "run", self.experiment(), "--profile", "fast")
+        done = self.refused(2, "subcommands are: run, ", "gate", "x.json")
+        self.assertIn("run takes experiments of all kinds", done.stderr)
 
     def test_missing_experiment(self):
         self.refused(2, "nowhere.json", "run", "nowhere.json")
+
+    def test_kind(self):
+        self.refused(2, "unknown kind \"colours\"; kinds are: curves, ", "run",
+                     self.experiment(kind="colours"))
+        path = self.folder / "kindless.json"
+        path.write_text('{"name": "box"}')
+        self.refused(2, "missing key 'kind'", "run", path)
+
+    def test_options_of_other_kinds_are_refused(self):
+        for name, option in (("gate_cornell_box", ["--profile", "quick"]),
+                             ("gate_cornell_box", ["--out", "out"]),
+                             ("cornell_diffuse", ["--check", "bitwise"]),
+                             ("convergence_control", ["--update-baseline"]),
+                             ("algorithms", ["--compile"]),
+                             ("bvh_build", ["--compile"])):
+            done = self.refused(2, f"{option[0]} does not apply to kind", "run", shipped(name),
+                                *option)
+            self.assertIn("--dry-run", done.stderr)
+            self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_every_shipped_experiment_has_a_plan(self):
+        files = [path for path in EXPERIMENTS.glob("*/*.json") if path.parent.name != "schema"]
+        self.assertGreater(len(files), 20)
+        for path in files:
+            profiles = json.loads(path.read_text()).get("profiles", {None: None})
+            for profile in profiles:
+                options = ["--profile", profile] if profile else []
+                done = self.call("run", path, "--dry-run", *options)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertGreater(len(done.stdout), 0)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_unknown_key(self):
         self.refused(2, "unknown key 'colour'", "run", self.experiment(colour="red"))
@@ -91,8 +125,6 @@ class Program(unittest.TestCase):
         self.assertEqual(
             sorted(entry.name for entry in self.folder.iterdir()), ["cache", "experiment.json"])
         self.assertTrue(list(cache.rglob("*.so")))
-        self.refused(
-            2, "--compile does not apply", "run", self.measurement("bvh_build"), "--compile")
 
     def test_unwritable_output(self):
         (self.folder / "file").write_text("")
@@ -150,10 +182,10 @@ class Program(unittest.TestCase):
 
     def test_control(self):
         out = self.folder / "out"
-        done = self.call("control", self.control(), "--out", out, "--quiet")
+        done = self.call("run", self.control(), "--out", out, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         table = out / "convergence_control.md"
-        self.assertEqual(done.stdout.strip(), str(table))
+        self.assertEqual(done.stdout.strip(), str(out / "convergence_control.json"))
         self.assertEqual(
             sorted(path.name for path in out.iterdir()), ["convergence_control.json", table.name])
         rows = json.loads((out / "convergence_control.json").read_text())["rows"]
@@ -165,12 +197,12 @@ class Program(unittest.TestCase):
 
     def test_control_is_refused(self):
         self.refused(
-            4, "rtrays-reference", "control",
+            4, "rtrays-reference", "run",
             self.control(reference={"folder": ".", "engine": "embree"}))
         self.refused(
-            2, "does not support convergence control", "control",
+            2, "does not support convergence control", "run",
             self.control(curves=[{"algorithm": "bdpt"}]))
-        self.refused(2, "errors", "control", self.control(errors=[0]))
+        self.refused(2, "errors", "run", self.control(errors=[0]))
 
     def measurement(self, name, **changes):
         """Returns a shipped measurement with changes."""
@@ -322,7 +354,7 @@ class Program(unittest.TestCase):
             self.assertGreater(builds[other]["sah"], builds["defaults"]["sah"])
 
     def test_measurement_is_refused(self):
-        self.refused(2, "ray_rates", "run", self.measurement("bvh_build", measures="colours"))
+        self.refused(2, "ray_rates", "run", self.measurement("bvh_build", kind="colours"))
         self.refused(2, "unknown key 'colour'", "run", self.measurement("bvh_build", colour="red"))
         profiles = {
             name: {"meshes": ["cornell_box"], "rays": 10} for name in ("quick", "full", "ci")}
@@ -342,17 +374,26 @@ class Program(unittest.TestCase):
 
     def test_absent_meshes_are_replaced_or_listed(self):
         profiles = {
-            name: {"meshes": ["nowhere", "nothing"], "rays": 64, "repetitions": 6}
+            name: {"meshes": ["bunny", "sibenik"], "rays": 64, "repetitions": 6}
             for name in ("quick", "full", "ci")}
         path = self.measurement(
-            "bvh_build", profiles=profiles, stand_ins={"nowhere": "scattered_100"})
-        done = self.call("run", path, "--profile", "ci", "--out", self.folder / "out", "--quiet")
+            "bvh_build", profiles=profiles, stand_ins={"bunny": "scattered_100"})
+        done = self.call("run", path, "--profile", "ci", "--out", self.folder / "out", "--quiet",
+                         RTRAYS_MESHES=str(self.folder))
         self.assertEqual(done.returncode, 0, done.stderr)
         run = json.loads((self.folder / "out/run.json").read_text())
-        self.assertEqual(run["stand_ins"], {"scattered_100": "nowhere"})
-        self.assertEqual(run["absent"], ["nothing"])
+        self.assertEqual(run["stand_ins"], {"scattered_100": "bunny"})
+        self.assertEqual(run["absent"], ["sibenik"])
         self.assertEqual(
             [(row["mesh"], row["triangles"]) for row in run["rows"]], [("scattered_100", 100)])
+
+    def test_unknown_meshes_and_scenes_are_errors(self):
+        for key, name in (("meshes", "bvh_build"), ("scenes", "bounces")):
+            profiles = json.loads(shipped(name).read_text())["profiles"]
+            profiles["ci"][key] = ["nowhere"]
+            self.refused(
+                2, "'nowhere': unknown name", "run", self.measurement(name, profiles=profiles),
+                "--profile", "ci", "--dry-run")
 
     def test_run_resume_and_report(self):
         """A run stopped by SIGTERM continues with the same command and has every seed once."""

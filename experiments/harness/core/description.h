@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads experiment files (schema/experiment.schema.json) and the parts that other description
-// files share with them.
+// Reads files that describe experiments, and the parts that several kinds share.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +12,6 @@
 #include "renderer/session/settings.h"
 
 namespace rtrays {
-
-/// Number of batches into which the samples of a seed are divided. Eight seeds give the 32 batches
-/// that a variance estimate needs.
-constexpr uint64_t batches_per_seed = 4;
 
 /// A curve: an algorithm with its settings. `spp`, `early_images` and `seeds` are set for
 /// experiments only.
@@ -32,11 +27,6 @@ struct CurveDescription {
     std::string id() const;
 };
 
-struct ThroughputDescription {
-    int repetitions = 0;
-    uint64_t spp = 0;  ///< samples per pixel of one repetition
-};
-
 /// Common part of experiments and gates. Paths are resolved against the description file.
 struct MeasuredScene {
     std::filesystem::path scene;
@@ -46,24 +36,7 @@ struct MeasuredScene {
     int width = 0, height = 0;             ///< film size, pixels
 };
 
-struct ExperimentDescription : MeasuredScene {
-    std::string name, title, thesis, claim;
-    double expected_slope = 0, slope_tolerance = 0;
-    /// Gain over path tracing that the thesis states, {"algorithm", "samples", "time"}, or null.
-    Json expected_gain;
-    // The remaining members belong to the chosen profile.
-    std::string profile;
-    ThroughputDescription throughput;
-    Json settings;       ///< {"integrator.beta": 2, ...}: applied to all curves
-    std::string source;  ///< text of the file with the chosen profile alone
-};
-
-/// Reads and checks an experiment. `profile` is "quick", "full", "ci" or "gpu". Throws `Error` (bad
-/// input) naming the file, the key and the alternatives.
-ExperimentDescription load_experiment(const std::filesystem::path &path,
-                                      const std::string &profile);
-
-/// A description file, checked against its schema.
+/// A description file.
 struct DescriptionFile {
     std::filesystem::path path;
     std::string text;
@@ -84,8 +57,15 @@ struct DescriptionFile {
     std::filesystem::path resolve(const Json &relative) const;
 };
 
-/// Reads a file and checks it against `schema` ("gate.schema.json"). Throws `Error` (bad input)
-/// naming the file, the key and the alternatives.
+/// Reads a file. Throws `Error` (bad input) naming the file and the line if it is not JSON.
+DescriptionFile read_description(const std::filesystem::path &path);
+
+/// Checks a file against `schema` ("gate.schema.json"). Throws `Error` (bad input) naming the file,
+/// the key and the alternatives.
+void require_schema(const DescriptionFile &file, const std::string &schema);
+
+/// Reads a file and checks it against `schema`. Throws like `read_description` and
+/// `require_schema`.
 DescriptionFile load_description(const std::filesystem::path &path, const std::string &schema);
 
 /// Fills `scene` from a file's "scene", "reference" and "curves" and from the film size. Throws

@@ -148,11 +148,10 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
             {"slope_unbiased", slope_of(repetitions, usable, noise_mse)}};
 }
 
-json parse_run(const std::string &text, const std::string &source) {
-    json run = parse_json(text, source);
-    validate_json(run, std::string(embedded::experiment_schemas().text("run.schema.json")), source,
-                  text);
-    return run;
+json parse_document(const std::string &text, const std::string &source, const std::string &schema) {
+    json document = parse_json(text, source);
+    validate_json(document, std::string(embedded::experiment_schemas().text(schema)), source, text);
+    return document;
 }
 
 }  // namespace rtrays

@@ -47,8 +47,10 @@ Repetition parse_repetition(const nlohmann::json &json);
 /// points remain.
 nlohmann::json summarise_curve(const std::vector<Repetition> &repetitions, double noise_mse);
 
-/// Parses the text of a run.json. Throws `Error` (bad input) naming `source`, line and key if it
-/// does not match run.schema.json. JSON writes a non-finite number as null, which does not match.
-nlohmann::json parse_run(const std::string &text, const std::string &source);
+/// Parses the text of a document. Throws `Error` (bad input) naming `source`, line and key if it
+/// does not match `schema` ("run.schema.json"). JSON writes a non-finite number as null, which does
+/// not match.
+nlohmann::json parse_document(const std::string &text, const std::string &source,
+                              const std::string &schema);
 
 }  // namespace rtrays

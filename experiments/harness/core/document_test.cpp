@@ -68,7 +68,7 @@ TEST(Document, RepetitionsRoundTrip) {
 /// Reads the text as a run.json and returns the message of the error.
 std::string error_of(const std::string &text) {
     try {
-        parse_run(text, "run.json");
+        parse_document(text, "run.json", "run.schema.json");
     } catch (const Error &error) {
         EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
         return error.what();

@@ -30,7 +30,8 @@ void export_images(const fs::path &folder) {
             fmt::format("{}: no run.json; make it with: rtrays-experiment run FILE --out {}",
                         folder.string(), folder.string()));
     }
-    const Json run = parse_run(read_file(folder / "run.json"), (folder / "run.json").string());
+    const Json run = parse_document(read_file(folder / "run.json"), (folder / "run.json").string(),
+                                    "run.schema.json");
     const auto export_image = [&](const std::string &name, const Json &layers) {
         const Image image = read_exr(folder / name);
         write_array(image, (folder / name).replace_extension(".npy"));

@@ -50,4 +50,13 @@ void Resumption::finish(Json result) const {
     fs::remove_all(out_ / ".partial");
 }
 
+Json finished_part(const fs::path &file, const std::function<Json()> &measure) {
+    if (fs::exists(file)) {
+        return load_json(file);
+    }
+    Json part = measure();
+    write_file(file, part.dump(1) + "\n");
+    return part;
+}
+
 }  // namespace rtrays

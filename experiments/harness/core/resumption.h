@@ -36,4 +36,7 @@ class Resumption {
     std::string key_;
 };
 
+/// Returns the finished part that `file` stores, or measures and stores it.
+Json finished_part(const std::filesystem::path &file, const std::function<Json()> &measure);
+
 }  // namespace rtrays

@@ -14,8 +14,8 @@
 #include "experiments/harness/core/host.h"
 #include "experiments/harness/core/metrics.h"
 #include "experiments/harness/core/references.h"
+#include "experiments/harness/core/rendering.h"
 #include "experiments/harness/core/resumption.h"
-#include "experiments/harness/kinds/ladder.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
@@ -30,9 +30,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Description {
-    std::string name;
-    DescriptionFile file;
-    std::vector<fs::path> scenes;
+    std::string name, profile;
+    std::vector<fs::path> paths;         ///< scene files
     std::vector<RenderSettings> curves;  ///< with size
     std::vector<double> errors;
     int size = 0;
@@ -40,30 +39,34 @@ struct Description {
     uint32_t seeds = 0;
 };
 
-Description load(const fs::path &path, const std::string &profile) {
-    Description description{{}, load_description(path, "control.schema.json"), {}, {}, {}, 0, 0, 0};
-    const Json &json = description.file.json, &chosen = description.file.profile(profile);
+RenderSettings with_error(RenderSettings settings, double error) {
+    apply_setting(settings, fmt::format("integrator.convergence.error={}", error));
+    return settings;
+}
+
+Description read(const DescriptionFile &file, const std::string &profile) {
+    const Json &json = file.json, &chosen = file.profile(profile);
+    Description description;
+    description.profile = profile;
     json.at("name").get_to(description.name);
     json.at("errors").get_to(description.errors);
     chosen.at("size").get_to(description.size);
     chosen.at("spp").get_to(description.spp);
     chosen.at("seeds").get_to(description.seeds);
     for (const Json &scene : chosen.at("scenes")) {
-        description.scenes.push_back(description.file.resolve(json.at("folder")) /
-                                     scene.get<std::string>() / "scene.json");
+        description.paths.push_back(file.resolve(json.at("folder")) / scene.get<std::string>() /
+                                    "scene.json");
     }
     for (const Json &curve : json.at("curves")) {
         RenderSettings settings = parse_render_settings(curve);
         settings.width = settings.height = description.size;
         settings.variance = false;
+        for (const double error : description.errors) {
+            require_consistent(with_error(settings, error));
+        }
         description.curves.push_back(settings);
     }
     return description;
-}
-
-RenderSettings with_error(RenderSettings settings, double error) {
-    apply_setting(settings, fmt::format("integrator.convergence.error={}", error));
-    return settings;
 }
 
 double sum_of(const Image &image) {
@@ -124,8 +127,9 @@ ControlledRender render(RenderSession &session, uint32_t seed, uint64_t spp) {
 }
 
 /// Measures one scene with one curve: one row for each error limit.
-Json measure(const Description &description, const Scene &scene, const RenderSettings &curve,
-             const Image &reference, DeviceContext &device, const std::function<void()> &advance) {
+Json measure_curve(const Description &description, const Scene &scene, const RenderSettings &curve,
+                   const Image &reference, DeviceContext &device,
+                   const std::function<void()> &advance) {
     std::vector<RenderSettings> settings = {curve};
     for (const double error : description.errors) {
         settings.push_back(with_error(curve, error));
@@ -195,9 +199,8 @@ std::string table_of(const Json &document) {
 
 }  // namespace
 
-nlohmann::json compare_control(const std::vector<ControlledRender> &with,
-                               const std::vector<ControlledRender> &without,
-                               const Image &reference) {
+Json compare_control(const std::vector<ControlledRender> &with,
+                     const std::vector<ControlledRender> &without, const Image &reference) {
     if (with.size() != without.size() || with.size() < 8) {
         throw run_error(
             fmt::format("a bias estimate needs at least 8 pairs of renders, got {} and {}",
@@ -245,65 +248,84 @@ nlohmann::json compare_control(const std::vector<ControlledRender> &with,
               {"largest_z_at", blocks.largest_z_at}}}};
 }
 
-fs::path run_control(const ControlOptions &options) {
-    const Description description = load(options.description, options.profile);
-    const fs::path out =
-        options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
-    const Json &wanted = description.file.json.at("reference");
-    std::vector<Scene> scenes;
-    std::vector<Image> references;
-    std::string inputs = description.file.of_profile(options.profile);
-    for (const fs::path &path : description.scenes) {
-        scenes.push_back(load_scene(path.string()));
-        StoredReference reference =
-            load_reference({description.file.resolve(wanted.at("folder")), scenes.back().name(),
-                            scenes.back().hash(), wanted.at("engine"), description.size,
-                            description.size, path.string()});
-        references.push_back(std::move(reference.reference.image));
-        inputs += reference.description.dump();
-    }
-    DeviceContext device(options.device);
-    const fs::path table = out / (description.name + ".md");
-    const Resumption resumption(out, description.name + ".json", inputs, device.info());
-    if (!resumption.finished([&](const Json &) { return fs::exists(table); }).is_null()) {
-        return table;
-    }
-    Json document = {{"schema_version", 1},
-                     {"commit", commit()},
-                     {"dirty", built_from_changed_sources()},
-                     {"device", device.info().name},
-                     {"profile", options.profile},
-                     {"size", description.size},
-                     {"spp", description.spp},
-                     {"seeds", description.seeds},
-                     {"load_average_start", load_average()},
-                     {"rows", Json::array()}};
-    const uint64_t renders_of_row = description.seeds * (description.errors.size() + 1);
-    Progress progress(description.name, renders_of_row * scenes.size() * description.curves.size(),
-                      "renders", options.quiet);
-    uint64_t finished = 0;
-    progress.update(finished);
-    for (size_t scene = 0; scene < scenes.size(); ++scene) {
-        for (const RenderSettings &curve : description.curves) {
-            const uint64_t before = finished;
-            const fs::path done =
-                resumption.parts() /
-                fmt::format("{}.{}.json", scenes[scene].name(), curve.algorithm->name);
-            if (!fs::exists(done)) {
-                write_file(done, Json(measure(description, scenes[scene], curve, references[scene],
-                                              device, [&] { progress.update(++finished); }))
-                                         .dump(1) +
-                                     "\n");
-            }
-            const Json rows = load_json(done);
-            document["rows"].insert(document["rows"].end(), rows.begin(), rows.end());
-            progress.update(finished = before + renders_of_row);
+namespace {
+
+class ControlExperiment : public Experiment {
+  public:
+    ControlExperiment(const DescriptionFile &file, const RunOptions &options)
+        : description_(read(file, options.profile)), inputs_(file.of_profile(options.profile)) {
+        const Json &wanted = file.json.at("reference");
+        for (const fs::path &path : description_.paths) {
+            scenes_.push_back(load_scene(path.string()));
+            StoredReference reference = load_reference(
+                {file.resolve(wanted.at("folder")), scenes_.back().name(), scenes_.back().hash(),
+                 wanted.at("engine"), description_.size, description_.size, path.string()});
+            references_.push_back(std::move(reference.reference.image));
+            inputs_ += reference.description.dump();
         }
     }
-    document["load_average_end"] = load_average();
-    write_file(table, table_of(document));
-    resumption.finish(document);
-    return table;
+
+    std::string plan() const override {
+        return fmt::format("{}, profile {}: {} scenes x {} curves x {} error limits, {} seeds\n",
+                           description_.name, description_.profile, scenes_.size(),
+                           description_.curves.size(), description_.errors.size(),
+                           description_.seeds);
+    }
+
+    std::string inputs() const override { return inputs_; }
+
+    Json measure(const Bench &bench) const override {
+        Json document = {{"schema_version", 1},
+                         {"commit", commit()},
+                         {"dirty", built_from_changed_sources()},
+                         {"device", bench.device.info().name},
+                         {"profile", description_.profile},
+                         {"size", description_.size},
+                         {"spp", description_.spp},
+                         {"seeds", description_.seeds},
+                         {"rows", measure_rows(bench)}};
+        write_file(bench.out / (description_.name + ".md"), table_of(document));
+        return document;
+    }
+
+  private:
+    Json measure_rows(const Bench &bench) const {
+        const uint64_t renders_of_row = description_.seeds * (description_.errors.size() + 1);
+        Progress progress(description_.name,
+                          renders_of_row * scenes_.size() * description_.curves.size(), "renders",
+                          bench.quiet);
+        uint64_t finished = 0;
+        progress.update(finished);
+        Json rows = Json::array();
+        for (size_t scene = 0; scene < scenes_.size(); ++scene) {
+            for (const RenderSettings &curve : description_.curves) {
+                const uint64_t before = finished;
+                const Json part =
+                    finished_part(bench.parts / fmt::format("{}.{}.json", scenes_[scene].name(),
+                                                            curve.algorithm->name),
+                                  [&] {
+                                      return measure_curve(description_, scenes_[scene], curve,
+                                                           references_[scene], bench.device,
+                                                           [&] { progress.update(++finished); });
+                                  });
+                rows.insert(rows.end(), part.begin(), part.end());
+                progress.update(finished = before + renders_of_row);
+            }
+        }
+        return rows;
+    }
+
+    Description description_;
+    std::string inputs_;
+    std::vector<Scene> scenes_;
+    std::vector<Image> references_;
+};
+
+}  // namespace
+
+std::unique_ptr<Experiment> make_convergence_control(const DescriptionFile &file,
+                                                     const RunOptions &options) {
+    return std::make_unique<ControlExperiment>(file, options);
 }
 
 }  // namespace rtrays

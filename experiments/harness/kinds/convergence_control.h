@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Measures convergence control (thesis 3.3.7) against equal renders without it: savings and bias.
+// The kind "convergence_control": savings and bias of convergence control (thesis 3.3.7), compared
+// with equal renders without it.
 #pragma once
 
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
-#include <string>
+#include <memory>
 #include <vector>
 
+#include "experiments/harness/core/experiment.h"
 #include "renderer/base/image.h"
 
 namespace rtrays {
@@ -36,22 +36,12 @@ struct ControlledRender {
 ///   0.01), "undecided" (too skewed to be tested), "largest_z" and "largest_z_at".
 ///
 /// Throws `Error` (run failed) for fewer than 8 seeds.
-nlohmann::json compare_control(const std::vector<ControlledRender> &with,
-                               const std::vector<ControlledRender> &without,
-                               const Image &reference);
+Json compare_control(const std::vector<ControlledRender> &with,
+                     const std::vector<ControlledRender> &without, const Image &reference);
 
-struct ControlOptions {
-    std::filesystem::path description;  ///< schema/control.schema.json
-    std::string profile = "quick";
-    std::filesystem::path out;  ///< NAME.PROFILE by default
-    std::string device;
-    bool quiet = false;
-};
-
-/// Renders every scene of the profile with every curve, without control and with each error limit.
-/// Writes OUT/NAME.json and OUT/NAME.md and returns OUT/NAME.md. Scenes and curves that an
-/// interrupted call finished are not rendered again. Throws the errors of the renderer, the
-/// references and the files.
-std::filesystem::path run_control(const ControlOptions &options);
+/// Makes an experiment that renders every scene of the profile with every curve, without control
+/// and with each error limit. Throws `Error`: bad input, reference missing.
+std::unique_ptr<Experiment> make_convergence_control(const DescriptionFile &file,
+                                                     const RunOptions &options);
 
 }  // namespace rtrays

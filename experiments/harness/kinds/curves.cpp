@@ -7,11 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/harness/core/description.h"
 #include "experiments/harness/core/document.h"
 #include "experiments/harness/core/host.h"
 #include "experiments/harness/core/references.h"
-#include "experiments/harness/core/resumption.h"
+#include "experiments/harness/core/rendering.h"
+#include "experiments/harness/kinds/curves_description.h"
 #include "experiments/harness/kinds/ladder.h"
 #include "experiments/harness/kinds/throughput.h"
 #include "reference/renderer.h"
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Json describe_experiment(const ExperimentDescription &experiment) {
+Json describe_experiment(const CurvesDescription &experiment) {
     Json described = {
         {"name", experiment.name},
         {"title", experiment.title},
@@ -45,25 +45,27 @@ Json describe_experiment(const ExperimentDescription &experiment) {
     return described;
 }
 
-void print_plan(const ExperimentDescription &experiment, const StoredReference &reference) {
+std::string plan_of(const CurvesDescription &experiment, const StoredReference &reference) {
     const double pixels = static_cast<double>(experiment.width) * experiment.height;
     const double throughput = 2 * pixels * static_cast<double>(experiment.throughput.spp) *
                               experiment.throughput.repetitions;
-    fmt::print("{} ({}), profile {}: {}x{}\n", experiment.name, experiment.thesis,
-               experiment.profile, experiment.width, experiment.height);
+    std::string plan =
+        fmt::format("{} ({}), profile {}: {}x{}\n", experiment.name, experiment.thesis,
+                    experiment.profile, experiment.width, experiment.height);
     for (const auto &curve : experiment.curves) {
-        fmt::print("  {:40} {:4} to {:4} spp, {:3} seeds {:8.1f} Msamples\n", curve.id(),
-                   curve.spp.front(), curve.spp.back(), curve.seeds,
-                   1e-6 * pixels * static_cast<double>(curve.spp.back() * curve.seeds));
+        plan += fmt::format("  {:40} {:4} to {:4} spp, {:3} seeds {:8.1f} Msamples\n", curve.id(),
+                            curve.spp.front(), curve.spp.back(), curve.seeds,
+                            1e-6 * pixels * static_cast<double>(curve.spp.back() * curve.seeds));
     }
-    fmt::print("  {:68} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
-    fmt::print("  reference: {} spp ({}), noise floor RMSE {:.3g}\n",
-               reference.description.at("spp").get<uint64_t>(),
-               reference.description.at("engine").get<std::string>(),
-               std::sqrt(reference.reference.noise_mse));
+    plan += fmt::format("  {:68} {:8.1f} Msamples\n", "throughput, both sides", throughput / 1e6);
+    plan += fmt::format("  reference: {} spp ({}), noise floor RMSE {:.3g}\n",
+                        reference.description.at("spp").get<uint64_t>(),
+                        reference.description.at("engine").get<std::string>(),
+                        std::sqrt(reference.reference.noise_mse));
+    return plan;
 }
 
-RenderSettings settings_of(const ExperimentDescription &experiment, const CurveDescription &curve) {
+RenderSettings settings_of(const CurvesDescription &experiment, const CurveDescription &curve) {
     RenderSettings settings = curve.settings;
     settings.width = experiment.width;
     settings.height = experiment.height;
@@ -72,8 +74,8 @@ RenderSettings settings_of(const ExperimentDescription &experiment, const CurveD
 }
 
 /// Measures renderer and reference in interleaved repetitions with the last curve's settings.
-Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
-                    DeviceContext &device, bool quiet) {
+Json run_throughput(const CurvesDescription &experiment, const Scene &scene, DeviceContext &device,
+                    bool quiet) {
     const RenderSettings settings = settings_of(experiment, experiment.curves.back());
     RenderSession session(scene, settings, device);
 
@@ -116,7 +118,7 @@ Json run_throughput(const ExperimentDescription &experiment, const Scene &scene,
 }
 
 /// Measures one entry of "curves" and writes the curve's images.
-Json run_curve(const ExperimentDescription &experiment, const CurveDescription &description,
+Json run_curve(const CurvesDescription &experiment, const CurveDescription &description,
                LadderTask task, double noise_mse, const fs::path &out) {
     task.settings = settings_of(experiment, description);
     task.spp = description.spp;
@@ -158,19 +160,6 @@ Json run_curve(const ExperimentDescription &experiment, const CurveDescription &
     return curve;
 }
 
-fs::path output_folder(const RunOptions &options, const ExperimentDescription &experiment) {
-    return options.out.empty() ? fs::path(experiment.name + "." + experiment.profile) : options.out;
-}
-
-/// Throws `Error` (run failed) if a value is missing, so that no incomplete run is written.
-void require_complete(const Json &run) {
-    try {
-        parse_run(run.dump(), "run.json");
-    } catch (const Error &error) {
-        throw run_error(fmt::format("the run is incomplete and was not written: {}", error.what()));
-    }
-}
-
 /// Returns whether the images of a run exist. The repository keeps run.json without its images; a
 /// run without images is measured again.
 bool has_images(const Json &run, const fs::path &out) {
@@ -184,64 +173,75 @@ bool has_images(const Json &run, const fs::path &out) {
            });
 }
 
-}  // namespace
+class Curves : public Experiment {
+  public:
+    Curves(const DescriptionFile &file, const RunOptions &options)
+        : description_(read_curves(file, options.profile)),
+          scene_(load_scene(description_.scene.string())),
+          reference_(load_reference(description_, scene_)) {}
 
-fs::path run_experiment(const RunOptions &options) {
-    const ExperimentDescription experiment = load_experiment(options.experiment, options.profile);
-    const Scene scene = load_scene(experiment.scene.string());
-    StoredReference reference = load_reference(experiment, scene);
-    if (options.dry_run) {
-        print_plan(experiment, reference);
-        return {};
+    std::string plan() const override { return plan_of(description_, reference_); }
+
+    std::string inputs() const override {
+        return description_.source + reference_.description.dump();
     }
-    DeviceContext device(options.device);
-    if (options.compile) {
-        for (const CurveDescription &curve : experiment.curves) {
-            compile_kernels(scene, settings_of(experiment, curve), device);
+
+    void compile(DeviceContext &device) const override {
+        for (const CurveDescription &curve : description_.curves) {
+            compile_kernels(scene_, settings_of(description_, curve), device);
         }
-        return {};
     }
-    const fs::path out = output_folder(options, experiment);
-    const RunContext context;
-    const Resumption resumption(out, "run.json", experiment.source + reference.description.dump(),
-                                device.info());
-    if (!resumption.finished([&](const Json &run) { return has_images(run, out); }).is_null()) {
-        return out;
+
+    Json measure(const Bench &bench) const override {
+        fs::create_directories(bench.out / "images");
+        Json description = reference_.description;
+        description["image"] = "images/reference.exr";
+        write_exr(reference_.reference.image, bench.out / "images/reference.exr");
+        return {{"schema_version", run_schema_version},
+                {"experiment", describe_experiment(description_)},
+                {"reference", description},
+                {"curves", measure_curves(bench)},
+                {"throughput", run_throughput(description_, scene_, bench.device, bench.quiet)}};
     }
-    fs::create_directories(out / "images");
-    Json run = {{"schema_version", run_schema_version},
-                {"experiment", describe_experiment(experiment)}};
-    {
-        uint64_t done = 0;
-        uint64_t total = 0;
-        for (const CurveDescription &curve : experiment.curves) {
+
+    bool is_whole(const Json &document, const fs::path &out) const override {
+        return has_images(document, out);
+    }
+
+  private:
+    Json measure_curves(const Bench &bench) const {
+        uint64_t total = 0, done = 0;
+        for (const CurveDescription &curve : description_.curves) {
             total += curve.seeds * curve.spp.back();
         }
-        Progress progress(experiment.name, total, "spp", options.quiet);
+        Progress progress(description_.name, total, "spp", bench.quiet);
         progress.update(0);
-        const LadderTask task{scene,
-                              device,
+        const LadderTask task{scene_,
+                              bench.device,
                               {},
                               {},
                               0,
                               {},
-                              reference.reference.image,
-                              resumption.parts(),
+                              reference_.reference.image,
+                              bench.parts,
                               [&](uint64_t spp) { progress.update(done += spp); }};
-        for (const auto &description : experiment.curves) {
-            run["curves"].push_back(
-                run_curve(experiment, description, task, reference.reference.noise_mse, out));
+        Json curves = Json::array();
+        for (const CurveDescription &curve : description_.curves) {
+            curves.push_back(
+                run_curve(description_, curve, task, reference_.reference.noise_mse, bench.out));
         }
+        return curves;
     }
-    run["throughput"] = run_throughput(experiment, scene, device, options.quiet);
 
-    reference.description["image"] = "images/reference.exr";
-    write_exr(reference.reference.image, out / "images/reference.exr");
-    run["reference"] = reference.description;
-    run["context"] = context.finish(device.info());
-    require_complete(run);
-    resumption.finish(run);
-    return out;
+    CurvesDescription description_;
+    Scene scene_;
+    StoredReference reference_;
+};
+
+}  // namespace
+
+std::unique_ptr<Experiment> make_curves(const DescriptionFile &file, const RunOptions &options) {
+    return std::make_unique<Curves>(file, options);
 }
 
 }  // namespace rtrays

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Runs convergence experiments.
+// The kind "curves": error over samples and over time, and throughput.
 #pragma once
 
-#include <filesystem>
-#include <string>
+#include <memory>
+
+#include "experiments/harness/core/experiment.h"
 
 namespace rtrays {
 
-struct RunOptions {
-    std::filesystem::path experiment;
-    std::string profile = "quick";
-    std::filesystem::path out;  ///< NAME.PROFILE in the working directory if empty
-    std::string device;         ///< device name for `DeviceContext`
-    bool dry_run = false;       ///< check the inputs and print the plan, but render nothing
-    bool compile = false;       ///< compile the kernels only
-    bool quiet = false;
-};
-
-/// Runs an experiment and writes OUT/run.json and OUT/images/*.exr. Returns OUT, or an empty path
-/// after a dry run or compilation.
-///
-/// Repeating the command continues an interrupted run and keeps a finished one (`Resumption`).
-/// Throws `Error`: bad input, reference missing, run failed, interrupted.
-std::filesystem::path run_experiment(const RunOptions &options);
+/// Makes an experiment that renders every curve with several seeds and compares it with the
+/// reference. Throws `Error`: bad input, reference missing.
+std::unique_ptr<Experiment> make_curves(const DescriptionFile &file, const RunOptions &options);
 
 }  // namespace rtrays

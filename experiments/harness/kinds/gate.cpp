@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "embedded/experiment_schemas.h"
@@ -42,7 +43,7 @@ bool same_settings(const Json &stored, const RenderSettings &settings) {
 }
 
 std::string update_command(const GateDescription &gate) {
-    return fmt::format("rtrays-experiment gate {} --update-baseline", gate.source);
+    return fmt::format("rtrays-experiment run {} --update-baseline", gate.source);
 }
 
 Json load_baseline(const GateDescription &gate, const Scene &scene) {
@@ -66,8 +67,8 @@ Json load_baseline(const GateDescription &gate, const Scene &scene) {
     return baseline;
 }
 
-std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredReference &reference) {
-    const Json baseline = load_baseline(bench.gate, bench.scene);
+std::vector<CheckLine> check_all_curves(const GateBench &bench, const StoredReference &reference,
+                                        const Json &baseline) {
     std::vector<CheckLine> lines;
     for (const auto &curve : bench.gate.curves) {
         if (!baseline.at("curves").contains(curve.id())) {
@@ -116,7 +117,7 @@ void print_dropped(const Json &baseline, const Json &previous) {
     }
 }
 
-void update_baseline(const GateBench &bench, const StoredReference &reference) {
+void measure_baseline(const GateBench &bench, const StoredReference &reference) {
     const auto &gate = bench.gate;
     const Json previous = fs::exists(gate.baseline) ? load_json(gate.baseline) : Json::object();
     require_writable(gate.baseline);
@@ -143,50 +144,85 @@ void update_baseline(const GateBench &bench, const StoredReference &reference) {
     fmt::print("wrote {}\n", gate.baseline.string());
 }
 
+class Gate : public Experiment {
+  public:
+    Gate(const DescriptionFile &file, const RunOptions &options)
+        : gate_(read_gate(file)),
+          scene_(load_scene(gate_.scene.string())),
+          check_(options.check.empty() ? "all" : options.check),
+          updates_(options.update_baseline) {
+        if (updates_ || wants("convergence") || wants("planted_errors")) {
+            reference_ = load_reference(gate_, scene_);
+        }
+        if (check_ == "bitwise" && !gate_.bitwise) {
+            throw input_error(fmt::format("{} has no checks \"bitwise\"", gate_.source));
+        }
+        if (!updates_ && wants("planted_errors")) {
+            require_plantable(gate_.planted.errors);
+        }
+        if (!updates_ && wants("convergence")) {
+            baseline_ = load_baseline(gate_, scene_);
+        }
+    }
+
+    std::string plan() const override {
+        return fmt::format("{}: {}x{}, {} curves, {} planted errors, {}\n", gate_.name, gate_.width,
+                           gate_.height, gate_.curves.size(), gate_.planted.errors.size(),
+                           updates_ ? "update of the baseline" : "checks: " + check_);
+    }
+
+    Json measure(const Bench &bench) const override {
+        const GateBench gate_bench{gate_, scene_, bench.device, bench.quiet};
+        if (updates_) {
+            measure_baseline(gate_bench, reference_);
+            return {{"rows", Json::array()}};
+        }
+        Json rows = Json::array();
+        const auto report = [&](const std::vector<CheckLine> &lines) {
+            for (const CheckLine &line : lines) {
+                fmt::print("{} {}\n", line.passed ? "ok  " : "FAIL", line.text);
+                rows.push_back({{"check", line.text}, {"passed", line.passed}});
+            }
+        };
+        if (gate_.bitwise && wants("bitwise")) {
+            report(check_bitwise(gate_bench));
+        }
+        if (wants("convergence")) {
+            report(check_all_curves(gate_bench, reference_, baseline_));
+        }
+        if (wants("planted_errors")) {
+            report(check_planted_errors(gate_bench, reference_.reference));
+        }
+        return {{"rows", rows}};
+    }
+
+    ExitCode conclude(const Json &document) const override {
+        if (updates_) {
+            return ExitCode::ok;
+        }
+        const Json &rows = document.at("rows");
+        const auto failed = std::count_if(rows.begin(), rows.end(), [](const Json &row) {
+            return !row.at("passed").get<bool>();
+        });
+        fmt::print("{}\n", gate_summary(rows.size(), static_cast<size_t>(failed)));
+        return failed > 0 ? ExitCode::regression : ExitCode::ok;
+    }
+
+  private:
+    bool wants(const char *check) const { return check_ == "all" || check_ == check; }
+
+    GateDescription gate_;
+    Scene scene_;
+    std::string check_;
+    bool updates_;
+    StoredReference reference_;
+    Json baseline_;
+};
+
 }  // namespace
 
-ExitCode run_gate(const GateOptions &options) {
-    const GateDescription gate = load_gate(options.gate);
-    const Scene scene = load_scene(gate.scene.string());
-    const auto wants = [&](const char *check) {
-        return options.check == "all" || options.check == check;
-    };
-    StoredReference reference;
-    if (options.update_baseline || wants("convergence") || wants("planted_errors")) {
-        reference = load_reference(gate, scene);  // before anything is rendered
-    }
-    if (options.check == "bitwise" && !gate.bitwise) {
-        throw input_error(fmt::format("{} has no checks \"bitwise\"", gate.source));
-    }
-    if (!options.update_baseline && wants("planted_errors")) {
-        require_plantable(gate.planted.errors);  // before anything is rendered
-    }
-    DeviceContext device(options.device);
-    const GateBench bench{gate, scene, device, options.quiet};
-    if (options.update_baseline) {
-        update_baseline(bench, reference);
-        return ExitCode::ok;
-    }
-
-    size_t checks = 0, failed = 0;
-    const auto report = [&](const std::vector<CheckLine> &lines) {
-        for (const auto &line : lines) {
-            fmt::print("{} {}\n", line.passed ? "ok  " : "FAIL", line.text);
-            failed += line.passed ? 0 : 1;
-        }
-        checks += lines.size();
-    };
-    if (gate.bitwise && wants("bitwise")) {
-        report(check_bitwise(bench));
-    }
-    if (wants("convergence")) {
-        report(check_all_curves(bench, reference));
-    }
-    if (wants("planted_errors")) {
-        report(check_planted_errors(bench, reference.reference));
-    }
-    fmt::print("{}\n", gate_summary(checks, failed));
-    return failed == 0 ? ExitCode::ok : ExitCode::regression;
+std::unique_ptr<Experiment> make_gate(const DescriptionFile &file, const RunOptions &options) {
+    return std::make_unique<Gate>(file, options);
 }
 
 }  // namespace rtrays

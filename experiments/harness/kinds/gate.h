@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Regression gate: images that must not change with scheduling, errors that must not grow, and
+// The kind "gate": images that must not change with scheduling, errors that must not grow, and
 // planted errors that must be found.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/harness/core/description.h"
-#include "renderer/base/error.h"
+#include "experiments/harness/core/experiment.h"
 
 namespace rtrays {
-
-struct GateOptions {
-    std::filesystem::path gate;
-    std::string check = "all";  ///< bitwise | convergence | planted_errors | all
-    bool update_baseline = false;
-    std::string device;
-    bool quiet = false;
-};
 
 /// A deliberate error in one line of a kernel. It is applied as an overlay of the include resolver
 /// and never appears in shipped code.
@@ -51,12 +43,13 @@ struct GateDescription : MeasuredScene {
     } planted;
 };
 
-/// Reads and checks a gate file. Throws `Error` (bad input) naming file, key and alternatives.
-GateDescription load_gate(const std::filesystem::path &path);
+/// Reads a gate file that fits its schema. Throws `Error` (bad input) naming file, key and
+/// alternatives.
+GateDescription read_gate(const DescriptionFile &file);
 
-/// Runs the chosen checks. Prints one line for each and a summary line on standard output. Returns
-/// `ExitCode::regression` if one fails. Throws `Error` (reference missing) if the reference or the
-/// baseline does not exist, and `Error` (bad input) before rendering if an error cannot be planted.
-ExitCode run_gate(const GateOptions &options);
+/// Makes an experiment that runs the chosen checks, or measures the baseline. It prints one line
+/// for each check and stores no document. Throws `Error` (reference missing) if the reference or
+/// the baseline does not exist, and `Error` (bad input) if an error cannot be planted.
+std::unique_ptr<Experiment> make_gate(const DescriptionFile &file, const RunOptions &options);
 
 }  // namespace rtrays

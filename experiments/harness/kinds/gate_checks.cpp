@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "experiments/harness/kinds/gate_checks.h"
+#include "experiments/harness/core/rendering.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "experiments/harness/kinds/ladder.h"
 #include "renderer/base/progress.h"
 
 namespace rtrays {

@@ -8,13 +8,12 @@
 
 namespace rtrays {
 
-GateDescription load_gate(const std::filesystem::path &path) {
-    const DescriptionFile file = load_description(path, "gate.schema.json");
+GateDescription read_gate(const DescriptionFile &file) {
     const Json &json = file.json;
 
     GateDescription gate;
     json.at("name").get_to(gate.name);
-    gate.source = path.string();
+    gate.source = file.path.string();
     read_measured_scene(file, json.at("size"), gate);
     gate.baseline = file.resolve(json.at("baseline"));
     const Json &convergence = json.at("convergence"), &planted = json.at("planted_errors");

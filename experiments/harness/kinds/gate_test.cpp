@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests of the gate without a device: every planted error of the shipped gates still fits its
 // kernel, and slopes are judged correctly.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,8 +29,9 @@ TEST(Plant, RefusesWhatWouldProveNothing) {
 }
 
 TEST(Plant, ShippedErrorsFitTheShippedKernels) {
-    for (const char *name : {"/gates/gate_cornell_box.json", "/gates/gate_mirror_ring.json"}) {
-        const auto gate = load_gate(RTRAYS_EXPERIMENTS + std::string(name));
+    for (const char *name : {"gate_cornell_box", "gate_mirror_ring"}) {
+        const std::string path = fmt::format("{}/gates/{}.json", RTRAYS_EXPERIMENTS, name);
+        const GateDescription gate = read_gate(load_description(path, "gate.schema.json"));
         for (const auto &error : gate.planted.errors) {
             EXPECT_NO_THROW(plant(error, device_source(error.file))) << error.name;
         }

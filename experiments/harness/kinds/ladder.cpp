@@ -122,25 +122,6 @@ LadderResult render_ladders(const LadderTask &task) {
     return result;
 }
 
-void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device) {
-    if (settings.light_paths == LIGHT_PATHS_AUTO) {
-        settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
-    }
-    RenderSession session(scene, settings, device);
-    render_whole(session, 0, 1);
-}
-
-std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp,
-                                  uint64_t batches) {
-    std::vector<Image> images;
-    for (uint64_t batch = 0; batch < batches; ++batch) {
-        session.restart(seed);
-        render_whole(session, batch * spp / batches, (batch + 1) * spp / batches);
-        images.push_back(session.develop());
-    }
-    return images;
-}
-
 std::vector<Image> render_fresh_batches(const LadderTask &task) {
     RenderSession session(task.scene, task.settings, task.device);
     return render_batches(session, first_seed + task.seeds, 2 * task.spp.back() * task.seeds,

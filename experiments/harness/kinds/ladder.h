@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "experiments/harness/core/description.h"
 #include "experiments/harness/core/document.h"
-#include "renderer/base/error.h"
+#include "experiments/harness/core/rendering.h"
+#include "experiments/harness/kinds/curves_description.h"
 #include "renderer/device/context.h"
 #include "renderer/scene/scene.h"
 #include "renderer/session/render_session.h"
@@ -47,26 +47,5 @@ LadderResult render_ladders(const LadderTask &task);
 /// Renders as many batches as the ladders have, each with twice the samples. They use a seed that
 /// no ladder uses.
 std::vector<Image> render_fresh_batches(const LadderTask &task);
-
-/// Renders the samples [begin, end). Throws `Error` (interrupted) if a signal stops it. `Renderer`
-/// is `RenderSession`, `ReferenceRenderer` or `PeerRenderer`.
-template <class Renderer>
-void render_whole(Renderer &renderer, uint64_t begin, uint64_t end) {
-    if (renderer.render(begin, end) < end) {
-        throw Error(ExitCode::interrupted,
-                    "interrupted; repeat the command to continue a run or to restart a gate");
-    }
-}
-
-/// Renders one sample per pixel, so that all kernels are compiled and cached. Kernels for long
-/// paths are included if a path is long enough. The pilot of `LIGHT_PATHS_AUTO` is skipped, because
-/// it uses the same kernels and takes time. Throws `Error` (interrupted).
-void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device);
-
-/// Renders the samples [0, spp) as `batches` images of equal parts. Variances are estimated from
-/// the scatter of these images: splats of a path fall on several pixels, and only the scatter shows
-/// rare bright paths. The session then has the last batch. Throws `Error` (interrupted).
-std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp,
-                                  uint64_t batches);
 
 }  // namespace rtrays

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "experiments/harness/core/agreement.h"
+#include "experiments/harness/core/rendering.h"
 #include "experiments/harness/kinds/gate_checks.h"
-#include "experiments/harness/kinds/ladder.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/source.h"
 

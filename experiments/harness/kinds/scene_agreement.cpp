@@ -15,7 +15,8 @@
 #include "experiments/harness/core/array_file.h"
 #include "experiments/harness/core/description.h"
 #include "experiments/harness/core/document.h"
-#include "experiments/harness/kinds/ladder.h"
+#include "experiments/harness/core/rendering.h"
+#include "experiments/harness/core/resumption.h"
 #include "reference/film.h"
 #include "reference/renderer.h"
 #include "renderer/base/commit.h"
@@ -38,8 +39,9 @@ constexpr uint64_t reference_seed = 22;
 
 struct Description {
     std::string name;
-    std::vector<fs::path> scenes;
-    int size = 0;  ///< pixels along a side
+    std::string profile;
+    std::vector<fs::path> paths;  ///< scene files
+    int size = 0;                 ///< pixels along a side
     uint64_t spp = 0;
     uint64_t reference_spp = 0;
     std::vector<std::string> algorithms = {"path_tracing"};
@@ -49,25 +51,25 @@ struct Description {
 
 constexpr uint64_t batches = 32;  ///< for each renderer, see `render_batches`
 
-Description load(const fs::path &path, const std::string &profile) {
-    const DescriptionFile file = load_description(path, "agreement.schema.json");
+Description read(const DescriptionFile &file, const std::string &profile) {
     Description description;
+    description.profile = profile;
     file.json.at("name").get_to(description.name);
     const Json &chosen = file.profile(profile);
     for (const Json &scene : chosen.at("scenes")) {
         const fs::path named = file.resolve(file.json.at("folder")) / scene.get<std::string>();
         if (named.filename() != "*") {
-            description.scenes.push_back(named.string() + ".json");
+            description.paths.push_back(named.string() + ".json");
             continue;
         }
-        const size_t before = description.scenes.size();
+        const size_t before = description.paths.size();
         for (const auto &entry : fs::directory_iterator(named.parent_path())) {
             if (entry.path().extension() == ".json") {
-                description.scenes.push_back(entry.path());
+                description.paths.push_back(entry.path());
             }
         }
-        std::sort(description.scenes.begin() + static_cast<std::ptrdiff_t>(before),
-                  description.scenes.end());
+        std::sort(description.paths.begin() + static_cast<std::ptrdiff_t>(before),
+                  description.paths.end());
     }
     chosen.at("size").get_to(description.size);
     chosen.at("spp").get_to(description.spp);
@@ -77,7 +79,7 @@ Description load(const fs::path &path, const std::string &profile) {
     // Bonferroni over all rows: each algorithm against the reference, and each pair of algorithms.
     const size_t algorithms = description.algorithms.size();
     description.policy.alpha /= static_cast<double>(
-        description.scenes.size() * (algorithms + algorithms * (algorithms - 1) / 2));
+        description.paths.size() * (algorithms + algorithms * (algorithms - 1) / 2));
     return description;
 }
 
@@ -236,8 +238,8 @@ std::vector<Image> render_reference(const Scene &scene, const Description &descr
 /// Renders and tests a scene with every algorithm and returns the rows. Stores the images in
 /// `folder` as the arrays NAME.ALGORITHM.npy, NAME.reference.npy and NAME.reference.ALGORITHM.npy.
 /// The last one is the reference restricted to the light that the algorithm sees.
-Json measure(const Scene &scene, const Description &description, DeviceContext &device,
-             const fs::path &folder) {
+Json measure_scene(const Scene &scene, const Description &description, DeviceContext &device,
+                   const fs::path &folder) {
     const std::vector<Image> whole = render_reference(scene, description, {});
     write_array(mean_of(whole), folder / (scene.name() + ".reference.npy"));
     Json rows = Json::array();
@@ -278,13 +280,6 @@ Json measure(const Scene &scene, const Description &description, DeviceContext &
         }
     }
     return rows;
-}
-
-/// Returns the key of a finished scene: everything that its result depends on.
-std::string key_of(const Scene &scene, const Description &description) {
-    return fmt::format("{} {} {} {} {} {} {}", scene.hash(), description.size, description.spp,
-                       description.reference_spp, fmt::join(description.algorithms, " "),
-                       description.features, version());
 }
 
 std::string line_of(const Json &row) {
@@ -333,46 +328,81 @@ std::string table_of(const Json &document) {
     return table;
 }
 
+class SceneAgreement : public Experiment {
+  public:
+    SceneAgreement(const DescriptionFile &file, const RunOptions &options)
+        : description_(read(file, options.profile)), inputs_(file.of_profile(options.profile)) {
+        for (const fs::path &path : description_.paths) {
+            scenes_.push_back(load_scene(path.string()));
+        }
+    }
+
+    std::string plan() const override {
+        return fmt::format("{}, profile {}: {} scenes with {}, {} spp, {} spp for the reference\n",
+                           description_.name, description_.profile, scenes_.size(),
+                           fmt::join(description_.algorithms, ", "), description_.spp,
+                           description_.reference_spp);
+    }
+
+    std::string inputs() const override {
+        std::string inputs = inputs_;
+        for (const Scene &scene : scenes_) {
+            inputs += scene.name() + scene.hash();
+        }
+        return inputs;
+    }
+
+    Json measure(const Bench &bench) const override {
+        fs::create_directories(bench.out / "images");
+        Json document = {{"schema_version", 1},
+                         {"commit", version()},
+                         {"device", bench.device.info().name},
+                         {"size", description_.size},
+                         {"spp", description_.spp},
+                         {"reference_spp", description_.reference_spp},
+                         {"features", description_.features},
+                         {"rows", Json::array()}};
+        Progress progress(description_.name, scenes_.size(), "scenes", bench.quiet);
+        size_t finished = 0;
+        for (const Scene &scene : scenes_) {
+            const auto rows_of_scene = [&] {
+                return measure_scene(scene, description_, bench.device, bench.out / "images");
+            };
+            for (const Json &row :
+                 finished_part(bench.parts / (scene.name() + ".json"), rows_of_scene)) {
+                fmt::print("{}", line_of(row));
+                document["rows"].push_back(row);
+            }
+            std::fflush(stdout);
+            progress.update(++finished);
+        }
+        write_file(bench.out / "agreement.md", table_of(document));
+        return document;
+    }
+
+    bool is_whole(const Json & /*document*/, const fs::path &out) const override {
+        return std::all_of(scenes_.begin(), scenes_.end(), [&](const Scene &scene) {
+            return fs::exists(out / "images" / (scene.name() + ".reference.npy"));
+        });
+    }
+
+    ExitCode conclude(const Json &document) const override {
+        const Json &rows = document.at("rows");
+        const auto failed = std::count_if(rows.begin(), rows.end(), fails);
+        fmt::print("{} of {} rows failed\n", failed, rows.size());
+        return failed > 0 ? ExitCode::regression : ExitCode::ok;
+    }
+
+  private:
+    Description description_;
+    std::string inputs_;
+    std::vector<Scene> scenes_;
+};
+
 }  // namespace
 
-ExitCode run_agreement(const AgreeOptions &options) {
-    const Description description = load(options.description, options.profile);
-    const fs::path out =
-        options.out.empty() ? fs::path(description.name + "." + options.profile) : options.out;
-    const fs::path partial = out / "partial";
-    fs::create_directories(partial);
-    fs::create_directories(out / "images");
-    DeviceContext device(options.device);
-    Json document = {{"schema_version", 1},
-                     {"commit", version()},
-                     {"device", device.info().name},
-                     {"size", description.size},
-                     {"spp", description.spp},
-                     {"reference_spp", description.reference_spp},
-                     {"features", description.features}};
-    bool agrees = true;
-    Progress progress(description.name, description.scenes.size(), "scenes", options.quiet);
-    size_t finished = 0;
-    for (const fs::path &path : description.scenes) {
-        const Scene scene = load_scene(path.string());
-        const fs::path done = partial / (scene.name() + ".json");
-        const std::string key = key_of(scene, description);
-        Json result = fs::exists(done) ? load_json(done) : Json::object();
-        if (result.value("key", "") != key) {
-            result = {{"key", key}, {"rows", measure(scene, description, device, out / "images")}};
-            write_file(done, result.dump(1) + "\n");
-        }
-        for (const Json &row : result.at("rows")) {
-            fmt::print("{}", line_of(row));
-            agrees = agrees && !fails(row);
-            document["rows"].push_back(row);
-        }
-        std::fflush(stdout);
-        progress.update(++finished);
-    }
-    write_file(out / "agreement.json", document.dump(1) + "\n");
-    write_file(out / "agreement.md", table_of(document));
-    return agrees ? ExitCode::ok : ExitCode::regression;
+std::unique_ptr<Experiment> make_agreement(const DescriptionFile &file, const RunOptions &options) {
+    return std::make_unique<SceneAgreement>(file, options);
 }
 
 }  // namespace rtrays

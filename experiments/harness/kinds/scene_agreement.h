@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Tests on many small scenes whether the renderer agrees with the reference.
+// The kind "agreement": does the renderer agree with the reference on many small scenes?
 #pragma once
 
-#include <filesystem>
-#include <string>
+#include <memory>
 
-#include "renderer/base/error.h"
+#include "experiments/harness/core/experiment.h"
 
 namespace rtrays {
 
-struct AgreeOptions {
-    std::filesystem::path description;  ///< schema/agreement.schema.json
-    std::string profile = "quick";
-    std::filesystem::path out;  ///< NAME.PROFILE by default
-    std::string device;
-    bool quiet = false;
-};
-
-/// Renders every scene of the profile with the reference and with each algorithm. Tests the
-/// agreement (agreement.h) of each algorithm with the reference, and of any two algorithms that see
-/// all light; the level is divided among all rows. Prints one line for each test, and writes
-/// OUT/agreement.json, OUT/agreement.md and the images as arrays in OUT/images. Scenes that an
-/// interrupted call finished with equal scene, settings and commit are not rendered again. Returns
-/// `ExitCode::regression` if a test fails. Throws the errors of the renderers and the files.
-ExitCode run_agreement(const AgreeOptions &options);
+/// Makes an experiment that renders every scene with the reference and with each algorithm. It
+/// tests the agreement (agreement.h) of each algorithm with the reference, and of any two
+/// algorithms that see all light. The level is divided among all rows. The mean images are written
+/// as arrays in OUT/images. Throws `Error` (bad input).
+std::unique_ptr<Experiment> make_agreement(const DescriptionFile &file, const RunOptions &options);
 
 }  // namespace rtrays

@@ -8,19 +8,22 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/harness/core/agreement.h"
 #include "experiments/harness/core/document.h"
 #include "experiments/harness/core/host.h"
 #include "experiments/harness/core/metrics.h"
+#include "experiments/harness/core/rendering.h"
 #include "experiments/harness/core/resumption.h"
-#include "experiments/harness/kinds/ladder.h"
 #include "experiments/harness/kinds/stability_cases.h"
+#include "experiments/harness/kinds/stability_comparison.h"
 #include "reference/renderer.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
+#include "renderer/import/load_scene.h"
 #include "renderer/session/render_session.h"
 
 namespace rtrays {
@@ -30,152 +33,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uint64_t batches = 32;
-constexpr int block_size = 8;          // pixels along a side
 constexpr double family_alpha = 0.01;  // for all tests of a profile together (Bonferroni)
 constexpr uint32_t renderer_seed = 31;
 constexpr uint64_t reference_seed = 32;
-
-/// Returns the means of a channel over every block and, last, over the full image.
-std::vector<double> block_means(const Image &image, const std::string &channel) {
-    const int columns = (image.width() + block_size - 1) / block_size,
-              rows = (image.height() + block_size - 1) / block_size;
-    std::vector<double> sums(static_cast<size_t>(columns * rows) + 1), pixels(sums.size());
-    const std::vector<float> &values = image.channel(channel);
-    for (size_t i = 0; i < values.size(); ++i) {
-        const int x = static_cast<int>(i) % image.width(), y = static_cast<int>(i) / image.width();
-        for (const size_t block :
-             {static_cast<size_t>(y / block_size * columns + x / block_size), sums.size() - 1}) {
-            sums[block] += static_cast<double>(values[i]);
-            pixels[block] += 1;
-        }
-    }
-    for (size_t block = 0; block < sums.size(); ++block) {
-        sums[block] /= pixels[block];
-    }
-    return sums;
-}
-
-/// Returns the variances of the block means, assuming independent pixels.
-std::vector<double> block_variances(const Image &image, const std::string &channel) {
-    std::vector<double> variances = block_means(image, channel);
-    for (size_t block = 0; block < variances.size(); ++block) {
-        const bool whole = block + 1 == variances.size();
-        const int across = whole ? image.width() : std::min(block_size, image.width());
-        const int down = whole ? image.height() : std::min(block_size, image.height());
-        variances[block] /= across * down;
-    }
-    return variances;
-}
-
-/// Moments of the batches' values of one block and channel.
-struct Moments {
-    double mean = 0, standard_error = 0, skewness = 0;
-};
-
-Moments moments_of(const std::vector<double> &values) {
-    const auto n = static_cast<double>(values.size());
-    Moments result;
-    for (const double value : values) {
-        result.mean += value / n;
-    }
-    double second = 0, third = 0;
-    for (const double value : values) {
-        second += std::pow(value - result.mean, 2) / n;
-        third += std::pow(value - result.mean, 3) / n;
-    }
-    result.standard_error = std::sqrt(second / (n - 1));
-    result.skewness = second > 0 ? third / std::pow(second, 1.5) : 0;
-    return result;
-}
-
-/// Returns the mean variance of the pixels of an expected image.
-double expected_error(const ExpectedImage &expected) {
-    double sum = 0;
-    for (const std::string &channel : rgb_names()) {
-        const std::vector<double> means = expected.noisy
-                                              ? block_means(expected.mean, "variance." + channel)
-                                              : std::vector<double>{0};
-        sum += means.back() / 3;
-    }
-    return sum;
-}
-
-/// Returns the mean squared error of the pixels, averaged over the batches. A noisy expected image
-/// adds its variance on average, so this variance is subtracted.
-double mean_squared_error(const std::vector<Image> &images, const ExpectedImage &expected) {
-    double mse = -expected_error(expected);
-    for (const Image &image : images) {
-        mse += compute_metrics(image, expected.mean).mse / static_cast<double>(images.size());
-    }
-    return mse;
-}
-
-size_t tests_of(int size) {
-    const auto across = static_cast<size_t>((size + block_size - 1) / block_size);
-    return 3 * (across * across + 1);
-}
-
-}  // namespace
-
-StabilityTest test_stability(const std::vector<Image> &images, const ExpectedImage &expected,
-                             double bound, double within, double alpha) {
-    if (images.size() < 2) {
-        throw run_error("an interval needs at least two batches");
-    }
-    StabilityTest result;
-    const double freedom = static_cast<double>(images.size() - 1);
-    const double far = student_quantile_two_sided(1 - alpha, freedom),
-                 near = student_quantile_two_sided(0.99, freedom);
-    double error = 0;  // upper bound of the standard error of the mean over channels
-    for (const std::string &channel : rgb_names()) {
-        std::vector<std::vector<double>> by_batch;
-        for (const Image &image : images) {
-            by_batch.push_back(block_means(image, channel));
-        }
-        const std::vector<double> wanted = block_means(expected.mean, channel);
-        const std::vector<double> noise =
-            expected.noisy ? block_variances(expected.mean, "variance." + channel)
-                           : std::vector<double>(wanted.size());
-        for (size_t block = 0; block < wanted.size(); ++block) {
-            std::vector<double> values;
-            for (const auto &batch : by_batch) {
-                values.push_back(batch[block]);
-            }
-            const Moments moments = moments_of(values);
-            const double standard_error =
-                std::hypot(moments.standard_error, std::sqrt(noise[block]));
-            const double off = std::abs(moments.mean - wanted[block]),
-                         allowed = bound * wanted[block];
-            if (std::abs(moments.skewness) > AgreementPolicy().largest_skewness &&
-                off + far * standard_error > allowed) {
-                ++result.undecided;
-            } else {
-                ++result.tests;
-                result.rejected += off - far * standard_error > allowed ? 1 : 0;
-            }
-            if (block + 1 == wanted.size()) {
-                result.expected += wanted[block] / 3;
-                result.measured += moments.mean / 3;
-                error += standard_error / 3;
-            }
-        }
-    }
-    if (!(result.expected > 0)) {
-        throw input_error("the expected image is black, so a relative difference is undefined");
-    }
-    const double difference = (result.measured - result.expected) / result.expected,
-                 reach = near * error / result.expected;
-    result.difference = {difference, difference - reach, difference + reach};
-    result.mse = mean_squared_error(images, expected) / std::pow(result.expected, 2);
-    result.mse_expected = expected_error(expected) / std::pow(result.expected, 2);
-    result.verdict = result.rejected > 0                ? "off"
-                     : result.tests <= result.undecided ? "undecided"
-                     : reach > within                   ? "imprecise"
-                                                        : "ok";
-    return result;
-}
-
-namespace {
 
 /// Batches of a case rendered by one algorithm.
 struct Batches {
@@ -292,8 +152,8 @@ const char *name_of(Expectation expectation) {
 }
 
 /// Measures one case: a row for each algorithm, and for each one that cannot render the case.
-Json measure(const StabilityCase &tested, double alpha, DeviceContext &device,
-             const fs::path &images) {
+Json measure_case(const StabilityCase &tested, double alpha, DeviceContext &device,
+                  const fs::path &images) {
     Image reference;
     if (tested.expectation == Expectation::reference) {
         reference = render_reference(tested, tested.runs.front().settings);
@@ -383,7 +243,7 @@ std::string table_of(const Json &document) {
         "saturated | |\n"
         "| --- | --- | --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | --- |\n",
         document.at("profile").get<std::string>(), batches,
-        document.at("device").get<std::string>(), block_size, block_size,
+        document.at("device").get<std::string>(), stability_block_size, stability_block_size,
         document.at("bound").get<double>(), family_alpha);
     for (const Json &row : document.at("rows")) {
         table += "| " + cells_of(row) + " |\n";
@@ -399,88 +259,102 @@ std::string table_of(const Json &document) {
     return table;
 }
 
-}  // namespace
-
-bool is_stability(const fs::path &path) {
-    const Json json = load_json(path);
-    return json.is_object() &&
-           fs::path(json.value("$schema", "")).filename() == "stability.schema.json";
-}
-
-ExitCode run_stability(const RunOptions &options) {
-    const StabilitySuite suite = load_stability(options.experiment, options.profile);
-    size_t rows = 0, tests = 0;
-    for (const StabilityCase &tested : suite.cases) {
-        rows += tested.runs.size();
-        for (const StabilityRun &run : tested.runs) {
-            tests += tests_of(run.settings.width);
+class Stability : public Experiment {
+  public:
+    Stability(const DescriptionFile &file, const RunOptions &options)
+        : suite_(read_stability(file, options.profile)), inputs_(file.of_profile(options.profile)) {
+        for (const StabilityCase &tested : suite_.cases) {
+            for (const StabilityRun &run : tested.runs) {
+                ++renders_;
+                tests_ += tests_of(run.settings.width);
+            }
         }
     }
-    if (options.dry_run) {
-        fmt::print("{}, profile {}: {} cases, {} renders of {} batches, {} tests\n", suite.name,
-                   suite.profile, suite.cases.size(), rows, batches, tests);
-        return ExitCode::ok;
+
+    std::string plan() const override {
+        return fmt::format("{}, profile {}: {} cases, {} renders of {} batches, {} tests\n",
+                           suite_.name, suite_.profile, suite_.cases.size(), renders_, batches,
+                           tests_);
     }
-    DeviceContext device(options.device);
-    if (options.compile) {
-        for (const StabilityCase &tested : suite.cases) {
+
+    std::string inputs() const override {
+        std::set<fs::path> paths;
+        for (const StabilityCase &tested : suite_.cases) {
+            paths.insert(tested.scene.path);
+            if (tested.expectation == Expectation::like) {
+                paths.insert(tested.other.path);
+            }
+        }
+        std::string inputs = inputs_;
+        for (const fs::path &path : paths) {
+            inputs += load_scene(path.string()).hash();
+        }
+        return inputs;
+    }
+
+    void compile(DeviceContext &device) const override {
+        for (const StabilityCase &tested : suite_.cases) {
             const Scene scene = tested.scene.load();
             for (const StabilityRun &run : tested.runs) {
                 compile_kernels(scene, run.settings, device);
             }
         }
-        return ExitCode::ok;
     }
-    const fs::path out =
-        options.out.empty() ? fs::path(suite.name + "." + suite.profile) : options.out;
-    const Resumption resumption(out, "stability.json",
-                                read_file(options.experiment) + suite.profile, device.info());
-    const auto conclude = [&](const Json &results) {
-        const auto failed = std::count_if(results.begin(), results.end(), [&](const Json &row) {
-            return !passes(row, suite.survey);
-        });
-        fmt::print("{} of {} rows failed; see {}\n", failed, results.size(),
-                   (out / "stability.md").string());
-        return failed > 0 ? ExitCode::regression : ExitCode::ok;
-    };
-    if (const Json document = resumption.finished(); !document.is_null()) {
-        return conclude(document.at("rows"));
-    }
-    fs::create_directories(out / "images");
-    Json document = {{"schema_version", 1},
-                     {"commit", commit()},
-                     {"dirty", built_from_changed_sources()},
-                     {"device", device.info().name},
-                     {"host", describe_host()},
-                     {"profile", suite.profile},
-                     {"bound", suite.bound},
-                     {"batches", batches},
-                     {"rows", Json::array()}};
-    size_t finished = 0;
-    Progress progress(suite.name, suite.cases.size(), "cases", options.quiet);
-    for (const StabilityCase &tested : suite.cases) {
-        const fs::path done = resumption.parts() / (tested.name + ".json");
-        if (!fs::exists(done)) {
-            try {
-                write_file(done, measure(tested, family_alpha / static_cast<double>(tests), device,
-                                         out / "images")
-                                         .dump(1) +
-                                     "\n");
-            } catch (const Error &error) {
-                throw Error(error.exit_code(),
-                            fmt::format("case '{}': {}", tested.name, error.what()));
+
+    Json measure(const Bench &bench) const override {
+        fs::create_directories(bench.out / "images");
+        Json rows = Json::array();
+        size_t finished = 0;
+        Progress progress(suite_.name, suite_.cases.size(), "cases", bench.quiet);
+        for (const StabilityCase &tested : suite_.cases) {
+            for (const Json &row : finished_part(bench.parts / (tested.name + ".json"),
+                                                 [&] { return rows_of(tested, bench); })) {
+                fmt::print("{} {}\n", passes(row, suite_.survey) ? "ok  " : "FAIL", cells_of(row));
+                rows.push_back(row);
             }
+            std::fflush(stdout);
+            progress.update(++finished);
         }
-        for (const Json &row : load_json(done)) {
-            fmt::print("{} {}\n", passes(row, suite.survey) ? "ok  " : "FAIL", cells_of(row));
-            document["rows"].push_back(row);
-        }
-        std::fflush(stdout);
-        progress.update(++finished);
+        const Json document = {{"schema_version", 1},
+                               {"commit", commit()},
+                               {"dirty", built_from_changed_sources()},
+                               {"device", bench.device.info().name},
+                               {"host", describe_host()},
+                               {"profile", suite_.profile},
+                               {"bound", suite_.bound},
+                               {"batches", batches},
+                               {"rows", rows}};
+        write_file(bench.out / "stability.md", table_of(document));
+        return document;
     }
-    write_file(out / "stability.md", table_of(document));
-    resumption.finish(document);
-    return conclude(document["rows"]);
+
+    ExitCode conclude(const Json &document) const override {
+        const Json &rows = document.at("rows");
+        const auto failed = std::count_if(
+            rows.begin(), rows.end(), [&](const Json &row) { return !passes(row, suite_.survey); });
+        fmt::print("{} of {} rows failed\n", failed, rows.size());
+        return failed > 0 ? ExitCode::regression : ExitCode::ok;
+    }
+
+  private:
+    Json rows_of(const StabilityCase &tested, const Bench &bench) const {
+        try {
+            return measure_case(tested, family_alpha / static_cast<double>(tests_), bench.device,
+                                bench.out / "images");
+        } catch (const Error &error) {
+            throw Error(error.exit_code(), fmt::format("case '{}': {}", tested.name, error.what()));
+        }
+    }
+
+    StabilitySuite suite_;
+    std::string inputs_;
+    size_t renders_ = 0, tests_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Experiment> make_stability(const DescriptionFile &file, const RunOptions &options) {
+    return std::make_unique<Stability>(file, options);
 }
 
 }  // namespace rtrays

@@ -193,8 +193,7 @@ Scene SceneVariant::load() const {
     return scene;
 }
 
-StabilitySuite load_stability(const std::filesystem::path &path, const std::string &profile) {
-    const DescriptionFile file = load_description(path, "stability.schema.json");
+StabilitySuite read_stability(const DescriptionFile &file, const std::string &profile) {
     const Json &chosen = file.profile(profile);
     StabilitySuite suite{file.json.at("name"),
                          profile,
@@ -218,11 +217,12 @@ StabilitySuite load_stability(const std::filesystem::path &path, const std::stri
             }
         } catch (const Error &error) {
             throw Error(error.exit_code(),
-                        fmt::format("{}: case '{}': {}", path.string(), name, error.what()));
+                        fmt::format("{}: case '{}': {}", file.path.string(), name, error.what()));
         }
     }
     if (suite.cases.empty()) {
-        throw input_error(fmt::format("{}: no case has the profile '{}'", path.string(), profile));
+        throw input_error(
+            fmt::format("{}: no case has the profile '{}'", file.path.string(), profile));
     }
     return suite;
 }

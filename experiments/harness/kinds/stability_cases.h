@@ -70,6 +70,6 @@ struct StabilitySuite {
 
 /// Reads the cases of a profile and expands their sweeps. Throws `Error` (bad input) naming the
 /// file, the case and the remedy.
-StabilitySuite load_stability(const std::filesystem::path &path, const std::string &profile);
+StabilitySuite read_stability(const DescriptionFile &file, const std::string &profile);
 
 }  // namespace rtrays

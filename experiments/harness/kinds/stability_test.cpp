@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests of the verdicts of stability cases: planted errors are found, and expected images pass.
-#include "experiments/harness/kinds/stability.h"
+#include "experiments/harness/kinds/stability_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -104,23 +104,25 @@ TEST(Stability, LeavesTheNoiseOfTheReferenceOutOfTheError) {
     EXPECT_NEAR(test.mse_expected, 0.09, 0.01);
 }
 
+StabilitySuite load(const std::string &name, const std::string &profile) {
+    const std::string path = RTRAYS_EXPERIMENTS "/robustness/" + name + ".json";
+    return read_stability(load_description(path, "stability.schema.json"), profile);
+}
+
 TEST(StabilityCases, AreReadWithTheirSweepsAndFormulas) {
-    const StabilitySuite suite =
-        load_stability(RTRAYS_EXPERIMENTS "/robustness/stability.json", "quick");
+    const StabilitySuite suite = load("stability", "quick");
     EXPECT_GT(suite.cases.size(), 100u);
     const auto found =
         std::find_if(suite.cases.begin(), suite.cases.end(),
                      [](const StabilityCase &c) { return c.name == "furnace rho=0.5"; });
     ASSERT_NE(found, suite.cases.end());
     EXPECT_EQ(found->expected, (std::array<double, 3>{2, 1, 0.5}));
-    const StabilitySuite stiff =
-        load_stability(RTRAYS_EXPERIMENTS "/robustness/stiffness.json", "quick");
+    const StabilitySuite stiff = load("stiffness", "quick");
     EXPECT_TRUE(stiff.survey);
     EXPECT_EQ(stiff.cases.front().runs.front().name, "path_tracing implicit");
     EXPECT_EQ(stiff.cases.front().runs.front().settings.strategies, "implicit");
     for (const char *profile : {"ci", "full"}) {
-        for (const StabilityCase &tested :
-             load_stability(RTRAYS_EXPERIMENTS "/robustness/stability.json", profile).cases) {
+        for (const StabilityCase &tested : load("stability", profile).cases) {
             EXPECT_NO_THROW(tested.scene.load()) << tested.name;
         }
     }

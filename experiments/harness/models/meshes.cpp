@@ -203,6 +203,13 @@ const Source *find(const std::string &name) {
     return found == sources().end() ? nullptr : &*found;
 }
 
+Error cannot_load(const std::string &name, const char *reason) {
+    return input_error(fmt::format(
+        "cannot load mesh '{}': {}; meshes are: {}, scattered_N, hall_N, court_N, city_N; set "
+        "RTRAYS_MESHES to a folder of models for more",
+        name, reason, fmt::join(measured_meshes(), ", ")));
+}
+
 }  // namespace
 
 std::vector<std::string> measured_meshes() {
@@ -221,6 +228,12 @@ bool has_measured_mesh(const std::string &name) {
            (source == nullptr ? fs::exists(scene_file(name)) : is_present(*source));
 }
 
+void require_mesh_name(const std::string &name) {
+    if (!is_procedural(name) && find(name) == nullptr && !fs::exists(scene_file(name))) {
+        throw cannot_load(name, "unknown name");
+    }
+}
+
 bool is_procedural(const std::string &name) {
     return procedure_of(name).second > 0;
 }
@@ -230,9 +243,7 @@ fs::path measured_file(const std::string &file) {
         return resource_folder() / file;
     }
     const char *folder = std::getenv("RTRAYS_MESHES");
-    return (folder == nullptr ? resource_folder().parent_path() / "shared/meshes"
-                              : fs::path(folder)) /
-           file;
+    return folder == nullptr ? fs::path() : fs::path(folder) / file;
 }
 
 void append(test::Mesh &mesh, const test::Mesh &part) {
@@ -257,12 +268,9 @@ MeasuredMesh load_measured_mesh(const std::string &name) {
         mesh.name = name;
         return {std::move(mesh), {box.center() + away, -away, 60}};
     }
-    if (source == nullptr || !is_present(*source)) {
-        throw input_error(fmt::format(
-            "cannot load mesh '{}': {}; meshes are: {}, scattered_N, hall_N, court_N, city_N; set "
-            "RTRAYS_MESHES to a folder of models for more",
-            name, source == nullptr ? "unknown name" : "its files are missing",
-            fmt::join(measured_meshes(), ", ")));
+    require_mesh_name(name);
+    if (!is_present(*source)) {
+        throw cannot_load(name, "its files are missing");
     }
     const float(&v)[7] = source->view;
     test::Mesh mesh = source->make(files_of(*source));

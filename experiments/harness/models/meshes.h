@@ -18,8 +18,8 @@ struct View {
 };
 
 /// Returns the names of the available named meshes: procedural meshes with fixed triangle counts,
-/// the Cornell box, and the models found in the folder $RTRAYS_MESHES (../shared/meshes beside the
-/// checkout if it is not set).
+/// the Cornell box, and the models found in the folder that the environment variable RTRAYS_MESHES
+/// names.
 std::vector<std::string> measured_meshes();
 
 struct MeasuredMesh {
@@ -37,10 +37,15 @@ MeasuredMesh load_measured_mesh(const std::string &name);
 /// Returns whether `load_measured_mesh` knows the name and its files exist.
 bool has_measured_mesh(const std::string &name);
 
+/// Throws `Error` (bad input) listing the names if `load_measured_mesh` does not know the name. The
+/// files of a model may be missing.
+void require_mesh_name(const std::string &name);
+
 /// Returns whether the name is that of a procedural mesh with N triangles.
 bool is_procedural(const std::string &name);
 
-/// Returns the path of a file in the models' folder, or in this repository ("scenes/...").
+/// Returns the path of a file in this repository ("scenes/...") or in the folder of models. The
+/// path is empty for a model if RTRAYS_MESHES is not set.
 std::filesystem::path measured_file(const std::string &file);
 
 /// Appends the vertices and triangles of `part` to `mesh`.

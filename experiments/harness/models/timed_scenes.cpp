@@ -137,11 +137,16 @@ bool is_present(const Place &place) {
            (!place.dragon || fs::exists(measured_file(dragon_file)));
 }
 
-/// Returns the contents of a model scene or a procedural scene if its files exist.
-std::optional<Place> place_of(const std::string &name) {
+/// Returns the contents of a model scene or a procedural scene, or nothing for any other name.
+std::optional<Place> known_place(const std::string &name) {
     const auto found = std::find_if(models().begin(), models().end(),
                                     [&](const Place &place) { return place.name == name; });
-    std::optional<Place> place = found == models().end() ? procedural_place(name) : *found;
+    return found == models().end() ? procedural_place(name) : *found;
+}
+
+/// Returns the contents of a model scene or a procedural scene if its files exist.
+std::optional<Place> place_of(const std::string &name) {
+    std::optional<Place> place = known_place(name);
     return place && is_present(*place) ? place : std::nullopt;
 }
 
@@ -253,6 +258,13 @@ Scene make_scene(const Place &place) {
     return scene;
 }
 
+Error cannot_load(const std::string &name, const char *reason) {
+    return input_error(fmt::format(
+        "cannot load scene '{}': {}; scenes are: {}, and the folders of scenes/; set RTRAYS_MESHES "
+        "to a folder of models for more",
+        name, reason, fmt::join(timed_scenes(), ", ")));
+}
+
 }  // namespace
 
 std::vector<std::string> timed_scenes() {
@@ -272,13 +284,17 @@ bool has_timed_scene(const std::string &name) {
     return place_of(name).has_value() || fs::exists(scene_file(name));
 }
 
+void require_scene_name(const std::string &name) {
+    if (!known_place(name) && !fs::exists(scene_file(name))) {
+        throw cannot_load(name, "unknown name");
+    }
+}
+
 TimedScene load_timed_scene(const std::string &name, Surfaces surfaces) {
+    require_scene_name(name);
     const std::optional<Place> place = place_of(name);
     if (!place && !fs::exists(scene_file(name))) {
-        throw input_error(fmt::format(
-            "cannot load scene '{}'; scenes are: {}, and the folders of scenes/; set RTRAYS_MESHES "
-            "to a folder of models for more",
-            name, fmt::join(timed_scenes(), ", ")));
+        throw cannot_load(name, "its files are missing");
     }
     Scene scene = place ? make_scene(*place) : load_scene(scene_file(name));
     if (place) {

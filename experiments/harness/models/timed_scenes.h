@@ -35,4 +35,8 @@ TimedScene load_timed_scene(const std::string &name, Surfaces surfaces);
 /// Returns whether `load_timed_scene` knows the name and its files exist.
 bool has_timed_scene(const std::string &name);
 
+/// Throws `Error` (bad input) listing the names if `load_timed_scene` does not know the name. The
+/// files of a model may be missing.
+void require_scene_name(const std::string &name);
+
 }  // namespace rtrays

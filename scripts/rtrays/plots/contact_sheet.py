@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One sheet of the renderer's images of a finished `rtrays-experiment agree`."""
+"""One sheet of the renderer's images of a finished experiment of agreement."""
 
 import numpy
 from matplotlib import pyplot
@@ -28,6 +28,6 @@ def write_contact_sheet(folder, path):
     """Writes the images of path tracing in a folder "images" as one PNG file."""
     images = sorted((folder / "images").glob("*.path_tracing.npy"))
     if not images:
-        raise RunError(f"{folder}/images has no arrays; run `rtrays-experiment agree` first")
+        raise RunError(f"{folder}/images has no arrays; run the experiment first")
     with pyplot.rc_context({"font.size": 10}):  # the unit of paddings
         sheet_figure(images).savefig(path, dpi=100)

@@ -17,7 +17,7 @@ class ContactSheet(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "images").mkdir()
-            with self.assertRaisesRegex(RunError, "rtrays-experiment agree"):
+            with self.assertRaisesRegex(RunError, "run the experiment"):
                 write_contact_sheet(folder, folder / "sheet.png")
             sizes = []
             for count in (1, COLUMNS + 1):

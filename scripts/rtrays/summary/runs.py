@@ -45,11 +45,10 @@ def run_rows():
         if run is None:
             continue
         context = context_of(run)
-        command = "control" if folder.name == "convergence_control" else "run"
         place, page = folder.relative_to(RESULTS).as_posix(), markdown_name(folder)
         yield [
             Link(place, place, page) if (folder / page).exists() else place,
-            f"`rtrays-experiment {command} {experiment_path(folder.name)}"
+            f"`rtrays-experiment run {experiment_path(folder.name)}"
             f" --profile {profile_of(run)}`",
             number(minutes(context), 2) if "started_at" in context else NONE,
             value(context, "commit")[:12],

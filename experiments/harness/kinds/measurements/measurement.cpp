@@ -25,13 +25,13 @@ namespace {
 
 constexpr int measurement_schema_version = 1;
 
-struct Kind {
+struct Measure {
     const char *name;
     std::vector<const char *> needs;  ///< required keys of its profiles
     MeasurementPlan (*plan)(const MeasurementSettings &, DeviceContext &);
 };
-const std::vector<Kind> &kinds() {
-    static const std::vector<Kind> all = {
+const std::vector<Measure> &measures() {
+    static const std::vector<Measure> all = {
         {"ablations", {"scenes", "size", "settings", "repetitions"}, plan_ablations},
         {"bounces", {"scenes", "size", "repetitions"}, plan_bounces},
         {"bvh_animation", {"meshes", "rays", "frames"}, plan_bvh_animation},
@@ -44,31 +44,39 @@ const std::vector<Kind> &kinds() {
     return all;
 }
 
-/// Returns the kind that "measures" names. Throws `Error` (bad input) if the profile lacks a
+/// Returns the measure that "kind" names. Throws `Error` (bad input) if the profile lacks a
 /// required key.
-const Kind &kind_of(const DescriptionFile &file, const std::string &profile) {
-    const std::string measures = file.json.at("measures");
-    const Kind &kind = *std::find_if(kinds().begin(), kinds().end(),
-                                     [&](const Kind &k) { return k.name == measures; });
-    for (const char *key : kind.needs) {
+const Measure &measure_of(const DescriptionFile &file, const std::string &profile) {
+    const std::string kind = file.json.at("kind");
+    const Measure &measure = *std::find_if(measures().begin(), measures().end(),
+                                           [&](const Measure &m) { return m.name == kind; });
+    for (const char *key : measure.needs) {
         if (!file.profile(profile).contains(key)) {
             throw input_error(fmt::format("{}: missing key '{}', which {} requires",
-                                          file.location("/profiles/" + profile), key, measures));
+                                          file.location("/profiles/" + profile), key, kind));
         }
     }
-    return kind;
+    return measure;
 }
+
+/// Functions of a table of meshes or scenes.
+struct Table {
+    void (*require_name)(const std::string &);  ///< throws for an unknown name
+    bool (*is_present)(const std::string &);
+};
 
 /// Returns the requested meshes or scenes that exist, and stand-ins for missing ones. Lists the
 /// replaced names in `stand_ins`, and missing names without a stand-in in `absent`.
-std::vector<std::string> present(const Json &wanted, bool (*has)(const std::string &),
-                                 const Json &replacements, Json &stand_ins, Json &absent) {
+std::vector<std::string> present(const Json &wanted, const Table &table, const Json &replacements,
+                                 Json &stand_ins, Json &absent) {
     std::vector<std::string> names;
     for (const std::string name : wanted) {
-        if (has(name)) {
+        table.require_name(name);
+        if (table.is_present(name)) {
             names.push_back(name);
         } else if (replacements.contains(name)) {
             names.push_back(replacements.at(name));
+            table.require_name(names.back());
             stand_ins[names.back()] = name;
         } else {
             absent.push_back(name);
@@ -85,10 +93,10 @@ MeasurementSettings settings_of(const Json &description, const Json &profile, Js
     settings.rays = profile.value("rays", size_t{0});
     settings.frames = profile.value("frames", 0);
     settings.watertight_rays = profile.value("watertight_rays", size_t{0});
-    settings.meshes =
-        present(profile.value("meshes", none), has_measured_mesh, replacements, stand_ins, absent);
-    settings.scenes =
-        present(profile.value("scenes", none), has_timed_scene, replacements, stand_ins, absent);
+    settings.meshes = present(profile.value("meshes", none), {require_mesh_name, has_measured_mesh},
+                              replacements, stand_ins, absent);
+    settings.scenes = present(profile.value("scenes", none), {require_scene_name, has_timed_scene},
+                              replacements, stand_ins, absent);
     settings.references = profile.value("references", std::vector<std::string>());
     settings.probes = profile.value("probes", std::vector<std::string>());
     settings.probe_spp = profile.value("probe_spp", uint64_t{0});
@@ -101,86 +109,67 @@ MeasurementSettings settings_of(const Json &description, const Json &profile, Js
     return settings;
 }
 
-/// Returns the stored row of an interrupted call, or measures and stores it.
-Json row_of(const MeasurementTask &task, const fs::path &partial) {
-    const fs::path file = partial / (task.id + ".json");
-    if (fs::exists(file)) {
-        return load_json(file);
+class MeasurementExperiment : public Experiment {
+  public:
+    MeasurementExperiment(const DescriptionFile &file, const RunOptions &options)
+        : measure_(measure_of(file, options.profile)),
+          experiment_(file.json),
+          settings_(settings_of(file.json, file.profile(options.profile), stand_ins_, absent_)),
+          inputs_(file.of_profile(options.profile)) {
+        experiment_.erase("$schema");
+        experiment_.erase("profiles");
+        experiment_["profile"] = options.profile;
+        experiment_["settings"] = file.profile(options.profile);
     }
-    Json row = task.measure();
-    write_file(file, row.dump(1) + "\n");
-    return row;
-}
+
+    std::string plan() const override {
+        return fmt::format("{}, profile {}: {} on {}{}{}\n",
+                           experiment_.at("name").get<std::string>(),
+                           experiment_.at("profile").get<std::string>(), measure_.name,
+                           fmt::join(settings_.meshes, ", "), fmt::join(settings_.scenes, ", "),
+                           fmt::join(settings_.references, ", "));
+    }
+
+    std::string inputs() const override {
+        return inputs_ + stand_ins_.dump() + absent_.dump() +
+               (settings_.references.empty() ? "" : read_file(references_manifest()));
+    }
+
+    Json measure(const Bench &bench) const override {
+        const MeasurementPlan plan = measure_.plan(settings_, bench.device);
+        Progress progress(experiment_.at("name"), plan.tasks.size(), "rows", bench.quiet);
+        Json rows = Json::array();
+        for (const MeasurementTask &task : plan.tasks) {
+            progress.update(rows.size());
+            rows.push_back(finished_part(bench.parts / (task.id + ".json"), task.measure));
+        }
+        progress.update(rows.size());
+        return {{"schema_version", measurement_schema_version},
+                {"measures", measure_.name},
+                {"experiment", experiment_},
+                {"stand_ins", stand_ins_},
+                {"absent", absent_},
+                {"rows", rows},
+                {"summary", plan.summarise(rows)}};
+    }
+
+    ExitCode conclude(const Json &document) const override {
+        return document.at("summary").value("passed", true) ? ExitCode::ok : ExitCode::regression;
+    }
+
+  private:
+    const Measure &measure_;
+    Json experiment_;
+    Json stand_ins_ = Json::object(), absent_ = Json::array();
+    MeasurementSettings settings_;
+    std::string inputs_;
+};
 
 }  // namespace
 
-bool is_measurement(const fs::path &experiment) {
-    const Json json = load_json(experiment);
-    return json.is_object() && json.contains("measures");
-}
-
-fs::path run_measurement(const RunOptions &options, ExitCode &exit_code) {
-    const DescriptionFile file = load_description(options.experiment, "measurement.schema.json");
-    const Json &profile = file.profile(options.profile);
-    const Kind &kind = kind_of(file, options.profile);
-    const std::string name = file.json.at("name"), measures = file.json.at("measures");
-    Json stand_ins = Json::object(), absent = Json::array();
-    const MeasurementSettings settings = settings_of(file.json, profile, stand_ins, absent);
-    if (options.compile) {
-        throw input_error(
-            fmt::format("{}: --compile does not apply to measurements, which compile "
-                        "their kernels themselves",
-                        options.experiment.string()));
-    }
-    if (options.dry_run) {
-        fmt::print("{}, profile {}: {} on {}{}{}\n", name, options.profile, measures,
-                   fmt::join(settings.meshes, ", "), fmt::join(settings.scenes, ", "),
-                   fmt::join(settings.references, ", "));
-        return {};
-    }
-    const fs::path out = options.out.empty() ? fs::path(name + "." + options.profile) : options.out;
-    const RunContext context;
-    DeviceContext device(options.device, Binaries::keep);
-    const std::string references =
-        settings.references.empty() ? "" : read_file(references_manifest());
-    const Resumption resumption(
-        out, "run.json",
-        file.of_profile(options.profile) + stand_ins.dump() + absent.dump() + references,
-        device.info());
-    const auto note_failure = [&](const Json &summary) {
-        if (!summary.value("passed", true)) {
-            exit_code = ExitCode::regression;
-        }
-    };
-    if (const Json run = resumption.finished(); !run.is_null()) {
-        note_failure(run.at("summary"));
-        return out;
-    }
-
-    const MeasurementPlan plan = kind.plan(settings, device);
-    Progress progress(name, plan.tasks.size(), "rows", options.quiet);
-    Json rows = Json::array();
-    for (const MeasurementTask &task : plan.tasks) {
-        progress.update(rows.size());
-        rows.push_back(row_of(task, resumption.parts()));
-    }
-    progress.update(rows.size());
-    const Json summary = plan.summarise(rows);
-    note_failure(summary);
-    Json experiment = file.json;
-    experiment.erase("$schema");
-    experiment.erase("profiles");
-    experiment["profile"] = options.profile;
-    experiment["settings"] = profile;
-    resumption.finish({{"schema_version", measurement_schema_version},
-                       {"measures", measures},
-                       {"experiment", experiment},
-                       {"stand_ins", stand_ins},
-                       {"absent", absent},
-                       {"rows", rows},
-                       {"summary", summary},
-                       {"context", context.finish(device.info())}});
-    return out;
+std::unique_ptr<Experiment> make_measurement(const DescriptionFile &file,
+                                             const RunOptions &options) {
+    return std::make_unique<MeasurementExperiment>(file, options);
 }
 
 Json scaled(const Interval &interval, double factor) {

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Runs measurements: mostly of speed (thesis, section 4.4), mesh by mesh or scene by scene. The
-// description file names the kind of measurement.
+// The kinds of measurements: mostly of speed (thesis, section 4.4), mesh by mesh or scene by scene.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "experiments/harness/kinds/curves.h"
-#include "renderer/base/error.h"
-#include "renderer/base/json.h"
-#include "renderer/device/context.h"
+#include "experiments/harness/core/experiment.h"
 
 namespace rtrays {
 
@@ -45,14 +41,10 @@ struct MeasurementPlan {
     std::function<Json(const Json &rows)> summarise;  ///< computes "summary" from all rows
 };
 
-/// Returns whether the file describes a measurement rather than a convergence experiment. Throws
-/// `Error` (bad input) if it cannot be read.
-bool is_measurement(const std::filesystem::path &experiment);
-
-/// Measures and writes OUT/run.json. Returns OUT, or an empty path after a dry run. Rows that an
-/// interrupted call finished are not measured again, and a finished run is kept (`Resumption`). A
-/// missing mesh or scene is replaced by its stand-in or listed as absent. `exit_code` becomes
-/// `ExitCode::regression` if a check fails. Throws `Error`: bad input, run failed, interrupted.
-std::filesystem::path run_measurement(const RunOptions &options, ExitCode &exit_code);
+/// Makes a measurement of the kind that the file names. A mesh or scene whose files are missing is
+/// replaced by its stand-in or listed as absent. Throws `Error` (bad input) for unknown names and
+/// missing keys.
+std::unique_ptr<Experiment> make_measurement(const DescriptionFile &file,
+                                             const RunOptions &options);
 
 }  // namespace rtrays

@@ -15,7 +15,7 @@
 #include "experiments/harness/core/document.h"
 #include "experiments/harness/core/metrics.h"
 #include "experiments/harness/core/references.h"
-#include "experiments/harness/kinds/ladder.h"
+#include "experiments/harness/core/rendering.h"
 #include "experiments/harness/kinds/measurements/plans.h"
 #include "reference/peer.h"
 #include "reference/renderer.h"

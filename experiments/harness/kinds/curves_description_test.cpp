@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests of experiment and gate files: the shipped ones load, and broken ones are refused with a
 // message that names the error and its location.
-#include "experiments/harness/core/description.h"
+#include "experiments/harness/kinds/curves_description.h"
 
 #include <gtest/gtest.h>
 
@@ -18,15 +18,19 @@ namespace fs = std::filesystem;
 
 const fs::path shipped = RTRAYS_EXPERIMENTS;
 
+CurvesDescription load_curves(const fs::path &path, const std::string &profile) {
+    return read_curves(load_description(path, "curves.schema.json"), profile);
+}
+
 /// Loads the text as an experiment or a gate and returns the message of the error.
 std::string error_of(const std::string &text, bool as_gate = false) {
     const fs::path path = fs::path(testing::TempDir()) / "broken_experiment.json";
     write_file(path, text);
     try {
         if (as_gate) {
-            load_gate(path);
+            read_gate(load_description(path, "gate.schema.json"));
         } else {
-            load_experiment(path, "quick");
+            load_curves(path, "quick");
         }
     } catch (const Error &error) {
         EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
@@ -47,7 +51,7 @@ TEST(Description, ShippedExperimentsLoadInEveryProfile) {
           "mirror_ring", "glass_goblets", "door_ajar", "floor_lamps", "samplers"}) {
         for (const char *profile : {"quick", "full", "ci"}) {
             const auto experiment =
-                load_experiment(shipped / "chapter4" / (std::string(name) + ".json"), profile);
+                load_curves(shipped / "chapter4" / (std::string(name) + ".json"), profile);
             EXPECT_EQ(experiment.name, name);
             // Throughput is measured on the last curve, which is path tracing in all experiments.
             EXPECT_EQ(experiment.curves.back().id(), "path_tracing.mis");
@@ -68,7 +72,7 @@ TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
     const auto ladder = [&](const std::string &most) {
         const fs::path path = fs::path(testing::TempDir()) / "capped_experiment.json";
         write_file(path, capped(most));
-        return load_experiment(path, "quick").curves;
+        return load_curves(path, "quick").curves;
     };
     for (const CurveDescription &curve : ladder("\"bdpt.mis\": 8")) {
         const bool is_capped = curve.id() == "bdpt.mis";
@@ -89,7 +93,7 @@ TEST(Description, CurvesThatTheProfileNamesHaveMoreSeeds) {
     };
     const fs::path path = fs::path(testing::TempDir()) / "more_seeds_experiment.json";
     write_file(path, with("\"bdpt.mis\": 24"));
-    for (const CurveDescription &curve : load_experiment(path, "quick").curves) {
+    for (const CurveDescription &curve : load_curves(path, "quick").curves) {
         EXPECT_EQ(curve.seeds, curve.id() == "bdpt.mis" ? 24u : 8u);
     }
     EXPECT_NE(error_of(with("\"bdpt\": 24")).find("unknown curve 'bdpt'"), std::string::npos);
@@ -116,7 +120,7 @@ TEST(Description, ErrorsNameTheKey) {
 
 TEST(Description, UnknownProfileListsTheProfiles) {
     try {
-        load_experiment(shipped / "chapter4/cornell_diffuse.json", "fast");
+        load_curves(shipped / "chapter4/cornell_diffuse.json", "fast");
         FAIL();
     } catch (const Error &error) {
         EXPECT_NE(std::string(error.what()).find("ci, full, quick"), std::string::npos);
@@ -142,7 +146,8 @@ TEST(Description, ShippedClaimsFitTheirSchema) {
 }
 
 TEST(Description, ShippedGateLoads) {
-    const auto gate = load_gate(shipped / "gates/gate_cornell_box.json");
+    const auto gate =
+        read_gate(load_description(shipped / "gates/gate_cornell_box.json", "gate.schema.json"));
     EXPECT_EQ(gate.width, 64);
     EXPECT_GE(gate.convergence.renders, 16);
     EXPECT_EQ(gate.planted.errors.size(), 10u);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/harness/kinds/kinds.h"
+
+#include "experiments/harness/kinds/convergence_control.h"
+#include "experiments/harness/kinds/curves.h"
+#include "experiments/harness/kinds/gate.h"
+#include "experiments/harness/kinds/measurements/measurement.h"
+#include "experiments/harness/kinds/scene_agreement.h"
+#include "experiments/harness/kinds/stability.h"
+
+namespace rtrays {
+
+namespace {
+
+constexpr auto profile = Option::profile, out = Option::out, compile = Option::compile;
+
+Kind measurement(const char *name) {
+    return {name,           "measurement.schema.json", "run.json", "", {profile, out},
+            Binaries::keep, make_measurement};
+}
+
+}  // namespace
+
+const std::vector<Kind> &experiment_kinds() {
+    constexpr Binaries leave = Binaries::leave;
+    static const std::vector<Kind> kinds = {
+        {"curves",
+         "curves.schema.json",
+         "run.json",
+         "run.schema.json",
+         {profile, out, compile},
+         leave,
+         make_curves},
+        measurement("bvh_build"),
+        measurement("bvh_animation"),
+        measurement("ray_rates"),
+        measurement("traversal"),
+        measurement("frame_times"),
+        measurement("bounces"),
+        measurement("ablations"),
+        measurement("reference_agreement"),
+        {"stability",
+         "stability.schema.json",
+         "stability.json",
+         "",
+         {profile, out, compile},
+         leave,
+         make_stability},
+        {"convergence_control",
+         "convergence_control.schema.json",
+         "convergence_control.json",
+         "",
+         {profile, out},
+         leave,
+         make_convergence_control},
+        {"agreement",
+         "agreement.schema.json",
+         "agreement.json",
+         "",
+         {profile, out},
+         leave,
+         make_agreement},
+        {"gate",
+         "gate.schema.json",
+         "",
+         "",
+         {Option::check, Option::update_baseline},
+         leave,
+         make_gate},
+    };
+    return kinds;
+}
+
+}  // namespace rtrays
