@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "renderer/base/error.h"
@@ -15,6 +16,12 @@
 namespace rtrays {
 
 namespace {
+
+/// Returns a number that no other graph of this process has.
+uint64_t next_id() {
+    static std::atomic<uint64_t> last{0};
+    return ++last;
+}
 
 /// Returns some of the names, for messages: scenes have up to millions.
 std::string some(std::vector<std::string> names) {
@@ -47,7 +54,8 @@ std::string described(const std::string &owner, const Property &property) {
 }  // namespace
 
 SceneGraph::SceneGraph()
-    : meshes_(arrays_.meshes, materials_, lights_),
+    : id_(next_id()),
+      meshes_(arrays_.meshes, materials_, lights_),
       shapes_(arrays_.shapes, materials_, lights_),
       lights_(arrays_.lights, meshes_, shapes_),
       stores_{&materials_, &cameras_, &meshes_, &shapes_, &lights_},
@@ -184,16 +192,21 @@ void SceneGraph::compact() {
     if (const std::vector<uint32_t> moved = materials_.compact(); !moved.empty()) {
         remap(meshes_.arrays.material, moved);
         remap(shapes_.arrays.material, moved);
+        meshes_.mark_surfaces();
+        shapes_.mark_changed();
     }
     if (const std::vector<uint32_t> moved = meshes_.compact(); !moved.empty()) {
         remap(lights_.arrays.mesh, moved);
+        lights_.mark_changed();
     }
     if (const std::vector<uint32_t> moved = shapes_.compact(); !moved.empty()) {
         remap(lights_.arrays.shape, moved);
+        lights_.mark_changed();
     }
     if (const std::vector<uint32_t> moved = lights_.compact(); !moved.empty()) {
         remap(meshes_.arrays.light, moved);
         remap(shapes_.arrays.light, moved);
+        shapes_.mark_changed();
     }
 }
 
@@ -223,6 +236,15 @@ void SceneGraph::update(double time) {
         node->dirty_ = Dirty::nothing;
     }
     dirty_.clear();
+}
+
+SceneRevision SceneGraph::revision() const {
+    return {id_,
+            materials_.version(),
+            meshes_.geometry_version(),
+            meshes_.surface_version(),
+            shapes_.version(),
+            lights_.version()};
 }
 
 Eigen::AlignedBox3d SceneGraph::bounds() const {

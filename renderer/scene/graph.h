@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "renderer/scene/node.h"
+#include "renderer/scene/scene.h"
 #include "renderer/scene/stores/camera_store.h"
 #include "renderer/scene/stores/light_store.h"
 #include "renderer/scene/stores/material_store.h"
@@ -59,6 +60,9 @@ class SceneGraph {
     const StoreCounts &shape_counts() const { return shapes_.counts(); }
     const StoreCounts &light_counts() const { return lights_.counts(); }
 
+    /// Returns the revision of the arrays after the last update.
+    SceneRevision revision() const;
+
     /// Number of nodes that the last update visited.
     size_t visited_nodes() const { return visited_nodes_; }
 
@@ -87,6 +91,7 @@ class SceneGraph {
     void allocate(Node &node);
     void compact();
 
+    uint64_t id_;  ///< differs from that of any other graph of the process
     SceneArrays arrays_;
     CameraStore cameras_{arrays_.cameras};
     MaterialStore materials_{arrays_.materials, arrays_.textures};

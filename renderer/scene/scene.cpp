@@ -15,6 +15,16 @@ namespace rtrays {
 
 namespace {
 
+/// Whether the bytes of a vector of T are those of its numbers one after the other: numbers, arrays
+/// of numbers, and matrices of fixed size.
+template <typename T>
+struct is_plain : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+template <typename T, size_t n>
+struct is_plain<std::array<T, n>> : is_plain<T> {};
+template <typename T, int rows, int columns>
+struct is_plain<Eigen::Matrix<T, rows, columns>>
+    : std::bool_constant<sizeof(Eigen::Matrix<T, rows, columns>) == sizeof(T) * rows * columns> {};
+
 /// Collects the bytes of values and arrays, each array with its length.
 class ByteCollector {
   public:
@@ -26,8 +36,12 @@ class ByteCollector {
     template <typename T>
     void add(const std::vector<T> &values) {
         add(static_cast<uint64_t>(values.size()));
-        for (const T &value : values) {
-            add(value);
+        if constexpr (is_plain<T>::value) {
+            bytes_.append(reinterpret_cast<const char *>(values.data()), values.size() * sizeof(T));
+        } else {
+            for (const T &value : values) {
+                add(value);
+            }
         }
     }
     template <typename T, size_t n>
@@ -157,6 +171,10 @@ void Scene::update(double time) {
 
 const SceneArrays &Scene::arrays() const {
     return graph_->arrays();
+}
+
+SceneRevision Scene::revision() const {
+    return graph_->revision();
 }
 
 int Scene::active_camera() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -11,6 +12,18 @@
 namespace rtrays {
 
 class SceneGraph;
+
+/// Identifies the contents of a scene's arrays by part. A number that two revisions of one scene
+/// share means that this part has not changed between them. Equal numbers of different scenes mean
+/// nothing.
+struct SceneRevision {
+    uint64_t scene = 0;      ///< the scene itself; 0 for none
+    uint64_t materials = 0;  ///< materials and textures
+    uint64_t geometry = 0;   ///< positions and vertex indices of meshes
+    uint64_t surfaces = 0;   ///< normals, texture coordinates and materials of meshes
+    uint64_t shapes = 0;
+    uint64_t lights = 0;
+};
 
 /// A loaded scene: the graph and the arrays it serializes into.
 class Scene {
@@ -45,6 +58,10 @@ class Scene {
     void update(double time);
 
     const SceneArrays &arrays() const;
+
+    /// Returns the revision of the arrays. The camera is not part of it.
+    SceneRevision revision() const;
+
     const CameraArrays &cameras() const { return arrays().cameras; }
     const MeshArrays &meshes() const { return arrays().meshes; }
     const MaterialArrays &materials() const { return arrays().materials; }

@@ -90,6 +90,37 @@ TEST(Stores, OnlyWhatChangedIsRewritten) {
     expect_consistent(*graph);
 }
 
+TEST(Stores, RevisionTellsWhichPartChanged) {
+    const auto graph = row_of_triangles(10);
+    graph->update(0);
+    SceneRevision before = graph->revision();
+    // Compares, as a word of five letters, which parts differ from the last call.
+    const auto changes = [&] {
+        graph->update(0);
+        const SceneRevision after = graph->revision();
+        EXPECT_EQ(after.scene, before.scene);
+        const std::string word = {after.materials != before.materials ? 'M' : '-',
+                                  after.geometry != before.geometry ? 'G' : '-',
+                                  after.surfaces != before.surfaces ? 'S' : '-',
+                                  after.shapes != before.shapes ? 'H' : '-',
+                                  after.lights != before.lights ? 'L' : '-'};
+        before = after;
+        return word;
+    };
+    EXPECT_EQ(changes(), "-----");
+    core_at<TransformCore>(*graph, "4", CoreRole::transform).set_translation({0, 0, 9});
+    EXPECT_EQ(changes(), "-G---");
+    core_at<TransformCore>(*graph, "4", CoreRole::transform).set_translation({0, 0, 9});
+    EXPECT_EQ(changes(), "-----");
+    core_at<MaterialCore>(*graph, "all", CoreRole::material).set("reflectance", Vector3d(1, 0, 0));
+    EXPECT_EQ(changes(), "M----");
+    core_at<LightCore>(*graph, "3", CoreRole::light).set("radiance", Vector3d(1, 2, 3));
+    EXPECT_EQ(changes(), "----L") << "the mesh that emits is written, but with equal values";
+    graph->find("all")->set_core(grey("other"));
+    EXPECT_EQ(changes(), "M-SHL") << "indices of materials may have moved";
+    EXPECT_NE(row_of_triangles(10)->revision().scene, before.scene);
+}
+
 TEST(Stores, SeveralEditsOfOneNodeAreWrittenOnce) {
     const auto graph = row_of_triangles(10);
     graph->update(0);

@@ -39,6 +39,8 @@ void Store::write_object(const Node &node, const AttributeSet &attributes) {
 }
 
 void Store::finish_update() {
+    changed_ |= counts_.allocated + counts_.freed + counts_.written > 0;
+    version_ += std::exchange(changed_, false) ? 1 : 0;
     finished_counts_ = std::exchange(counts_, {});
 }
 

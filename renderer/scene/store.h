@@ -72,6 +72,13 @@ class Store {
 
     /// Numbers of changes between the last two calls of `finish_update`.
     const StoreCounts &counts() const { return finished_counts_; }
+
+    /// Number of updates that wrote, added or removed records.
+    uint64_t version() const { return version_; }
+
+    /// Makes the current update one that changed records, for changes that other stores cause.
+    void mark_changed() { changed_ = true; }
+
     void finish_update();
 
   protected:
@@ -105,6 +112,8 @@ class Store {
     bool has_holes_ = false;
     StoreCounts counts_;
     StoreCounts finished_counts_;
+    uint64_t version_ = 0;
+    bool changed_ = false;
 };
 
 /// Keeps the elements at these ascending indices. Implements `Store::keep` for one array with an

@@ -40,10 +40,30 @@ Eigen::Matrix3d normal_transform(const Eigen::Matrix3d &linear) {
     return transform;
 }
 
+/// Assigns a value, and sets `changed` if it differs from the old one.
+template <typename T>
+void assign(T &to, const T &value, bool &changed) {
+    changed |= to != value;
+    to = value;
+}
+
 /// Sets a flag of a mesh and updates the number of meshes that have it.
-void set_flag(uint8_t &flag, bool value, size_t &count) {
+void set_flag(uint8_t &flag, bool value, size_t &count, bool &changed) {
     count = count - flag + (value ? 1 : 0);
-    flag = value ? 1 : 0;
+    assign(flag, static_cast<uint8_t>(value ? 1 : 0), changed);
+}
+
+/// Writes one vector per vertex from `first` on: vector(i) for vertex i, or zero from the end of
+/// the source on.
+template <typename Iterator, typename Source, typename Vector>
+void write_vectors(Iterator first, size_t count, const Source &source, const Vector &vector,
+                   bool &changed) {
+    for (size_t i = 0; i < count; ++i, ++first) {
+        assign(
+            *first,
+            i < source.size() ? vector(source[i]) : std::decay_t<decltype(*first)>::Zero().eval(),
+            changed);
+    }
 }
 
 /// Moves a range of per-vertex values down, unless the array is empty.
@@ -82,6 +102,8 @@ void MeshStore::append(const Node &node) {
         throw input_error(fmt::format(
             "mesh '{}': the scene has more than 2^32 vertices or triangles", node.name()));
     }
+    ++geometry_version_;
+    ++surface_version_;
     arrays.name.push_back(node.name());
     arrays.first_triangle.push_back(static_cast<uint32_t>(first_triangle));
     arrays.triangle_count.push_back(static_cast<uint32_t>(mesh.triangles().size()));
@@ -106,8 +128,10 @@ void MeshStore::append(const Node &node) {
 
 void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attributes) {
     const MeshCore &mesh = mesh_at(node);
-    arrays.material[slot] = material_slot(materials_, attributes, "mesh", node.name());
-    arrays.light[slot] = lights_.area_light_slot(node, attributes);
+    bool moved = false, dressed = false;
+    assign(arrays.material[slot], material_slot(materials_, attributes, "mesh", node.name()),
+           dressed);
+    assign(arrays.light[slot], lights_.area_light_slot(node, attributes), dressed);
 
     const Eigen::Matrix4d &world_from_object =
         attributes.get<TransformAttribute>().world_from_object;
@@ -122,37 +146,38 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
                 "mesh '{}': vertex {}, [{}, {}, {}], is beyond the range of float in world space",
                 node.name(), i, v[0], v[1], v[2]));
         }
-        arrays.position[first_vertex + i] = baked;
+        assign(arrays.position[first_vertex + i], baked, moved);
     }
 
-    set_flag(arrays.has_normals[slot], !mesh.normals().empty(), with_normals_);
+    set_flag(arrays.has_normals[slot], !mesh.normals().empty(), with_normals_, dressed);
     if (with_normals_ > 0) {
         arrays.normal.resize(arrays.position.size(), Eigen::Vector3f::Zero());
-        const auto first = arrays.normal.begin() + first_vertex;
-        std::fill(first, first + arrays.vertex_count[slot], Eigen::Vector3f::Zero());
         const Eigen::Matrix3d transform = normal_transform(linear);
-        std::transform(
-            mesh.normals().begin(), mesh.normals().end(), first,
+        write_vectors(
+            arrays.normal.begin() + first_vertex, arrays.vertex_count[slot], mesh.normals(),
             [&](const Eigen::Vector3d &normal) {
                 return Eigen::Vector3f((transform * normal).stableNormalized().cast<float>());
-            });
+            },
+            dressed);
     }
-    set_flag(arrays.has_uv[slot], !mesh.uvs().empty(), with_uv_);
+    set_flag(arrays.has_uv[slot], !mesh.uvs().empty(), with_uv_, dressed);
     if (with_uv_ > 0) {
         arrays.uv.resize(arrays.position.size(), Eigen::Vector2f::Zero());
-        const auto first = arrays.uv.begin() + first_vertex;
-        std::fill(first, first + arrays.vertex_count[slot], Eigen::Vector2f::Zero());
-        std::transform(mesh.uvs().begin(), mesh.uvs().end(), first,
-                       [](const Eigen::Vector2d &uv) { return Eigen::Vector2f(uv.cast<float>()); });
+        write_vectors(
+            arrays.uv.begin() + first_vertex, arrays.vertex_count[slot], mesh.uvs(),
+            [](const Eigen::Vector2d &uv) { return Eigen::Vector2f(uv.cast<float>()); }, dressed);
     }
 
     const bool mirrors = linear.determinant() < 0;
     for (size_t i = 0; i < mesh.triangles().size(); ++i) {
         const Triangle &t = mesh.triangles()[i];
-        arrays.triangle[arrays.first_triangle[slot] + i] = {first_vertex + t[0],
-                                                            first_vertex + t[mirrors ? 2 : 1],
-                                                            first_vertex + t[mirrors ? 1 : 2]};
+        assign(arrays.triangle[arrays.first_triangle[slot] + i],
+               {first_vertex + t[0], first_vertex + t[mirrors ? 2 : 1],
+                first_vertex + t[mirrors ? 1 : 2]},
+               moved);
     }
+    geometry_version_ += moved ? 1 : 0;
+    surface_version_ += dressed ? 1 : 0;
 }
 
 void MeshStore::drop_unused() {
@@ -165,6 +190,8 @@ void MeshStore::drop_unused() {
 }
 
 void MeshStore::keep(const std::vector<uint32_t> &slots) {
+    ++geometry_version_;
+    ++surface_version_;
     uint32_t vertices = 0;
     uint32_t triangles = 0;
     for (uint32_t mesh = 0; mesh < slots.size(); ++mesh) {

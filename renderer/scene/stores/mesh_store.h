@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "renderer/scene/store.h"
@@ -26,6 +27,15 @@ class MeshStore : public Store {
     /// of an update have been written.
     void drop_unused();
 
+    /// Number of changes of positions or vertex indices.
+    uint64_t geometry_version() const { return geometry_version_; }
+
+    /// Number of changes of normals, texture coordinates, materials or lights.
+    uint64_t surface_version() const { return surface_version_; }
+
+    /// Counts a change of materials that another store causes.
+    void mark_surfaces() { ++surface_version_; }
+
     MeshArrays &arrays;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the baked world
 
@@ -38,6 +48,8 @@ class MeshStore : public Store {
   private:
     const MaterialStore &materials_;
     const LightStore &lights_;
+    uint64_t geometry_version_ = 0;
+    uint64_t surface_version_ = 0;
     size_t with_normals_ = 0;  ///< number of meshes with normals
     size_t with_uv_ = 0;       ///< number of meshes with texture coordinates
 };
