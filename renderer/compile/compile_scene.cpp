@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "renderer/compile/shapes.h"
 #include "renderer/kernels/geometry/surface_point.h"
@@ -29,6 +30,31 @@ void compile_normals(const MeshArrays &meshes, CompiledScene &compiled) {
             }
         }
     }
+}
+
+/// Returns whether a texture or a tangent uses the texture coordinates of meshes.
+bool reads_uv(const CompiledScene &compiled) {
+    return compiled.material_features.has(Feature::textures) ||
+           compiled.material_features.has(Feature::tangents);
+}
+
+/// Marks all triangles as not emitting.
+void clear_emitters(CompiledScene &compiled) {
+    for (const EmitterTriangle &emitter : compiled.emitter_triangles) {
+        compiled.surface_triangles[emitter.triangle].emitter = NO_EMITTER;
+    }
+}
+
+bool same_triangles(const std::vector<EmitterTriangle> &a, const std::vector<EmitterTriangle> &b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const EmitterTriangle &x, const EmitterTriangle &y) {
+                          return x.triangle == y.triangle;
+                      });
+}
+
+bool are_equal(const TextureArrays &a, const TextureArrays &b) {
+    return a.image == b.image && a.filter == b.filter && a.wrap == b.wrap &&
+           a.uv_scale == b.uv_scale && a.uv_offset == b.uv_offset;
 }
 
 }  // namespace
@@ -105,15 +131,15 @@ void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene
     const auto any = [](const std::vector<uint8_t> &flags) {
         return std::find(flags.begin(), flags.end(), 1) != flags.end();
     };
-    const bool uv_read =
-        compiled.features.has(Feature::textures) || compiled.features.has(Feature::tangents);
-    compiled.features = compiled.features.with(Feature::triangles, !meshes.triangle.empty())
-                            .with(Feature::smooth_normals, any(meshes.has_normals))
-                            .with(Feature::texture_coordinates, uv_read && any(meshes.has_uv));
-    if (every_array || compiled.features.has(Feature::smooth_normals)) {
+    compiled.triangle_features =
+        FeatureMask()
+            .with(Feature::triangles, !meshes.triangle.empty())
+            .with(Feature::smooth_normals, any(meshes.has_normals))
+            .with(Feature::texture_coordinates, reads_uv(compiled) && any(meshes.has_uv));
+    if (every_array || compiled.triangle_features.has(Feature::smooth_normals)) {
         compile_normals(meshes, compiled);
     }
-    if (every_array || compiled.features.has(Feature::texture_coordinates)) {
+    if (every_array || compiled.triangle_features.has(Feature::texture_coordinates)) {
         for (const Triangle &t : meshes.triangle) {
             TriangleUv &uvs = compiled.triangle_uvs.emplace_back();
             for (size_t corner = 0; corner < 3; ++corner) {
@@ -125,22 +151,81 @@ void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene
     }
 }
 
-CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings) {
-    CompiledScene compiled;
-    compiled.camera = compile_camera(scene.cameras(), static_cast<size_t>(scene.active_camera()),
-                                     settings.width, settings.height);
-    compiled.features =
-        compiled.features.with(Feature::lens, compiled.camera.aperture_radius > 0.0f);
-    compile_materials(scene.arrays(), compiled);
-    compile_triangles(scene.arrays(), settings.every_array, compiled);
-    compiled.shapes = compile_shapes(scene.arrays().shapes);
-    for (ShapeRecord &shape : compiled.shapes) {
-        shape.light = NO_EMITTER;  // compile_lights sets it for shapes that emit
+CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
+                        const CompileSettings &settings, SceneParts &parts,
+                        CompiledScene &compiled) {
+    const bool camera_moved = !std::equal(camera.position, camera.position + 3,
+                                          compiled.camera.position, compiled.camera.position + 3);
+    CompiledScene former;
+    compiled.camera = camera;
+    if (parts.materials) {
+        const bool had_textures = compiled.material_features.has(Feature::textures);
+        const bool read_uv = reads_uv(compiled);
+        former.materials = std::exchange(compiled.materials, {});
+        former.components = std::exchange(compiled.components, {});
+        compile_materials(scene, compiled);
+        const bool has_textures = compiled.material_features.has(Feature::textures);
+        parts.textures |=
+            has_textures != had_textures || !are_equal(compiled.texture_sources, scene.textures);
+        parts.triangles |= reads_uv(compiled) != read_uv;
+        compiled.texture_sources = scene.textures;
     }
-    compiled.shape_bounds = bound_shapes(compiled.shapes);
-    compiled.features = compiled.features | shape_features(scene.arrays().shapes);
-    compile_lights(scene.arrays(), settings, compiled);
+    if (parts.textures) {
+        former.textures = std::exchange(compiled.textures, {});
+        former.texels = std::exchange(compiled.texels, {});
+        if (compiled.material_features.has(Feature::textures)) {
+            compile_textures(scene.textures, compiled);
+        }
+    }
+    const bool moved = parts.triangles || parts.shapes;
+    const bool follows_camera = compiled.has_headlight || !compiled.extent.bounded;
+    parts.lights |= moved || (camera_moved && follows_camera);
+    parts.shapes |= parts.lights;  // records of shapes hold the index of their light
+    if (parts.triangles) {
+        former.surface_triangles = std::exchange(compiled.surface_triangles, {});
+        former.triangle_normals = std::exchange(compiled.triangle_normals, {});
+        former.triangle_uvs = std::exchange(compiled.triangle_uvs, {});
+        compile_triangles(scene, settings.every_array, compiled);
+    } else if (parts.lights) {
+        clear_emitters(compiled);
+    }
+    if (parts.shapes) {
+        former.shapes = std::exchange(compiled.shapes, compile_shapes(scene.shapes));
+        former.shape_bounds = std::exchange(compiled.shape_bounds, bound_shapes(compiled.shapes));
+    }
+    if (parts.lights) {
+        former.lights = std::exchange(compiled.lights, {});
+        former.emitter_triangles = std::exchange(compiled.emitter_triangles, {});
+        const auto environment = compiled.environment_image;
+        if (moved || !compiled.extent.bounded) {
+            compiled.extent = compile_extent(scene, compiled);
+        }
+        compile_lights(scene, settings, compiled);
+        parts.environment |= compiled.environment_image != environment;
+        parts.triangles |= !same_triangles(former.emitter_triangles, compiled.emitter_triangles);
+    } else {
+        compile_distances(compiled);
+    }
+    compiled.features = FeatureMask().with(Feature::lens, camera.aperture_radius > 0.0f) |
+                        compiled.material_features | compiled.triangle_features |
+                        shape_features(scene.shapes) | compiled.light_features;
+    return former;
+}
+
+CompiledScene compile_arrays(const SceneArrays &scene, const CameraRecord &camera,
+                             const CompileSettings &settings) {
+    CompiledScene compiled;
+    SceneParts parts = SceneParts::all();
+    recompile(scene, camera, settings, parts, compiled);
     return compiled;
+}
+
+CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings) {
+    return compile_arrays(
+        scene.arrays(),
+        compile_camera(scene.cameras(), static_cast<size_t>(scene.active_camera()),
+                       scene.film_width(), scene.film_height()),
+        settings);
 }
 
 }  // namespace rtrays

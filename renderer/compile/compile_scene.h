@@ -2,6 +2,8 @@
 // Compiles a scene into the records and arrays that the device reads.
 #pragma once
 
+#include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,8 +19,6 @@ enum class LightSelection { uniform, power, mixed, independent };
 
 /// Settings that decide the compiled scene.
 struct CompileSettings {
-    int width = 0;   ///< film width in pixels
-    int height = 0;  ///< film height in pixels
     LightSelection light_selection = LightSelection::mixed;
     /// Sphere lights are sampled by area instead of in the cone that they subtend.
     bool spheres_by_area = false;
@@ -28,9 +28,33 @@ struct CompileSettings {
     bool headlight = false;
 };
 
+inline bool operator==(const CompileSettings &a, const CompileSettings &b) {
+    return a.light_selection == b.light_selection && a.spheres_by_area == b.spheres_by_area &&
+           a.every_array == b.every_array && a.headlight == b.headlight;
+}
+
+/// A set of parts of a compiled scene. Each part can be compiled again by itself.
+struct SceneParts {
+    bool materials = false;    ///< `materials`, `components`
+    bool textures = false;     ///< `textures`, `texels`
+    bool triangles = false;    ///< `surface_triangles`, `triangle_normals`, `triangle_uvs`
+    bool shapes = false;       ///< `shapes`, `shape_bounds`
+    bool lights = false;       ///< `lights`, `emitter_triangles`, `lighting`
+    bool environment = false;  ///< `environment_texels`, `environment_ends`
+
+    static SceneParts all() { return {true, true, true, true, true, true}; }
+};
+
+/// Sphere around all bounded surfaces of a scene.
+struct SceneExtent {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double radius = 0;
+    bool bounded = true;  ///< false: the scene has only planes; the sphere is around the camera
+};
+
 /// A scene in the form that the device reads. Arrays have the names of shared/scene_buffers.h.
 struct CompiledScene {
-    CameraRecord camera{};
+    CameraRecord camera{};  ///< for the film size of the scene
     std::vector<SurfaceTriangle> surface_triangles;
     std::vector<TriangleNormals> triangle_normals;
     std::vector<TriangleUv> triangle_uvs;
@@ -46,20 +70,56 @@ struct CompiledScene {
     std::vector<uint32_t> environment_ends;
     LightingRecord lighting{};
     FeatureMask features;  ///< features of the scene, without those of the integrator
+
+    // What a later compilation of single parts needs.
+    FeatureMask material_features, triangle_features, light_features;
+    SceneExtent extent;
+    TextureArrays texture_sources;
+    bool has_headlight = false;
+    std::shared_ptr<const TextureImage> environment_image;  ///< source of the environment's arrays
+    double environment_integral = 0;                        ///< `compile_environment` of that image
 };
 
 /// Compiles the scene at its current time. Throws `Error` (bad input) for a scene that the device
 /// cannot represent.
 CompiledScene compile_scene(const Scene &scene, const CompileSettings &settings);
 
+/// As `compile_scene`, from arrays. `camera` is the record of the camera.
+CompiledScene compile_arrays(const SceneArrays &scene, const CameraRecord &camera,
+                             const CompileSettings &settings);
+
+/// Compiles the camera, `parts`, and the parts that depend on what changed, which it adds to
+/// `parts`. The result holds former arrays of these parts, for comparison; an array that it does
+/// not hold has changed entirely. When this throws, `compiled` must be compiled from scratch.
+CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
+                        const CompileSettings &settings, SceneParts &parts,
+                        CompiledScene &compiled);
+
 /// Returns the record of camera `index` for a film of the given size in pixels.
 CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width, int height);
 
-// Parts of `compile_scene`, in the order of their calls. Each adds its features to `compiled`.
+// Steps of `recompile`, which empties the arrays of a part before.
+
+/// Compiles materials into `materials` and `components`. Sets `material_features`.
 void compile_materials(const SceneArrays &scene, CompiledScene &compiled);
+
+/// Compiles the images of all textures into `textures` and `texels`.
+void compile_textures(const TextureArrays &textures, CompiledScene &compiled);
+
+/// Compiles triangles without their emitters. Reads `material_features`, sets `triangle_features`.
 void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene &compiled);
+
+/// Compiles lights, and the emitters of triangles and shapes. Reads `extent` and `camera`, sets
+/// `light_features`.
 void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
                     CompiledScene &compiled);
+
+/// Sets the fields of `lighting` that depend on the position of the camera. Reads `extent`.
+void compile_distances(CompiledScene &compiled);
+
+/// Returns the sphere around the bounded surfaces, with a margin for the rounding of points on them
+/// and a radius above 0. Reads `shapes` and `camera`.
+SceneExtent compile_extent(const SceneArrays &scene, const CompiledScene &compiled);
 
 /// Compiles the texels and selection tables of an environment (kernels/light/environment.h).
 /// Returns the integral of its radiance over all directions, averaged over the channels. Each cell

@@ -25,55 +25,6 @@ double triangle_area(const MeshArrays &meshes, uint32_t triangle) {
     return 0.5 * e1.cross(e2).norm();
 }
 
-/// Sphere around all bounded surfaces.
-struct Extent {
-    Eigen::Vector3d centre;
-    double radius;
-};
-
-Extent extent_of(const SceneArrays &scene, const CompiledScene &compiled) {
-    // Centre and radius of every bounded shape.
-    std::vector<Extent> shapes;
-    for (size_t i = 0; i < scene.shapes.kind.size(); ++i) {
-        const ShapeRecord &record = compiled.shapes[i];
-        if (scene.shapes.kind[i] == ShapeArrays::Kind::plane) {
-            continue;
-        }
-        Eigen::Matrix<double, 3, 4> world;
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 4; ++column) {
-                world(row, column) = static_cast<double>(record.world_from_object[row][column]);
-            }
-        }
-        const bool flat = scene.shapes.kind[i] == ShapeArrays::Kind::disc;
-        const double stretch =
-            flat ? world.leftCols<2>().operatorNorm() : world.leftCols<3>().operatorNorm();
-        shapes.push_back({world.col(3), stretch * std::sqrt(static_cast<double>(record.bound2))});
-    }
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3f &position : scene.meshes.position) {
-        box.extend(position.cast<double>());
-    }
-    for (const Extent &shape : shapes) {
-        box.extend(shape.centre + Eigen::Vector3d::Constant(shape.radius));
-        box.extend(shape.centre - Eigen::Vector3d::Constant(shape.radius));
-    }
-    if (box.isEmpty()) {
-        // The scene has only planes: light paths from infinity are traced towards the surroundings
-        // of the camera.
-        return {Eigen::Vector3f(compiled.camera.position).cast<double>(), 1.0};
-    }
-    Extent extent = {box.center(), 0};
-    for (const Eigen::Vector3f &position : scene.meshes.position) {
-        extent.radius = std::max(extent.radius, (position.cast<double>() - extent.centre).norm());
-    }
-    for (const Extent &shape : shapes) {
-        extent.radius =
-            std::max(extent.radius, (shape.centre - extent.centre).norm() + shape.radius);
-    }
-    return extent;
-}
-
 void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &light,
                         CompiledScene &compiled) {
     std::vector<double> areas(meshes.triangle_count[mesh]);
@@ -103,7 +54,7 @@ struct Compiled {
 };
 
 Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings &settings,
-                       const Extent &extent, CompiledScene &compiled) {
+                       const SceneExtent &extent, CompiledScene &compiled) {
     using Kind = LightArrays::Kind;
     const LightArrays &lights = scene.lights;
     Compiled light;
@@ -125,10 +76,11 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
             light.power = pi * lights.area[i] * mean;
             if (lights.mesh[i] != no_index) {
                 compile_mesh_light(scene.meshes, lights.mesh[i], record, compiled);
-                compiled.features = compiled.features.with(Feature::area_lights)
-                                        .with(Feature::light_triangles,
-                                              compiled.features.has(Feature::light_triangles) ||
-                                                  record.triangle_count > 1);
+                compiled.light_features =
+                    compiled.light_features.with(Feature::area_lights)
+                        .with(Feature::light_triangles,
+                              compiled.light_features.has(Feature::light_triangles) ||
+                                  record.triangle_count > 1);
             } else {
                 const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
                 record.kind = is_disc                    ? LIGHT_DISC
@@ -138,13 +90,13 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
                 record.area = static_cast<float>(lights.area[i]);
                 compiled.shapes[lights.shape[i]].light =
                     static_cast<uint32_t>(compiled.lights.size());
-                compiled.features = compiled.features.with(Feature::shape_lights);
+                compiled.light_features = compiled.light_features.with(Feature::shape_lights);
             }
             break;
         case Kind::point:
             record.kind = LIGHT_POINT;
             light.power = 4.0 * pi * mean;
-            compiled.features = compiled.features.with(Feature::point_lights);
+            compiled.light_features = compiled.light_features.with(Feature::point_lights);
             break;
         case Kind::spot: {
             record.kind = LIGHT_SPOT;
@@ -159,13 +111,13 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
             // the cones: 2 pi (1 - mean cosine between the cones).
             light.power =
                 2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner)) * mean;
-            compiled.features = compiled.features.with(Feature::spot_lights);
+            compiled.light_features = compiled.light_features.with(Feature::spot_lights);
             break;
         }
         case Kind::directional:
             record.kind = LIGHT_DIRECTIONAL;
             light.power = disc * mean;
-            compiled.features = compiled.features.with(Feature::directional_lights);
+            compiled.light_features = compiled.light_features.with(Feature::directional_lights);
             break;
         case Kind::dome:
         case Kind::environment: {
@@ -176,12 +128,15 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
             }
             const bool dome = lights.kind[i] == Kind::dome;
             record.kind = dome ? LIGHT_DOME : LIGHT_ENVIRONMENT;
-            light.power =
-                disc * mean * (dome ? 4.0 * pi : compile_environment(*lights.image[i], compiled));
+            if (!dome && compiled.environment_image != lights.image[i]) {
+                compiled.environment_image = lights.image[i];
+                compiled.environment_integral = compile_environment(*lights.image[i], compiled);
+            }
+            light.power = disc * mean * (dome ? 4.0 * pi : compiled.environment_integral);
             if (light.power > 0.0) {
                 compiled.lighting.infinite_light = static_cast<uint32_t>(compiled.lights.size());
-                compiled.features = compiled.features.with(Feature::infinite_lights)
-                                        .with(dome ? Feature::dome : Feature::environment);
+                compiled.light_features = compiled.light_features.with(Feature::infinite_lights)
+                                              .with(dome ? Feature::dome : Feature::environment);
             }
             break;
         }
@@ -214,7 +169,7 @@ void select_lights(const std::vector<double> &powers, LightSelection selection,
 
 /// Returns a point light at the camera. A white diffuse surface at the centre of the scene that
 /// faces it has radiance 1.
-Compiled headlight(const Extent &extent, CompiledScene &compiled) {
+Compiled headlight(const SceneExtent &extent, CompiledScene &compiled) {
     const double away =
         (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     const double intensity = pi * std::pow(std::max(away, extent.radius), 2);
@@ -223,7 +178,7 @@ Compiled headlight(const Extent &extent, CompiledScene &compiled) {
     copy3(Eigen::Vector3d::Constant(intensity).eval(), light.record.radiance);
     std::copy_n(compiled.camera.position, 3, light.record.position);
     light.power = 4.0 * pi * intensity;
-    compiled.features = compiled.features.with(Feature::point_lights);
+    compiled.light_features = compiled.light_features.with(Feature::point_lights);
     return light;
 }
 
@@ -231,23 +186,16 @@ Compiled headlight(const Extent &extent, CompiledScene &compiled) {
 
 void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
                     CompiledScene &compiled) {
-    Extent extent = extent_of(scene, compiled);
-    // Adds a margin for the rounding of points on these surfaces, and keeps the radius above 0.
-    extent.radius =
-        std::max(extent.radius * (1.0 + 0x1p-10) + extent.centre.norm() * 0x1p-20, 1e-15);
+    const SceneExtent &extent = compiled.extent;
+    compiled.light_features = FeatureMask();
     LightingRecord &lighting = compiled.lighting;
     lighting.infinite_light = NO_EMITTER;
     copy3(extent.centre, lighting.scene_centre);
     lighting.scene_radius = static_cast<float>(extent.radius);
+    compile_distances(compiled);
     const auto &kinds = scene.shapes.kind;
     const auto last_plane = std::find(kinds.rbegin(), kinds.rend(), ShapeArrays::Kind::plane);
     lighting.plane_end = static_cast<uint32_t>(kinds.rend() - last_plane);
-    // Beyond every point of the scene, except on planes, whose horizon is cut off at about a
-    // million radii. Shadow rays to infinity have this length; hits measured in units of it keep
-    // their relative precision.
-    const double camera =
-        (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
-    lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
     std::vector<double> powers;
     const auto add = [&](const Compiled &light) {
         if (light.power > 0.0) {
@@ -258,7 +206,14 @@ void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
     for (size_t i = 0; i < scene.lights.name.size(); ++i) {
         add(compile_light(scene, i, settings, extent, compiled));
     }
-    if (settings.headlight && compiled.lights.empty()) {
+    if (!compiled.light_features.has(Feature::environment)) {
+        compiled.environment_image = nullptr;
+        lighting.environment_width = lighting.environment_height = 0;
+        compiled.environment_texels.clear();
+        compiled.environment_ends.clear();
+    }
+    compiled.has_headlight = settings.headlight && compiled.lights.empty();
+    if (compiled.has_headlight) {
         add(headlight(extent, compiled));
     }
     if (!compiled.lights.empty()) {
@@ -267,9 +222,10 @@ void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
     lighting.light_count = static_cast<uint32_t>(compiled.lights.size());
     const bool several = compiled.lights.size() > 1;
     const bool independent = settings.light_selection == LightSelection::independent;
-    compiled.features = compiled.features.with(Feature::lights, !compiled.lights.empty())
-                            .with(Feature::many_lights, several && !independent)
-                            .with(Feature::independent_lights, several && independent);
+    compiled.light_features =
+        compiled.light_features.with(Feature::lights, !compiled.lights.empty())
+            .with(Feature::many_lights, several && !independent)
+            .with(Feature::independent_lights, several && independent);
 }
 
 }  // namespace rtrays

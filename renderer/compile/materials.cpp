@@ -150,12 +150,13 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
         compiled.materials.push_back(record);
     }
     features = features.with(Feature::scattering, !compiled.components.empty());
-    if (features.has(Feature::textures)) {
-        for (size_t i = 0; i < scene.textures.name.size(); ++i) {
-            compile_texture(scene.textures, i, compiled);
-        }
+    compiled.material_features = features;
+}
+
+void compile_textures(const TextureArrays &textures, CompiledScene &compiled) {
+    for (size_t i = 0; i < textures.name.size(); ++i) {
+        compile_texture(textures, i, compiled);
     }
-    compiled.features = compiled.features | features;
 }
 
 }  // namespace rtrays

@@ -1,20 +1,69 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/compile/scene_buffers.h"
 
+#include <algorithm>
+#include <cstring>
+
 namespace rtrays {
+
+namespace {
 
 // The tables name features FEATURE_x, as in kernels. Here these names are variables.
 #define FEATURE_VARIABLE(name, text) \
     [[maybe_unused]] const bool FEATURE_##name = features.has(Feature::name);
 
-SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled,
-                           FeatureMask features)
-    : features_(features),
-      lighting_(compiled.lighting),
-      shape_count_(static_cast<uint32_t>(compiled.shapes.size())) {
+/// The part of the compiled scene to which each buffer belongs.
+namespace part_of {
+constexpr auto surface_triangles = &SceneParts::triangles;
+constexpr auto triangle_normals = &SceneParts::triangles;
+constexpr auto triangle_uvs = &SceneParts::triangles;
+constexpr auto shapes = &SceneParts::shapes;
+constexpr auto shape_bounds = &SceneParts::shapes;
+constexpr auto materials = &SceneParts::materials;
+constexpr auto components = &SceneParts::materials;
+constexpr auto textures = &SceneParts::textures;
+constexpr auto texels = &SceneParts::textures;
+constexpr auto lights = &SceneParts::lights;
+constexpr auto emitter_triangles = &SceneParts::lights;
+constexpr auto environment_texels = &SceneParts::environment;
+constexpr auto environment_ends = &SceneParts::environment;
+}  // namespace part_of
+
+template <typename T>
+bool exists(const Buffer<T> &buffer) {
+    return !buffer.name().empty();
+}
+
+/// Copies the range of items that differ, or all if the sizes do.
+template <typename T>
+void write_changes(DeviceContext &device, const std::vector<T> &former, const std::vector<T> &now,
+                   Buffer<T> &buffer) {
+    if (now.size() != buffer.size()) {
+        buffer = Buffer<T>(device, buffer.name(), now);
+        return;
+    }
+    size_t first = 0, end = now.size();
+    if (former.size() == now.size()) {
+        const auto same = [&](size_t i) {
+            return std::memcmp(&former[i], &now[i], sizeof(T)) == 0;
+        };
+        while (first < end && same(first)) {
+            ++first;
+        }
+        while (first < end && same(end - 1)) {
+            --end;
+        }
+    }
+    buffer.write(first, now.data() + first, end - first);
+}
+
+}  // namespace
+
+void SceneBuffers::require(DeviceContext &device, const CompiledScene &compiled,
+                           FeatureMask features) {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
 #define ROW(feature, type, name)                              \
-    if (feature) {                                            \
+    if (feature && !exists(name##_)) {                        \
         name##_ = Buffer<type>(device, #name, compiled.name); \
     }
     SHAPE_BUFFERS(ROW)
@@ -22,9 +71,20 @@ SceneBuffers::SceneBuffers(DeviceContext &device, const CompiledScene &compiled,
 #undef ROW
 }
 
+void SceneBuffers::update(DeviceContext &device, const CompiledScene &former,
+                          const CompiledScene &compiled, SceneParts parts) {
+#define ROW(feature, type, name)                                    \
+    if (parts.*part_of::name && exists(name##_)) {                  \
+        write_changes(device, former.name, compiled.name, name##_); \
+    }
+    SHAPE_BUFFERS(ROW)
+    SHADING_BUFFERS(ROW)
+#undef ROW
+}
+
 // The lists are in the order of the parameters in kernels/scene_view.h.
-StageArguments SceneBuffers::arguments(const Bvh &bvh) const {
-    const FeatureMask features = features_;
+StageArguments SceneBuffers::arguments(const CompiledScene &compiled, const Bvh &bvh,
+                                       FeatureMask features) const {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
     using Arguments = std::vector<KernelArgument>;
     Arguments hierarchy, shapes, shading;
@@ -51,8 +111,9 @@ StageArguments SceneBuffers::arguments(const Bvh &bvh) const {
         }
         return all;
     };
-    const Arguments count = {shape_count_};
-    const Arguments values = {shape_count_, lighting_};
+    const auto shape_count = static_cast<uint32_t>(compiled.shapes.size());
+    const Arguments count = {shape_count};
+    const Arguments values = {shape_count, compiled.lighting};
     return {{StageInput::tracing, joined({hierarchy, shapes, count})},
             {StageInput::shading, joined({shapes, shading, values})},
             {StageInput::scene, joined({hierarchy, shapes, shading, values})}};

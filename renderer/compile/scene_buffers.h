@@ -11,15 +11,21 @@
 namespace rtrays {
 
 /// A compiled scene in device memory: one buffer for each row of shared/scene_buffers.h whose
-/// feature is on.
+/// feature has been required.
 class SceneBuffers {
   public:
-    SceneBuffers() = default;
-    SceneBuffers(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
+    /// Creates the buffers that `features` need and that do not exist.
+    void require(DeviceContext &device, const CompiledScene &compiled, FeatureMask features);
 
-    /// Returns the arguments of the stage inputs tracing, shading and scene. The BVH is read only
-    /// if the scene has triangles.
-    StageArguments arguments(const Bvh &bvh) const;
+    /// Copies the items of `parts` that differ from those of `former`, as `recompile` returned
+    /// them. A buffer whose size changes is allocated again.
+    void update(DeviceContext &device, const CompiledScene &former, const CompiledScene &compiled,
+                SceneParts parts);
+
+    /// Returns the arguments of the stage inputs tracing, shading and scene, for stages with these
+    /// features. The BVH is read only if the scene has triangles.
+    StageArguments arguments(const CompiledScene &compiled, const Bvh &bvh,
+                             FeatureMask features) const;
 
     /// Calls visit(buffer) for every buffer.
     template <typename Visit>
@@ -31,9 +37,6 @@ class SceneBuffers {
     }
 
   private:
-    FeatureMask features_;
-    LightingRecord lighting_{};
-    uint32_t shape_count_ = 0;
 #define ROW(feature, type, name) Buffer<type> name##_;
     SHAPE_BUFFERS(ROW)
     SHADING_BUFFERS(ROW)

@@ -117,7 +117,7 @@ std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes) {
         const Kind kind = shapes.kind[i];
         record.kind = kind == Kind::julia ? SHAPE_JULIA : SHAPE_QUADRIC;
         record.material = shapes.material[i];
-        record.light = shapes.light[i];
+        record.light = NO_EMITTER;  // compile_lights sets it for shapes that emit
         try {
             Eigen::Matrix4d world_from_object = shapes.world_from_object[i];
             if (kind == Kind::julia) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -41,10 +42,20 @@ class Buffer {
             throw run_error(fmt::format("buffer '{}': expected {} items, got {}", name_, count_,
                                         values.size()));
         }
-        if (count_ > 0) {
-            check_cl(clEnqueueWriteBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(),
-                                          values.data(), 0, nullptr, nullptr),
+        write(0, values.data(), count_);
+    }
+
+    /// Writes `count` items from item `first` on.
+    void write(size_t first, const T *values, size_t count) {
+        if (count > count_ || first > count_ - count) {
+            throw run_error(fmt::format("buffer '{}': items {} to {} are beyond its {} items",
+                                        name_, first, first + count, count_));
+        }
+        if (count > 0) {
+            check_cl(clEnqueueWriteBuffer(device_->queue(), get(), CL_TRUE, first * sizeof(T),
+                                          count * sizeof(T), values, 0, nullptr, nullptr),
                      "writing buffer " + name_);
+            device_->traffic().bytes_written += count * sizeof(T);
         }
     }
 
@@ -56,12 +67,23 @@ class Buffer {
         }
     }
 
+    /// Sets all bytes to 0.
+    void clear() {
+        const uint8_t zero = 0;
+        if (count_ > 0) {
+            check_cl(clEnqueueFillBuffer(device_->queue(), get(), &zero, 1, 0, bytes(), 0, nullptr,
+                                         nullptr),
+                     "clearing buffer " + name_);
+        }
+    }
+
     std::vector<T> read() const {
         std::vector<T> values(count_);
         if (count_ > 0) {
             check_cl(clEnqueueReadBuffer(device_->queue(), get(), CL_TRUE, 0, bytes(),
                                          values.data(), 0, nullptr, nullptr),
                      "reading buffer " + name_);
+            device_->traffic().bytes_read += bytes();
         }
         return values;
     }

@@ -185,6 +185,7 @@ ClMemory DeviceContext::allocate(const std::string &name, uint64_t bytes) {
     cl_int status = CL_SUCCESS;
     ClMemory memory(clCreateBuffer(context(), CL_MEM_READ_WRITE, bytes, nullptr, &status));
     check_cl(status, fmt::format("allocating buffer '{}' of {} bytes", name, bytes));
+    ++traffic_.allocations;
     if (info_.is_cpu) {
         prefer_huge_pages(queue(), memory.get(), bytes);
     }

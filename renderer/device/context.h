@@ -43,6 +43,14 @@ enum class Binaries {
     leave,
 };
 
+/// What a program has asked of a device so far.
+struct DeviceTraffic {
+    uint64_t launches = 0;       ///< kernels
+    uint64_t bytes_written = 0;  ///< copied from the host to buffers
+    uint64_t bytes_read = 0;     ///< copied from buffers to the host
+    uint64_t allocations = 0;    ///< buffers
+};
+
 /// One OpenCL device with its context, an in-order profiling queue, and the profile of all kernels
 /// launched on it.
 class DeviceContext {
@@ -59,6 +67,9 @@ class DeviceContext {
     cl_command_queue queue() const { return queue_.get(); }
     Profiler &profiler() { return profiler_; }
 
+    /// Counts of launches, copies and allocations, without the counters that a render polls.
+    DeviceTraffic &traffic() { return traffic_; }
+
     /// Waits until all enqueued commands have completed, and adds their times to the profile.
     void finish();
 
@@ -72,6 +83,7 @@ class DeviceContext {
     ClContext context_;
     ClQueue queue_;
     Profiler profiler_;
+    DeviceTraffic traffic_;
 };
 
 }  // namespace rtrays

@@ -84,6 +84,7 @@ void Kernel::enqueue(uint64_t items) {
                                     nullptr, &event),
              fmt::format("launching kernel '{}' with {} work-items", name_, global));
     device_->profiler().add(name_, ClEvent(event));
+    ++device_->traffic().launches;
 }
 
 }  // namespace rtrays

@@ -20,9 +20,9 @@ constexpr double worth_going_on = 0.9;
 
 /// Renders one setting, sample by sample, and estimates its variance from the scatter of the
 /// samples. Adds the device time to `seconds`.
-PilotTrial attempt(const Scene &scene, const RenderSettings &settings, DeviceContext &device,
-                   double &seconds) {
-    RenderSession session(scene, settings, device);
+PilotTrial attempt(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
+                   const RenderSettings &settings, double &seconds) {
+    RenderSession session(shared, scene, settings);
     PilotTrial trial;
     std::vector<double> sums, squares;
     for (uint64_t sample = 0; sample < pilot_samples; ++sample) {
@@ -52,8 +52,8 @@ PilotTrial attempt(const Scene &scene, const RenderSettings &settings, DeviceCon
 
 }  // namespace
 
-Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings,
-                         DeviceContext &device) {
+Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
+                         const RenderSettings &settings) {
     RenderSettings small = settings;
     small.seed = ~settings.seed;
     small.passes = "all";
@@ -77,7 +77,7 @@ Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings,
     };
     const auto add_trial = [&](double per_pixel) {
         small.light_paths = paths_of(per_pixel, small_pixels);
-        pilot.trials.push_back(attempt(scene, small, device, pilot.seconds));
+        pilot.trials.push_back(attempt(shared, scene, small, pilot.seconds));
         pilot.trials.back().per_pixel = per_pixel;
     };
     for (const double per_pixel : {0.0, 0.25, 1.0, 4.0}) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "renderer/session/settings.h"
@@ -16,7 +17,7 @@
 namespace rtrays {
 
 class Scene;
-class DeviceContext;
+class DeviceScene;
 
 /// One number of light paths that the pilot rendered, and its cost.
 struct PilotTrial {
@@ -40,6 +41,7 @@ struct Pilot {
 /// The cost is variance times number of rays. Both are the same in every run on one device, and so
 /// is the choice. The pilot uses its own seed; its samples are discarded. All trials share their
 /// camera paths, so that rare bright camera paths weigh equally in all of them.
-Pilot choose_light_paths(const Scene &scene, const RenderSettings &settings, DeviceContext &device);
+Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
+                         const RenderSettings &settings);
 
 }  // namespace rtrays

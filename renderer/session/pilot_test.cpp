@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "renderer/compile/device_scene.h"
 #include "renderer/device/context.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/session/render_session.h"
@@ -34,10 +35,16 @@ std::vector<int64_t> render_words(const std::string &scene, const RenderSettings
     return session.film().words;
 }
 
+Pilot choose(const Scene &scene, const RenderSettings &settings) {
+    const auto shared = std::make_shared<DeviceScene>(
+        scene, device_scene_settings(settings, device().info()), device());
+    return choose_light_paths(shared, scene, settings);
+}
+
 TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
-    const auto choose = [](const std::string &scene) {
-        const Pilot pilot = choose_light_paths(load_scene(RTRAYS_SCENES + scene),
-                                               settings_of(LIGHT_PATHS_AUTO), device());
+    const auto chosen = [](const std::string &scene) {
+        const Pilot pilot =
+            choose(load_scene(RTRAYS_SCENES + scene), settings_of(LIGHT_PATHS_AUTO));
         EXPECT_GE(pilot.trials.size(), 4u);
         const PilotTrial *best = &pilot.trials.front();
         for (const PilotTrial &trial : pilot.trials) {
@@ -51,18 +58,18 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
     };
     // Light paths are efficient for caustics of mirrors, but not for diffuse surfaces under a point
     // light.
-    EXPECT_GT(choose("/cornell_mirrors/scene.json"), 0u);
-    EXPECT_EQ(choose("/features/point_light.json"), 0u);
+    EXPECT_GT(chosen("/cornell_mirrors/scene.json"), 0u);
+    EXPECT_EQ(chosen("/features/point_light.json"), 0u);
 }
 
 TEST(Pilot, ChoosesTheSameWhateverTheStreams) {
     RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
     const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
-    const Pilot expected = choose_light_paths(scene, settings, device());
+    const Pilot expected = choose(scene, settings);
     settings.stream_capacity = 3000;
     settings.group_size = 16;
     settings.stream_chunk = 7;
-    const Pilot other = choose_light_paths(scene, settings, device());
+    const Pilot other = choose(scene, settings);
     EXPECT_EQ(other.light_paths, expected.light_paths);
     ASSERT_EQ(other.trials.size(), expected.trials.size());
     for (size_t i = 0; i < expected.trials.size(); ++i) {

@@ -15,13 +15,19 @@ namespace rtrays {
 
 RenderSession::RenderSession(const Scene &scene, const RenderSettings &settings,
                              DeviceContext &device)
-    : state_(std::make_unique<State>(scene, settings, device)) {}
+    : RenderSession(std::make_shared<DeviceScene>(
+                        scene, device_scene_settings(settings, device.info()), device),
+                    scene, settings) {}
+RenderSession::RenderSession(std::shared_ptr<DeviceScene> shared, const Scene &scene,
+                             const RenderSettings &settings)
+    : state_(std::make_unique<State>(std::move(shared), scene, settings)) {}
 RenderSession::~RenderSession() = default;
 RenderSession::RenderSession(RenderSession &&) noexcept = default;
 
 uint64_t RenderSession::render(uint64_t begin, uint64_t end,
                                const std::function<void(uint64_t)> &on_batch) {
     State &s = *state_;
+    s.require_current();
     s.require_next(begin, end);
     while (begin < end && !interrupted()) {
         const uint64_t count = s.batch_size(begin, end);
@@ -61,14 +67,18 @@ void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
                         state_->settings.algorithm->name, state_->settings.max_depth, max_depth));
     }
     state_->numbers.max_depth = state_->settings.max_depth = max_depth;
-    state_->config = content_hash(state_->scene_hash + image_settings(state_->settings).dump());
+    state_->set_config();
     restart(seed);
 }
 
 void RenderSession::update(const Scene &scene) {
     if (!state_->update(scene)) {
-        state_ = std::make_unique<State>(scene, RenderSettings(state_->settings), state_->device);
+        state_ = std::make_unique<State>(state_->scene, scene, RenderSettings(state_->settings));
     }
+}
+
+void RenderSession::resize(int width, int height) {
+    state_->resize(width, height);
 }
 
 FilmState RenderSession::film() const {
@@ -123,7 +133,7 @@ Image RenderSession::develop() const {
     image.attributes()["rtrays:driver"] =
         state_->device.info().platform_name + " " + state_->device.info().driver;
     image.attributes()["rtrays:buildOptions"] = program_options(state_->device.info());
-    image.attributes()["rtrays:sceneHash"] = state_->scene_hash;
+    image.attributes()["rtrays:sceneHash"] = state_->scene->hash();
     image.attributes()["rtrays:settings"] = image_settings(state_->settings).dump();
     return image;
 }
@@ -131,7 +141,7 @@ Image RenderSession::develop() const {
 RenderStats RenderSession::stats() const {
     RenderStats stats;
     stats.compile_seconds = state_->compile_seconds;
-    stats.bvh_seconds = state_->bvh.report().seconds_device;
+    stats.bvh_seconds = state_->scene->bvh().report().seconds_device;
     stats.device_seconds = state_->device_seconds();
     stats.wall_seconds = state_->wall_seconds;
     stats.samples = state_->samples;

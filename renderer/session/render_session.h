@@ -15,6 +15,9 @@ namespace rtrays {
 
 class Scene;
 class DeviceContext;
+class DeviceScene;
+struct DeviceSceneSettings;
+struct DeviceInfo;
 
 /// Times and counts of one session.
 struct RenderStats {
@@ -41,13 +44,19 @@ class RenderSession {
     /// Compiles the scene and the kernels. Throws `Error` when settings contradict each other or
     /// the device has too little memory.
     RenderSession(const Scene &scene, const RenderSettings &settings, DeviceContext &device);
+
+    /// Renders a scene that other sessions may share. It is updated to the current state of
+    /// `scene`. Throws `Error` (bad input) if its settings are not `device_scene_settings`.
+    RenderSession(std::shared_ptr<DeviceScene> shared, const Scene &scene,
+                  const RenderSettings &settings);
     ~RenderSession();
     RenderSession(RenderSession &&) noexcept;
 
     /// Adds the samples [begin, end) of every pixel to the film. Returns early, at a batch
     /// boundary, once `interrupted()` is true. The return value is the end of the rendered range.
     /// `on_batch`, if given, is called with that end after each batch. With convergence control,
-    /// `begin` must be the end of the film's samples; otherwise throws `Error` (bad input).
+    /// `begin` must be the end of the film's samples; otherwise throws `Error` (bad input). Throws
+    /// `Error` (bad input) too if a shared scene has changed since the session's last update.
     uint64_t render(uint64_t begin, uint64_t end,
                     const std::function<void(uint64_t)> &on_batch = {});
 
@@ -64,11 +73,16 @@ class RenderSession {
     /// for whitted, whose memory depends on the depth.
     void restart(uint32_t seed, uint32_t max_depth);
 
-    /// Empties the film and continues with the current state of `scene`. Kernels are kept. The BVH
-    /// is rebuilt or refitted (device.bvh_update); it is also rebuilt if the old tree does not fit
-    /// the new triangles. The session starts from scratch if the scene requires other features or
-    /// has another number of lights.
+    /// Empties the film and continues with the current state of `scene`. Kernels are kept, and only
+    /// what has changed is compiled, copied and built again (compile/device_scene.h). If triangles
+    /// have moved, the BVH is rebuilt or refitted (device.bvh_update). The passes are compiled from
+    /// scratch if the scene requires other features or has another number of lights. After a change
+    /// of the scene, every session that shares it must be updated before it renders.
     void update(const Scene &scene);
+
+    /// Empties the film and gives it another size in pixels. Kernels, BVH and scene are kept. If a
+    /// pilot has chosen the number of light paths, their number per pixel is kept.
+    void resize(int width, int height);
 
     /// Returns the film so far.
     FilmState film() const;
@@ -91,6 +105,9 @@ class RenderSession {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// Returns the settings of a scene that sessions with `settings` share on a device.
+DeviceSceneSettings device_scene_settings(const RenderSettings &settings, const DeviceInfo &info);
 
 /// Sets the attributes of an image developed from `film`: standard names, and `rtrays:` names for
 /// its provenance.

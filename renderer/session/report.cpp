@@ -29,13 +29,13 @@ nlohmann::json RenderSession::report() const {
           {"chunk", s.layout.chunk},
           {"interleaved", s.layout.interleaved}}},
         {"scene",
-         {{"hash", s.scene_hash},
-          {"triangles", s.compiled.surface_triangles.size()},
-          {"lights", s.compiled.lights.size()}}},
+         {{"hash", s.scene->hash()},
+          {"triangles", s.scene->compiled().surface_triangles.size()},
+          {"lights", s.scene->compiled().lights.size()}}},
         {"seconds",
          {{"compile", numbers.compile_seconds},
           {"bvh_device", numbers.bvh_seconds},
-          {"bvh_wall", s.bvh_wall_seconds},
+          {"bvh_wall", s.scene->bvh_wall_seconds()},
           {"device", numbers.device_seconds},
           {"wall", numbers.wall_seconds}}},
         {"samples", numbers.samples},
@@ -101,14 +101,14 @@ nlohmann::json RenderSession::report() const {
     report["light_vertex_bytes_per_path"] = vertex_bytes;
     report["branch_bytes_per_path"] = branch_bytes;
     report["bytes_per_path"] = largest_path + vertex_bytes + branch_bytes;
-    for (const auto &[name, stage] : s.bvh_stages) {
+    for (const auto &[name, stage] : s.scene->bvh_stages()) {
         report["bvh"]["stages"].push_back(
             {{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
     }
-    const BvhReport &bvh = s.bvh.report();
+    const BvhReport &bvh = s.scene->bvh().report();
     report["bvh"].update({{"layout", to_string(s.layout.bvh)},
                           {"builder", to_string(bvh.method)},
-                          {"refitted", s.bvh_refitter != nullptr},
+                          {"refitted", s.scene->is_refitted()},
                           {"nodes", bvh.nodes},
                           {"leaves", bvh.leaves},
                           {"depth", bvh.depth},
@@ -123,11 +123,7 @@ nlohmann::json RenderSession::report() const {
             report["buffers"].push_back({{"name", buffer.name()}, {"bytes", buffer.bytes()}});
         }
     };
-    s.bvh.visit([&](const auto &nodes, const auto &triangles) {
-        add_buffer(nodes);
-        add_buffer(triangles);
-    });
-    s.scene_buffers.visit(add_buffer);
+    s.scene->visit_buffers(add_buffer);
     add_buffer(s.path_words);
     add_buffer(s.vertex_words);
     add_buffer(s.branch_vertices);

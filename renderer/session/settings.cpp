@@ -446,11 +446,7 @@ CompileSettings compile_settings(const RenderSettings &settings) {
                                      : settings.light_selection == "independent"
                                          ? LightSelection::independent
                                          : LightSelection::mixed;
-    return {settings.width,
-            settings.height,
-            selection,
-            settings.sphere_sampling == "area",
-            settings.features == "all",
+    return {selection, settings.sphere_sampling == "area", settings.features == "all",
             !settings.algorithm->is_random};
 }
 

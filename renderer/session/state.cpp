@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Construction of a session: settings, passes, BVH, buffers and bindings.
+// Construction of a session: settings, passes, buffers and bindings; changes of scene and size.
 #include "renderer/session/state.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/error.h"
@@ -59,44 +60,75 @@ FeatureMask select_features(const CompiledScene &compiled, const RenderSettings 
     return features.with(Feature::int64_atomics, info.has_int64_atomics);
 }
 
+void require_film_size(int width, int height) {
+    const uint64_t pixels = static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+    if (width < 1 || height < 1 || pixels > (1u << 30)) {
+        throw input_error(
+            fmt::format("{} x {} pixels: expected at least 1 and at most 2^30", width, height));
+    }
+}
+
 RenderSettings complete(RenderSettings settings, const Scene &scene) {
     require_consistent(settings);
     settings = with_fixed_choices(std::move(settings));
     settings.width = settings.width > 0 ? settings.width : scene.film_width();
     settings.height = settings.height > 0 ? settings.height : scene.film_height();
-    const uint64_t pixels =
-        static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
-    if (pixels > (1u << 30)) {
-        throw input_error(
-            fmt::format("{} x {} pixels: expected at most 2^30", settings.width, settings.height));
-    }
+    require_film_size(settings.width, settings.height);
     return settings;
 }
 
 /// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses. Returns the pilot, which is empty
 /// if none was needed.
-Pilot settle_light_paths(RenderSettings &settings, const Scene &scene, DeviceContext &device) {
+Pilot settle_light_paths(RenderSettings &settings, const std::shared_ptr<DeviceScene> &scene,
+                         const Scene &graph) {
     if (settings.light_paths != LIGHT_PATHS_AUTO) {
         return {};
     }
-    Pilot pilot = choose_light_paths(scene, settings, device);
+    Pilot pilot = choose_light_paths(scene, graph, settings);
     settings.light_paths = pilot.light_paths;
     return pilot;
 }
 
+/// Returns the scene after its update to the current state of `graph`.
+std::shared_ptr<DeviceScene> updated(std::shared_ptr<DeviceScene> scene, const Scene &graph,
+                                     const RenderSettings &settings) {
+    const DeviceSceneSettings wanted = device_scene_settings(settings, scene->device().info());
+    if (!(wanted == scene->settings())) {
+        throw input_error(
+            "sessions that share a scene need the same settings of light selection, sphere "
+            "sampling, hierarchy (device.bvh_*) and features, and ray_casting and whitted share "
+            "none with other algorithms");
+    }
+    scene->update(graph);
+    return scene;
+}
+
 }  // namespace
 
-RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
-                            DeviceContext &device_context)
-    : device(device_context),
-      settings(complete(requested, scene)),
-      pilot(settle_light_paths(settings, scene, device_context)),
-      layout(stream_layout(settings, device_context.info())),
-      numbers(integrator_settings(settings)),
-      compiled(compile_scene(scene, compile_settings(settings))) {
+DeviceSceneSettings device_scene_settings(const RenderSettings &requested, const DeviceInfo &info) {
+    require_consistent(requested);
+    const RenderSettings settings = with_fixed_choices(requested);
+    DeviceSceneSettings scene = {compile_settings(settings), BvhBuildParameters::for_device(info),
+                                 settings.bvh_update == "refit"};
+    scene.bvh.layout = stream_layout(settings, info).bvh;
+    choose_builder(settings, scene.bvh);
+    return scene;
+}
+
+RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &graph,
+                            const RenderSettings &requested)
+    : scene(updated(std::move(shared), graph, requested)),
+      scene_version(scene->version()),
+      scene_features(scene->compiled().features),
+      light_count(scene->compiled().lighting.light_count),
+      device(scene->device()),
+      settings(complete(requested, graph)),
+      pilot(settle_light_paths(settings, scene, graph)),
+      layout(stream_layout(settings, device.info())),
+      numbers(integrator_settings(settings)) {
     std::vector<Pass> all_passes = algorithm_passes(
         *settings.algorithm,
-        {select_features(compiled, settings, device.info()), compiled.lighting.light_count,
+        {select_features(scene->compiled(), settings, device.info()), light_count,
          has_light_pass(settings), numbers.light_vertices, settings.strategies_apart});
     if (settings.pipeline == "megakernel") {
         all_passes = megakernel_passes(std::move(all_passes));
@@ -117,70 +149,59 @@ RenderSession::State::State(const Scene &scene, const RenderSettings &requested,
                               : fmt::format("{} has no pass '{}' in this scene",
                                             settings.algorithm->name, settings.passes));
     }
-    scene_hash = scene.hash();
-    config = content_hash(scene_hash + image_settings(settings).dump());
-    if (features.has(Feature::triangles)) {
-        build_bvh(scene.meshes());
-    }
-    allocate();
+    set_config();
+    scene->require(graph, features);
+    allocate_streams();
+    allocate_film();
     bind();
     warm_up();
 }
 
-bool RenderSession::State::update(const Scene &scene) {
-    CompiledScene next = compile_scene(scene, compile_settings(settings));
-    if (next.features.bits() != compiled.features.bits() ||
-        next.lighting.light_count != compiled.lighting.light_count) {
+void RenderSession::State::set_config() {
+    config = content_hash(scene->hash() + image_settings(settings).dump());
+}
+
+bool RenderSession::State::update(const Scene &graph) {
+    scene->update(graph);
+    if (scene->compiled().features.bits() != scene_features.bits() ||
+        scene->compiled().lighting.light_count != light_count) {
         return false;
     }
-    compiled = std::move(next);
-    scene_hash = scene.hash();
-    config = content_hash(scene_hash + image_settings(settings).dump());
-    if (features.has(Feature::triangles)) {
-        update_bvh(scene.meshes());
+    set_config();
+    if (scene_version != scene->version()) {
+        scene_version = scene->version();
+        const StageArguments arguments = scene_arguments();
+        for (CompiledPass &pass : passes) {
+            pass.stages.bind(arguments);
+        }
     }
-    scene_buffers = SceneBuffers(device, compiled, features);
-    bind();
     reset_film();
     return true;
 }
 
-void RenderSession::State::update_bvh(const MeshArrays &meshes) {
-    if (settings.bvh_update != "refit" ||
-        meshes.triangle.size() != bvh.report().triangles + bvh.report().left_out) {
-        return build_bvh(meshes);
+void RenderSession::State::resize(int width, int height) {
+    require_film_size(width, height);
+    const double ratio = static_cast<double>(width) * height / static_cast<double>(pixels());
+    settings.width = width;
+    settings.height = height;
+    if (!pilot.trials.empty()) {
+        settings.light_paths = static_cast<uint32_t>(std::lround(settings.light_paths * ratio));
     }
-    const auto start = Clock::now();
-    const BvhInput input(device, meshes.position, meshes.triangle);
-    if (bvh_refitter == nullptr) {
-        bvh_refitter = std::make_unique<BvhRefitter>(device, bvh);
-    }
-    const bool fits = bvh_refitter->refit(bvh, input.positions, input.indices);
-    bvh_wall_seconds = seconds_since(start);
-    bvh_stages = device.profiler().take();
-    if (!fits) {
-        build_bvh(meshes);
+    numbers.light_paths = light_paths_per_sample(settings);
+    set_config();
+    allocate_film();
+    bind();
+    reset_counts();
+}
+
+void RenderSession::State::require_current() const {
+    if (scene_version != scene->version()) {
+        throw input_error("the scene has changed: update the session before it renders");
     }
 }
 
-void RenderSession::State::build_bvh(const MeshArrays &meshes) {
-    BvhBuildParameters parameters = BvhBuildParameters::for_device(device.info());
-    parameters.layout = layout.bvh;
-    choose_builder(settings, parameters);
-    if (bvh_builder == nullptr) {
-        bvh_builder = std::make_unique<BvhBuilder>(device, parameters);
-    }
-    bvh_refitter.reset();
-    const auto start = Clock::now();
-    bvh = bvh_builder->build(meshes.position, meshes.triangle);
-    device.finish();
-    bvh_wall_seconds = seconds_since(start);
-    bvh_stages = device.profiler().take();
-}
-
-void RenderSession::State::allocate() {
+void RenderSession::State::allocate_streams() {
     const uint64_t capacity = layout.capacity;
-    scene_buffers = SceneBuffers(device, compiled, features);
     uint32_t words = 0;  // passes reuse the memory one after the other
     for (const CompiledPass &pass : passes) {
         words = std::max(words, path_state_words(pass.features));
@@ -191,7 +212,10 @@ void RenderSession::State::allocate() {
     branch_vertices = Buffer<uint32_t>(device, "branches", capacity * branch_words_per_path());
     queues = Buffer<uint32_t>(device, "queues", streams ? capacity * STREAM_QUEUES : 0);
     counters = Buffer<StreamCounters>(device, "counters", 1);
-    counters.write({StreamCounters{}});
+    counters.clear();
+}
+
+void RenderSession::State::allocate_film() {
     for (CompiledPass &pass : passes) {
         pass.film =
             Buffer<int64_t>(device, std::string("film.") + to_string(pass.kind), film_words());
@@ -212,8 +236,7 @@ void RenderSession::State::allocate() {
 
 void RenderSession::State::bind() {
     using In = StageInput;
-    StageArguments arguments = scene_buffers.arguments(bvh);
-    arguments[In::camera] = {compiled.camera};
+    StageArguments arguments = scene_arguments();
     arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
     arguments[In::first_sample] = {uint64_t{0}};
     arguments[In::chosen] = {uint32_t{SELECT_LIGHT}};
@@ -224,6 +247,7 @@ void RenderSession::State::bind() {
     arguments[In::streams] = {path_words, queues, counters, layout.capacity};
     arguments[In::counters] = {counters};
     for (CompiledPass &pass : passes) {
+        pass.chosen = SELECT_LIGHT;
         arguments[In::settings] = {pass.numbers(numbers)};
         arguments[In::film] = {pass.film};
         arguments[In::ray_counts] = {pass.ray_counts};
@@ -237,6 +261,12 @@ void RenderSession::State::bind() {
         }
         pass.stages.bind(arguments);
     }
+}
+
+StageArguments RenderSession::State::scene_arguments() const {
+    StageArguments arguments = scene->arguments(features);
+    arguments[StageInput::camera] = {scene->camera(settings.width, settings.height)};
+    return arguments;
 }
 
 void RenderSession::State::warm_up() {
@@ -256,7 +286,11 @@ void RenderSession::State::reset_film() {
             pass.stages.bind(convergence->arguments());
         }
     }
-    counters.write({StreamCounters{}});
+    reset_counts();
+}
+
+void RenderSession::State::reset_counts() {
+    counters.clear();
     ranges = FilmState();
     wall_seconds = 0;
     samples = 0;

@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bvh/builder.h"
-#include "renderer/bvh/refit.h"
-#include "renderer/compile/compile_scene.h"
-#include "renderer/compile/scene_buffers.h"
+#include "renderer/compile/device_scene.h"
 #include "renderer/compile/stages.h"
 #include "renderer/device/buffer.h"
 #include "renderer/device/profiler.h"
@@ -110,29 +107,41 @@ struct CompiledPass {
 };
 
 struct RenderSession::State {
-    State(const Scene &scene, const RenderSettings &requested, DeviceContext &device_context);
+    State(std::shared_ptr<DeviceScene> shared, const Scene &graph, const RenderSettings &requested);
 
     uint64_t pixels() const {
         return static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
     }
 
-    // session_state.cpp
+    // state.cpp
 
-    /// Updates the session to a scene that has moved. Returns false if the scene requires other
-    /// features or has another number of lights.
-    bool update(const Scene &scene);
+    /// Updates the scene, unless another session has, and begins its film. Returns false if the
+    /// scene now requires other features or has another number of lights.
+    bool update(const Scene &graph);
 
-    void build_bvh(const MeshArrays &meshes);
+    /// Changes the size of the film, which becomes empty.
+    void resize(int width, int height);
 
-    /// Rebuilds or refits the BVH, depending on device.bvh_update.
-    void update_bvh(const MeshArrays &meshes);
-    void allocate();
+    void allocate_streams();
+    void allocate_film();
     void bind();
+
+    /// Returns what the stages read of the scene, and the camera.
+    StageArguments scene_arguments() const;
+
+    void set_config();
+
+    /// Throws `Error` (bad input) if the scene has changed since the last update of this session.
+    void require_current() const;
 
     /// Runs a batch without work: the first enqueue of a kernel compiles it for its group size.
     void warm_up();
 
+    /// Empties the film.
     void reset_film();
+
+    /// Resets ranges, times and counters, but not the film.
+    void reset_counts();
     double device_seconds() const;
 
     /// Returns the film's metadata, without its words.
@@ -173,7 +182,7 @@ struct RenderSession::State {
         return paths;
     }
 
-    // session_rounds.cpp
+    // rounds.cpp
 
     /// Returns the number of samples from `begin` on that are rendered next: one batch, but not
     /// beyond the next convergence check.
@@ -211,22 +220,19 @@ struct RenderSession::State {
     /// Waits for the device and adds its profile to that of the pass.
     void collect_profile(CompiledPass &pass);
 
+    std::shared_ptr<DeviceScene> scene;
+    uint64_t scene_version;  ///< version of the scene to which the stages are bound
+    FeatureMask scene_features;
+    uint32_t light_count;
     DeviceContext &device;
     RenderSettings settings;
     Pilot pilot;  ///< pilot that chose the number of light paths, if there was one
     StreamLayout layout;
     IntegratorSettings numbers;
-    CompiledScene compiled;
     FeatureMask features;  ///< union over all passes
     std::vector<CompiledPass> passes;
-    std::string scene_hash;
-    std::string config;
+    std::string config;  ///< hash of scene and settings
 
-    std::unique_ptr<BvhBuilder> bvh_builder;
-    std::unique_ptr<BvhRefitter> bvh_refitter;  ///< set once the BVH has been refitted
-    Bvh bvh;
-    std::map<std::string, Profiler::Stage> bvh_stages;
-    SceneBuffers scene_buffers;
     Buffer<uint32_t> path_words;
     Buffer<uint32_t> vertex_words;
     Buffer<uint32_t> branch_vertices;
@@ -236,12 +242,10 @@ struct RenderSession::State {
     std::unique_ptr<ConvergenceControl> convergence;
 
     double compile_seconds = 0;
-    double bvh_wall_seconds = 0;
     double wall_seconds = 0;
     uint64_t samples = 0;
-    FilmState
-        /// Ranges, seconds and error counts of restored or rendered films, without words.
-        ranges;
+    /// Ranges, seconds and error counts of restored or rendered films, without words.
+    FilmState ranges;
 };
 
 }  // namespace rtrays

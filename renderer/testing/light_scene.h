@@ -107,21 +107,11 @@ inline CompiledScene compile_light_scene(LightArrays::Kind infinite = LightArray
             Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     }
     CompileSettings settings;
-    settings.width = scene.film_width();
-    settings.height = scene.film_height();
     settings.light_selection = selection;
     settings.spheres_by_area = spheres_by_area;
-    CompiledScene compiled;
-    compiled.camera = compile_camera(arrays.cameras, 0, settings.width, settings.height);
-    compile_materials(arrays, compiled);
-    compile_triangles(arrays, false, compiled);
-    compiled.shapes = compile_shapes(arrays.shapes);
-    for (ShapeRecord &shape : compiled.shapes) {
-        shape.light = NO_EMITTER;
-    }
-    compiled.features = compiled.features | shape_features(arrays.shapes);
-    compile_lights(arrays, settings, compiled);
-    return compiled;
+    return compile_arrays(
+        arrays, compile_camera(arrays.cameras, 0, scene.film_width(), scene.film_height()),
+        settings);
 }
 
 /// Returns the normal of a light's surface at a point close to the surface.

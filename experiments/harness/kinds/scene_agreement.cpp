@@ -149,9 +149,7 @@ BlindSpot blind_spot(const std::string &algorithm, const Scene &scene,
     if (parallel &&
         std::find(shapes.begin(), shapes.end(), ShapeArrays::Kind::plane) != shapes.end()) {
         names.emplace_back("planes beyond the scene's bounding sphere");
-        CompileSettings settings;
-        settings.width = settings.height = description.size;
-        const LightingRecord lighting = compile_scene(scene, settings).lighting;
+        const LightingRecord lighting = compile_scene(scene, {}).lighting;
         joinable.centre = Eigen::Map<const Eigen::Vector3f>(lighting.scene_centre).cast<double>();
         joinable.radius = static_cast<double>(lighting.scene_radius);
     }

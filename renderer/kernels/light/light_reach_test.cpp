@@ -103,9 +103,7 @@ CompiledScene compile_text(const std::string &nodes) {
          "camera": {"type": "pinhole", "fov": 45, "fov_axis": "smaller"}},)" +
                              nodes + "]}",
                          "test", "test");
-    CompileSettings settings;
-    settings.width = settings.height = 8;
-    return compile_scene(scene, settings);
+    return compile_scene(scene, {});
 }
 
 const std::string ground = R"({"name": "ground", "geometry": {"type": "plane"},
