@@ -119,13 +119,14 @@ instructions: programs
 	scripts/instructions build/bin/rtrays-render build/bin/rtrays-reference scenes/cornell_bumps/scene.json > results/instructions.md.new
 	mv results/instructions.md.new results/instructions.md
 
-# Benchmarks the hierarchy against Embree's: rays per second per mesh and ray type, and build times.
+# Benchmarks the hierarchy against Embree's: rays per second per mesh and ray type, and build times;
+# and edits of a scene in a session.
 # Needs an idle machine. BENCH=sphere, a regular expression, selects some of the benchmarks. The
 # experiments bvh_build and ray_rates write tables of the same measurements.
 bench: install
 	cmake --preset $(PRESET)
-	cmake --build --preset $(PRESET) -j $(JOBS) --target benchmark_ray_rates benchmark_bvh_build
-	for program in ray_rates bvh_build; do \
+	cmake --build --preset $(PRESET) -j $(JOBS) --target benchmark_ray_rates benchmark_bvh_build benchmark_scene_update
+	for program in ray_rates bvh_build scene_update; do \
 	    build/bin/benchmark_$$program --benchmark_filter='$(BENCH)' --benchmark_counters_tabular=true \
 	        --benchmark_out=build/$$program.json --benchmark_out_format=json || exit $$?; \
 	done
