@@ -9,7 +9,7 @@
 #include "renderer/device/context.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
-#include "renderer/session/render_session.h"
+#include "renderer/session/shared_scenes.h"
 #include "renderer/testing/errors.h"
 
 namespace rtrays {
@@ -229,6 +229,20 @@ TEST(SharedScene, MustBeUpdatedInEverySession) {
     EXPECT_EQ(device().traffic().bytes_written, before.bytes_written);
     EXPECT_EQ(render(first), render_new(scene, small()));
     EXPECT_EQ(render(second), render_new(scene, small("path_tracing")));
+}
+
+TEST(SharedScene, IsSharedByAllSessionsThatCan) {
+    const Scene scene = box();
+    SharedScenes scenes(scene, device());
+    RenderSession first = scenes.session(small("path_tracing"));
+    const uint64_t launches = device().traffic().launches;
+    const uint64_t written = device().traffic().bytes_written;
+    RenderSession second = scenes.session(small("path_tracing", {"integrator.beta=1"}));
+    EXPECT_LT(device().traffic().bytes_written - written, 1024u);
+    EXPECT_LT(device().traffic().launches - launches, 200u) << "no hierarchy is built";
+    RenderSession other = scenes.session(small("whitted"));
+    EXPECT_EQ(render(first), render_new(scene, small("path_tracing")));
+    EXPECT_EQ(render(other), render_new(scene, small("whitted")));
 }
 
 TEST(SharedScene, RefusesOtherSettings) {

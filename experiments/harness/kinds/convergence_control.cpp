@@ -21,7 +21,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
 #include "renderer/import/load_scene.h"
-#include "renderer/session/render_session.h"
+#include "renderer/session/shared_scenes.h"
 
 namespace rtrays {
 
@@ -134,9 +134,10 @@ Json measure_curve(const Description &description, const Scene &scene, const Ren
     for (const double error : description.errors) {
         settings.push_back(with_error(curve, error));
     }
+    SharedScenes scenes(scene, device);
     std::vector<RenderSession> sessions;
     for (const RenderSettings &s : settings) {
-        sessions.emplace_back(scene, s, device);
+        sessions.push_back(scenes.session(s));
     }
     std::vector<std::vector<ControlledRender>> renders(sessions.size());
     for (uint32_t seed = 1; seed <= description.seeds; ++seed) {

@@ -133,7 +133,7 @@ Json run_curve(const CurvesDescription &experiment, const CurveDescription &desc
     Json curve = summarise_curve(ladder.repetitions, noise_mse);
     curve.update(ladder.cost);
     curve["id"] = description.id();
-    curve["scene"] = task.scene.name();
+    curve["scene"] = task.scenes.scene().name();
     curve["algorithm"] = description.settings.algorithm->name;
     curve["strategies"] = description.settings.strategies;
     curve["settings"] = image_settings(task.settings);
@@ -216,15 +216,11 @@ class Curves : public Experiment {
         }
         Progress progress(description_.name, total, "spp", bench.quiet);
         progress.update(0);
-        const LadderTask task{scene_,
-                              bench.device,
-                              {},
-                              {},
-                              0,
-                              {},
-                              reference_.reference.image,
-                              bench.parts,
-                              [&](uint64_t spp) { progress.update(done += spp); }};
+        SharedScenes scenes(scene_, bench.device);
+        const LadderTask task{scenes,      {},
+                              {},          0,
+                              {},          reference_.reference.image,
+                              bench.parts, [&](uint64_t spp) { progress.update(done += spp); }};
         Json curves = Json::array();
         for (const CurveDescription &curve : description_.curves) {
             curves.push_back(

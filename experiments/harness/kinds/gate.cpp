@@ -124,7 +124,7 @@ void measure_baseline(const GateBench &bench, const StoredReference &reference) 
     Json baseline = {{"schema_version", 1},
                      {"gate", gate.name},
                      {"commit", version()},
-                     {"scene_hash", bench.scene.hash()},
+                     {"scene_hash", bench.scenes.scene().hash()},
                      {"reference_spp", reference.description.at("spp")},
                      {"size", {gate.width, gate.height}}};
     for (const auto &curve : gate.curves) {
@@ -172,7 +172,8 @@ class Gate : public Experiment {
     }
 
     Json measure(const Bench &bench) const override {
-        const GateBench gate_bench{gate_, scene_, bench.device, bench.quiet};
+        SharedScenes scenes(scene_, bench.device);
+        const GateBench gate_bench{gate_, scenes, bench.quiet};
         if (updates_) {
             measure_baseline(gate_bench, reference_);
             return {{"rows", Json::array()}};

@@ -169,7 +169,7 @@ std::string gate_summary(size_t checks, size_t failed) {
 RenderSession GateBench::session(RenderSettings settings) const {
     settings.width = gate.width;
     settings.height = gate.height;
-    return {scene, settings, device};
+    return scenes.session(settings);
 }
 
 std::vector<CheckLine> check_bitwise(const GateBench &bench) {

@@ -11,7 +11,7 @@
 #include "experiments/harness/kinds/gate.h"
 #include "renderer/device/context.h"
 #include "renderer/scene/scene.h"
-#include "renderer/session/render_session.h"
+#include "renderer/session/shared_scenes.h"
 
 namespace rtrays {
 
@@ -27,8 +27,7 @@ std::string gate_summary(size_t checks, size_t failed);
 /// Everything that the checks need to render.
 struct GateBench {
     const GateDescription &gate;
-    const Scene &scene;
-    DeviceContext &device;
+    SharedScenes &scenes;
     bool quiet = false;
 
     /// Returns a session with the gate's film size.

@@ -34,7 +34,7 @@ class LazySession {
 
     RenderSession &get() {
         if (!session_) {
-            session_ = std::make_unique<RenderSession>(task_.scene, task_.settings, task_.device);
+            session_ = std::make_unique<RenderSession>(task_.scenes.session(task_.settings));
         }
         return *session_;
     }
@@ -123,7 +123,7 @@ LadderResult render_ladders(const LadderTask &task) {
 }
 
 std::vector<Image> render_fresh_batches(const LadderTask &task) {
-    RenderSession session(task.scene, task.settings, task.device);
+    RenderSession session = task.scenes.session(task.settings);
     return render_batches(session, first_seed + task.seeds, 2 * task.spp.back() * task.seeds,
                           batches_per_seed * task.seeds);
 }

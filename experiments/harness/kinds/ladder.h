@@ -14,14 +14,13 @@
 #include "experiments/harness/kinds/curves_description.h"
 #include "renderer/device/context.h"
 #include "renderer/scene/scene.h"
-#include "renderer/session/render_session.h"
+#include "renderer/session/shared_scenes.h"
 
 namespace rtrays {
 
 /// Inputs of a curve's ladders.
 struct LadderTask {
-    const Scene &scene;
-    DeviceContext &device;
+    SharedScenes &scenes;
     RenderSettings settings;    ///< including the size
     std::vector<uint64_t> spp;  ///< increasing; the last is a multiple of `batches_per_seed`
     uint32_t seeds = 0;
