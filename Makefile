@@ -9,11 +9,8 @@ JOBS ?= $(shell nproc)
 BENCH ?= .
 STIFFNESS ?= results/chapter4/stiffness
 
-STIFF_CASES = $(PROFILE:quick=ci)
-experiment = $(wildcard experiments/*/$(1).json)
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
-EXPERIMENTS = cornell_diffuse cornell_algorithms cornell_bumps cornell_mirrors samplers mirror_ring glass_goblets door_ajar floor_lamps
-MEASUREMENTS = reference_agreement traversal bvh_build bvh_animation ray_rates frame_times bounces binning ablations
+CURVES = $(basename $(notdir $(shell grep -l '"kind": "curves"' experiments/chapter4/*.json)))
 REPORT = $(if $(wildcard build/bin/rtrays-experiment),build/bin/rtrays-experiment report,scripts/results report)
 
 .PHONY: all install programs picture build reproduce-chapter4 report check test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
@@ -35,28 +32,14 @@ build: install
 	cmake --preset $(PRESET)
 	cmake --build --preset $(PRESET) -j $(JOBS)
 
-# Compiles the kernels of all experiments without a result first, one experiment per core, because
-# PoCL compiles on one core. In the quick profile, `stability` runs the cases of the ci profile.
+# Runs all experiments of chapter 4 with their report. Resumable.
 reproduce-chapter4: programs
-	@printf '%s\n' $(if $(wildcard $(CHAPTER4)/stability/stability.json),,"$(call experiment,stability) --profile $(STIFF_CASES)") \
-	    $(foreach e,$(EXPERIMENTS),$(if $(wildcard $(CHAPTER4)/$e/run.json),,"$(call experiment,$e) --profile $(PROFILE)")) \
-	    | xargs -r -P $(JOBS) -L 1 -t build/bin/rtrays-experiment run --compile
-	@step() { n=$$((n + 1)); echo "[$$n of $(words $(MEASUREMENTS) $(EXPERIMENTS) stability convergence_control)] $$1"; }; n=0; \
-	for experiment in $(MEASUREMENTS) $(EXPERIMENTS); do \
-	    step $$experiment; \
-	    build/bin/rtrays-experiment run experiments/*/$$experiment.json --profile $(PROFILE) --out $(CHAPTER4)/$$experiment || exit $$?; \
-	done; \
-	step stability; \
-	build/bin/rtrays-experiment run experiments/robustness/stability.json --profile $(STIFF_CASES) --out $(CHAPTER4)/stability || [ $$? -eq 3 ] || exit 1; \
-	step convergence_control; \
-	build/bin/rtrays-experiment run experiments/chapter4/convergence_control.json --profile $(PROFILE) --out $(CHAPTER4)/convergence_control
-	$(if $(filter full,$(PROFILE)),$(MAKE) --no-print-directory stiffness STIFFNESS=$(CHAPTER4)/stiffness)
-	$(MAKE) --no-print-directory report
+	build/bin/rtrays-experiment reproduce chapter4 --profile $(PROFILE) --out $(CHAPTER4)
 
 # Writes tables, plots, pages and the overview from the existing run.json files, those of all other
 # folders in $(CHAPTER4) too. Without a build, as in a fresh clone, the stored pictures are used.
 report:
-	$(REPORT) $(addprefix $(CHAPTER4)/,$(EXPERIMENTS))
+	$(REPORT) $(addprefix $(CHAPTER4)/,$(CURVES))
 
 # Lint and the unit tests, which need no device: under two minutes after a build.
 check: build lint

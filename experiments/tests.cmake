@@ -3,7 +3,8 @@
 rtrays_test(experiments_test HOST
     SOURCES
         harness/core/contest_test.cpp harness/core/document_test.cpp harness/core/expression_test.cpp
-        harness/core/metrics_test.cpp harness/core/references_test.cpp harness/core/statistics_test.cpp
+        harness/core/metrics_test.cpp harness/core/references_test.cpp harness/core/reproduce_test.cpp
+        harness/core/statistics_test.cpp
         harness/kinds/convergence_control_test.cpp harness/kinds/curves_description_test.cpp
         harness/kinds/gate_test.cpp harness/kinds/stability_test.cpp harness/kinds/throughput_test.cpp
         harness/models/timed_scenes_test.cpp

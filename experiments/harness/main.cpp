@@ -13,6 +13,7 @@
 #include "experiments/harness/core/experiment.h"
 #include "experiments/harness/core/metrics.h"
 #include "experiments/harness/core/report.h"
+#include "experiments/harness/core/reproduce.h"
 #include "experiments/harness/kinds/kinds.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 /// Arguments of all subcommands.
 struct Arguments {
     RunOptions run;
+    ReproduceOptions reproduce;
     fs::path image, reference;
     bool json = false;
     std::vector<fs::path> images;
@@ -56,10 +58,27 @@ void declare_run(CLI::App &app, RunOptions &options) {
     run->add_flag("--quiet", options.quiet, "do not show progress");
 }
 
+void declare_reproduce(CLI::App &app, ReproduceOptions &options) {
+    auto *reproduce = app.add_subcommand(
+        "reproduce",
+        "run a collection of experiments and make its report; exit with code 3 if a "
+        "check fails. Repeat the command to continue after an interruption");
+    reproduce
+        ->add_option("COLLECTION", options.collection,
+                     "chapter4, or the file of a collection (JSON)")
+        ->required();
+    reproduce->add_option("--profile", options.profile, "quick or full")->capture_default_str();
+    reproduce->add_option("--out", options.out, "output folder; NAME.PROFILE by default");
+    reproduce->add_option("--device", options.device, "OpenCL device, as for rtrays-render");
+    reproduce->add_flag("--dry-run", options.dry_run, "print the experiments in their order");
+    reproduce->add_flag("--quiet", options.quiet, "do not show progress within experiments");
+}
+
 void declare(CLI::App &app, Arguments &arguments) {
     app.require_subcommand(1);
     app.set_version_flag("--version", program_version("rtrays-experiment"));
     declare_run(app, arguments.run);
+    declare_reproduce(app, arguments.reproduce);
 
     auto *compare = app.add_subcommand("compare", "print the error of image A against reference B");
     compare->add_option("A", arguments.image, "image (OpenEXR)")->required();
@@ -91,6 +110,9 @@ void write_average(const std::vector<fs::path> &paths, const fs::path &output) {
 ExitCode dispatch(const CLI::App &app, const Arguments &arguments) {
     if (app.got_subcommand("run")) {
         return run_experiment(arguments.run, experiment_kinds());
+    }
+    if (app.got_subcommand("reproduce")) {
+        return reproduce(arguments.reproduce, experiment_kinds());
     }
     if (app.got_subcommand("report")) {
         return static_cast<ExitCode>(make_report(arguments.folders));

@@ -20,7 +20,9 @@ def shipped(name):
     return path
 
 
-class Program(unittest.TestCase):
+class ProgramTest(unittest.TestCase):
+    """Calls the program in a temporary folder."""
+
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
         self.folder = pathlib.Path(self.temporary.name)
@@ -51,6 +53,16 @@ class Program(unittest.TestCase):
         path.write_text(json.dumps(document))
         return path
 
+    def measurement(self, name, **changes):
+        """Returns a shipped measurement with changes."""
+        document = json.loads((shipped(name)).read_text())
+        document.update(changes)
+        path = self.folder / f"{name}.json"
+        path.write_text(json.dumps(document))
+        return path
+
+
+class Program(ProgramTest):
     def test_help_and_version(self):
         for arguments in (["--help"], ["run", "--help"], ["--version"]):
             done = self.call(*arguments)
@@ -203,14 +215,6 @@ class Program(unittest.TestCase):
             2, "does not support convergence control", "run",
             self.control(curves=[{"algorithm": "bdpt"}]))
         self.refused(2, "errors", "run", self.control(errors=[0]))
-
-    def measurement(self, name, **changes):
-        """Returns a shipped measurement with changes."""
-        document = json.loads((shipped(name)).read_text())
-        document.update(changes)
-        path = self.folder / f"{name}.json"
-        path.write_text(json.dumps(document))
-        return path
 
     def tables(self, out):
         return subprocess.run(
@@ -446,6 +450,80 @@ class Program(unittest.TestCase):
         self.assertIn("finished already", again.stderr)
         self.assertEqual((out / "run.json").read_bytes(), before)
         self.assertFalse((out / ".partial").exists())
+
+
+class Reproduce(ProgramTest):
+    """Collections: `reproduce` is stopped, continued, and repeated."""
+
+    def collection(self):
+        """Returns a collection of a curves experiment and a measurement, both of seconds."""
+        folder = self.folder / "questions"
+        folder.mkdir()
+        document = json.loads(self.experiment().read_text())
+        document["profiles"]["quick"] = {
+            **document["profiles"]["ci"], "spp": [1, 2, 4, 8], "early_images": [4]}
+        (folder / "box.json").write_text(json.dumps(document))
+        self.measurement("bvh_build").rename(folder / "speed.json")
+        path = self.folder / "collection.json"
+        path.write_text(json.dumps({
+            "name": "some", "title": "Some", "folders": ["questions"],
+            "profiles": {"quick": {"profile_of": {"bvh_build": "ci"}}, "ci": {}}}))
+        return path
+
+    def test_steps(self):
+        done = self.call("reproduce", "chapter4", "--dry-run", "--out", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = done.stdout.splitlines()
+        names = [pathlib.Path(line.split()[-1]).name for line in lines]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertLessEqual({"door_ajar", "ray_rates", "stability", "traversal"}, set(names))
+        self.refused(2, "profiles are: full, quick", "reproduce", "chapter4", "--profile", "gpu")
+        self.refused(2, "nothing.json", "reproduce", "nothing")
+
+    def test_stop_and_continue(self):
+        path, out = self.collection(), self.folder / "out"
+        command = ["reproduce", path, "--out", out, "--quiet"]
+        process = subprocess.Popen([PROGRAM, *map(str, command)], stderr=subprocess.PIPE,
+                                   stdout=subprocess.PIPE, text=True)
+        while process.poll() is None and not list(out.glob("*/.partial/*/*.json")):
+            try:
+                process.wait(0.01)
+            except subprocess.TimeoutExpired:
+                pass
+        process.terminate()
+        message = process.communicate()[1]
+        self.assertEqual(process.returncode, 130, message)
+        kept = {file: file.read_bytes() for file in out.glob("*/.partial/*/*.json")}
+        self.assertTrue(kept)
+        self.assertFalse((out / "index.html").exists())
+        done = self.call(*command)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("[2 of 2] bvh_build: ", done.stdout)
+        self.assertTrue((out / "bvh_build/run.json").exists())
+        self.assertIn("index.html", done.stdout)
+        run = json.loads((out / "cornell_diffuse/run.json").read_text())
+        stored = {
+            (curve["id"], repetition["seed"]): repetition["seconds_wall"]
+            for curve in run["curves"]
+            for repetition in curve["points"][-1]["repetitions"]}
+        for file, text in kept.items():
+            curve, seed, _ = file.name.rsplit(".", 2)
+            points = json.loads(text)["repetition"]["points"]
+            self.assertEqual(
+                stored[curve, int(seed.removeprefix("seed"))], points[-1]["seconds_wall"])
+        again = self.call(*command)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(again.stderr.count("finished already"), 2)
+
+    def test_kernels_that_do_not_compile_stop_it(self):
+        path = self.collection()
+        document = json.loads((self.folder / "questions/box.json").read_text())
+        document["scene"] = "nowhere.json"
+        (self.folder / "questions/box.json").write_text(json.dumps(document))
+        done = self.call("reproduce", path, "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nowhere.json", done.stderr)
+        self.assertIn("cornell_diffuse: cannot compile its kernels", done.stderr)
 
 
 if __name__ == "__main__":

@@ -62,6 +62,11 @@ std::vector<char *> pointers_to(const std::vector<std::string> &texts) {
     return pointers;
 }
 
+/// Returns the exit code of a status of `waitpid`, or 128 plus the number of a signal.
+int exit_code(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> python_environment() {
@@ -142,7 +147,19 @@ int Process::wait() {
         }
     }
     process_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return exit_code(status);
+}
+
+std::optional<int> Process::ended() {
+    if (process_ < 0) {
+        return not_found;
+    }
+    int status = 0;
+    if (waitpid(process_, &status, WNOHANG) != process_) {
+        return std::nullopt;
+    }
+    process_ = -1;
+    return exit_code(status);
 }
 
 }  // namespace rtrays

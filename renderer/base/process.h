@@ -35,6 +35,9 @@ class Process {
     /// 128 plus the signal number if a signal ended it.
     int wait();
 
+    /// Returns the exit code as `wait` does if the program has ended. Does not wait.
+    std::optional<int> ended();
+
   private:
     pid_t process_ = -1;
     int to_ = -1, from_ = -1;

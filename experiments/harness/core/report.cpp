@@ -2,13 +2,9 @@
 #include "experiments/harness/core/report.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "experiments/harness/core/array_file.h"
@@ -16,6 +12,7 @@
 #include "experiments/harness/core/document.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/process.h"
 #include "renderer/base/resources.h"
 
 namespace rtrays {
@@ -54,27 +51,19 @@ void export_images(const fs::path &folder) {
     }
 }
 
+/// Runs a program, prints its output and returns its exit code.
 int run_program(const std::vector<std::string> &command) {
-    std::vector<char *> arguments;
-    for (const auto &word : command) {
-        arguments.push_back(const_cast<char *>(word.c_str()));
+    Process process(command);
+    while (const std::optional<std::string> line = process.read_line()) {
+        fmt::print("{}\n", *line);
     }
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    const int error =
-        posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
-    if (error != 0) {
+    const int code = process.wait();
+    if (code == 127) {
         throw run_error(
-            fmt::format("cannot start {}: {}; install Python and its packages with scripts/install",
-                        command[0], std::strerror(error)));
+            fmt::format("cannot start {}; install Python and its packages with scripts/install",
+                        command.front()));
     }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) {
-            throw run_error(fmt::format("{}: {}", command[0], std::strerror(errno)));
-        }
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ExitCode::run_failed);
+    return code;
 }
 
 }  // namespace

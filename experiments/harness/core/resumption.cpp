@@ -8,6 +8,7 @@
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/progress.h"
 
 namespace rtrays {
 
@@ -48,6 +49,12 @@ void Resumption::finish(Json result) const {
     result["made_from"] = key_;
     write_file(result_, result.dump(1) + "\n");
     fs::remove_all(out_ / ".partial");
+}
+
+void require_not_interrupted() {
+    if (interrupted()) {
+        throw Error(ExitCode::interrupted, "interrupted; repeat the command to continue");
+    }
 }
 
 Json finished_part(const fs::path &file, const std::function<Json()> &measure) {

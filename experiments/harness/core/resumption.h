@@ -36,6 +36,9 @@ class Resumption {
     std::string key_;
 };
 
+/// Throws `Error` (interrupted) if SIGINT or SIGTERM arrived.
+void require_not_interrupted();
+
 /// Returns the finished part that `file` stores, or measures and stores it.
 Json finished_part(const std::filesystem::path &file, const std::function<Json()> &measure);
 

@@ -179,9 +179,7 @@ Json scaled(const Interval &interval, double factor) {
 
 void run_turns(Contest &contest, int repetitions) {
     for (int turn = 0; turn < repetitions; ++turn) {
-        if (interrupted()) {
-            throw Error(ExitCode::interrupted, "interrupted; repeat the command to continue");
-        }
+        require_not_interrupted();
         contest.turn();
     }
 }

@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "experiments/harness/core/host.h"
+#include "experiments/harness/core/resumption.h"
 #include "experiments/harness/kinds/measurements/plans.h"
 #include "experiments/harness/models/meshes.h"
 #include "experiments/harness/models/tracers.h"
-#include "renderer/base/progress.h"
 #include "renderer/testing/double_intersector.h"
 #include "renderer/testing/ray_sets.h"
 
@@ -43,9 +43,7 @@ std::vector<DeviceTracer> tracers_of(DeviceContext &device, const test::Mesh &me
 template <typename Work>
 void by_batches(size_t rays, const Work &work) {
     for (size_t first = 0, batch = 0; first < rays; first += batch_size, ++batch) {
-        if (interrupted()) {
-            throw Error(ExitCode::interrupted, "interrupted; repeat the command to continue");
-        }
+        require_not_interrupted();
         work(std::min(batch_size, rays - first), batch);
     }
 }
