@@ -10,7 +10,6 @@ BENCH ?= .
 STIFFNESS ?= results/chapter4/stiffness
 
 CHAPTER4 = $(if $(filter full,$(PROFILE)),results/chapter4,build/chapter4)
-CURVES = $(basename $(notdir $(shell grep -l '"kind": "curves"' experiments/chapter4/*.json)))
 REPORT = $(if $(wildcard build/bin/rtrays-experiment),build/bin/rtrays-experiment report,scripts/results report)
 
 .PHONY: all install programs picture build reproduce-chapter4 report check test test-asan test-full peers specialisation stability stiffness instructions bench references format lint clean
@@ -36,10 +35,10 @@ build: install
 reproduce-chapter4: programs
 	build/bin/rtrays-experiment reproduce chapter4 --profile $(PROFILE) --out $(CHAPTER4)
 
-# Writes tables, plots, pages and the overview from the existing run.json files, those of all other
-# folders in $(CHAPTER4) too. Without a build, as in a fresh clone, the stored pictures are used.
+# Writes tables, plots, pages and the overview from the existing run.json files. Without a build, as
+# in a fresh clone, the stored pictures are used.
 report:
-	$(REPORT) $(addprefix $(CHAPTER4)/,$(CURVES))
+	$(REPORT) $(dir $(wildcard $(CHAPTER4)/*/run.json))
 
 # Lint and the unit tests, which need no device: under two minutes after a build.
 check: build lint
@@ -68,7 +67,7 @@ test-full: programs
 	for agreement in feature_scenes algorithms; do \
 	    build/bin/rtrays-experiment run experiments/gates/$$agreement.json --profile full --out build/$$agreement || exit $$?; \
 	    mkdir -p results/$$agreement; \
-	    cp build/$$agreement/agreement.json build/$$agreement/agreement.md results/$$agreement/; \
+	    cp build/$$agreement/run.json build/$$agreement/agreement.md results/$$agreement/; \
 	done
 	scripts/results contact-sheet build/feature_scenes results/feature_scenes/contact_sheet.png
 	scripts/same_bits build/bin features > results/same_bits.txt.new
@@ -88,7 +87,8 @@ specialisation: programs
 # Renders stiff and extreme cases with every algorithm that supports them, and writes a table. The
 # exit code of the program is 3 if a case fails.
 stability: programs
-	build/bin/rtrays-experiment run experiments/robustness/stability.json --profile $(PROFILE) --out build/stability.$(PROFILE)
+	build/bin/rtrays-experiment run experiments/robustness/stability.json --profile $(PROFILE) --out build/stability.$(PROFILE); code=$$?; \
+	build/bin/rtrays-experiment report build/stability.$(PROFILE) && exit $$code
 
 # Measures where each algorithm fails as roughness and light size approach zero. Needs an idle
 # machine and takes a quarter of an hour.

@@ -2,7 +2,8 @@
 # Tests of the harness, and those that need all programs.
 rtrays_test(experiments_test HOST
     SOURCES
-        harness/core/contest_test.cpp harness/core/document_test.cpp harness/core/expression_test.cpp
+        harness/core/contest_test.cpp harness/core/document_test.cpp harness/core/experiment_test.cpp
+        harness/core/expression_test.cpp
         harness/core/metrics_test.cpp harness/core/references_test.cpp harness/core/reproduce_test.cpp
         harness/core/statistics_test.cpp
         harness/kinds/convergence_control_test.cpp harness/kinds/curves_description_test.cpp

@@ -196,16 +196,18 @@ class Program(ProgramTest):
         out = self.folder / "out"
         done = self.call("run", self.control(), "--out", out, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
-        table = out / "convergence_control.md"
-        self.assertEqual(done.stdout.strip(), str(out / "convergence_control.json"))
-        self.assertEqual(
-            sorted(path.name for path in out.iterdir()), ["convergence_control.json", table.name])
-        rows = json.loads((out / "convergence_control.json").read_text())["rows"]
+        self.assertEqual(done.stdout.strip(), str(out / "run.json"))
+        self.assertEqual([path.name for path in out.iterdir()], ["run.json"])
+        rows = json.loads((out / "run.json").read_text())["rows"]
         self.assertEqual([row["algorithm"] for row in rows], ["path_tracing", "truncated_bdpt"])
         for row in rows:
             self.assertTrue(0 < row["live"] < 1)
             self.assertTrue(0.5 < row["paths"] < 1)
-            self.assertIn(f"| cornell_box | {row['algorithm']} | 0.5 |", table.read_text())
+        reported = self.call("report", out)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        page = (out / "convergence_control.md").read_text()
+        for algorithm in ("path tracing", "truncated BDPT"):
+            self.assertIn(f"| cornell box | {algorithm} | 0.5 |", page)
 
     def test_control_is_refused(self):
         self.refused(
@@ -229,7 +231,7 @@ class Program(ProgramTest):
             done = self.call(
                 "run", shipped(name), "--profile", "ci", "--out", out, "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(done.stdout.strip(), str(out / "run.json"))
+            self.assertEqual(done.stdout.splitlines()[-1], str(out / "run.json"))
             self.assertEqual([path.name for path in out.iterdir()], ["run.json"])
             run = json.loads((out / "run.json").read_text())
             for row in run["rows"]:
@@ -251,6 +253,7 @@ class Program(ProgramTest):
         made = self.tables(self.folder / "bvh_build")
         self.assertEqual(made.returncode, 2)
         self.assertIn("wall_ms", made.stderr)
+        self.refused(2, "wall_ms", "report", self.folder / "bvh_build")
 
     def frames(self, name, figure):
         """Returns the run of a ci profile and the page made from it."""

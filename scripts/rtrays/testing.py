@@ -105,7 +105,8 @@ def made_up_curve(strategies):
 def made_up_run():
     """Returns the document of a run of two curves."""
     return {
-        "schema_version": 2,
+        "schema_version": 3,
+        "kind": "curves",
         "experiment": {
             "name": "box",
             "title": "A box & more",

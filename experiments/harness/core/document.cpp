@@ -148,9 +148,14 @@ json summarise_curve(const std::vector<Repetition> &repetitions, double noise_ms
             {"slope_unbiased", slope_of(repetitions, usable, noise_mse)}};
 }
 
-json parse_document(const std::string &text, const std::string &source, const std::string &schema) {
+json parse_document(const std::string &text, const std::string &source) {
     json document = parse_json(text, source);
-    validate_json(document, std::string(embedded::experiment_schemas().text(schema)), source, text);
+    const auto require = [&](const std::string &name) {
+        const auto schema = embedded::experiment_schemas().text("results/" + name + ".schema.json");
+        validate_json(document, std::string(schema), source, text);
+    };
+    require("document");
+    require(document.at("kind"));
     return document;
 }
 

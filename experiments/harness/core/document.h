@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes and reads the parts of run.json (schema/run.schema.json): measurements and the results
-// computed from them.
+// Writes and reads documents (schema/results/): their common parts, and the measurements and
+// results of curves.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,10 @@
 
 namespace rtrays {
 
-constexpr int run_schema_version = 2;
+/// File name of the document in the folder of a run, whatever its kind.
+constexpr const char *document_name = "run.json";
+
+constexpr int document_version = 3;
 
 /// Measurement of one seed at one sample count. Times are cumulative from the seed's first sample.
 struct Measurement {
@@ -47,10 +50,9 @@ Repetition parse_repetition(const nlohmann::json &json);
 /// points remain.
 nlohmann::json summarise_curve(const std::vector<Repetition> &repetitions, double noise_mse);
 
-/// Parses the text of a document. Throws `Error` (bad input) naming `source`, line and key if it
-/// does not match `schema` ("run.schema.json"). JSON writes a non-finite number as null, which does
-/// not match.
-nlohmann::json parse_document(const std::string &text, const std::string &source,
-                              const std::string &schema);
+/// Parses the text of a document and checks it against the schema of all documents and that of its
+/// kind. Throws `Error` (bad input) naming `source`, line and key. JSON writes a non-finite number
+/// as null, which does not fit.
+nlohmann::json parse_document(const std::string &text, const std::string &source);
 
 }  // namespace rtrays

@@ -52,16 +52,24 @@ void require_options(const Kind &kind, const RunOptions &options) {
 }
 
 /// Throws `Error` (run failed) if a value is missing, so that no incomplete document is written.
-void require_complete(const Json &document, const Kind &kind) {
-    if (*kind.result_schema == '\0') {
-        return;
-    }
+void require_complete(const Json &document) {
     try {
-        parse_document(document.dump(), kind.result, kind.result_schema);
+        parse_document(document.dump(), document_name);
     } catch (const Error &error) {
         throw run_error(
             fmt::format("the document is incomplete and was not written: {}", error.what()));
     }
+}
+
+/// Returns {"passed", "failed"}, the numbers of rows with a check, or null if no row has one.
+Json verdicts_of(const Experiment &experiment, const Json &document) {
+    size_t passed = 0, failed = 0;
+    for (const Json &row : document.value("rows", Json::array())) {
+        const std::optional<bool> passes = experiment.passes(row);
+        passed += passes == true ? 1 : 0;
+        failed += passes == false ? 1 : 0;
+    }
+    return passed + failed == 0 ? Json() : Json{{"passed", passed}, {"failed", failed}};
 }
 
 /// Measures, or returns the stored document if it was made from equal inputs.
@@ -71,20 +79,40 @@ Json document_of(const Experiment &experiment, const Kind &kind, const RunOption
     if (!kind.has(Option::out)) {
         return experiment.measure({device, {}, {}, options.quiet});
     }
-    const Resumption resumption(options.out, kind.result, experiment.inputs(), device.info());
-    Json document = resumption.finished(
-        [&](const Json &stored) { return experiment.is_whole(stored, options.out); });
+    const Resumption resumption(options.out, document_name, experiment.inputs(), device.info());
+    Json document = resumption.finished([&](const Json &stored) {
+        return stored.value("schema_version", 0) == document_version &&
+               experiment.is_whole(stored, options.out);
+    });
     if (document.is_null()) {
         document = experiment.measure({device, options.out, resumption.parts(), options.quiet});
+        document["schema_version"] = document_version;
         document["kind"] = kind.name;
         document["context"] = context.finish(device.info());
-        require_complete(document, kind);
+        if (const Json verdicts = verdicts_of(experiment, document); !verdicts.is_null()) {
+            document["verdicts"] = verdicts;
+        }
+        require_complete(document);
         resumption.finish(document);
     }
     return document;
 }
 
+/// Prints the number of failed checks. Returns `ExitCode::regression` if there are any.
+ExitCode conclude(const Json &verdicts) {
+    if (verdicts.is_null()) {
+        return ExitCode::ok;
+    }
+    fmt::print("{}\n", verdict_line(verdicts.at("passed"), verdicts.at("failed")));
+    return verdicts.at("failed") > 0 ? ExitCode::regression : ExitCode::ok;
+}
+
 }  // namespace
+
+std::string verdict_line(size_t passed, size_t failed) {
+    return failed == 0 ? fmt::format("all {} checks passed", passed)
+                       : fmt::format("{} of {} checks failed", failed, passed + failed);
+}
 
 bool Kind::has(Option option) const {
     return std::find(options.begin(), options.end(), option) != options.end();
@@ -128,10 +156,10 @@ ExitCode run_experiment(const RunOptions &given, const std::vector<Kind> &kinds)
         experiment->compile(device);
         return ExitCode::ok;
     }
-    const ExitCode exit_code =
-        experiment->conclude(document_of(*experiment, *kind, options, device));
+    const Json document = document_of(*experiment, *kind, options, device);
+    const ExitCode exit_code = conclude(verdicts_of(*experiment, document));
     if (kind->has(Option::out)) {
-        fmt::print("{}\n", (options.out / kind->result).string());
+        fmt::print("{}\n", (options.out / document_name).string());
     }
     return exit_code;
 }

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/harness/core/description.h"
@@ -53,7 +55,8 @@ class Experiment {
     /// Compiles all kernels (Option::compile).
     virtual void compile(DeviceContext & /*device*/) const {}
 
-    /// Measures and returns the document without its envelope. Finished parts are read from
+    /// Measures and returns the document without the parts that all kinds share. It has
+    /// "experiment" (with name and profile), and "rows" or "curves". Finished parts are read from
     /// `bench.parts`, so that an interrupted run continues. Throws `Error` (interrupted) on SIGINT
     /// and SIGTERM.
     virtual Json measure(const Bench &bench) const = 0;
@@ -64,16 +67,17 @@ class Experiment {
         return true;
     }
 
-    /// Prints the verdict of a document. Returns `ExitCode::regression` if a check failed.
-    virtual ExitCode conclude(const Json & /*document*/) const { return ExitCode::ok; }
+    /// Returns whether a row of the document passes its check, or nothing for rows without one.
+    virtual std::optional<bool> passes(const Json & /*row*/) const { return std::nullopt; }
 };
+
+/// Returns the line that concludes checks: "9 of 13 checks failed" or "all 13 checks passed".
+std::string verdict_line(size_t passed, size_t failed);
 
 /// A kind of experiment, named by "kind" of its files.
 struct Kind {
     const char *name;
-    const char *schema;         ///< schema of its files: "curves.schema.json"
-    const char *result;         ///< file name of its document; unused without Option::out
-    const char *result_schema;  ///< schema of its document, or empty
+    const char *schema;  ///< schema of its files: "curves.schema.json"
     std::vector<Option> options;
     Binaries binaries;
     std::unique_ptr<Experiment> (*make)(const DescriptionFile &, const RunOptions &);
@@ -86,8 +90,9 @@ struct Kind {
 std::pair<DescriptionFile, const Kind *> load_experiment(const std::filesystem::path &path,
                                                          const std::vector<Kind> &kinds);
 
-/// Runs an experiment of any of the kinds, prints the path of its document, and returns the exit
-/// code of its checks. Repeating the command continues an interrupted run and keeps a finished one
+/// Runs an experiment of any of the kinds, writes OUT/run.json, prints its path of its document,
+/// and returns the exit code of its checks. Repeating the command continues an interrupted run and
+/// keeps a finished one
 /// (`Resumption`). Throws `Error`: bad input, reference missing, run failed, interrupted.
 ExitCode run_experiment(const RunOptions &options, const std::vector<Kind> &kinds);
 

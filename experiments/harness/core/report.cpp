@@ -21,14 +21,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Writes the arrays that the plots of curves read. Other kinds have no images on their pages.
 void export_images(const fs::path &folder) {
-    if (!fs::exists(folder / "run.json")) {
+    const fs::path path = folder / document_name;
+    if (!fs::exists(path)) {
         throw input_error(
-            fmt::format("{}: no run.json; make it with: rtrays-experiment run FILE --out {}",
-                        folder.string(), folder.string()));
+            fmt::format("{}: no {}; make it with: rtrays-experiment run FILE --out {}",
+                        folder.string(), document_name, folder.string()));
     }
-    const Json run = parse_document(read_file(folder / "run.json"), (folder / "run.json").string(),
-                                    "run.schema.json");
+    const Json run = parse_document(read_file(path), path.string());
+    if (run.at("kind") != "curves") {
+        return;
+    }
     const auto export_image = [&](const std::string &name, const Json &layers) {
         const Image image = read_exr(folder / name);
         write_array(image, (folder / name).replace_extension(".npy"));

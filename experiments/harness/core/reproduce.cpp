@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <list>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
+#include "experiments/harness/core/document.h"
 #include "experiments/harness/core/report.h"
 #include "experiments/harness/core/resumption.h"
 #include "renderer/base/process.h"
@@ -65,7 +67,7 @@ std::optional<std::time_t> parse_utc(const Json &time) {
 }
 
 std::string minutes_text(double seconds) {
-    return fmt::format("{:.0f} min", std::max(1.0, seconds / 60));
+    return fmt::format("{:.0f} min", std::ceil(seconds / 60));
 }
 
 std::vector<std::string> compile_command(const RunOptions &options) {
@@ -115,7 +117,7 @@ TimeLeft time_left(const std::vector<Step> &steps, const std::string &collection
     std::vector<std::optional<double>> recorded;
     bool comparable = true;
     for (const Step &step : steps) {
-        const fs::path stored = results / step.name / step.kind->result;
+        const fs::path stored = results / step.name / document_name;
         std::optional<double> seconds = recorded_seconds(step.document(), step.options.profile);
         seconds = seconds ? seconds : recorded_seconds(stored, step.options.profile);
         comparable = comparable && seconds.has_value();
@@ -152,13 +154,17 @@ std::vector<std::string> run_steps(const std::vector<Step> &steps, TimeLeft left
 
 }  // namespace
 
+fs::path Step::document() const {
+    return options.out / document_name;
+}
+
 std::optional<double> recorded_seconds(const fs::path &document, const std::string &profile) {
     if (!fs::exists(document)) {
         return std::nullopt;
     }
     const Json json = load_json(document);
     const Json context = json.value("context", Json::object());
-    const Json experiment = json.value("experiment", json);
+    const Json experiment = json.value("experiment", Json::object());
     const auto start = parse_utc(context.value("started_at", Json())),
                end = parse_utc(context.value("finished_at", Json()));
     if (!start || !end || (!profile.empty() && experiment.value("profile", "") != profile)) {
@@ -244,20 +250,18 @@ ExitCode reproduce(const ReproduceOptions &options, const std::vector<Kind> &kin
         return ExitCode::ok;
     }
     std::vector<Step> to_compile;
-    std::vector<fs::path> curves;
+    std::vector<fs::path> runs;
     for (const Step &step : steps) {
         if (step.kind->has(Option::compile) && !fs::exists(step.document())) {
             to_compile.push_back(step);
         }
-        if (step.kind->name == std::string("curves")) {
-            curves.push_back(step.options.out);
-        }
+        runs.push_back(step.options.out);
     }
     compile(to_compile, options.quiet);
     require_not_interrupted();
     const std::vector<std::string> failed =
         run_steps(steps, time_left(steps, fs::path(options.collection).stem()), kinds);
-    const auto reported = static_cast<ExitCode>(make_report(curves));
+    const auto reported = static_cast<ExitCode>(make_report(runs));
     if (!failed.empty()) {
         fmt::print(stderr, "a check failed in: {}\n", fmt::join(failed, ", "));
     }

@@ -27,7 +27,7 @@ struct Step {
     RunOptions options;
     bool may_fail = false;  ///< whether failing cases leave the exit code unchanged
 
-    std::filesystem::path document() const { return options.out / kind->result; }
+    std::filesystem::path document() const;
 };
 
 /// Reads the steps of a collection (schema/collection.schema.json), in the order of its folders and

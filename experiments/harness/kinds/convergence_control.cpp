@@ -11,13 +11,10 @@
 #include "experiments/harness/core/agreement.h"
 #include "experiments/harness/core/description.h"
 #include "experiments/harness/core/document.h"
-#include "experiments/harness/core/host.h"
 #include "experiments/harness/core/metrics.h"
 #include "experiments/harness/core/references.h"
 #include "experiments/harness/core/rendering.h"
 #include "experiments/harness/core/resumption.h"
-#include "renderer/base/commit.h"
-#include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
 #include "renderer/import/load_scene.h"
@@ -160,44 +157,6 @@ Json measure_curve(const Description &description, const Scene &scene, const Ren
     return rows;
 }
 
-std::string table_of(const Json &document) {
-    std::string table = fmt::format(
-        "# Convergence control (thesis 3.3.7)\n\nRenders with control against equal renders "
-        "without it: {0} x {0} pixels, at most {1} samples each, {2} seeds.\n\n"
-        "*live*: pixels that control did not stop, %. *paths*, *rays*, *time*: camera paths, all "
-        "rays and device seconds, with control over without, %. *gain*: the rays that evenly "
-        "spread samples need for the RMSE reached, divided by those of control, with its 99 % "
-        "interval; below 1 is a loss. A pixel that stops by its own error estimate is biased. "
-        "*bias*: difference of the mean, %, with its 99 % interval. *blocks*: tests over blocks of "
-        "16 x 16 pixels and channels that detect the bias (Holm, 0.01), all tests, and tests that "
-        "are undecided because of skewness.\n\n"
-        "| scene | algorithm | error | live | paths | rays | time | RMSE | without | gain | from | "
-        "to | bias | from | to | blocks |\n"
-        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: "
-        "| ---: | ---: | --- |\n",
-        document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
-        document.at("seeds").get<uint32_t>());
-    const auto number = [](const Json &json, const char *key) {
-        return json.at(key).get<double>();
-    };
-    for (const Json &row : document.at("rows")) {
-        const Json &gain = row.at("efficiency"), &bias = row.at("bias"), &mean = bias.at("mean");
-        table += fmt::format("| {} | {} | {} ", row.at("scene").get<std::string>(),
-                             row.at("algorithm").get<std::string>(), number(row, "error"));
-        table += fmt::format("| {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.3g} | {:.3g} ",
-                             100 * number(row, "live"), 100 * number(row, "paths"),
-                             100 * number(row, "rays"), 100 * number(row.at("seconds"), "value"),
-                             number(row, "rmse"), number(row, "rmse_without"));
-        table += fmt::format("| {:.2f} | {:.2f} | {:.2f} ", number(gain, "value"),
-                             number(gain, "low"), number(gain, "high"));
-        table += fmt::format("| {:+.3f} | {:+.3f} | {:+.3f} ", 100 * number(mean, "value"),
-                             100 * number(mean, "low"), 100 * number(mean, "high"));
-        table += fmt::format("| {} of {}, {} |\n", bias.at("rejected").get<size_t>(),
-                             bias.at("tests").get<size_t>(), bias.at("undecided").get<size_t>());
-    }
-    return table;
-}
-
 }  // namespace
 
 Json compare_control(const std::vector<ControlledRender> &with,
@@ -276,17 +235,13 @@ class ControlExperiment : public Experiment {
     std::string inputs() const override { return inputs_; }
 
     Json measure(const Bench &bench) const override {
-        Json document = {{"schema_version", 1},
-                         {"commit", commit()},
-                         {"dirty", built_from_changed_sources()},
-                         {"device", bench.device.info().name},
-                         {"profile", description_.profile},
-                         {"size", description_.size},
-                         {"spp", description_.spp},
-                         {"seeds", description_.seeds},
-                         {"rows", measure_rows(bench)}};
-        write_file(bench.out / (description_.name + ".md"), table_of(document));
-        return document;
+        return {{"experiment",
+                 {{"name", description_.name},
+                  {"profile", description_.profile},
+                  {"size", description_.size},
+                  {"spp", description_.spp},
+                  {"seeds", description_.seeds}}},
+                {"rows", measure_rows(bench)}};
     }
 
   private:

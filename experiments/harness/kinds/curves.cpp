@@ -197,8 +197,7 @@ class Curves : public Experiment {
         Json description = reference_.description;
         description["image"] = "images/reference.exr";
         write_exr(reference_.reference.image, bench.out / "images/reference.exr");
-        return {{"schema_version", run_schema_version},
-                {"experiment", describe_experiment(description_)},
+        return {{"experiment", describe_experiment(description_)},
                 {"reference", description},
                 {"curves", measure_curves(bench)},
                 {"throughput", run_throughput(description_, scene_, bench.device, bench.quiet)}};

@@ -161,11 +161,6 @@ CheckLine check_slope(const std::string &curve, const StageErrors &errors,
     return {text, passed || !judged};
 }
 
-std::string gate_summary(size_t checks, size_t failed) {
-    return failed == 0 ? fmt::format("gate: all {} checks passed", checks)
-                       : fmt::format("gate: {} of {} checks failed", failed, checks);
-}
-
 RenderSession GateBench::session(RenderSettings settings) const {
     settings.width = gate.width;
     settings.height = gate.height;

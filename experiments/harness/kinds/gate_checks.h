@@ -21,9 +21,6 @@ struct CheckLine {
     bool passed = false;
 };
 
-/// The gate's last line: "gate: 9 of 13 checks failed" or "gate: all 13 checks passed".
-std::string gate_summary(size_t checks, size_t failed);
-
 /// Everything that the checks need to render.
 struct GateBench {
     const GateDescription &gate;

@@ -45,11 +45,6 @@ TEST(Plant, ErrorsThatCannotBePlantedAreFoundBeforehand) {
     EXPECT_THROW(require_plantable({{"test", {}, "kernels/missing.h", "cos", "1"}}), Error);
 }
 
-TEST(GateSummary, CountsFailedChecks) {
-    EXPECT_EQ(gate_summary(13, 0), "gate: all 13 checks passed");
-    EXPECT_EQ(gate_summary(13, 9), "gate: 9 of 13 checks failed");
-}
-
 /// Returns the errors of 16 renders at 4, 16 and 64 spp: 0.1 (spp / 4)^slope. The squares scatter
 /// with the relative deviation `scatter` at 4 spp, half of it at 16 and a quarter at 64.
 StageErrors made_up_errors(double slope, double scatter, uint64_t random_seed) {

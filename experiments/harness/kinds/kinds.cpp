@@ -15,8 +15,7 @@ namespace {
 constexpr auto profile = Option::profile, out = Option::out, compile = Option::compile;
 
 Kind measurement(const char *name) {
-    return {name,           "measurement.schema.json", "run.json", "", {profile, out},
-            Binaries::keep, make_measurement};
+    return {name, "measurement.schema.json", {profile, out}, Binaries::keep, make_measurement};
 }
 
 }  // namespace
@@ -24,13 +23,7 @@ Kind measurement(const char *name) {
 const std::vector<Kind> &experiment_kinds() {
     constexpr Binaries leave = Binaries::leave;
     static const std::vector<Kind> kinds = {
-        {"curves",
-         "curves.schema.json",
-         "run.json",
-         "run.schema.json",
-         {profile, out, compile},
-         leave,
-         make_curves},
+        {"curves", "curves.schema.json", {profile, out, compile}, leave, make_curves},
         measurement("bvh_build"),
         measurement("bvh_animation"),
         measurement("ray_rates"),
@@ -39,34 +32,14 @@ const std::vector<Kind> &experiment_kinds() {
         measurement("bounces"),
         measurement("ablations"),
         measurement("reference_agreement"),
-        {"stability",
-         "stability.schema.json",
-         "stability.json",
-         "",
-         {profile, out, compile},
-         leave,
-         make_stability},
+        {"stability", "stability.schema.json", {profile, out, compile}, leave, make_stability},
         {"convergence_control",
          "convergence_control.schema.json",
-         "convergence_control.json",
-         "",
          {profile, out},
          leave,
          make_convergence_control},
-        {"agreement",
-         "agreement.schema.json",
-         "agreement.json",
-         "",
-         {profile, out},
-         leave,
-         make_agreement},
-        {"gate",
-         "gate.schema.json",
-         "",
-         "",
-         {Option::check, Option::update_baseline},
-         leave,
-         make_gate},
+        {"agreement", "agreement.schema.json", {profile, out}, leave, make_agreement},
+        {"gate", "gate.schema.json", {Option::check, Option::update_baseline}, leave, make_gate},
     };
     return kinds;
 }

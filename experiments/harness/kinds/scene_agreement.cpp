@@ -19,7 +19,6 @@
 #include "experiments/harness/core/resumption.h"
 #include "reference/film.h"
 #include "reference/renderer.h"
-#include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/compile/compile_scene.h"
@@ -296,6 +295,7 @@ std::string line_of(const Json &row) {
 }
 
 std::string table_of(const Json &document) {
+    const Json &experiment = document.at("experiment");
     std::string table = fmt::format(
         "Comparison of the renderer with the Embree reference, and of its algorithms with each "
         "other: {0} x {0} pixels, {1} spp, {2} spp for the reference. Blocks of 16 x 16 pixels and "
@@ -310,8 +310,8 @@ std::string table_of(const Json &document) {
         "| scene | algorithm | against | verdict | tests | undecided | rejected | largest z | "
         "difference | from | to | not seen |\n"
         "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
-        document.at("size").get<int>(), document.at("spp").get<uint64_t>(),
-        document.at("reference_spp").get<uint64_t>(), AgreementPolicy().alpha, batches);
+        experiment.at("size").get<int>(), experiment.at("spp").get<uint64_t>(),
+        experiment.at("reference_spp").get<uint64_t>(), AgreementPolicy().alpha, batches);
     for (const Json &row : document.at("rows")) {
         const Json &difference = row.at("relative_difference");
         table += fmt::format(
@@ -352,13 +352,13 @@ class SceneAgreement : public Experiment {
 
     Json measure(const Bench &bench) const override {
         fs::create_directories(bench.out / "images");
-        Json document = {{"schema_version", 1},
-                         {"commit", version()},
-                         {"device", bench.device.info().name},
-                         {"size", description_.size},
-                         {"spp", description_.spp},
-                         {"reference_spp", description_.reference_spp},
-                         {"features", description_.features},
+        Json document = {{"experiment",
+                          {{"name", description_.name},
+                           {"profile", description_.profile},
+                           {"size", description_.size},
+                           {"spp", description_.spp},
+                           {"reference_spp", description_.reference_spp},
+                           {"features", description_.features}}},
                          {"rows", Json::array()}};
         Progress progress(description_.name, scenes_.size(), "scenes", bench.quiet);
         size_t finished = 0;
@@ -384,12 +384,7 @@ class SceneAgreement : public Experiment {
         });
     }
 
-    ExitCode conclude(const Json &document) const override {
-        const Json &rows = document.at("rows");
-        const auto failed = std::count_if(rows.begin(), rows.end(), fails);
-        fmt::print("{} of {} rows failed\n", failed, rows.size());
-        return failed > 0 ? ExitCode::regression : ExitCode::ok;
-    }
+    std::optional<bool> passes(const Json &row) const override { return !fails(row); }
 
   private:
     Description description_;

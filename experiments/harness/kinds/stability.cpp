@@ -19,7 +19,6 @@
 #include "experiments/harness/kinds/stability_cases.h"
 #include "experiments/harness/kinds/stability_comparison.h"
 #include "reference/renderer.h"
-#include "renderer/base/commit.h"
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
@@ -204,7 +203,7 @@ Json measure_case(const StabilityCase &tested, double alpha, DeviceContext &devi
     return rows;
 }
 
-bool passes(const Json &row, bool survey) {
+bool row_passes(const Json &row, bool survey) {
     const std::string verdict = row.at("verdict");
     return survey ? verdict != "not finite" && verdict != "saturated"
                   : verdict == "ok" || verdict == "out of reach";
@@ -227,36 +226,6 @@ std::string cells_of(const Json &row) {
     return cells + (row.at("reason") == "" ? ""
                                            : fmt::format("bound {:.0e}: {}", number("bound"),
                                                          row.at("reason").get<std::string>()));
-}
-
-std::string table_of(const Json &document) {
-    std::string table = fmt::format(
-        "# Stiff and extreme cases\n\nProfile {}, {} batches each, on {}.\n\n"
-        "*expected* and *measured*: mean radiance over pixels and channels. *from*, *to*: 99 % "
-        "interval of the relative difference. "
-        "A case is *off* if a block of {} x {} pixels or the full image differs from the expected "
-        "value in a channel by more than its bound ({:.0e} unless the case states one), at a level "
-        "of {:.2g} over all tests. "
-        "It is *imprecise* if its interval is wider than the case allows, and *undecided* if its "
-        "batches are too skewed.\n\n"
-        "| case | algorithm | against | expected | measured | from | to | verdict | not finite | "
-        "saturated | |\n"
-        "| --- | --- | --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | --- |\n",
-        document.at("profile").get<std::string>(), batches,
-        document.at("device").get<std::string>(), stability_block_size, stability_block_size,
-        document.at("bound").get<double>(), family_alpha);
-    for (const Json &row : document.at("rows")) {
-        table += "| " + cells_of(row) + " |\n";
-    }
-    std::string group;
-    table += "\n";
-    for (const Json &row : document.at("rows")) {
-        if (row.at("group") != group) {
-            group = row.at("group").get<std::string>();
-            table += fmt::format("* `{}`: {}\n", group, row.at("title").get<std::string>());
-        }
-    }
-    return table;
 }
 
 class Stability : public Experiment {
@@ -309,31 +278,23 @@ class Stability : public Experiment {
         for (const StabilityCase &tested : suite_.cases) {
             for (const Json &row : finished_part(bench.parts / (tested.name + ".json"),
                                                  [&] { return rows_of(tested, bench); })) {
-                fmt::print("{} {}\n", passes(row, suite_.survey) ? "ok  " : "FAIL", cells_of(row));
+                fmt::print("{} {}\n", row_passes(row, suite_.survey) ? "ok  " : "FAIL",
+                           cells_of(row));
                 rows.push_back(row);
             }
             std::fflush(stdout);
             progress.update(++finished);
         }
-        const Json document = {{"schema_version", 1},
-                               {"commit", commit()},
-                               {"dirty", built_from_changed_sources()},
-                               {"device", bench.device.info().name},
-                               {"host", describe_host()},
-                               {"profile", suite_.profile},
-                               {"bound", suite_.bound},
-                               {"batches", batches},
-                               {"rows", rows}};
-        write_file(bench.out / "stability.md", table_of(document));
-        return document;
+        return {{"experiment",
+                 {{"name", suite_.name},
+                  {"profile", suite_.profile},
+                  {"bound", suite_.bound},
+                  {"batches", batches}}},
+                {"rows", rows}};
     }
 
-    ExitCode conclude(const Json &document) const override {
-        const Json &rows = document.at("rows");
-        const auto failed = std::count_if(
-            rows.begin(), rows.end(), [&](const Json &row) { return !passes(row, suite_.survey); });
-        fmt::print("{} of {} rows failed\n", failed, rows.size());
-        return failed > 0 ? ExitCode::regression : ExitCode::ok;
+    std::optional<bool> passes(const Json &row) const override {
+        return row_passes(row, suite_.survey);
     }
 
   private:

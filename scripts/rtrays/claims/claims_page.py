@@ -3,10 +3,10 @@
 
 from rtrays.claims.judge import all_counts, counts, summary
 from rtrays.documents.experiments import claim_sections
-from rtrays.documents.run_document import context_of, profile_of, run_in
+from rtrays.documents.run_document import run_in
 from rtrays.documents.verdicts import VERDICTS
 from rtrays.pages.page import Page, TableBlock, markdown_name
-from rtrays.pages.provenance import made_by
+from rtrays.pages.provenance import run_made_by
 from rtrays.tables.cells import Lines, Link
 from rtrays.tables.table import Table
 from rtrays.tables.text import name
@@ -25,9 +25,9 @@ def overview(sections):
 def run_rows(names, folder):
     """Yields where the figures come from, a row for every run that is there."""
     for run in names:
-        document = run_in(folder / run)
-        if document:
-            made = made_by(context_of(document), profile_of(document))
+        found = run_in(folder / run)
+        if found:
+            made = run_made_by(found)
             link = Link(name(run), f"../{run}", markdown_name(folder / run))
             yield [link, *(made[key] for key in ("profile", "commit", "device", "finished"))]
 

@@ -82,7 +82,7 @@ def memory(folder, curve, form):
 
 def control_gain(folder, scene):
     """Device time without convergence control over that with it, where it saves most."""
-    document = read_json(folder / "convergence_control.json")
+    document = read_json(folder / "run.json")
     rows = [row for row in value(document, "rows") if row["scene"] == scene]
     for algorithm in sorted({row["algorithm"] for row in rows}):
         best = min(

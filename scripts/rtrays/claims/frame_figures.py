@@ -4,7 +4,7 @@
 from rtrays.documents.document import value
 from rtrays.documents.intervals import exact, inverse, quotient, scaled
 from rtrays.documents.measurements import TRACING
-from rtrays.documents.run_document import Measurement
+from rtrays.documents.run_document import Run
 from rtrays.tables.text import name
 
 
@@ -15,14 +15,14 @@ def scene_name(row):
 
 def frame_rate(folder, kind):
     """Mrays/s of a kind of ray, every scene."""
-    for row in Measurement(folder).get("rows"):
+    for row in Run(folder).get("rows"):
         rays = 1e-3 * value(row, f"rays.{kind}")
         yield scene_name(row), quotient(exact(rays), value(row, f"{kind}_ms"))
 
 
 def coherence(folder):
     """Rate of primary rays over that of secondary ones, every scene."""
-    for row in Measurement(folder).get("rows"):
+    for row in Run(folder).get("rows"):
         rays = value(row, "rays.primary") / value(row, "rays.secondary")
         ratio_of_times = quotient(value(row, "secondary_ms"), value(row, "primary_ms"))
         yield scene_name(row), scaled(rays, ratio_of_times)
@@ -33,7 +33,7 @@ THESIS_FRAME = [1024, 768]
 
 def frame_time(folder):
     """Milliseconds of wall time, every scene, if frames are as large as those of the thesis."""
-    run = Measurement(folder)
+    run = Run(folder)
     if run.get("experiment.settings.size") == THESIS_FRAME:
         for row in run.get("rows"):
             yield f"{scene_name(row)}, ms", value(row, "frame_ms")
@@ -42,7 +42,7 @@ def frame_time(folder):
 def traced_share(folder):
     """Share of intersection in the device's time of a frame, every scene; the ends combine
     opposite ends of both parts."""
-    for row in Measurement(folder).get("rows"):
+    for row in Run(folder).get("rows"):
 
         def together(end, tracing, stages=value(row, "stages")):
             return sum(
@@ -62,7 +62,7 @@ def wavefront_gain(folder, rival, bounces, best=False):
     or the largest."""
     found = [
         (scene_name(row), value(depth, "wavefront_over")[rival])
-        for row in Measurement(folder).get("rows")
+        for row in Run(folder).get("rows")
         for depth in value(row, "depths")
         if depth["bounces"] == bounces
     ]
@@ -74,7 +74,7 @@ def ablation(folder, setting, best=False):
     inverted."""
     found = [
         (scene_name(row), value(entry, "speed_over_defaults"))
-        for row in Measurement(folder).get("rows")
+        for row in Run(folder).get("rows")
         for entry in value(row, "frames")
         if entry["name"] == setting
     ]

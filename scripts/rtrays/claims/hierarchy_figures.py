@@ -6,14 +6,14 @@ import numpy
 from rtrays.documents.document import value
 from rtrays.documents.intervals import exact, inverse, scaled
 from rtrays.documents.measurements import contestant_of
-from rtrays.documents.run_document import Measurement
+from rtrays.documents.run_document import Run
 from rtrays.tables.text import name
 
 
 def published_order(folder, contestant):
     """Spearman's correlation of our build times with those of the thesis, over the meshes that
     replace its scenes."""
-    run = Measurement(folder)
+    run = Run(folder)
     published = {row["mesh"]: row["ms"]["thesis"] for row in run.get("experiment.published.rows")}
     named = run.get("stand_ins")
     pairs = [
@@ -39,7 +39,7 @@ def build_rate(folder, contestant):
             1e-3 * value(row, "triangles"),
             inverse(value(contestant_of(row, contestant), "wall_ms")),
         )
-        for row in Measurement(folder).get("rows")
+        for row in Run(folder).get("rows")
     ]
     mesh, scale, rate = max(rows, key=lambda row: row[1] * row[2]["value"])
     yield f"{name(mesh)}, Mtris/s", scaled(scale, rate)
@@ -50,7 +50,7 @@ def build_gain(folder, contestant):
     mesh, speed = max(
         (
             (row["mesh"], value(contestant_of(row, contestant), "speed_over_embree"))
-            for row in Measurement(folder).get("rows")
+            for row in Run(folder).get("rows")
         ),
         key=lambda entry: value(entry[1], "value"),
     )
@@ -60,7 +60,7 @@ def build_gain(folder, contestant):
 def leaks(folder):
     """Number of rays from inside closed shapes that hit nothing, worst layout, for shapes that
     must be closed exactly."""
-    for row in Measurement(folder).get("rows"):
+    for row in Run(folder).get("rows"):
         if row["check"] != "hits" and all(
             value(layout, "limit") == 0 for layout in value(row, "layouts")
         ):

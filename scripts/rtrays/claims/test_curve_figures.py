@@ -73,7 +73,7 @@ class CurveFigures(Folders):
                 ("box", 0.03, 0.1, 0.1),
             )
         ]
-        self.write("control", {"rows": rows}, "convergence_control.json")
+        self.write("control", {"rows": rows})
         ((name, figure),) = self.figures("control_gain", "control", scene="mirror_ring").items()
         self.assertEqual(name, "path tracing, error 0.03")
         self.assertAlmostEqual(figure["value"], 4)

@@ -28,7 +28,7 @@ class FrameFigures(Folders):
         for size in ([1024, 768], [256, 192]):  # the smaller last
             self.write(
                 "frames",
-                {"schema_version": 1, "experiment": {"settings": {"size": size}}, "rows": [row]},
+                {"schema_version": 3, "experiment": {"settings": {"size": size}}, "rows": [row]},
             )
             self.assertEqual(
                 [figure["high"] for figure in self.figures("frame_time", "frames").values()],
@@ -54,7 +54,7 @@ class FrameFigures(Folders):
             ]
             return {"mesh": mesh, "depths": depths, "frames": frames}
 
-        self.write("run", {"schema_version": 1, "rows": [row("a", 0.5), row("b", 2)]})
+        self.write("run", {"schema_version": 3, "rows": [row("a", 0.5), row("b", 2)]})
         every = self.figures("wavefront_gain", "run", rival="megakernel", bounces=8)
         self.assertEqual(
             {name: figure["value"] for name, figure in every.items()}, {"a": 4, "b": 16}

@@ -29,7 +29,7 @@ class HierarchyFigures(Folders):
             ]
         }
         document = {
-            "schema_version": 1,
+            "schema_version": 3,
             "experiment": {"published": published},
             "stand_ins": {"x": "b"},
             "rows": [
@@ -58,7 +58,7 @@ class HierarchyFigures(Folders):
         self.write(
             "traversal",
             {
-                "schema_version": 1,
+                "schema_version": 3,
                 "rows": [
                     shape("hits", 0),
                     shape("watertight", 0, 0, 3),

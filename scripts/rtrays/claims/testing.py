@@ -19,10 +19,10 @@ class Folders(unittest.TestCase):
     def tearDown(self):
         self.temporary.cleanup()
 
-    def write(self, name, document, file="run.json"):
+    def write(self, name, document):
         """Writes the document of a run; returns its folder."""
         (self.folder / name).mkdir(exist_ok=True)
-        (self.folder / name / file).write_text(json.dumps(document))
+        (self.folder / name / "run.json").write_text(json.dumps(document))
         return self.folder / name
 
     def figures(self, reader, name, **options):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Folders of finished runs: run.json and the images beside it.
+"""Folders of finished runs of all kinds: run.json and the images beside it.
 
 Everything made from a run is a function of its folder and of the prose of its experiment.
 """
@@ -10,21 +10,28 @@ from rtrays.documents.document import RunError, read_json, value
 from rtrays.documents.experiments import experiment
 
 
-class Run:
-    """One folder with run.json and images/*.npy (exported by `rtrays-experiment report`)."""
+SCHEMA_VERSION = 3
 
-    schema_version = 2
+
+class Run:
+    """One folder with run.json and, for curves, images/*.npy (exported by `rtrays-experiment
+    report`)."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         path = self.folder / "run.json"
         self.document = read_json(path, f"rtrays-experiment run ... --out {folder}")
         version = value(self.document, "schema_version")
-        if version != self.schema_version:
+        if version != SCHEMA_VERSION:
             raise RunError(
-                f"{path}: schema_version {version}, these scripts read {self.schema_version}; run"
-                " the experiment again"
+                f"{path}: schema_version {version}, these scripts read {SCHEMA_VERSION}; run the"
+                " experiment again"
             )
+
+    @property
+    def kind(self):
+        """The kind of the experiment: "curves", "stability", "bvh_build" and so on."""
+        return self.get("kind")
 
     @property
     def curves(self):
@@ -88,26 +95,6 @@ class Run:
             ) from error
 
 
-class Measurement(Run):
-    """One folder with the run.json of a measurement, without images."""
-
-    schema_version = 1
-
-
 def run_in(folder):
-    """Returns the document of the run or survey in a folder, or None."""
-    for path in sorted(folder.glob("*.json")):
-        document = read_json(path)
-        if "schema_version" in document:
-            return document
-    return None
-
-
-def context_of(document):
-    """Returns the context of a run; surveys have it at the top level."""
-    return document.get("context", document)
-
-
-def profile_of(document):
-    """Returns the profile of a run or survey; empty if it has none."""
-    return document.get("experiment", document).get("profile", "")
+    """Returns the run in a folder, or None."""
+    return Run(folder) if (folder / "run.json").is_file() else None

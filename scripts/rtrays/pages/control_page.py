@@ -6,9 +6,8 @@ from matplotlib import pyplot
 from rtrays.documents.curves import algorithm_name
 from rtrays.documents.document import value
 from rtrays.documents.intervals import reach_of
-from rtrays.documents.survey import read_survey
 from rtrays.pages.page import Figure, Page, TableBlock
-from rtrays.pages.provenance import survey_made_by, survey_provenance
+from rtrays.pages.provenance import run_made_by, survey_provenance
 from rtrays.plots.style import line_at_one, name_rows, save, series_style
 from rtrays.tables.cells import interval, number
 from rtrays.tables.table import Table
@@ -38,10 +37,11 @@ def control_figure(rows):
     return figure
 
 
-def control_table(document):
+def control_table(run):
     """Returns the table of renders with convergence control against those without it."""
+    size, spp, seeds = (run.get(f"experiment.{key}") for key in ("size", "spp", "seeds"))
     cells = []
-    for row in document["rows"]:
+    for row in run.get("rows"):
         bias = value(row, "bias")
         percent = [
             f"{100 * value(row, key):.1f}" for key in ("live", "paths", "rays", "seconds.value")
@@ -79,8 +79,8 @@ def control_table(document):
         ],
         cells,
         [
-            f"{document['size']} x {document['size']} pixels, at most {document['spp']} samples"
-            f" each, {document['seeds']} seeds. Paths, rays and device time: with control over"
+            f"{size} x {size} pixels, at most {spp} samples"
+            f" each, {seeds} seeds. Paths, rays and device time: with control over"
             " without. Gain: how many times the rays evenly spread samples need for the same RMSE;"
             " below 1 is a loss. A pixel that stops by its own estimate is biased. Blocks are of"
             " 16 x 16 pixels and channel (Holm, 0.01)."
@@ -100,23 +100,22 @@ def control_finding(rows):
     )
 
 
-def control_page(folder):
-    """Writes the plot; returns the page of convergence_control.json."""
-    document = read_survey(folder, "convergence_control.json")
-    save(control_figure(document["rows"]), folder / "gain")
+def control_page(run):
+    """Writes the plot; returns the page of the run."""
+    save(control_figure(run.get("rows")), run.folder / "gain")
     caption = (
         "Gain over samples spread evenly (99 % intervals), and device time with control over"
         " without; below 1 on the left is a loss."
     )
     return Page(
-        folder,
+        run.folder,
         "convergence_control.md",
         "Convergence control",
-        control_finding(document["rows"]),
-        [Figure("gain.svg", caption), TableBlock(control_table(document))],
+        control_finding(run.get("rows")),
+        [Figure("gain.svg", caption), TableBlock(control_table(run))],
         source="section 3.3.7",
-        provenance=survey_provenance(document),
+        provenance=survey_provenance(run),
         picture="gain.svg",
         picture_label="Gain and device time by case",
-        made=survey_made_by(document),
+        made=run_made_by(run),
     )

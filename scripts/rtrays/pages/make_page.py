@@ -1,28 +1,35 @@
 # SPDX-License-Identifier: MIT
 """Makes the page of a run's folder, whatever the kind of the run."""
 
-from rtrays.documents.document import RunError, read_json
-from rtrays.documents.run_document import Measurement, Run
+from rtrays.documents.document import RunError
+from rtrays.documents.run_document import run_in
 from rtrays.documents.survey import is_stiffness
 from rtrays.pages.control_page import control_page
 from rtrays.pages.curve_page import curve_page
-from rtrays.pages.measurement_page import measurement_page
+from rtrays.pages.measurement_page import TABLES, measurement_page
 from rtrays.pages.stability_page import stability_page
 from rtrays.pages.stiffness_page import stiffness_page
+
+PAGES = {
+    "curves": curve_page,
+    "convergence_control": control_page,
+    "stability": lambda run: (stiffness_page if is_stiffness(run) else stability_page)(run),
+    **dict.fromkeys(TABLES, measurement_page),
+}
 
 
 def make_page(folder):
     """Makes tables and plots of a folder's run. Returns its page, or None if there is no run.
     Raises RunError if the run cannot be used."""
-    if (folder / "run.json").is_file():
-        is_measurement = "measures" in read_json(folder / "run.json")
-        return measurement_page(Measurement(folder)) if is_measurement else curve_page(Run(folder))
-    if (folder / "stability.json").is_file():
-        make = (
-            stiffness_page if is_stiffness(read_json(folder / "stability.json")) else stability_page
+    run = run_in(folder)
+    if run is None:
+        return None
+    if run.kind not in PAGES:
+        raise RunError(
+            f"{folder}: runs of the kind '{run.kind}' have no page; kinds with pages are:"
+            f" {', '.join(sorted(PAGES))}"
         )
-        return make(folder)
-    return control_page(folder) if (folder / "convergence_control.json").is_file() else None
+    return PAGES[run.kind](run)
 
 
 def write_page(folder):

@@ -51,7 +51,7 @@ PICTURES = {
 
 def measurement_page(run):
     """Writes plots and tables into the run's folder; returns the page."""
-    measures = run.get("measures")
+    measures = run.kind
     finding, tables = TABLES[measures](run)
     figures = PLOTS[measures](run)
     blocks = [Figure(f"{stem}.svg", caption) for stem, caption in figures.items()]

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Where the numbers of a page come from: commit, device, host and load.
-
-Run documents have the context of a run in "context"; surveys have it at the top level.
-"""
+"""Where the numbers of a page come from: commit, device, host and load."""
 
 from rtrays.documents.document import value
 from rtrays.tables.text import name
 
 
 def device_name(context):
-    """Returns the name of the device in the context of a run or survey."""
-    device = value(context, "device")
-    return value(device, "name") if isinstance(device, dict) else device
+    """Returns the name of the device in the context of a run."""
+    return value(context, "device.name")
 
 
 def commit_mark(context):
@@ -40,15 +36,13 @@ def commit_text(context):
     return f"commit {value(context, 'commit')[:12]}{changed}"
 
 
-def survey_provenance(document):
+def survey_provenance(run):
     """Returns commit, profile and device of a survey, a line each."""
-    profile = f", profile {document['profile']}" if "profile" in document else ""
-    return [f"{commit_text(document)}{profile}", f"device: {device_name(document)}"]
-
-
-def survey_made_by(document):
-    """Returns the entry of a survey for the overview."""
-    return made_by(document, document.get("profile", ""))
+    context = run.get("context")
+    return [
+        f"{commit_text(context)}, profile {run.get('experiment.profile')}",
+        f"device: {device_name(context)}",
+    ]
 
 
 def load_text(context, when, digits):

@@ -5,9 +5,9 @@ import numpy
 from matplotlib import pyplot
 
 from rtrays.documents.curves import algorithm_name
-from rtrays.documents.survey import read_survey
+from rtrays.documents.survey import rename_images
 from rtrays.pages.page import Figure, Page, TableBlock
-from rtrays.pages.provenance import survey_made_by, survey_provenance
+from rtrays.pages.provenance import run_made_by, survey_provenance
 from rtrays.plots.style import COLOURS, MARKERS, legend_below, save
 from rtrays.tables.cells import NONE, interval, number
 from rtrays.tables.table import Table
@@ -101,11 +101,11 @@ def cases_table(rows):
     )
 
 
-def stability_page(folder):
-    """Writes the plot; returns the page of stability.json."""
-    document = read_survey(folder, "stability.json")
-    rows = document["rows"]
-    save(differences_figure(rows), folder / "differences")
+def stability_page(run):
+    """Writes the plot; returns the page of the run."""
+    rename_images(run.folder)
+    rows = run.get("rows")
+    save(differences_figure(rows), run.folder / "differences")
     titles = dict.fromkeys((row["group"], row["title"]) for row in rows)
     groups = Table("Groups of cases", ["group", "case"], [list(entry) for entry in titles])
     caption = (
@@ -113,13 +113,13 @@ def stability_page(folder):
         " algorithm."
     )
     return Page(
-        folder,
+        run.folder,
         "stability.md",
         "Stiff and extreme cases",
         counts_of(rows),
         [Figure("differences.svg", caption), TableBlock(cases_table(rows)), TableBlock(groups)],
-        provenance=survey_provenance(document),
+        provenance=survey_provenance(run),
         picture="differences.svg",
         picture_label="Relative differences by case",
-        made=survey_made_by(document),
+        made=run_made_by(run),
     )

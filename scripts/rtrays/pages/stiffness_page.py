@@ -7,9 +7,9 @@ import textwrap
 from matplotlib import pyplot
 
 from rtrays.documents.curves import algorithm_name
-from rtrays.documents.survey import read_survey
+from rtrays.documents.survey import rename_images
 from rtrays.pages.page import Figure, Page, TableBlock
-from rtrays.pages.provenance import survey_made_by, survey_provenance
+from rtrays.pages.provenance import run_made_by, survey_provenance
 from rtrays.plots.style import COLOURS, MARKERS, save
 from rtrays.tables.table import Table
 
@@ -111,11 +111,11 @@ def stiffness_table(group, algorithms, note):
     )
 
 
-def stiffness_note(document):
+def stiffness_note(run):
     """Returns the note that explains the cells of the tables."""
-    spp = document["rows"][0]["spp"]
+    spp, batches = run.get("rows")[0]["spp"], run.get("experiment.batches")
     return (
-        f"Relative MSE of a batch of {spp / document['batches']:g} samples per pixel against the"
+        f"Relative MSE of a batch of {spp / batches:g} samples per pixel against the"
         f" Embree reference; columns: stiffness parameter. After {spp} samples per pixel the image"
         " is off if more is missing than intervals allow (light that cannot be found, or was not"
         " found in so many samples), undecided if batches are too skewed for an interval,"
@@ -141,26 +141,26 @@ def stiffness_finding(rows):
     )
 
 
-def stiffness_page(folder):
+def stiffness_page(run):
     """Writes stiffness.svg; returns the map of where each algorithm fails."""
-    document = read_survey(folder, "stability.json")
-    rows = [row for row in document["rows"] if row.get("stiffness", 0) > 0]
+    rename_images(run.folder)
+    rows = [row for row in run.get("rows") if row.get("stiffness", 0) > 0]
     groups = families(rows)
-    save(stiffness_figure(groups), folder / "stiffness")
-    note = stiffness_note(document)
+    save(stiffness_figure(groups), run.folder / "stiffness")
+    note = stiffness_note(run)
     tables = [
         TableBlock(stiffness_table(group, algorithms, note if index == 0 else ""))
         for index, (group, algorithms) in enumerate(groups.items())
     ]
     caption = "Relative MSE of a batch and efficiency, by algorithm and stiffness."
     return Page(
-        folder,
+        run.folder,
         "stiffness.md",
         "Algorithms as scenes become stiffer",
         stiffness_finding(rows),
         [Figure("stiffness.svg", caption), *tables],
-        provenance=survey_provenance(document),
+        provenance=survey_provenance(run),
         picture="stiffness.svg",
         picture_label="Error and efficiency by stiffness",
-        made=survey_made_by(document),
+        made=run_made_by(run),
     )

@@ -29,12 +29,17 @@ class Stiffness(unittest.TestCase):
     def make(self, rows):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            (folder / "stability.json").write_text(
+            (folder / "run.json").write_text(
                 json.dumps(
                     {
-                        "commit": "0123456789abcdef",
-                        "device": "a device",
-                        "batches": 32,
+                        "schema_version": 3,
+                        "kind": "stability",
+                        "experiment": {"name": "stiff", "profile": "ci", "batches": 32},
+                        "context": {
+                            "commit": "0123456789abcdef",
+                            "dirty": False,
+                            "device": {"name": "a device"},
+                        },
                         "rows": rows,
                     }
                 )

@@ -13,7 +13,7 @@ from rtrays.documents.measurements import (
     ray_mean,
     ray_speeds,
 )
-from rtrays.documents.run_document import Measurement
+from rtrays.documents.run_document import Run
 from rtrays.plots.chart import Chart
 from rtrays.plots.style import COLOURS, MARKERS, save, series_style, set_ticks
 from rtrays.tables.text import name, span
@@ -78,7 +78,7 @@ def hierarchy_chart(folder):
     if absent:
         missing = f"The comparison of the BVH with Embree needs: {', '.join(absent)}."
         return Chart("hierarchy", "", missing=missing)
-    build, rates = (Measurement(folder / run) for run in runs)
+    build, rates = (Run(folder / run) for run in runs)
     layout = fastest_layout(rates)
     save(hierarchy_figure(build, rates, layout), folder / "hierarchy", ".svg", ".png")
     speeds = {

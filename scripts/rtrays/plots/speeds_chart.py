@@ -5,7 +5,7 @@ import numpy
 from matplotlib import pyplot
 
 from rtrays.documents.measurements import peer_entries
-from rtrays.documents.run_document import Measurement
+from rtrays.documents.run_document import Run
 from rtrays.plots.chart import Chart
 from rtrays.plots.style import COLOURS, MARKERS, legend_below, save, set_ticks
 from rtrays.tables.text import bounces_text, listed, span
@@ -50,7 +50,7 @@ def speeds_chart(folder):
     if not (folder / "bounces/run.json").is_file():
         missing = "The speed against other renderers needs the run bounces."
         return Chart("speeds", "", missing=missing)
-    run = Measurement(folder / "bounces")
+    run = Run(folder / "bounces")
     entries = [entry for entry in peer_entries(run) if entry[0] != "megakernel"]
     lengths = list(dict.fromkeys(bounces for _, bounces, _, _ in entries))
     peers = list(dict.fromkeys(peer for peer, *_ in entries))

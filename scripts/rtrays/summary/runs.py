@@ -5,7 +5,7 @@ import datetime
 
 from rtrays.documents.document import read_json, value
 from rtrays.documents.experiments import experiment_path
-from rtrays.documents.run_document import context_of, profile_of, run_in
+from rtrays.documents.run_document import Run, run_in
 from rtrays.pages.page import markdown_name
 from rtrays.paths import RESULTS
 from rtrays.tables.cells import NONE, Link, number
@@ -23,18 +23,19 @@ def minutes(context):
 
 
 def durations():
-    """Returns the minutes of every stored run of chapter 4."""
+    """Returns the minutes of every stored run of chapter 4 that records its times."""
     rows = []
     for path in sorted((RESULTS / "chapter4").glob("*/run.json")):
-        run = read_json(path)
-        rows.append(
-            [
-                name(path.parent.name),
-                value(run, "experiment.profile"),
-                str(value(run, "context.host.cores")),
-                f"{minutes(value(run, 'context')):.0f}",
-            ]
-        )
+        run = Run(path.parent)
+        if "started_at" in run.get("context"):
+            rows.append(
+                [
+                    name(path.parent.name),
+                    run.get("experiment.profile"),
+                    str(run.get("context.host.cores")),
+                    f"{minutes(run.get('context')):.0f}",
+                ]
+            )
     return Table("Durations", ["experiment", "profile", "cores", "minutes"], rows).markdown()
 
 
@@ -44,12 +45,12 @@ def run_rows():
         run = run_in(folder)
         if run is None:
             continue
-        context = context_of(run)
+        context = run.get("context")
         place, page = folder.relative_to(RESULTS).as_posix(), markdown_name(folder)
         yield [
             Link(place, place, page) if (folder / page).exists() else place,
             f"`rtrays-experiment run {experiment_path(folder.name)}"
-            f" --profile {profile_of(run)}`",
+            f" --profile {run.get('experiment.profile')}`",
             number(minutes(context), 2) if "started_at" in context else NONE,
             value(context, "commit")[:12],
         ]

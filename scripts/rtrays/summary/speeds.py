@@ -12,7 +12,7 @@ from rtrays.documents.measurements import (
     peer_entries,
     ray_mean,
 )
-from rtrays.documents.run_document import Measurement
+from rtrays.documents.run_document import Run
 from rtrays.paths import RESULTS
 from rtrays.tables.cells import NONE, number
 from rtrays.tables.table import Table
@@ -23,7 +23,7 @@ CHAPTER4 = RESULTS / "chapter4"
 
 def speed_rows():
     """Returns samples per second over the peers, a row each; columns are the lengths of path."""
-    entries = list(peer_entries(Measurement(CHAPTER4 / "bounces")))
+    entries = list(peer_entries(Run(CHAPTER4 / "bounces")))
     lengths = dict.fromkeys(bounces for _, bounces, _, _ in entries)
     rows = [
         [peer, *(f"{mean:.2f}" for other, _, mean, _ in entries if other == peer)]
@@ -35,14 +35,14 @@ def speed_rows():
 
 def ray_means():
     """Returns the fastest layout, and {kind of ray: its mean speed over Embree}."""
-    rates = Measurement(CHAPTER4 / "ray_rates")
+    rates = Run(CHAPTER4 / "ray_rates")
     layout = fastest_layout(rates)
     return layout, {kind: ray_mean(rates, kind, layout) for kind in KINDS}
 
 
 def build_ratios():
     """Returns {builder: its speeds over Embree, one for each mesh}."""
-    build = Measurement(CHAPTER4 / "bvh_build")
+    build = Run(CHAPTER4 / "bvh_build")
     return {
         builder: [value(speed, "value") for _, speed in build_speeds(build, builder)]
         for builder in our_builders(build)
@@ -96,7 +96,7 @@ def gpu_rows():
 def speeds():
     """Returns all tables of speeds."""
     tables = [speed_rows(), embree_table(), gpu_rows()]
-    device = Measurement(CHAPTER4 / "bounces").get("context.device.name")
+    device = Run(CHAPTER4 / "bounces").get("context.device.name")
     return f"On {device} (above 1: RTRays is faster):\n\n" + "\n".join(
         table.markdown() for table in tables if table
     )

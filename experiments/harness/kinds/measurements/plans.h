@@ -28,6 +28,9 @@ MeasurementPlan plan_ray_rates(const MeasurementSettings &settings, DeviceContex
 /// in double precision. Also counts the rays that escape from closed shapes.
 MeasurementPlan plan_traversal(const MeasurementSettings &settings, DeviceContext &device);
 
+/// Returns whether all layouts of a row of `plan_traversal` keep their limits.
+std::optional<bool> traversal_passes(const Json &row);
+
 /// Measures an animated mesh frame by frame: milliseconds of rebuilding with every builder and of
 /// refitting the tree of the first frame, and the cost of diffuse rays in both trees.
 MeasurementPlan plan_bvh_animation(const MeasurementSettings &settings, DeviceContext &device);
