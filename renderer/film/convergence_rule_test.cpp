@@ -3,6 +3,8 @@
 // device code on the host and on the device. Also tests the list of live pixels.
 #define FEATURE_variance 1
 #define FEATURE_int64_atomics 1
+#include "testing/other_features.h"
+
 #include "renderer/kernels/film/convergence.h"
 
 #include <gtest/gtest.h>

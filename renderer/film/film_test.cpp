@@ -3,6 +3,8 @@
 // film state that is saved, resumed and merged.
 #define FEATURE_variance 1
 #define FEATURE_int64_atomics 1
+#include "testing/other_features.h"
+
 #include "renderer/kernels/film/film.h"
 
 #include <unistd.h>

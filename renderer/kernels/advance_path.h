@@ -8,31 +8,13 @@
 
 #define PATH_STATES_PRIVATE 1
 
-// The include resolver expands a header where it is first named. That place must not be in a
-// disabled block, so headers of more than one stage come before the blocks of single features.
-#include "renderer/kernels/camera/perspective.h"
-#include "renderer/kernels/extend_path.cl"
-#include "renderer/kernels/intersect_nearest.cl"
-#include "renderer/kernels/light/mis.h"
-#include "renderer/kernels/traversal/shadow_ray.h"
-#if FEATURE_lights
-#include "renderer/kernels/light/light.h"
-#endif
-#define MEETS_LIGHT                                                         \
-    (FEATURE_from_camera && (FEATURE_area_lights || FEATURE_shape_lights || \
-                             FEATURE_infinite_lights || FEATURE_light_strategy))
-#if MEETS_LIGHT
-#include "renderer/kernels/evaluate_emission.cl"
-#endif
-#define JOINS_LIGHT (FEATURE_from_camera && FEATURE_explicit_light)
-#if JOINS_LIGHT
-#include "renderer/kernels/intersect_any.cl"
-#include "renderer/kernels/sample_light.cl"
-#endif
-#if FEATURE_from_light
 #include "renderer/kernels/connect_camera.cl"
+#include "renderer/kernels/evaluate_emission.cl"
+#include "renderer/kernels/extend_path.cl"
+#include "renderer/kernels/intersect_any.cl"
+#include "renderer/kernels/intersect_nearest.cl"
+#include "renderer/kernels/sample_light.cl"
 #include "renderer/kernels/splat_unblocked.cl"
-#endif
 
 /// Numbers of rays that a work-item traced.
 typedef struct RayCounts {
@@ -47,8 +29,6 @@ DEVICE void count_rays(GLOBAL StreamCounters *counters, RayCounts rays) {
         film_add_word((volatile GLOBAL long *)&counters->shadow_rays, rays.shadow);
     }
 }
-
-#if JOINS_LIGHT
 
 /// Connects the path's hit to one light, or to each light with FEATURE_independent_lights, and adds
 /// unblocked light samples to the path.
@@ -66,30 +46,24 @@ DEVICE void add_light_samples(PathStates paths, PRIVATE const SceneView *scene,
     }
 }
 
-#endif
-
 /// Advances the path in slot 0 by one event. Returns false if the path ends there. The connection
 /// of a light path's start to the camera is not part of it.
-DEVICE bool advance_path(PathStates paths, PRIVATE const SceneView *scene,
-                         MAYBE_UNUSED CameraRecord camera, MAYBE_UNUSED FilmView film,
-                         IntegratorSettings settings, ulong first_sample, PRIVATE RayCounts *rays) {
+DEVICE bool advance_path(PathStates paths, PRIVATE const SceneView *scene, CameraRecord camera,
+                         FilmView film, IntegratorSettings settings, ulong first_sample,
+                         PRIVATE RayCounts *rays) {
     find_hit(paths, 0u, scene, get_ray_origin(paths, 0u), get_ray_direction(paths, 0u));
     ++rays->nearest;
-#if MEETS_LIGHT
-    add_emission(paths, 0u, scene, settings);
-#endif
-#if JOINS_LIGHT
-    add_light_samples(paths, scene, settings, first_sample, rays);
-#endif
-#if FEATURE_from_light
-    if (join_hit(paths, 0u, scene, camera, settings, first_sample)) {
+    const bool meets_light = FEATURE_area_lights || FEATURE_shape_lights ||
+                             FEATURE_infinite_lights || FEATURE_light_strategy;
+    if (FEATURE_from_camera && meets_light) {
+        add_emission(paths, 0u, scene, settings);
+    }
+    if (FEATURE_from_camera && FEATURE_explicit_light) {
+        add_light_samples(paths, scene, settings, first_sample, rays);
+    }
+    if (FEATURE_from_light && join_hit(paths, 0u, scene, camera, settings, first_sample)) {
         splat(paths, 0u, scene, film);
         ++rays->shadow;
     }
-#endif
-#if FEATURE_scattering
     return scatter(paths, 0u, scene, settings, first_sample);
-#else
-    return false;
-#endif
 }

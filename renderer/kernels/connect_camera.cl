@@ -22,8 +22,6 @@
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 
-#if FEATURE_emission_density
-
 /// Returns log2 of p_o,explicit / (p_o E) at the first hit of a light path, where E is the density
 /// per area with which the path arrives (light/mis.h).
 DEVICE float explicit_over_light(PathStates paths, uint slot, PRIVATE const SceneView *scene,
@@ -32,12 +30,10 @@ DEVICE float explicit_over_light(PathStates paths, uint slot, PRIVATE const Scen
     SurfacePoint start;
     start.position = get_ray_origin(paths, slot);
     start.normal = get_ray_direction(paths, slot);
-#if FEATURE_shape_lights
-    if (light.kind == LIGHT_SPHERE) {
+    if (FEATURE_shape_lights && light.kind == LIGHT_SPHERE) {
         start.normal =
             normalize(start.position - shape_centre(scene->shapes + light.first_triangle));
     }
-#endif
     const float cosine = fabs(dot(hit.point.normal, get_ray_direction(paths, slot)));
     const float3 way = hit.point.position - start.position;
     const float squared = light.kind < LIGHT_DIRECTIONAL ? dot(way, way) : 1.0f;
@@ -45,8 +41,6 @@ DEVICE float explicit_over_light(PathStates paths, uint slot, PRIVATE const Scen
            log2_quotient(sampling_over_emission(scene, light, hit.point.position, start) * squared,
                          cosine);
 }
-
-#endif
 
 /// Connects a hit to the camera and prepares the shadow ray. Returns false if the connection
 /// contributes nothing.
@@ -58,29 +52,21 @@ DEVICE bool join_hit(PathStates paths, uint slot, PRIVATE const SceneView *scene
         return false;
     }
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
-#if FEATURE_emission_density
-    if (depth == 0u) {
+    if (FEATURE_emission_density && depth == 0u) {
         set_log_arrival(paths, slot, explicit_over_light(paths, slot, scene, hit));
     }
-#endif
-#if FEATURE_vertex_joins
-    if (depth > 0u) {
+    if (FEATURE_vertex_joins && depth > 0u) {
         const float3 from = hit.point.position - get_ray_origin(paths, slot);
         const float cosine = fabs(dot(hit.point.normal, get_ray_direction(paths, slot)));
         set_log_arrival(paths, slot,
                         log_inverse_pdf_a(get_pdf_w(paths, slot), cosine, dot(from, from)));
     }
-#endif
-#if FEATURE_depth_limit
-    if (depth >= settings.max_depth) {
+    if (FEATURE_depth_limit && depth >= settings.max_depth) {
         return false;
     }
-#endif
-#if FEATURE_delta
-    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+    if (is_delta_material(scene->materials[hit.material])) {
         return false;
     }
-#endif
     const uint4 words = path_sample(settings, get_pixel(paths, slot),
                                     first_sample + get_sample(paths, slot), BLOCK_LIGHT(depth));
     const CameraJoin join =
@@ -109,28 +95,23 @@ DEVICE bool join_hit(PathStates paths, uint slot, PRIVATE const SceneView *scene
     const float light_paths = (float)settings.light_paths;
     float3 radiance =
         get_throughput(paths, slot) * bsdf.f_cos * (camera_pdf_a / cos_wi / light_paths);
-#if FEATURE_light_strategy
-    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+    if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L and p_E / p_L: the product of the contribution of the previous vertices and the
         // densities at this one (light/mis.h).
         const float log_first = log2_quotient(camera_pdf_a, light_paths);
         const float log_back = log2_quotient(bsdf.pdf_w, cos_wi);
         const float log_arrival = get_log_arrival(paths, slot);
-#if FEATURE_vertex_joins
-        if (all_strategies(settings, depth + 1u)) {
+        if (FEATURE_vertex_joins && all_strategies(settings, depth + 1u)) {
             radiance *=
                 join_weight(-INFINITY,
                             log_first + strategies_before(get_log_strategies(paths, slot),
                                                           log_arrival, log_back, settings.beta),
                             settings.beta);
-        } else
-#endif
-        {
+        } else {
             radiance *= light_path_weight(get_log_ratio(paths, slot), log_arrival, depth, log_back,
                                           log_first, settings.beta);
         }
     }
-#endif
     const float3 origin = offset_ray_origin(hit.point, wo);
     set_ray_origin(paths, slot, origin);
     set_shadow_vector(paths, slot, join.lens_point - origin);

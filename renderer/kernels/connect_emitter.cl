@@ -16,20 +16,16 @@
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/path_state.h"
 
-#if FEATURE_light_strategy
-#define SEEN_BY_CAMERA_ALONE \
-    ((settings.strategies & (STRATEGY_LIGHT | STRATEGY_LIGHT_EMITTERS)) == STRATEGY_LIGHT)
-#else
-#define SEEN_BY_CAMERA_ALONE false
-#endif
-
 /// Connects the start of a light path to the camera and prepares the shadow ray. Returns false if
 /// the camera does not see it or light paths do not show it.
 DEVICE bool join_start(PathStates paths, uint slot, PRIVATE const SceneView *scene,
                        CameraRecord camera, IntegratorSettings settings, ulong first_sample) {
     const uint path = get_pixel(paths, slot);
     const ulong sample = first_sample + get_sample(paths, slot);
-    if (get_depth(paths, slot) > 0u || SEEN_BY_CAMERA_ALONE) {
+    const bool seen_by_camera_alone =
+        FEATURE_light_strategy &&
+        (settings.strategies & (STRATEGY_LIGHT | STRATEGY_LIGHT_EMITTERS)) == STRATEGY_LIGHT;
+    if (get_depth(paths, slot) > 0u || seen_by_camera_alone) {
         return false;
     }
     const EmissionSample start = path_start(scene, settings, path, sample);
@@ -50,13 +46,11 @@ DEVICE bool join_start(PathStates paths, uint slot, PRIVATE const SceneView *sce
     const float camera_pdf_a = join.pdf_w * (facing / sqrt(squared)) / squared;
     const float light_pdf_a = start.pdf_origin * (float)settings.light_paths;  // p_o n_L
     float3 radiance = light_radiance(scene->lights[start.light]) * (camera_pdf_a / light_pdf_a);
-#if FEATURE_light_emitters
-    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+    if (FEATURE_light_emitters && (settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L = P_1 / (n_L p_o) of a path with one edge (light/mis.h).
         radiance *=
             camera_path_weight(0.0f, log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
     }
-#endif
     set_shadow_vector(paths, slot, join.lens_point - start.origin);
     set_shadow_radiance(paths, slot, radiance);
     set_splat_pixel(paths, slot, (uint)join.raster.y * camera.width + (uint)join.raster.x);

@@ -60,11 +60,9 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot, PRIVATE const SceneView 
     if (primitive == NO_HIT || !all_strategies(settings, events)) {
         return false;
     }
-#if FEATURE_depth_limit
-    if (events > settings.max_depth) {
+    if (FEATURE_depth_limit && events > settings.max_depth) {
         return false;
     }
-#endif
     const uint row = light_vertex_row(get_pixel(paths, slot), get_sample(paths, slot),
                                       settings.light_paths, paths.capacity);
     const WordPlace place =
@@ -73,16 +71,11 @@ DEVICE bool join_to_vertex(PathStates paths, uint slot, PRIVATE const SceneView 
         return false;
     }
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
-#if FEATURE_delta
-    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+    if (is_delta_material(scene->materials[hit.material])) {
         return false;
     }
-#endif
     const LightVertex vertex = load_light_vertex(place);
-    float3 lit_at = make_float3(vertex.hit_u, vertex.hit_v, 0.0f);
-#if FEATURE_shapes
-    lit_at.z = vertex.hit_w;
-#endif
+    const float3 lit_at = make_float3(vertex.hit_u, vertex.hit_v, vertex.hit_w);
     const SurfaceHit lit = surface_hit(scene, vertex.hit_primitive, lit_at);
     const float3 way = lit.point.position - hit.point.position;
     const float squared = dot(way, way);

@@ -22,67 +22,68 @@ typedef struct Emission {
     /// Density per solid angle with which light sampling at the previous vertex samples this
     /// direction.
     float explicit_pdf_w;
-#if FEATURE_light_strategy
     float line_pdf;  ///< p_o p_d of kernels/light/mis.h; p_o for emitters seen directly
-#endif
 } Emission;
 
-/// Returns false if nothing is emitted towards the path. Sets the density of light sampling if
-/// `by_light_sampling`, and that of light paths if `by_light_path`.
-DEVICE bool emission_met(PathStates paths, uint slot, PRIVATE const SceneView *scene,
-                         bool by_light_sampling, MAYBE_UNUSED bool by_light_path,
-                         PRIVATE Emission *met) {
-    const uint primitive = get_hit_primitive(paths, slot);
-    const float3 direction = get_ray_direction(paths, slot);
-    MAYBE_UNUSED const float3 from = get_ray_origin(paths, slot);
-    met->explicit_pdf_w = 0.0f;
-    if (primitive == NO_HIT) {
-#if FEATURE_infinite_lights
-        if (scene->lighting.infinite_light == NO_EMITTER) {
-            return false;
-        }
-        met->radiance = infinite_radiance(scene, direction);
-        if (by_light_sampling) {
-            met->explicit_pdf_w = scene->lights[scene->lighting.infinite_light].selection *
-                                  infinite_pdf_w(scene, direction);
-        }
-#if FEATURE_light_strategy
-        if (by_light_path) {
-            // Light at infinity that the camera sees directly is not connected to the camera.
-            met->line_pdf =
-                get_depth(paths, slot) > 0u ? infinite_line_pdf(scene, from, direction) : 0.0f;
-        }
-#endif
-        return true;
-#else
+/// Sets the emission of the light at infinity towards a path that left the scene. Returns false if
+/// there is none.
+DEVICE bool infinite_emission(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                              bool by_light_sampling, bool by_light_path, PRIVATE Emission *met) {
+    if (!FEATURE_infinite_lights || scene->lighting.infinite_light == NO_EMITTER) {
         return false;
-#endif
     }
-#if FEATURE_area_lights || FEATURE_shape_lights
+    const float3 direction = get_ray_direction(paths, slot);
+    met->radiance = infinite_radiance(scene, direction);
+    if (by_light_sampling) {
+        met->explicit_pdf_w = scene->lights[scene->lighting.infinite_light].selection *
+                              infinite_pdf_w(scene, direction);
+    }
+    if (FEATURE_light_strategy && by_light_path) {
+        // Light at infinity that the camera sees directly is not connected to the camera.
+        met->line_pdf = get_depth(paths, slot) > 0u
+                            ? infinite_line_pdf(scene, get_ray_origin(paths, slot), direction)
+                            : 0.0f;
+    }
+    return true;
+}
+
+/// Sets the emission of the surface that a path hit. Returns false if there is none.
+DEVICE bool surface_emission(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                             bool by_light_sampling, bool by_light_path, PRIVATE Emission *met) {
+    if (!FEATURE_area_lights && !FEATURE_shape_lights) {
+        return false;
+    }
+    const uint primitive = get_hit_primitive(paths, slot);
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
-    if (hit.emitter == NO_EMITTER || !(dot(hit.point.normal, direction) < 0.0f)) {
+    if (hit.emitter == NO_EMITTER ||
+        !(dot(hit.point.normal, get_ray_direction(paths, slot)) < 0.0f)) {
         return false;
     }
     const LightRecord light = scene->lights[light_of_hit(scene, primitive, hit.emitter)];
     met->radiance = light_radiance(light);
     if (by_light_sampling) {
+        const float3 from = get_ray_origin(paths, slot);
         met->explicit_pdf_w = light_pdf_a(scene, light, primitive, hit.emitter, from, hit.point) *
                               solid_angle_per_area(hit.point.position - from, hit.point.normal);
     }
-#if FEATURE_light_strategy
-    if (by_light_path) {
+    if (FEATURE_light_strategy && by_light_path) {
         met->line_pdf = get_depth(paths, slot) > 0u
                             ? emission_line_pdf(scene, light, primitive, hit.emitter)
                             : emission_pdf_a(scene, light, primitive, hit.emitter);
     }
-#endif
     return true;
-#else
-    return false;
-#endif
 }
 
-#if FEATURE_light_strategy
+/// Returns false if nothing is emitted towards the path. Sets the density of light sampling if
+/// `by_light_sampling`, and that of light paths if `by_light_path`.
+DEVICE bool emission_met(PathStates paths, uint slot, PRIVATE const SceneView *scene,
+                         bool by_light_sampling, bool by_light_path, PRIVATE Emission *met) {
+    met->explicit_pdf_w = 0.0f;
+    met->line_pdf = 0.0f;
+    return get_hit_primitive(paths, slot) == NO_HIT
+               ? infinite_emission(paths, slot, scene, by_light_sampling, by_light_path, met)
+               : surface_emission(paths, slot, scene, by_light_sampling, by_light_path, met);
+}
 
 /// Sets R_0 of kernels/light/mis.h at the first hit and, for vertex connections, A_i at every hit.
 /// At the first hit `pdf_w` is the density of the camera ray.
@@ -101,35 +102,29 @@ DEVICE void arrive(PathStates paths, uint slot, PRIVATE const SceneView *scene,
     if (first) {
         set_log_ratio(paths, slot, log_arrival);
     }
-#if FEATURE_vertex_joins
-    set_log_arrival(paths, slot, log_arrival);
-#endif
+    if (FEATURE_vertex_joins) {
+        set_log_arrival(paths, slot, log_arrival);
+    }
 }
-
-#endif
 
 /// Adds emission to a path, with the MIS weight of its technique.
 DEVICE void add_emission(PathStates paths, uint slot, PRIVATE const SceneView *scene,
                          IntegratorSettings settings) {
+    const uint depth = get_depth(paths, slot);
     bool by_light_sampling = false, by_light_path = false;
-#if FEATURE_light_strategy
-    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        by_light_path = true;
-        const bool first = get_depth(paths, slot) == 0u;
-        if (FEATURE_vertex_joins || first) {
+    if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
+        if (FEATURE_vertex_joins || depth == 0u) {
             arrive(paths, slot, scene, settings);
         }
-        if (first) {
-            by_light_path = (settings.strategies & STRATEGY_LIGHT_EMITTERS) != 0u;
-        }
+        by_light_path = depth > 0u || (settings.strategies & STRATEGY_LIGHT_EMITTERS) != 0u;
     }
-#endif
     if ((settings.strategies & STRATEGY_HITS_ELSEWHERE) != 0u) {
         return;
     }
-#if FEATURE_scattering
-    if (get_depth(paths, slot) > 0u) {
-#if FEATURE_direction_density
+    if (FEATURE_scattering && depth > 0u) {
+        if (!FEATURE_direction_density) {
+            return;
+        }
         // Light sampling is impossible after a delta event. Only implicit paths find this light, so
         // they count whatever the strategy.
         if (get_pdf_w(paths, slot) < INFINITY) {
@@ -138,40 +133,28 @@ DEVICE void add_emission(PathStates paths, uint slot, PRIVATE const SceneView *s
             }
             by_light_sampling = (settings.strategies & STRATEGY_EXPLICIT) != 0u;
         }
-#else
-        return;
-#endif
     }
-#endif
     Emission met;
     if (!emission_met(paths, slot, scene, by_light_sampling, by_light_path, &met)) {
         return;
     }
     float3 radiance = met.radiance;
-#if FEATURE_scattering
-    radiance *= get_throughput(paths, slot);
-#endif
-#if FEATURE_direction_density
+    if (FEATURE_scattering) {
+        radiance *= get_throughput(paths, slot);
+    }
     // p_E / p_I of thesis (2.73), both per solid angle. The density of a sampled direction is
     // positive.
     const float by_explicit =
         by_light_sampling ? met.explicit_pdf_w / get_pdf_w(paths, slot) : 0.0f;
-#if FEATURE_light_strategy
-    if (by_light_path) {
-        float log_light = get_log_ratio(paths, slot);
-#if FEATURE_vertex_joins
-        if (get_depth(paths, slot) > 0u && all_strategies(settings, get_depth(paths, slot))) {
-            log_light = get_log_strategies(paths, slot);
-        }
-#endif
-        log_light += log2_of(met.line_pdf);  // p_L / p_I
+    if (FEATURE_light_strategy && by_light_path) {
+        const bool all = FEATURE_vertex_joins && depth > 0u && all_strategies(settings, depth);
+        const float log_light =
+            (all ? get_log_strategies(paths, slot) : get_log_ratio(paths, slot)) +
+            log2_of(met.line_pdf);  // p_L / p_I
         radiance *= camera_path_weight(by_explicit, log_light, settings.beta);
-    } else
-#endif
-        if (by_light_sampling) {
+    } else if (by_light_sampling) {
         radiance *= power_heuristic(by_explicit, settings.beta);
     }
-#endif
     set_radiance(paths, slot, get_radiance(paths, slot) + radiance);
 }
 

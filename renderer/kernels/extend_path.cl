@@ -8,6 +8,7 @@
 // log_strategies; film, half film.
 // Enqueues: active queue of the next round, or free queue.
 
+#include "renderer/kernels/bsdf/reverse.h"
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
@@ -20,32 +21,71 @@
 #include "renderer/shared/live_pixels.h"
 #include "renderer/shared/path_state.h"
 
-#if FEATURE_scattering
+/// Returns whether a path ends at a hit after `depth` scattering events because of the depth limit.
+///
+/// The ray of the last scattering event counts only if it can find light: in implicit paths, or
+/// after a delta event. A light path needs no such ray, since its last event is the one connected
+/// to the camera.
+DEVICE bool is_last_hit(IntegratorSettings settings, uint depth) {
+    const bool last_ray_finds_light =
+        !FEATURE_from_light && (FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u);
+    return FEATURE_depth_limit && depth + (last_ray_finds_light ? 0u : 1u) >= settings.max_depth;
+}
 
-#include "renderer/kernels/bsdf/reverse.h"
+/// Divides the throughput of a path by the probability with which roulette continues it, and
+/// returns false if the path ends.
+///
+/// Thesis, section 2.7.2: from the first bounce on, the continuation probability is proportional to
+/// throughput. The bound below 1 ends paths between surfaces that absorb nothing. It is close to 1
+/// because the variance is infinite if the squared albedo exceeds it. The probability is part of
+/// the contribution, but not of the MIS densities.
+///
+/// Inside glass radiance is larger by eta^2, a factor that the path loses on its way out. Roulette
+/// excludes this factor (PBRT 4th ed., section 13.2.2), hence `scale_change`. The throughput of a
+/// light path is measured relative to its initial value.
+DEVICE bool survives_roulette(PathStates paths, uint slot, IntegratorSettings settings,
+                              float largest, float scale_change, float u,
+                              PRIVATE float3 *throughput) {
+    float scale = 1.0f;
+    if (FEATURE_roulette_scale) {
+        scale = get_roulette_scale(paths, slot) * scale_change;
+        set_roulette_scale(paths, slot, scale);
+    }
+    const float continuation = min(largest / scale, settings.max_continuation);
+    if (!(u < continuation)) {
+        return false;
+    }
+    *throughput = *throughput / continuation;
+    return true;
+}
+
+/// Updates the ratios of the MIS weights at a scattering event.
+DEVICE void continue_ratios(PathStates paths, uint slot, IntegratorSettings settings, uint depth,
+                            bool is_delta, TwoWay both) {
+    const float log_ratio = get_log_ratio(paths, slot);
+    const float log_arrival = get_log_arrival(paths, slot);
+    set_log_ratio(
+        paths, slot,
+        FEATURE_from_light
+            ? continue_light_ratio(log_ratio, log_arrival, depth, is_delta, both.log_forward,
+                                   both.log_ratio, settings.beta)
+            : continue_camera_ratio(log_ratio, depth, is_delta, both.log_forward, both.log_ratio));
+    if (FEATURE_vertex_joins) {
+        set_log_strategies(
+            paths, slot,
+            continue_strategies(get_log_strategies(paths, slot), log_arrival, is_delta,
+                                both.log_forward, both.log_ratio, settings.beta));
+    }
+}
 
 /// Samples scattering at the hit and moves the path's ray there. Returns false if the path ends.
 DEVICE bool scatter(PathStates paths, uint slot, PRIVATE const SceneView *scene,
                     IntegratorSettings settings, ulong first_sample) {
     const uint primitive = get_hit_primitive(paths, slot);
     const uint depth = get_depth(paths, slot);
-    if (primitive == NO_HIT) {
+    if (!FEATURE_scattering || primitive == NO_HIT || is_last_hit(settings, depth)) {
         return false;
     }
-#if FEATURE_depth_limit
-    // The ray of the last scattering event counts only if it can find light: in implicit paths, or
-    // after a delta event. A light path needs no such ray, since its last event is the one
-    // connected to the camera.
-#if FEATURE_from_light
-    const uint last_ray = 1u;
-#else
-    const uint last_ray =
-        FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u ? 0u : 1u;
-#endif
-    if (depth + last_ray >= settings.max_depth) {
-        return false;
-    }
-#endif
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
     const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(paths, slot));
     const uint4 words = path_sample(settings, get_pixel(paths, slot),
@@ -55,92 +95,45 @@ DEVICE bool scatter(PathStates paths, uint slot, PRIVATE const SceneView *scene,
     if (!(sample.pdf_w > 0.0f)) {
         return false;
     }
-#if FEATURE_light_strategy || FEATURE_from_light
-    const TwoWay both = look_back(scene, hit, frame, sample);
-#endif
-#if FEATURE_from_light
-    float3 throughput = get_throughput(paths, slot) * both.importance;
-    // Importance crosses boundaries unchanged.
-    const float scale_change = 1.0f;
-#else
-    float3 throughput = get_throughput(paths, slot) * sample.weight;
-    const float scale_change = sample.scale;
-#endif
+    TwoWay both = one_way();
+    if (FEATURE_light_strategy || FEATURE_from_light) {
+        both = look_back(scene, hit, frame, sample);
+    }
+    float3 throughput =
+        get_throughput(paths, slot) * (FEATURE_from_light ? both.importance : sample.weight);
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
     if (!(largest > 0.0f)) {
         return false;
     }
-#if FEATURE_roulette
-    if (settings.termination == TERMINATION_ROULETTE) {
-        // Thesis, section 2.7.2: from the first bounce on, the continuation probability is
-        // proportional to throughput. The bound below 1 ends paths between surfaces that absorb
-        // nothing. It is close to 1 because the variance is infinite if the squared albedo exceeds
-        // it. The probability is part of the contribution, but not of the MIS densities.
-        // Inside glass radiance is larger by eta^2, a factor that the path loses on its way out.
-        // Roulette excludes this factor (PBRT 4th ed., section 13.2.2). The throughput of a light
-        // path is measured relative to its initial value.
-#if FEATURE_roulette_scale
-        const float scale = get_roulette_scale(paths, slot) * scale_change;
-        set_roulette_scale(paths, slot, scale);
-#else
-        const float scale = 1.0f;
-#endif
-        const float continuation = min(largest / scale, settings.max_continuation);
-        if (!(uniform_float(words.z) < continuation)) {
+    if (FEATURE_roulette && settings.termination == TERMINATION_ROULETTE) {
+        // Importance crosses boundaries unchanged.
+        const float scale_change = FEATURE_from_light ? 1.0f : sample.scale;
+        if (!survives_roulette(paths, slot, settings, largest, scale_change, uniform_float(words.z),
+                               &throughput)) {
             return false;
         }
-        throughput = throughput / continuation;
     }
-#endif
-#if FEATURE_adaptive
-    if (settings.termination == TERMINATION_ADAPTIVE && largest < settings.adaptive_threshold) {
+    if (FEATURE_adaptive && settings.termination == TERMINATION_ADAPTIVE &&
+        largest < settings.adaptive_threshold) {
         return false;
     }
-#endif
     set_ray_origin(paths, slot, offset_ray_origin(hit.point, sample.wi));
     set_ray_direction(paths, slot, sample.wi);
     set_throughput(paths, slot, throughput);
     set_depth(paths, slot, depth + 1u);
-#if FEATURE_direction_density
     set_pdf_w(paths, slot, sample.pdf_w);
-#endif
-#if FEATURE_light_strategy
-    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
+    if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
         const bool is_delta = !(sample.pdf_w < INFINITY);
-#if FEATURE_from_light
-        set_log_ratio(
-            paths, slot,
-            continue_light_ratio(get_log_ratio(paths, slot), get_log_arrival(paths, slot), depth,
-                                 is_delta, both.log_forward, both.log_ratio, settings.beta));
-#else
-        set_log_ratio(paths, slot,
-                      continue_camera_ratio(get_log_ratio(paths, slot), depth, is_delta,
-                                            both.log_forward, both.log_ratio));
-#endif
-#if FEATURE_vertex_joins
-        set_log_strategies(
-            paths, slot,
-            continue_strategies(get_log_strategies(paths, slot), get_log_arrival(paths, slot),
-                                is_delta, both.log_forward, both.log_ratio, settings.beta));
-#endif
+        continue_ratios(paths, slot, settings, depth, is_delta, both);
     }
-#endif
     return true;
 }
 
-#endif
-
 /// Adds a path that ends here to the film.
-DEVICE void end_path(PathStates paths, uint slot, FilmView film, MAYBE_UNUSED ulong first_sample) {
-#if FEATURE_from_camera
-#if FEATURE_convergence
-    if (add_path(paths, slot, film)) {
+DEVICE void end_path(PathStates paths, uint slot, FilmView film, ulong first_sample) {
+    if (FEATURE_from_camera && add_path(paths, slot, film) && FEATURE_convergence) {
         add_path_to_half(paths, slot, film, first_sample);
     }
-#else
-    add_path(paths, slot, film);
-#endif
-#endif
 }
 
 #if !PATH_STATES_PRIVATE
@@ -156,15 +149,13 @@ __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL lo
     GLOBAL const uint *queue = active_queue(queues, counters, capacity);
     FOR_EACH_ENTRY(i, active_count(counters)) {
         const uint slot = shaded_path_at(&scene, paths, queue, i, i_end);
-#if FEATURE_scattering
         if (scatter(paths, slot, &scene, settings, first_sample)) {
             push_slot(&extended, slot);
             continue;
         }
-#endif
-#if FEATURE_from_camera
-        prefetch_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot));
-#endif
+        if (FEATURE_from_camera) {
+            prefetch_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot));
+        }
         push_slot(&ended, slot);
     }
     for (uint i = 0u; i < ended.count; ++i) {

@@ -21,8 +21,6 @@
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 
-#if FEATURE_delta && FEATURE_from_camera
-
 /// Makes the hit of a path a vertex, with all components still to follow. Returns false if the path
 /// cannot scatter there.
 DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settings,
@@ -35,9 +33,7 @@ DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settin
     }
     vertex->hit_u = get_hit_u(paths, slot);
     vertex->hit_v = get_hit_v(paths, slot);
-#if FEATURE_shapes
     vertex->hit_w = get_hit_w(paths, slot);
-#endif
     vertex->direction = get_ray_direction(paths, slot);
     vertex->throughput = get_throughput(paths, slot);
     return true;
@@ -46,13 +42,8 @@ DEVICE bool branch_of_hit(PathStates paths, uint slot, IntegratorSettings settin
 /// Follows the next ideal component of the vertex with a nonzero contribution, and stores the
 /// vertex if it has more components. Returns false if no component is left.
 DEVICE bool follow(PathStates paths, uint slot, PRIVATE const SceneView *scene,
-                   MAYBE_UNUSED GLOBAL uint *branch_words, IntegratorSettings settings,
-                   Branch vertex) {
-#if FEATURE_shapes
+                   GLOBAL uint *branch_words, IntegratorSettings settings, Branch vertex) {
     const float3 at = make_float3(vertex.hit_u, vertex.hit_v, vertex.hit_w);
-#else
-    const float3 at = make_float3(vertex.hit_u, vertex.hit_v, 0.0f);
-#endif
     const SurfaceHit hit = surface_hit(scene, vertex.hit_primitive, at);
     const SurfaceFrame frame = shading_frame(scene, hit, -vertex.direction);
     const MaterialRecord material = scene->materials[hit.material];
@@ -63,13 +54,11 @@ DEVICE bool follow(PathStates paths, uint slot, PRIVATE const SceneView *scene,
         if (!(sample.pdf_w > 0.0f && largest > 0.0f)) {
             continue;
         }
-#if FEATURE_adaptive
-        if (settings.termination == TERMINATION_ADAPTIVE && largest < settings.adaptive_threshold) {
+        if (FEATURE_adaptive && settings.termination == TERMINATION_ADAPTIVE &&
+            largest < settings.adaptive_threshold) {
             continue;
         }
-#endif
-#if FEATURE_branches
-        if (i + 1u < material.component_count) {
+        if (FEATURE_branches && i + 1u < material.component_count) {
             // Depths increase along the stack, so it holds at most one vertex per depth below the
             // limit.
             const uint pending = get_pending(paths, slot);
@@ -79,29 +68,24 @@ DEVICE bool follow(PathStates paths, uint slot, PRIVATE const SceneView *scene,
                          vertex);
             set_pending(paths, slot, pending + 1u);
         }
-#endif
         set_ray_origin(paths, slot, offset_ray_origin(hit.point, sample.wi));
         set_ray_direction(paths, slot, sample.wi);
         set_throughput(paths, slot, throughput);
         set_depth(paths, slot, vertex.depth + 1u);
-#if FEATURE_direction_density
         set_pdf_w(paths, slot, sample.pdf_w);
-#endif
         return true;
     }
-    (void)settings;
     return false;
 }
 
 /// Continues the path from its hit or from a stored vertex. Returns false if its tree is finished.
 DEVICE bool next_branch(PathStates paths, uint slot, PRIVATE const SceneView *scene,
-                        MAYBE_UNUSED GLOBAL uint *branch_words, IntegratorSettings settings) {
+                        GLOBAL uint *branch_words, IntegratorSettings settings) {
     Branch vertex;
     if (branch_of_hit(paths, slot, settings, &vertex) &&
         follow(paths, slot, scene, branch_words, settings, vertex)) {
         return true;
     }
-#if FEATURE_branches
     for (uint pending = get_pending(paths, slot); pending > 0u; --pending) {
         set_pending(paths, slot, pending - 1u);
         vertex = load_branch(record_place(branch_words, BRANCH_WORDS, paths.capacity,
@@ -110,7 +94,6 @@ DEVICE bool next_branch(PathStates paths, uint slot, PRIVATE const SceneView *sc
             return true;
         }
     }
-#endif
     return false;
 }
 
@@ -135,5 +118,3 @@ __kernel void follow_branches(SHADING_PARAMETERS, GLOBAL long *film_words,
     append_active(queues, counters, capacity, 1u - counters->parity, &extended);
     append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);
 }
-
-#endif

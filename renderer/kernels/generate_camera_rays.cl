@@ -26,21 +26,13 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera,
     set_ray_origin(paths, slot, ray.origin);
     set_ray_direction(paths, slot, ray.direction);
     set_radiance(paths, slot, make_float3(0.0f, 0.0f, 0.0f));
-#if FEATURE_scattering
     set_throughput(paths, slot, make_float3(1.0f, 1.0f, 1.0f));
-#endif
-#if FEATURE_branches
     set_pending(paths, slot, 0u);
-#endif
-#if FEATURE_roulette_scale
     set_roulette_scale(paths, slot, 1.0f);
-#endif
-#if FEATURE_light_strategy
-    set_pdf_w(paths, slot, camera_pdf_w(camera, ray.direction));
-#endif
-#if FEATURE_vertex_joins
+    if (FEATURE_light_strategy) {
+        set_pdf_w(paths, slot, camera_pdf_w(camera, ray.direction));
+    }
     set_log_strategies(paths, slot, -INFINITY);
-#endif
 }
 
 /// Starts item `item` of a batch of `work` items. The samples of a pixel are consecutive items, so
@@ -48,13 +40,16 @@ DEVICE void start_path(PathStates paths, uint slot, CameraRecord camera,
 /// cover all pixels sample by sample, as light paths do.
 DEVICE void start_item(PathStates paths, uint slot, CameraRecord camera,
                        IntegratorSettings settings, ulong first_sample, LivePixels live, uint item,
-                       MAYBE_UNUSED uint work) {
-#if FEATURE_vertex_joins
-    const uint pixel = item % live.count, sample = item / live.count;
-#else
-    const uint samples = work / live.count;
-    const uint pixel = item / samples, sample = item % samples;
-#endif
+                       uint work) {
+    uint pixel, sample;
+    if (FEATURE_vertex_joins) {
+        pixel = item % live.count;
+        sample = item / live.count;
+    } else {
+        const uint samples = work / live.count;
+        pixel = item / samples;
+        sample = item % samples;
+    }
     start_path(paths, slot, camera, settings, first_sample, live_pixel(live, pixel), sample);
 }
 

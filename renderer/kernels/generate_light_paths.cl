@@ -10,12 +10,10 @@
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/stream.h"
 #include "renderer/shared/integrator_settings.h"
-#if FEATURE_vertex_joins
 #include "renderer/shared/light_vertex.h"
-#endif
-#include "renderer/kernels/scene_view.h"
 #include "renderer/shared/path_state.h"
 
 /// Starts light path `path` of sample `sample` of the batch.
@@ -27,14 +25,9 @@ DEVICE void start_path(PathStates paths, uint slot, PRIVATE const SceneView *sce
     const EmissionSample emission = path_start(scene, settings, path, first_sample + sample);
     set_ray_origin(paths, slot, emission.origin);
     set_ray_direction(paths, slot, emission.direction);
-#if FEATURE_scattering
     set_throughput(paths, slot, emission.weight);
-#endif
-#if FEATURE_roulette_scale
     set_roulette_scale(paths, slot,
                        max(emission.weight.x, max(emission.weight.y, emission.weight.z)));
-#endif
-#if FEATURE_emission_density
     set_light(paths, slot, emission.light);
     // Surfaces emit in proportion to the cosine, so p_d per projected solid angle is 1 / pi there.
     // A delta light cannot be hit by an implicit path.
@@ -42,12 +35,9 @@ DEVICE void start_path(PathStates paths, uint slot, PRIVATE const SceneView *sce
     const float log_ratio =
         emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
     set_log_ratio(paths, slot, log_ratio);
-#if FEATURE_vertex_joins
     set_log_strategies(paths, slot, log_ratio);
-#endif
     // At the first hit, its distance and cosine complete this factor.
     set_log_arrival(paths, slot, log2_quotient(1.0f, emission.pdf_direction));
-#endif
 }
 
 __kernel void generate_light_paths(SHADING_PARAMETERS, IntegratorSettings settings,
@@ -63,12 +53,10 @@ __kernel void generate_light_paths(SHADING_PARAMETERS, IntegratorSettings settin
         start_path(paths, slot, &scene, settings, first_sample,
                    (items.first + i) % settings.light_paths,
                    (items.first + i) / settings.light_paths);
-#if FEATURE_vertex_joins
-        for (uint vertex = 0; vertex < settings.light_vertices; ++vertex) {
+        for (uint vertex = 0; FEATURE_vertex_joins && vertex < settings.light_vertices; ++vertex) {
             clear_light_vertex(light_vertex_place(vertex_words, capacity, settings.light_vertices,
                                                   (items.first + i) % capacity, vertex));
         }
-#endif
         push_slot(&started, slot);
     }
     append_active(queues, counters, capacity, counters->parity, &started);

@@ -18,26 +18,26 @@ DEVICE void find_hit(PathStates paths, uint slot, PRIVATE const SceneView *scene
     uint primitive = NO_HIT;
     float3 at = make_float3(0.0f, 0.0f, 0.0f);
     float t = INFINITY;
-#if FEATURE_triangles
-    const Hit hit = trace_nearest(scene->bvh_nodes, scene->bvh_triangles, origin, direction, t);
-    if (hit.triangle != NO_HIT) {
-        primitive = hit.triangle;
-        at = make_float3(hit.u, hit.v, 0.0f);
-        t = hit.t;
+    if (FEATURE_triangles) {
+        const Hit hit = trace_nearest(scene->bvh_nodes, scene->bvh_triangles, origin, direction, t);
+        if (hit.triangle != NO_HIT) {
+            primitive = hit.triangle;
+            at = make_float3(hit.u, hit.v, 0.0f);
+            t = hit.t;
+        }
     }
-#endif
-#if FEATURE_shapes
-    const ShapeHit shape =
-        nearest_shape(scene->shapes, scene->shape_bounds, scene->shape_count, origin, direction, t);
-    if (shape.shape != NO_HIT) {
-        primitive = SHAPE_BIT | shape.shape;
-        at = shape.object_point;
+    if (FEATURE_shapes) {
+        const ShapeHit shape = nearest_shape(scene->shapes, scene->shape_bounds, scene->shape_count,
+                                             origin, direction, t);
+        if (shape.shape != NO_HIT) {
+            primitive = SHAPE_BIT | shape.shape;
+            at = shape.object_point;
+        }
     }
-    set_hit_w(paths, slot, at.z);
-#endif
     set_hit_primitive(paths, slot, primitive);
     set_hit_u(paths, slot, at.x);
     set_hit_v(paths, slot, at.y);
+    set_hit_w(paths, slot, at.z);
 }
 
 #if !PATH_STATES_PRIVATE

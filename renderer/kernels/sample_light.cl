@@ -20,8 +20,6 @@
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 
-#if FEATURE_light_strategy
-
 /// Returns log2 of p_L / p_E (light/mis.h). If light vertices are stored, p_L stands for all
 /// strategies that involve light paths.
 DEVICE float light_over_explicit(PathStates paths, uint slot, PRIVATE const SceneView *scene,
@@ -36,29 +34,20 @@ DEVICE float light_over_explicit(PathStates paths, uint slot, PRIVATE const Scen
     const float log_arrive = log2_quotient(
         light.arrival_pdf_a * fabs(dot(hit.point.normal, light.wi)), light.sampling_over_emission);
     const float log_ratio = get_log_ratio(paths, slot);
-#if FEATURE_vertex_joins
-    const bool all = all_strategies(settings, depth + 1u);
-#else
-    const bool all = false;
-    (void)settings;
-#endif
+    const bool all = FEATURE_vertex_joins && all_strategies(settings, depth + 1u);
     if (depth == 0u || (!all && !(log_ratio > -INFINITY))) {
         return log_ratio + log_arrive;
     }
     const SurfaceFrame back = shading_frame(scene, hit, light.wi);
     const float log_back =
         log2_quotient(bsdf_evaluate(scene, hit.material, back, wo).pdf_w, cos_wo);
-#if FEATURE_vertex_joins
     if (all) {
         return log_arrive + strategies_before(get_log_strategies(paths, slot),
                                               get_log_arrival(paths, slot), log_back,
                                               settings.beta);
     }
-#endif
     return log_ratio + log_arrive + log_back;
 }
-
-#endif
 
 /// Connects the hit of a path to light `chosen`, or to a light selected at random for SELECT_LIGHT,
 /// and prepares the shadow ray. Returns false if the connection contributes nothing.
@@ -69,17 +58,13 @@ DEVICE bool join_to_light(PathStates paths, uint slot, PRIVATE const SceneView *
     if (primitive == NO_HIT || (settings.strategies & STRATEGY_EXPLICIT) == 0u) {
         return false;
     }
-#if FEATURE_depth_limit
-    if (depth >= settings.max_depth) {
+    if (FEATURE_depth_limit && depth >= settings.max_depth) {
         return false;
     }
-#endif
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
-#if FEATURE_delta
-    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
+    if (is_delta_material(scene->materials[hit.material])) {
         return false;
     }
-#endif
     // Lights that are sampled one after the other have their own random streams.
     const uint stream = chosen == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(chosen);
     const uint4 words = sample_words(settings, stream, get_pixel(paths, slot),
@@ -95,21 +80,18 @@ DEVICE bool join_to_light(PathStates paths, uint slot, PRIVATE const SceneView *
     }
     // f cos L / p_E of thesis (2.62).
     float3 radiance = get_throughput(paths, slot) * bsdf.f_cos * light.radiance / light.pdf_w;
-#if FEATURE_implicit_light
-    // p_I / p_E of thesis (2.73), both per solid angle.
-    const bool by_hit = light.is_delta == 0u && (settings.strategies & STRATEGY_IMPLICIT) != 0u;
-    const float by_implicit = by_hit ? bsdf.pdf_w / light.pdf_w : 0.0f;
-#if FEATURE_light_strategy
-    if ((settings.strategies & STRATEGY_LIGHT) != 0u) {
-        const float log_light =
-            light_over_explicit(paths, slot, scene, hit, frame.wo, light, settings);
-        radiance *= camera_path_weight(by_implicit, log_light, settings.beta);
-    } else
-#endif
-        if (by_hit) {
-        radiance *= power_heuristic(by_implicit, settings.beta);
+    if (FEATURE_implicit_light) {
+        // p_I / p_E of thesis (2.73), both per solid angle.
+        const bool by_hit = light.is_delta == 0u && (settings.strategies & STRATEGY_IMPLICIT) != 0u;
+        const float by_implicit = by_hit ? bsdf.pdf_w / light.pdf_w : 0.0f;
+        if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
+            const float log_light =
+                light_over_explicit(paths, slot, scene, hit, frame.wo, light, settings);
+            radiance *= camera_path_weight(by_implicit, log_light, settings.beta);
+        } else if (by_hit) {
+            radiance *= power_heuristic(by_implicit, settings.beta);
+        }
     }
-#endif
     const float3 origin = offset_ray_origin(hit.point, light.wi);
     set_ray_origin(paths, slot, origin);
     set_shadow_vector(paths, slot, light.target - origin);

@@ -7,8 +7,8 @@
 //     const SceneView scene = SHADING_VIEW;
 //
 // with the view of the same name. Device functions receive `PRIVATE const SceneView *scene`. A
-// member exists if its feature is on. Members that the kernel has no parameters for are null. All
-// functions are inlined, so the record costs nothing.
+// pointer is null if its feature is off or if the kernel has no parameter for it. All functions are
+// inlined, so the record costs nothing.
 #pragma once
 
 #include "renderer/shared/compat.h"
@@ -17,13 +17,11 @@
 
 /// Pointers to the buffers of the scene (shared/scene_buffers.h) and its records by value.
 typedef struct SceneView {
-#define BUFFER_MEMBER(type, name) GLOBAL const type *name;
-#define X(feature, type, name) WHEN(feature)(BUFFER_MEMBER(type, name))
+#define X(feature, type, name) GLOBAL const type *name;
     HIERARCHY_BUFFERS(X)
     SHAPE_BUFFERS(X)
     SHADING_BUFFERS(X)
 #undef X
-#undef BUFFER_MEMBER
     uint shape_count;
     LightingRecord lighting;
 } SceneView;

@@ -5,6 +5,7 @@
 // queue.
 // Writes: light vertices.
 
+#include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/geometry/prefetch_hit.h"
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/scene_view.h"
@@ -25,17 +26,15 @@ DEVICE void keep_hit(PathStates paths, uint slot, PRIVATE const SceneView *scene
         return;
     }
     const float3 at = get_hit_at(paths, slot);
-#if FEATURE_delta
-    const SurfaceHit hit = surface_hit(scene, vertex.hit_primitive, at);
-    if ((scene->materials[hit.material].flags & MATERIAL_DELTA) != 0u) {
-        return;
+    if (FEATURE_delta) {
+        const SurfaceHit hit = surface_hit(scene, vertex.hit_primitive, at);
+        if (is_delta_material(scene->materials[hit.material])) {
+            return;
+        }
     }
-#endif
     vertex.hit_u = at.x;
     vertex.hit_v = at.y;
-#if FEATURE_shapes
     vertex.hit_w = at.z;
-#endif
     vertex.direction = get_ray_direction(paths, slot);
     vertex.throughput = get_throughput(paths, slot);
     vertex.log_arrival = get_log_arrival(paths, slot);

@@ -35,19 +35,20 @@ enum BranchLayout {
 };
 
 typedef struct Branch {
-#define FIELD_MEMBER(type, name) type name;
-#define X(feature, type, name) WHEN(feature)(FIELD_MEMBER(type, name))
+#define X(feature, type, name) type name;
     BRANCH_FIELDS(X)
 #undef X
-#undef FIELD_MEMBER
 } Branch;
 
 DEVICE Branch load_branch(WordPlace place) {
     Branch branch;
 #define FIELD_LOAD(type, name) branch.name = load_##type(place, BRANCH_##name);
-#define X(feature, type, name) WHEN(feature)(FIELD_LOAD(type, name))
+#define FIELD_ABSENT(type, name) branch.name = (type)(0);
+#define X(feature, type, name) \
+    WHEN(feature)(FIELD_LOAD(type, name)) UNLESS(feature)(FIELD_ABSENT(type, name))
     BRANCH_FIELDS(X)
 #undef X
+#undef FIELD_ABSENT
 #undef FIELD_LOAD
     return branch;
 }

@@ -30,7 +30,7 @@
 #define DEVICE static inline
 #define GLOBAL __global
 #define PRIVATE __private
-#define CONSTANT __constant
+#define CONSTANT static __constant
 #define MAYBE_UNUSED
 
 #define make_float2(x, y) ((float2)((x), (y)))

@@ -39,11 +39,9 @@ enum LightVertexLayout {
 };
 
 typedef struct LightVertex {
-#define FIELD_MEMBER(type, name) type name;
-#define X(feature, type, name) WHEN(feature)(FIELD_MEMBER(type, name))
+#define X(feature, type, name) type name;
     LIGHT_VERTEX_FIELDS(X)
 #undef X
-#undef FIELD_MEMBER
 } LightVertex;
 
 /// Returns the row of a path: its index among all paths of the batch, with `paths` paths per
@@ -69,9 +67,12 @@ DEVICE bool has_light_vertex(WordPlace place) {
 DEVICE LightVertex load_light_vertex(WordPlace place) {
     LightVertex vertex;
 #define FIELD_LOAD(type, name) vertex.name = load_##type(place, VERTEX_##name);
-#define X(feature, type, name) WHEN(feature)(FIELD_LOAD(type, name))
+#define FIELD_ABSENT(type, name) vertex.name = (type)(0);
+#define X(feature, type, name) \
+    WHEN(feature)(FIELD_LOAD(type, name)) UNLESS(feature)(FIELD_ABSENT(type, name))
     LIGHT_VERTEX_FIELDS(X)
 #undef X
+#undef FIELD_ABSENT
 #undef FIELD_LOAD
     return vertex;
 }

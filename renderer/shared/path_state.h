@@ -87,13 +87,13 @@ typedef struct PathStates {
 #define PREFETCHES (HAS_PREFETCH && PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE)
 
 /// Prefetches the words of a path.
-DEVICE void prefetch_path(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {
-#if PREFETCHES
-    for (uint word = 0u; word < PATH_STATE_WORDS; word += CACHE_LINE / 4u) {
+DEVICE void prefetch_path(PathStates paths, uint slot) {
+    for (uint word = 0u; PREFETCHES && word < PATH_STATE_WORDS; word += CACHE_LINE / 4u) {
         PREFETCH(&PATH_WORD(paths, slot, word));
     }
-    PREFETCH(&PATH_WORD(paths, slot, PATH_STATE_WORDS - 1u));
-#endif
+    if (PREFETCHES) {
+        PREFETCH(&PATH_WORD(paths, slot, PATH_STATE_WORDS - 1u));
+    }
 }
 
 /// Returns the slot of the path at entry i of a queue. For use in FOR_EACH_ENTRY, with i_end as
@@ -105,7 +105,8 @@ DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uin
     return queue[i];
 }
 
-// get_<name>(paths, slot) and set_<name>(paths, slot, value) for every field.
+// get_<name>(paths, slot) and set_<name>(paths, slot, value) for every field. Without the field's
+// feature there is no word: get returns 0 and set does nothing.
 #define ACCESS_uint(name)                                             \
     DEVICE uint get_##name(PathStates paths, uint slot) {             \
         return PATH_WORD(paths, slot, PATH_##name);                   \
@@ -131,7 +132,15 @@ DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uin
         PATH_WORD(paths, slot, PATH_##name + 1) = as_uint(value.y);            \
         PATH_WORD(paths, slot, PATH_##name + 2) = as_uint(value.z);            \
     }
-#define X(feature, type, name) WHEN(feature)(ACCESS_##type(name))
+#define ACCESS_NOTHING(type, name)                                                              \
+    DEVICE type get_##name(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {             \
+        return (type)(0);                                                                       \
+    }                                                                                           \
+    DEVICE void set_##name(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot, type value) { \
+        (void)value;                                                                            \
+    }
+#define X(feature, type, name) \
+    WHEN(feature)(ACCESS_##type(name)) UNLESS(feature)(ACCESS_NOTHING(type, name))
 PATH_STATE_FIELDS(X)
 #undef X
 

@@ -3,37 +3,8 @@
 // compiled in.
 #pragma once
 
-#define FEATURE_scattering 1
-#ifndef FEATURE_smooth_normals
-#define FEATURE_smooth_normals 1
-#endif
-#define FEATURE_tangents 1
-#define FEATURE_composite 1
-#define FEATURE_one_sided 1
-#define FEATURE_delta 1
-#define FEATURE_refraction 1
-#define FEATURE_lambert 1
-#define FEATURE_oren_nayar 1
-#define FEATURE_ideal_reflection 1
-#define FEATURE_ideal_refraction 1
-#define FEATURE_blinn 1
-#define FEATURE_ward 1
-#define FEATURE_ward_original 1
-#define FEATURE_microfacet_reflection 1
-#define FEATURE_microfacet_refraction 1
-#define FEATURE_ggx 1
-#define FEATURE_beckmann 1
-#define FEATURE_fresnel 1
-#define FEATURE_fresnel_dielectric 1
-#define FEATURE_fresnel_conductor 1
-#define FEATURE_fresnel_conductor_approximate 1
-#define FEATURE_fresnel_schlick 1
-#define FEATURE_textures 1
-
 // Must precede all device code.
-// clang-format off
-#include "testing/other_features.h"
-// clang-format on
+#include "testing/all_features.h"
 
 #include <algorithm>
 #include <cmath>

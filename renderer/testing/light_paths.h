@@ -2,35 +2,13 @@
 // Device code of lights with all features, and helpers that start light paths, for tests.
 #pragma once
 
-#define FEATURE_triangles 1
-#define FEATURE_shapes 1
-#define FEATURE_quadrics 1
-#define FEATURE_lights 1
-#define FEATURE_light_strategy 1
-#define FEATURE_from_light 1
-#define FEATURE_many_lights 1
-#define FEATURE_independent_lights 1
-#define FEATURE_area_lights 1
-#define FEATURE_light_triangles 1
-#define FEATURE_shape_lights 1
-#define FEATURE_point_lights 1
-#define FEATURE_spot_lights 1
-#define FEATURE_directional_lights 1
-#define FEATURE_infinite_lights 1
-#define FEATURE_dome 1
-#define FEATURE_environment 1
-#define FEATURE_lens 1
-
 // Must precede all device code.
-// clang-format off
-#include "testing/other_features.h"
-
-#include "renderer/kernels/light/emission.h"
-// clang-format on
+#include "testing/all_features.h"
 
 #include <cmath>
 
 #include "renderer/kernels/geometry/intersect_shapes.h"
+#include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/sampling/random.h"
 #include "renderer/testing/light_scene.h"
 #include "renderer/testing/scene_view.h"

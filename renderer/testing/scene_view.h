@@ -8,14 +8,12 @@
 namespace rtrays {
 
 /// Returns the view of a scene, which must outlive it. The hierarchy is not part of it.
-[[maybe_unused]] static SceneView view_of(const CompiledScene &scene) {
+inline SceneView view_of(const CompiledScene &scene) {
     SceneView view{};
-#define BUFFER_POINTER(name) view.name = scene.name.data();
-#define X(feature, type, name) WHEN(feature)(BUFFER_POINTER(name))
+#define X(feature, type, name) view.name = scene.name.data();
     SHAPE_BUFFERS(X)
     SHADING_BUFFERS(X)
 #undef X
-#undef BUFFER_POINTER
     view.shape_count = static_cast<uint32_t>(scene.shapes.size());
     view.lighting = scene.lighting;
     return view;

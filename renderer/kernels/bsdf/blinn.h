@@ -14,8 +14,6 @@
 #include "renderer/kernels/math/circle.h"
 #include "renderer/shared/compat.h"
 
-#if FEATURE_blinn
-
 /// Evaluates the model with exponent `exponent`.
 DEVICE Lobe blinn_evaluate(float3 wo, float3 wi, float exponent) {
     if (!(wi.z > 0.0f)) {
@@ -45,5 +43,3 @@ DEVICE float3 blinn_direction(float3 wo, float exponent, float u, float v) {
     const float3 h = normalize(make_float3(slope * around.x, slope * around.y, 1.0f));
     return reflect_about(wo, h);
 }
-
-#endif

@@ -57,22 +57,19 @@ DEVICE bool sides_agree(SurfaceFrame frame, float3 wi, float local_z) {
 /// Returns whether the material scatters light towards wo at all. A boundary cannot be one-sided,
 /// because light passes through it.
 DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos_wo) {
-#if FEATURE_one_sided
-    if (frame.front == 0u &&
+    if (FEATURE_one_sided && frame.front == 0u &&
         (material.flags & (MATERIAL_ONE_SIDED | MATERIAL_BOUNDARY)) == MATERIAL_ONE_SIDED) {
         return false;
     }
-#else
-    (void)frame;
-#endif
-#if FEATURE_composite
-    if (material.component_count == 0u) {
+    if (FEATURE_composite && material.component_count == 0u) {
         return false;
     }
-#else
-    (void)material;
-#endif
     return cos_wo >= MIN_COSINE;
+}
+
+/// Returns whether all components of a material are deltas.
+DEVICE bool is_delta_material(MaterialRecord material) {
+    return FEATURE_delta && (material.flags & MATERIAL_DELTA) != 0u;
 }
 
 /// bsdf_evaluate for local directions whose sides agree.
@@ -87,10 +84,9 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
     value.f_cos = colour *
                   component_fresnel(component, eta, lobe.cosine, squared_sine_of(lobe.cosine), wi) *
                   lobe.f_cos;
-#if FEATURE_composite
     // A material of one component needs no selection. It ends here with the same bits as in a scene
     // without composite materials.
-    if (material.component_count > 1u) {
+    if (FEATURE_composite && material.component_count > 1u) {
         float shares = component_share(component, eta, wo, colour);
         value.pdf_w *= shares;
         for (uint i = 1u; i < material.component_count; ++i) {
@@ -108,7 +104,6 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
         }
         value.pdf_w = shares > 0.0f ? value.pdf_w / shares : 0.0f;
     }
-#endif
     return value;
 }
 
@@ -119,11 +114,8 @@ DEVICE BsdfValue bsdf_evaluate(PRIVATE const SceneView *scene, uint material, Su
     const MaterialRecord record = scene->materials[material];
     const float3 local_wo = to_local(frame, frame.wo);
     const float3 local_wi = to_local(frame, wi);
-    bool dark = !side_scatters(record, frame, local_wo.z) || !sides_agree(frame, wi, local_wi.z);
-#if FEATURE_delta
-    dark = dark || (record.flags & MATERIAL_DELTA) != 0u;
-#endif
-    if (dark) {
+    if (!side_scatters(record, frame, local_wo.z) || !sides_agree(frame, wi, local_wi.z) ||
+        is_delta_material(record)) {
         BsdfValue nothing;
         nothing.f_cos = make_float3(0.0f, 0.0f, 0.0f);
         nothing.pdf_w = 0.0f;
@@ -139,8 +131,7 @@ DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord mate
                              PRIVATE float *probability) {
     *selected = material.first_component;
     *probability = 1.0f;
-#if FEATURE_composite
-    if (material.component_count == 1u) {
+    if (!FEATURE_composite || material.component_count == 1u) {
         return true;
     }
     // A single pass over the components: each replaces the selected one with a probability of its
@@ -166,12 +157,6 @@ DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord mate
     }
     *probability = share / shares;
     return share > 0.0f;
-#else
-    (void)frame;
-    (void)wo;
-    (void)select;
-    return true;
-#endif
 }
 
 /// Returns the sample of a path that ends.
@@ -203,10 +188,7 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
     if (!sides_agree(frame, sample.wi, wi.z) || (wi.z < 0.0f) != is_refracting(component->kind)) {
         return sample;
     }
-#if FEATURE_refraction
     sample.scale = is_refracting(component->kind) ? refraction_scale(eta) : 1.0f;
-#endif
-#if FEATURE_delta
     if (is_delta(component->kind)) {
         sample.weight = component_colour(scene, component, frame.uv) *
                         component_fresnel(component, eta, wo.z, squared_sine(wo), wi) /
@@ -215,7 +197,6 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
         sample.pdf_w = INFINITY;
         return sample;
     }
-#endif
     const BsdfValue value = bsdf_evaluate_local(scene, record, frame, wo, wi);
     if (value.pdf_w > 0.0f) {
         sample.pdf_w = value.pdf_w;
@@ -238,8 +219,6 @@ DEVICE BsdfSample bsdf_sample(PRIVATE const SceneView *scene, uint material, Sur
     return sample_component(scene, record, frame, wo, sample, u, v);
 }
 
-#if FEATURE_delta
-
 /// Returns the direction of an ideal reflection or refraction, with the coefficient of the delta as
 /// its weight. Returns no sample for other kinds of component or past the critical angle.
 DEVICE BsdfSample bsdf_delta(PRIVATE const SceneView *scene, MaterialRecord record,
@@ -253,5 +232,3 @@ DEVICE BsdfSample bsdf_delta(PRIVATE const SceneView *scene, MaterialRecord reco
     sample.probability = 1.0f;
     return sample_component(scene, record, frame, wo, sample, 0.0f, 0.0f);
 }
-
-#endif

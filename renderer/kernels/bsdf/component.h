@@ -28,34 +28,21 @@ DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_fla
 DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
                                float2 uv) {
     float3 colour = make_float3(component->weight[0], component->weight[1], component->weight[2]);
-#if FEATURE_textures
-    if (component->texture != NO_TEXTURE) {
+    if (FEATURE_textures && component->texture != NO_TEXTURE) {
         colour *= texture_lookup(scene->textures + component->texture, scene->texels, uv);
     }
-#else
-    (void)uv;
-#endif
     return colour;
 }
 
 DEVICE bool is_delta(uint kind) {
-#if FEATURE_delta
-    return kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION;
-#else
-    (void)kind;
-    return false;
-#endif
+    return FEATURE_delta && (kind == BXDF_IDEAL_REFLECTION || kind == BXDF_IDEAL_REFRACTION);
 }
 
 /// Returns whether the component transmits light: it scatters only to wi below the surface. All
 /// other kinds scatter only to wi above it.
 DEVICE bool is_refracting(uint kind) {
-#if FEATURE_ideal_refraction || FEATURE_microfacet_refraction
-    return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
-#else
-    (void)kind;
-    return false;
-#endif
+    return (FEATURE_ideal_refraction && kind == BXDF_IDEAL_REFRACTION) ||
+           (FEATURE_microfacet_refraction && kind == BXDF_MICROFACET_REFRACTION);
 }
 
 DEVICE Roughness component_roughness(GLOBAL const BxdfRecord *component) {
@@ -69,73 +56,56 @@ DEVICE Roughness component_roughness(GLOBAL const BxdfRecord *component) {
 /// Evaluates the model of a component. Returns zero for delta components.
 DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, float3 wo,
                                float3 wi) {
-    switch (component->kind) {
-#if FEATURE_lambert
-        case BXDF_LAMBERT:
-            return lambert_evaluate(wo, wi);
-#endif
-#if FEATURE_oren_nayar
-        case BXDF_OREN_NAYAR:
-            return oren_nayar_evaluate(wo, wi, component->parameter);
-#endif
-#if FEATURE_blinn
-        case BXDF_BLINN:
-            return blinn_evaluate(wo, wi, component->parameter);
-#endif
-#if FEATURE_ward
-        case BXDF_WARD:
-            return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, true);
-#endif
-#if FEATURE_ward_original
-        case BXDF_WARD_ORIGINAL:
-            return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, false);
-#endif
-#if FEATURE_microfacet_reflection
-        case BXDF_MICROFACET_REFLECTION:
-            return microfacet_reflection_evaluate(wo, wi, component_roughness(component));
-#endif
-#if FEATURE_microfacet_refraction
-        case BXDF_MICROFACET_REFRACTION:
-            return microfacet_refraction_evaluate(wo, wi, component_roughness(component), eta);
-#endif
-        default:
-            return no_lobe();
+    const uint kind = component->kind;
+    if (FEATURE_lambert && kind == BXDF_LAMBERT) {
+        return lambert_evaluate(wo, wi);
     }
+    if (FEATURE_oren_nayar && kind == BXDF_OREN_NAYAR) {
+        return oren_nayar_evaluate(wo, wi, component->parameter);
+    }
+    if (FEATURE_blinn && kind == BXDF_BLINN) {
+        return blinn_evaluate(wo, wi, component->parameter);
+    }
+    if (FEATURE_ward && kind == BXDF_WARD) {
+        return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, true);
+    }
+    if (FEATURE_ward_original && kind == BXDF_WARD_ORIGINAL) {
+        return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, false);
+    }
+    if (FEATURE_microfacet_reflection && kind == BXDF_MICROFACET_REFLECTION) {
+        return microfacet_reflection_evaluate(wo, wi, component_roughness(component));
+    }
+    if (FEATURE_microfacet_refraction && kind == BXDF_MICROFACET_REFRACTION) {
+        return microfacet_refraction_evaluate(wo, wi, component_roughness(component), eta);
+    }
+    return no_lobe();
 }
 
 /// Samples a direction by the component's model from u, v in [0, 1). If there is none, it is on the
 /// wrong side of the surface or has z = 0.
 DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta, float3 wo, float u,
                                   float v) {
-    switch (component->kind) {
-#if FEATURE_blinn
-        case BXDF_BLINN:
-            return blinn_direction(wo, component->parameter, u, v);
-#endif
-#if FEATURE_ward || FEATURE_ward_original
-        case BXDF_WARD:
-        case BXDF_WARD_ORIGINAL:
-            return ward_direction(wo, component->alpha_x, component->alpha_y, u, v);
-#endif
-#if FEATURE_microfacet_reflection
-        case BXDF_MICROFACET_REFLECTION:
-            return microfacet_reflection_direction(wo, component_roughness(component), u, v);
-#endif
-#if FEATURE_microfacet_refraction
-        case BXDF_MICROFACET_REFRACTION:
-            return microfacet_refraction_direction(wo, component_roughness(component), eta, u, v);
-#endif
-#if FEATURE_ideal_reflection
-        case BXDF_IDEAL_REFLECTION:
-            return ideal_reflection_direction(wo);
-#endif
-#if FEATURE_ideal_refraction
-        case BXDF_IDEAL_REFRACTION:
-            return ideal_refraction_direction(wo, eta);
-#endif
-        default:  // Lambert, Oren-Nayar
-            return sample_cosine_hemisphere(u, v);
+    const uint kind = component->kind;
+    if (FEATURE_blinn && kind == BXDF_BLINN) {
+        return blinn_direction(wo, component->parameter, u, v);
     }
+    if ((FEATURE_ward && kind == BXDF_WARD) ||
+        (FEATURE_ward_original && kind == BXDF_WARD_ORIGINAL)) {
+        return ward_direction(wo, component->alpha_x, component->alpha_y, u, v);
+    }
+    if (FEATURE_microfacet_reflection && kind == BXDF_MICROFACET_REFLECTION) {
+        return microfacet_reflection_direction(wo, component_roughness(component), u, v);
+    }
+    if (FEATURE_microfacet_refraction && kind == BXDF_MICROFACET_REFRACTION) {
+        return microfacet_refraction_direction(wo, component_roughness(component), eta, u, v);
+    }
+    if (FEATURE_ideal_reflection && kind == BXDF_IDEAL_REFLECTION) {
+        return ideal_reflection_direction(wo);
+    }
+    if (FEATURE_ideal_refraction && kind == BXDF_IDEAL_REFRACTION) {
+        return ideal_refraction_direction(wo, eta);
+    }
+    return sample_cosine_hemisphere(u, v);  // Lambert, Oren-Nayar
 }
 
 /// Returns the Fresnel term of the component's weight for wo and wi. `cosine` is that of Lobe,
@@ -145,25 +115,16 @@ DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta,
 /// unless the material requests the term of wo alone (thesis (3.55)).
 DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine,
                                 float sine2, float3 wi) {
-#if FEATURE_fresnel
+    if (!FEATURE_fresnel) {
+        return make_float3(1.0f, 1.0f, 1.0f);
+    }
     float3 f = fresnel_term(component, eta, cosine, sine2);
-#if FEATURE_lambert || FEATURE_oren_nayar
-    if ((component->kind == BXDF_LAMBERT || component->kind == BXDF_OREN_NAYAR) &&
+    if ((FEATURE_lambert || FEATURE_oren_nayar) &&
+        (component->kind == BXDF_LAMBERT || component->kind == BXDF_OREN_NAYAR) &&
         (component->flags & BXDF_FLAG_FRESNEL_OF_WO) == 0u) {
         f *= fresnel_term(component, eta, wi.z, squared_sine(wi));
     }
-#else
-    (void)wi;
-#endif
     return f;
-#else
-    (void)component;
-    (void)eta;
-    (void)cosine;
-    (void)sine2;
-    (void)wi;
-    return make_float3(1.0f, 1.0f, 1.0f);
-#endif
 }
 
 /// Returns the value to which component selection is proportional: the estimated fraction of light
@@ -177,29 +138,24 @@ DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, f
 /// rarely, and contributions remain bounded.
 DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, float3 wo,
                              float3 colour) {
-#if FEATURE_fresnel
-    float3 f = fresnel_term(component, eta, wo.z, squared_sine(wo));
-#if FEATURE_blinn || FEATURE_ward || FEATURE_ward_original || FEATURE_microfacet_reflection || \
-    FEATURE_microfacet_refraction
-    if ((component->flags & FRESNEL_MASK) != FRESNEL_IDEAL && component->kind >= BXDF_BLINN) {
-        // Blinn's cos^e is as wide as a Gaussian of roughness sqrt(2 / (e + 2)).
-        const float alpha = component->kind == BXDF_BLINN
-                                ? sqrt(2.0f / (component->parameter + 2.0f))
-                                : min(max(component->alpha_x, component->alpha_y), 1.0f);
-        const float s = sqrt(alpha);
-        f = f * (1.0f - s) + make_float3(0.5f * s, 0.5f * s, 0.5f * s);
+    const bool glossy = FEATURE_blinn || FEATURE_ward || FEATURE_ward_original ||
+                        FEATURE_microfacet_reflection || FEATURE_microfacet_refraction;
+    if (FEATURE_fresnel) {
+        float3 f = fresnel_term(component, eta, wo.z, squared_sine(wo));
+        if (glossy && (component->flags & FRESNEL_MASK) != FRESNEL_IDEAL &&
+            component->kind >= BXDF_BLINN) {
+            // Blinn's cos^e is as wide as a Gaussian of roughness sqrt(2 / (e + 2)).
+            const float alpha = component->kind == BXDF_BLINN
+                                    ? sqrt(2.0f / (component->parameter + 2.0f))
+                                    : min(max(component->alpha_x, component->alpha_y), 1.0f);
+            const float s = sqrt(alpha);
+            f = f * (1.0f - s) + make_float3(0.5f * s, 0.5f * s, 0.5f * s);
+        }
+        colour *= f;
     }
-#endif
-    colour *= f;
-#endif
-#if FEATURE_ideal_refraction
-    if (component->kind == BXDF_IDEAL_REFRACTION &&
+    if (FEATURE_ideal_refraction && component->kind == BXDF_IDEAL_REFRACTION &&
         refracted_cosine(wo.z, squared_sine(wo), eta) <= 0.0f) {
         return 0.0f;
     }
-#endif
-    (void)component;
-    (void)eta;
-    (void)wo;
     return (colour.x + colour.y + colour.z) * 0.333333333f;
 }

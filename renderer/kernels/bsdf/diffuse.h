@@ -8,16 +8,10 @@
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/shared/compat.h"
 
-#if FEATURE_lambert
-
 /// Evaluates Lambert reflection, thesis (3.31).
 DEVICE Lobe lambert_evaluate(float3 wo, float3 wi) {
     return wi.z > 0.0f ? make_lobe(wi.z * INV_PI, wi.z * INV_PI, wo.z) : no_lobe();
 }
-
-#endif
-
-#if FEATURE_oren_nayar
 
 /// Evaluates Oren-Nayar reflection, thesis (3.33)-(3.35), with `sigma` in [0, pi/2].
 ///
@@ -35,5 +29,3 @@ DEVICE Lobe oren_nayar_evaluate(float3 wo, float3 wi, float sigma) {
     const float s = max(wi.x * wo.x + wi.y * wo.y, 0.0f) * (wi.z / max(wi.z, wo.z));
     return make_lobe((a * wi.z + b * s) * INV_PI, wi.z * INV_PI, wo.z);
 }
-
-#endif

@@ -36,8 +36,6 @@ DEVICE float stretched_sine2(float3 w, Roughness r) {
     return x * x + y * y;
 }
 
-#if FEATURE_ggx
-
 /// Returns D(m) of GGX. m.x and m.y keep their relative precision near the pole, where m.z rounds
 /// to 1.
 DEVICE float ggx_density(float3 m, Roughness r) {
@@ -65,10 +63,6 @@ DEVICE float3 ggx_visible_normal(float3 wo, Roughness r, float u, float v) {
     const float3 sum = make_float3(w.x + radius * around.x, w.y + radius * around.y, t * one_plus);
     return normalize(make_float3(r.alpha_x * sum.x, r.alpha_y * sum.y, sum.z));
 }
-
-#endif
-
-#if FEATURE_beckmann
 
 #define INV_SQRT_PI 0.564189583547756f
 
@@ -146,49 +140,25 @@ DEVICE float3 beckmann_visible_normal(float3 wo, Roughness r, float u, float v) 
     return normalize(make_float3(-r.alpha_x * x, -r.alpha_y * y, 1.0f));
 }
 
-#endif
+/// Returns whether the distribution is Beckmann's.
+DEVICE bool is_beckmann(Roughness r) {
+    return FEATURE_beckmann && (!FEATURE_ggx || r.beckmann != 0u);
+}
 
 /// Returns D(m), in 1/sr: the area of the microfacets facing m, per solid angle and area of
 /// surface.
 DEVICE float normal_density(float3 m, Roughness r) {
-#if FEATURE_beckmann
-    if (r.beckmann != 0u) {
-        return beckmann_density(m, r);
-    }
-#endif
-#if FEATURE_ggx
-    return ggx_density(m, r);
-#else
-    return 0.0f;
-#endif
+    return is_beckmann(r) ? beckmann_density(m, r) : ggx_density(m, r);
 }
 
 /// Returns Smith's G1(w) / |w.z|. It is bounded by 1 / |w.z| and does not become 0 / 0 towards the
 /// horizon.
 DEVICE float shadowing(float3 w, Roughness r) {
-#if FEATURE_beckmann
-    if (r.beckmann != 0u) {
-        return beckmann_shadowing(w, r);
-    }
-#endif
-#if FEATURE_ggx
-    return ggx_shadowing(w, r);
-#else
-    return 0.0f;
-#endif
+    return is_beckmann(r) ? beckmann_shadowing(w, r) : ggx_shadowing(w, r);
 }
 
 /// Samples a normal visible from wo, from u, v in [0, 1). Density per solid angle: max(wo.m, 0)
 /// D(m) G1(wo) / wo.z.
 DEVICE float3 visible_normal(float3 wo, Roughness r, float u, float v) {
-#if FEATURE_beckmann
-    if (r.beckmann != 0u) {
-        return beckmann_visible_normal(wo, r, u, v);
-    }
-#endif
-#if FEATURE_ggx
-    return ggx_visible_normal(wo, r, u, v);
-#else
-    return make_float3(0.0f, 0.0f, 1.0f);
-#endif
+    return is_beckmann(r) ? beckmann_visible_normal(wo, r, u, v) : ggx_visible_normal(wo, r, u, v);
 }

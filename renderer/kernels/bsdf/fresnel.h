@@ -34,8 +34,6 @@ DEVICE float refracted_cosine(float cosine, float sine2, float eta) {
     return scaled > 0.0f ? min(sqrt(scaled) / eta, 1.0f) : -1.0f;
 }
 
-#if FEATURE_fresnel_dielectric
-
 /// Returns the exact term of a dielectric, thesis (3.26) and (3.27); 1 at total internal
 /// reflection. Denominators are positive because one of the cosines is.
 DEVICE float fresnel_dielectric(float cosine, float sine2, float eta) {
@@ -47,10 +45,6 @@ DEVICE float fresnel_dielectric(float cosine, float sine2, float eta) {
     const float perpendicular = (cosine - eta * cos_t) / (cosine + eta * cos_t);
     return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
-
-#endif
-
-#if FEATURE_fresnel_conductor
 
 /// Returns the exact term of a conductor with complex index eta + i k relative to the medium in
 /// front, for eta > 0 and both up to 1e8.
@@ -83,10 +77,6 @@ DEVICE float fresnel_conductor(float cosine, float eta, float k) {
     return 0.5f * perpendicular * (1.0f + ratio);
 }
 
-#endif
-
-#if FEATURE_fresnel_conductor_approximate
-
 /// Returns the approximate term of a conductor, thesis (3.28). It differs from the exact term by up
 /// to 0.006 for metals, and by more if eta^2 + k^2 is small.
 DEVICE float fresnel_conductor_approximate(float cosine, float eta, float k) {
@@ -98,20 +88,12 @@ DEVICE float fresnel_conductor_approximate(float cosine, float eta, float k) {
     return 0.5f * (parallel + perpendicular);
 }
 
-#endif
-
-#if FEATURE_fresnel_schlick
-
 /// Returns Schlick's approximation, thesis (3.29); r0 is the reflectance at normal incidence.
 DEVICE float fresnel_schlick(float cosine, float r0) {
     const float m = max(1.0f - cosine, 0.0f);
     const float m2 = m * m;
     return r0 + (1.0f - r0) * (m2 * m2 * m);
 }
-
-#endif
-
-#if FEATURE_fresnel
 
 /// Returns F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a
 /// dielectric (component_eta). Dielectrics are reciprocal: a ray and its refraction have the same F
@@ -120,41 +102,25 @@ DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float 
                            float sine2) {
     float3 f = make_float3(1.0f, 1.0f, 1.0f);
     const float c = min(fabs(cosine), 1.0f);
-    (void)sine2;
     const uint flags = component->flags;
-    switch (flags & FRESNEL_MASK) {
-#if FEATURE_fresnel_dielectric
-        case FRESNEL_DIELECTRIC: {
-            const float value = fresnel_dielectric(c, sine2, eta);
-            f = make_float3(value, value, value);
-            break;
-        }
-#endif
-#if FEATURE_fresnel_conductor
-        case FRESNEL_CONDUCTOR:
-            f = make_float3(fresnel_conductor(c, component->eta[0], component->k[0]),
-                            fresnel_conductor(c, component->eta[1], component->k[1]),
-                            fresnel_conductor(c, component->eta[2], component->k[2]));
-            break;
-#endif
-#if FEATURE_fresnel_conductor_approximate
-        case FRESNEL_CONDUCTOR_APPROXIMATE:
-            f = make_float3(fresnel_conductor_approximate(c, component->eta[0], component->k[0]),
-                            fresnel_conductor_approximate(c, component->eta[1], component->k[1]),
-                            fresnel_conductor_approximate(c, component->eta[2], component->k[2]));
-            break;
-#endif
-#if FEATURE_fresnel_schlick
-        case FRESNEL_SCHLICK:
-            f = make_float3(fresnel_schlick(c, component->eta[0]),
-                            fresnel_schlick(c, component->eta[1]),
-                            fresnel_schlick(c, component->eta[2]));
-            break;
-#endif
-        default:  // FRESNEL_IDEAL: 1, with or without complement
-            return f;
+    const uint kind = flags & FRESNEL_MASK;
+    if (FEATURE_fresnel_dielectric && kind == FRESNEL_DIELECTRIC) {
+        const float value = fresnel_dielectric(c, sine2, eta);
+        f = make_float3(value, value, value);
+    } else if (FEATURE_fresnel_conductor && kind == FRESNEL_CONDUCTOR) {
+        f = make_float3(fresnel_conductor(c, component->eta[0], component->k[0]),
+                        fresnel_conductor(c, component->eta[1], component->k[1]),
+                        fresnel_conductor(c, component->eta[2], component->k[2]));
+    } else if (FEATURE_fresnel_conductor_approximate && kind == FRESNEL_CONDUCTOR_APPROXIMATE) {
+        f = make_float3(fresnel_conductor_approximate(c, component->eta[0], component->k[0]),
+                        fresnel_conductor_approximate(c, component->eta[1], component->k[1]),
+                        fresnel_conductor_approximate(c, component->eta[2], component->k[2]));
+    } else if (FEATURE_fresnel_schlick && kind == FRESNEL_SCHLICK) {
+        f = make_float3(fresnel_schlick(c, component->eta[0]),
+                        fresnel_schlick(c, component->eta[1]),
+                        fresnel_schlick(c, component->eta[2]));
+    } else {
+        return f;  // FRESNEL_IDEAL: 1, with or without complement
     }
     return (flags & BXDF_FLAG_COMPLEMENT) != 0u ? make_float3(1.0f, 1.0f, 1.0f) - f : f;
 }
-
-#endif

@@ -15,16 +15,10 @@ DEVICE float refraction_scale(float eta) {
     return 1.0f / (eta * eta);
 }
 
-#if FEATURE_ideal_reflection
-
 /// Returns the mirror direction, thesis (3.37).
 DEVICE float3 ideal_reflection_direction(float3 wo) {
     return make_float3(-wo.x, -wo.y, wo.z);
 }
-
-#endif
-
-#if FEATURE_ideal_refraction
 
 /// Returns the refracted direction, thesis (3.41); z is 0 at total internal reflection.
 DEVICE float3 ideal_refraction_direction(float3 wo, float eta) {
@@ -32,5 +26,3 @@ DEVICE float3 ideal_refraction_direction(float3 wo, float eta) {
     return cosine > 0.0f ? make_float3(-wo.x / eta, -wo.y / eta, -cosine)
                          : make_float3(0.0f, 0.0f, 0.0f);
 }
-
-#endif

@@ -11,8 +11,6 @@
 #include "renderer/kernels/bsdf/lobe.h"
 #include "renderer/shared/compat.h"
 
-#if FEATURE_microfacet_reflection
-
 /// Evaluates rough reflection.
 DEVICE Lobe microfacet_reflection_evaluate(float3 wo, float3 wi, Roughness r) {
     if (!(wi.z > 0.0f)) {
@@ -29,10 +27,6 @@ DEVICE Lobe microfacet_reflection_evaluate(float3 wo, float3 wi, Roughness r) {
 DEVICE float3 microfacet_reflection_direction(float3 wo, Roughness r, float u, float v) {
     return reflect_about(wo, visible_normal(wo, r, u, v));
 }
-
-#endif
-
-#if FEATURE_microfacet_refraction
 
 /// Evaluates rough refraction. `eta` is the index on wi's side over that on wo's side. It is not 1,
 /// since there would be no boundary. Radiance is scaled by refraction_scale, which is the factor
@@ -71,5 +65,3 @@ DEVICE float3 microfacet_refraction_direction(float3 wo, Roughness r, float eta,
     }
     return (wo_m / eta - cosine) * m - wo / eta;
 }
-
-#endif

@@ -11,8 +11,6 @@
 #include "renderer/kernels/bsdf/shading_frame.h"
 #include "renderer/kernels/math/logarithm.h"
 
-#if FEATURE_light_strategy || FEATURE_from_light
-
 /// A scattering event in both directions: from wo, where the path came from, to wi, where it
 /// continues.
 typedef struct TwoWay {
@@ -24,7 +22,14 @@ typedef struct TwoWay {
     float3 importance;
 } TwoWay;
 
-#if FEATURE_delta
+/// Returns an event whose reverse is impossible.
+DEVICE TwoWay one_way(void) {
+    TwoWay both;
+    both.log_forward = 0.0f;
+    both.log_ratio = -INFINITY;
+    both.importance = make_float3(0.0f, 0.0f, 0.0f);
+    return both;
+}
 
 /// Returns the probability with which a delta component is selected for frame.wo; 0 if the material
 /// scatters nothing.
@@ -35,7 +40,9 @@ DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, Su
     if (!side_scatters(record, frame, wo.z)) {
         return 0.0f;
     }
-#if FEATURE_composite
+    if (!FEATURE_composite || record.component_count == 1u) {
+        return 1.0f;
+    }
     float shares = 0.0f, own = 0.0f;
     for (uint i = record.first_component; i < record.first_component + record.component_count;
          ++i) {
@@ -46,14 +53,8 @@ DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, Su
         shares += share;
         own = i == component ? share : own;
     }
-    return record.component_count == 1u ? 1.0f : shares > 0.0f ? own / shares : 0.0f;
-#else
-    (void)component;
-    return 1.0f;
-#endif
+    return shares > 0.0f ? own / shares : 0.0f;
 }
-
-#endif
 
 /// Returns both directions of `sample`, which was sampled in `frame` at `hit`.
 DEVICE TwoWay look_back(PRIVATE const SceneView *scene, SurfaceHit hit, SurfaceFrame frame,
@@ -61,30 +62,27 @@ DEVICE TwoWay look_back(PRIVATE const SceneView *scene, SurfaceHit hit, SurfaceF
     const SurfaceFrame back = shading_frame(scene, hit, sample.wi);
     const float cos_wo = fabs(dot(frame.ng, frame.wo));
     const float cos_wi = fabs(dot(frame.ng, sample.wi));
-    TwoWay both;
-    both.log_forward = 0.0f;
-    both.log_ratio = -INFINITY;
-    both.importance = make_float3(0.0f, 0.0f, 0.0f);
+    TwoWay both = one_way();
     // A hit in the plane of the surface does not exist in exact arithmetic.
     if (!(cos_wo > 0.0f && cos_wi > 0.0f)) {
         return both;
     }
-#if FEATURE_delta
-    if (!(sample.pdf_w < INFINITY)) {
+    if (FEATURE_delta && !(sample.pdf_w < INFINITY)) {
         float bend = 1.0f;
-#if FEATURE_smooth_normals
-        // If one direction is below the horizon of the shading normal, its frame uses the geometric
-        // normal. The two frames then differ, and the reverse event is impossible.
-        const float3 sum = frame.ns + back.ns, difference = frame.ns - back.ns;
-        if (dot(sum, sum) > 0.0f && dot(difference, difference) > 0.0f) {
-            return both;
+        if (FEATURE_smooth_normals) {
+            // If one direction is below the horizon of the shading normal, its frame uses the
+            // geometric normal. The two frames then differ, and the reverse event is impossible.
+            const float3 sum = frame.ns + back.ns, difference = frame.ns - back.ns;
+            if (dot(sum, sum) > 0.0f && dot(difference, difference) > 0.0f) {
+                return both;
+            }
+            // Cosines with the shading normal map solid angles; cosines with the geometric normal
+            // map projected solid angles. The former are not 0, as bsdf_sample rejects directions
+            // closer to the horizon than MIN_COSINE.
+            const float ns_wo = fabs(dot(frame.ns, frame.wo));
+            const float ns_wi = fabs(dot(frame.ns, sample.wi));
+            bend = (ns_wo / cos_wo) * (cos_wi / ns_wi);
         }
-        // Cosines with the shading normal map solid angles; cosines with the geometric normal map
-        // projected solid angles. The former are not 0, as bsdf_sample rejects directions closer to
-        // the horizon than MIN_COSINE.
-        const float ns_wo = fabs(dot(frame.ns, frame.wo)), ns_wi = fabs(dot(frame.ns, sample.wi));
-        bend = (ns_wo / cos_wo) * (cos_wi / ns_wi);
-#endif
         const float probability = delta_probability(scene, hit.material, back, sample.component);
         // n^2 |cos| dw is equal on both sides of a boundary.
         both.log_ratio =
@@ -94,12 +92,9 @@ DEVICE TwoWay look_back(PRIVATE const SceneView *scene, SurfaceHit hit, SurfaceF
         }
         return both;
     }
-#endif
     const BsdfValue value = bsdf_evaluate(scene, hit.material, back, frame.wo);
     both.log_forward = log2_quotient(sample.pdf_w, cos_wi);
     both.log_ratio = log2_quotient(value.pdf_w, cos_wo) - both.log_forward;
     both.importance = value.f_cos * (cos_wi / cos_wo / sample.pdf_w);
     return both;
 }
-
-#endif

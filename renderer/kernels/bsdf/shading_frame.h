@@ -11,10 +11,8 @@
 /// only if the material is anisotropic.
 DEVICE SurfaceFrame shading_frame(PRIVATE const SceneView *scene, SurfaceHit hit, float3 wo) {
     float3 tangent = make_float3(0.0f, 0.0f, 0.0f);
-#if FEATURE_tangents
-    if ((scene->materials[hit.material].flags & MATERIAL_TURNS) != 0u) {
+    if (FEATURE_tangents && (scene->materials[hit.material].flags & MATERIAL_TURNS) != 0u) {
         tangent = hit.tangent;
     }
-#endif
     return make_surface_frame(hit.point.normal, hit.normal, tangent, hit.uv, wo);
 }

@@ -47,21 +47,13 @@ DEVICE SurfaceFrame make_surface_frame(float3 ng, float3 ns, float3 tangent, flo
     SurfaceFrame frame;
     frame.front = dot(ng, wo) >= 0.0f ? 1u : 0u;
     frame.ng = frame.front != 0u ? ng : -ng;
-#if FEATURE_smooth_normals
-    frame.ns = dot(ns, frame.ng) >= 0.0f ? ns : -ns;
-    if (!(dot(frame.ns, wo) > 0.0f)) {
-        frame.ns = frame.ng;
-    }
-#else
-    (void)ns;
     frame.ns = frame.ng;
-#endif
-#if FEATURE_tangents
-    const Frame axes = frame_from_tangent(frame.ns, tangent);
-#else
-    (void)tangent;
-    const Frame axes = frame_from_z(frame.ns);
-#endif
+    if (FEATURE_smooth_normals) {
+        const float3 facing = dot(ns, frame.ng) >= 0.0f ? ns : -ns;
+        frame.ns = dot(facing, wo) > 0.0f ? facing : frame.ng;
+    }
+    const Frame axes =
+        FEATURE_tangents ? frame_from_tangent(frame.ns, tangent) : frame_from_z(frame.ns);
     frame.x = axes.x;
     frame.y = axes.y;
     frame.wo = wo;

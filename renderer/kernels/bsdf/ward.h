@@ -13,8 +13,6 @@
 #include "renderer/kernels/math/circle.h"
 #include "renderer/shared/compat.h"
 
-#if FEATURE_ward || FEATURE_ward_original
-
 /// Returns the density of the slopes of the half vector h = wo + wi (not normalised): exp(-tan^2
 /// (cos^2(phi) / alpha_x^2 + sin^2(phi) / alpha_y^2)) / (pi alpha_x alpha_y). Slopes computed from
 /// x, y and z of h have full precision near the pole.
@@ -50,5 +48,3 @@ DEVICE float3 ward_direction(float3 wo, float alpha_x, float alpha_y, float u, f
     return reflect_about(
         wo, normalize(make_float3(alpha_x * slope * around.x, alpha_y * slope * around.y, 1.0f)));
 }
-
-#endif

@@ -5,6 +5,8 @@
 // Two chi-square tests share a family-wise level of 0.01, so each has the level 0.01 / 2
 // (Bonferroni). A planted error shows that the sample count suffices to detect 2 %.
 #define FEATURE_lens 1
+#include "testing/other_features.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -12,8 +12,6 @@ typedef struct CameraRay {
     float3 direction;  ///< unit
 } CameraRay;
 
-#if FEATURE_lens
-
 /// Returns the point of the lens that (u, v) samples, relative to its centre.
 DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
     const float2 disc = sample_disc(u, v);
@@ -21,8 +19,6 @@ DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
             make_float3(camera.axis_y[0], camera.axis_y[1], camera.axis_y[2]) * disc.y) *
            camera.aperture_radius;
 }
-
-#endif
 
 /// Returns the ray through film position (x, y), in pixels from the top left corner, and the point
 /// of the lens that (u, v) samples.
@@ -38,13 +34,13 @@ DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, floa
                              camera.corner[2] + x * camera.step_x[2] + y * camera.step_y[2]);
     CameraRay ray;
     ray.origin = make_float3(camera.position[0], camera.position[1], camera.position[2]);
-#if FEATURE_lens
-    const float3 on_lens = point_on_lens(camera, u, v);
-    ray.origin += on_lens;
-    // Not 0: the component of `way` along the axis is 1 before scaling, that of the lens point is
-    // 0.
-    way = way * camera.focus_distance - on_lens;
-#endif
+    if (FEATURE_lens) {
+        const float3 on_lens = point_on_lens(camera, u, v);
+        ray.origin += on_lens;
+        // Not 0: the component of `way` along the axis is 1 before scaling, that of the lens point
+        // is 0.
+        way = way * camera.focus_distance - on_lens;
+    }
     ray.direction = normalize(way);
     return ray;
 }
@@ -79,16 +75,16 @@ typedef struct CameraJoin {
 /// radiance L arrive at the lens point from an area dA around the point, at distance d, with `cos`
 /// the cosine at the area. It adds L cos pdf_w / d^2 dA to the mean radiance of the pixel at
 /// `raster`.
-DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED float u,
-                              MAYBE_UNUSED float v) {
+DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, float u, float v) {
     CameraJoin join;
     join.lens_point = make_float3(camera.position[0], camera.position[1], camera.position[2]);
     join.raster = make_float2(0.0f, 0.0f);
     join.pdf_w = 0.0f;
-#if FEATURE_lens
-    const float3 on_lens = point_on_lens(camera, u, v);
-    join.lens_point += on_lens;
-#endif
+    float3 on_lens = make_float3(0.0f, 0.0f, 0.0f);
+    if (FEATURE_lens) {
+        on_lens = point_on_lens(camera, u, v);
+        join.lens_point += on_lens;
+    }
     const float3 way = point - join.lens_point;
     const float depth = dot(way, camera_forward(camera));
     if (!(depth > 0.0f)) {
@@ -100,9 +96,9 @@ DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, MAYBE_UNUSED fl
     // at most 1 / cos^2 of the field of view, plus that of the lens over the focus distance.
     const float3 slope = way / depth;
     float3 seen = slope;
-#if FEATURE_lens
-    seen += on_lens / camera.focus_distance;
-#endif
+    if (FEATURE_lens) {
+        seen += on_lens / camera.focus_distance;
+    }
     const float3 step_x = make_float3(camera.step_x[0], camera.step_x[1], camera.step_x[2]);
     const float3 step_y = make_float3(camera.step_y[0], camera.step_y[1], camera.step_y[2]);
     const float width = (float)camera.width, height = (float)camera.height;

@@ -15,20 +15,20 @@ typedef struct FilmView {
 } FilmView;
 
 /// Prefetches the words of a pixel that adding `sample` will change, judged by its largest channel.
-DEVICE void prefetch_pixel(MAYBE_UNUSED FilmView film, MAYBE_UNUSED uint pixel,
-                           MAYBE_UNUSED float3 sample) {
-#if PREFETCHES
+DEVICE void prefetch_pixel(FilmView film, uint pixel, float3 sample) {
+    if (!PREFETCHES) {
+        return;
+    }
     GLOBAL const long *words = film.words + (ulong)pixel * FILM_PIXEL_WORDS(FEATURE_variance);
     const float largest = max(sample.x, max(sample.y, sample.z));
     const uint word = min(film_word(largest, FILM_SUM_LOWEST, FILM_SUM_STEP), FILM_WORDS - 1u);
     PREFETCH(words + word * PIXEL_SUMS);
     PREFETCH(words + word * PIXEL_SUMS + 2);
-#if FEATURE_variance
-    const uint square =
-        min(film_word(largest * largest, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP), FILM_WORDS - 1u);
-    PREFETCH(words + square * PIXEL_SUMS + 3);
-#endif
-#endif
+    if (FEATURE_variance) {
+        const uint square = min(film_word(largest * largest, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP),
+                                FILM_WORDS - 1u);
+        PREFETCH(words + square * PIXEL_SUMS + 3);
+    }
 }
 
 /// Adds a sample to a pixel and returns whether the film accepted it. Counts a rejected sample as
@@ -43,14 +43,10 @@ DEVICE bool add_to_pixel(FilmView film, uint pixel, float3 sample) {
     return error == 0u;
 }
 
-#if FEATURE_from_camera
-
 /// Adds the radiance of a camera path that ends here. Returns whether the film accepted it.
 DEVICE bool add_path(PathStates paths, uint slot, FilmView film) {
     return add_to_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot));
 }
-
-#if FEATURE_convergence
 
 /// Adds a camera path that the film accepted to the half film, if its sample has an even index.
 DEVICE void add_path_to_half(PathStates paths, uint slot, FilmView film, ulong first_sample) {
@@ -60,7 +56,3 @@ DEVICE void add_path_to_half(PathStates paths, uint slot, FilmView film, ulong f
         atomic_inc(&film.counters->out_of_range);
     }
 }
-
-#endif
-
-#endif

@@ -76,14 +76,14 @@ DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
         return FILM_OUT_OF_RANGE;
     }
     bool full = film_add_colour(pixel_words, PIXEL_SUMS, sample);
-#if FEATURE_variance
-    // Squares stay below 2^80, the limit of their top word.
-    full |= film_add_value(pixel_words + 3, PIXEL_SUMS, sample.x * sample.x, FILM_SQUARE_LOWEST,
-                           FILM_SQUARE_STEP);
-    full |= film_add_value(pixel_words + 4, PIXEL_SUMS, sample.y * sample.y, FILM_SQUARE_LOWEST,
-                           FILM_SQUARE_STEP);
-    full |= film_add_value(pixel_words + 5, PIXEL_SUMS, sample.z * sample.z, FILM_SQUARE_LOWEST,
-                           FILM_SQUARE_STEP);
-#endif
+    if (FEATURE_variance) {
+        // Squares stay below 2^80, the limit of their top word.
+        full |= film_add_value(pixel_words + 3, PIXEL_SUMS, sample.x * sample.x, FILM_SQUARE_LOWEST,
+                               FILM_SQUARE_STEP);
+        full |= film_add_value(pixel_words + 4, PIXEL_SUMS, sample.y * sample.y, FILM_SQUARE_LOWEST,
+                               FILM_SQUARE_STEP);
+        full |= film_add_value(pixel_words + 5, PIXEL_SUMS, sample.z * sample.z, FILM_SQUARE_LOWEST,
+                               FILM_SQUARE_STEP);
+    }
     return full ? FILM_OUT_OF_RANGE : 0u;
 }

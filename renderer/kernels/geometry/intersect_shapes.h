@@ -9,8 +9,6 @@
 #include "renderer/kernels/geometry/shape_space.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 
-#if FEATURE_shapes
-
 /// The nearest hit of a ray with a shape.
 typedef struct ShapeHit {
     float t;     ///< distance in lengths of the direction
@@ -26,14 +24,8 @@ DEVICE bool intersect_shape(GLOBAL const ShapeRecord *shape, float3 origin, floa
     if (!make_shape_ray(shape, origin, direction, &ray)) {
         return false;
     }
-#if FEATURE_julia && FEATURE_quadrics
-    return shape->kind == SHAPE_JULIA ? intersect_julia(shape, ray, t_max, t, object_point)
-                                      : intersect_quadric(shape, ray, t_max, t, object_point);
-#elif FEATURE_julia
-    return intersect_julia(shape, ray, t_max, t, object_point);
-#else
-    return intersect_quadric(shape, ray, t_max, t, object_point);
-#endif
+    return is_julia(shape) ? intersect_julia(shape, ray, t_max, t, object_point)
+                           : intersect_quadric(shape, ray, t_max, t, object_point);
 }
 
 /// Returns the nearest hit at 0 < t < t_max, where t_max may be INFINITY. Directions may have any
@@ -80,5 +72,3 @@ DEVICE bool any_shape(GLOBAL const ShapeRecord *shapes, GLOBAL const ShapeBounds
     }
     return false;
 }
-
-#endif

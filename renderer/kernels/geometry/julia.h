@@ -36,8 +36,6 @@
 
 #include "renderer/kernels/geometry/shape_space.h"
 
-#if FEATURE_julia
-
 #define JULIA_STEP 1.52587891e-5f  ///< 2^-16
 #define JULIA_FINE_PROBES 512u
 #define JULIA_COARSE_STEPS 500u
@@ -276,5 +274,3 @@ DEVICE float3 julia_gradient(GLOBAL const ShapeRecord *julia, float3 p, PRIVATE 
     return make_float3(quaternion_dot(dx, z), quaternion_dot(dy, z), quaternion_dot(dz, z)) /
            z_length;
 }
-
-#endif

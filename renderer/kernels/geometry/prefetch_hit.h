@@ -10,8 +10,6 @@
 #include "renderer/kernels/texture/texture.h"
 #include "renderer/shared/path_state.h"
 
-#if PREFETCHES && FEATURE_triangles
-
 /// Prefetches a record, which may begin on one cache line and end on the next.
 #define PREFETCH_RECORD(record) \
     PREFETCH(record);           \
@@ -20,15 +18,13 @@
 /// Prefetches the records that triangle_hit reads.
 DEVICE void prefetch_triangle(PRIVATE const SceneView *scene, uint triangle) {
     PREFETCH_RECORD(scene->surface_triangles + triangle);
-#if FEATURE_smooth_normals
-    PREFETCH_RECORD(scene->triangle_normals + triangle);
-#endif
-#if FEATURE_texture_coordinates
-    PREFETCH_RECORD(scene->triangle_uvs + triangle);
-#endif
+    if (FEATURE_smooth_normals) {
+        PREFETCH_RECORD(scene->triangle_normals + triangle);
+    }
+    if (FEATURE_texture_coordinates) {
+        PREFETCH_RECORD(scene->triangle_uvs + triangle);
+    }
 }
-
-#if FEATURE_textures && FEATURE_scattering
 
 /// Prefetches the texels of a lookup: the first of each row, next to which the second usually is.
 DEVICE void prefetch_texture(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
@@ -55,32 +51,29 @@ DEVICE void prefetch_texels(PRIVATE const SceneView *scene, uint material, float
     }
 }
 
-#endif
-#endif
-
 /// path_at, for a stage that reads the hit primitive.
 DEVICE uint hit_path_at(PRIVATE const SceneView *scene, PathStates paths, GLOBAL const uint *queue,
                         uint i, uint end) {
-#if PREFETCHES && FEATURE_triangles
-    const uint triangle = get_hit_primitive(paths, queue[min(i + 2u, end - 1u)]);
-    if ((triangle & SHAPE_BIT) == 0u) {
-        prefetch_triangle(scene, triangle);
+    if (PREFETCHES && FEATURE_triangles) {
+        const uint triangle = get_hit_primitive(paths, queue[min(i + 2u, end - 1u)]);
+        if ((triangle & SHAPE_BIT) == 0u) {
+            prefetch_triangle(scene, triangle);
+        }
     }
-#endif
     return path_at(paths, queue, i, end);
 }
 
 /// path_at, for a stage that evaluates the material of the hit.
 DEVICE uint shaded_path_at(PRIVATE const SceneView *scene, PathStates paths,
                            GLOBAL const uint *queue, uint i, uint end) {
-#if PREFETCHES && FEATURE_triangles && FEATURE_textures && FEATURE_scattering
-    const uint next = queue[min(i + 1u, end - 1u)];
-    const uint triangle = get_hit_primitive(paths, next);
-    if ((triangle & SHAPE_BIT) == 0u) {
-        const SurfaceHit hit =
-            triangle_hit(scene, triangle, get_hit_u(paths, next), get_hit_v(paths, next));
-        prefetch_texels(scene, hit.material, hit.uv);
+    if (PREFETCHES && FEATURE_triangles && FEATURE_textures && FEATURE_scattering) {
+        const uint next = queue[min(i + 1u, end - 1u)];
+        const uint triangle = get_hit_primitive(paths, next);
+        if ((triangle & SHAPE_BIT) == 0u) {
+            const SurfaceHit hit =
+                triangle_hit(scene, triangle, get_hit_u(paths, next), get_hit_v(paths, next));
+            prefetch_texels(scene, hit.material, hit.uv);
+        }
     }
-#endif
     return hit_path_at(scene, paths, queue, i, end);
 }

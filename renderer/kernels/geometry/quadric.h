@@ -9,8 +9,6 @@
 
 #include "renderer/kernels/geometry/shape_space.h"
 
-#if FEATURE_quadrics
-
 /// Returns q(p).
 DEVICE float quadric_value(GLOBAL const ShapeRecord *q, float3 p) {
     return q->a * (p.x * p.x + p.y * p.y) + q->b * (p.z * p.z) + q->c * p.z + q->d;
@@ -100,5 +98,3 @@ DEVICE bool intersect_quadric(GLOBAL const ShapeRecord *q, ShapeRay ray, float t
     return (both && quadric_hit(q, ray, shift, s0 < s1 ? s0 : s1, t_max, t, p)) ||
            quadric_hit(q, ray, shift, s0 < s1 ? s1 : s0, t_max, t, p);
 }
-
-#endif

@@ -8,8 +8,6 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-#if FEATURE_shapes
-
 /// Returns the bits of the shapes that intersect_shape may find at 0 < t < t_max, among the first
 /// `count` of eight shapes, or among all eight if `count` is larger.
 ///
@@ -38,5 +36,3 @@ DEVICE uint shapes_in_reach(GLOBAL const ShapeBounds *bounds, uint count, float3
                         lane_bits((towards <= 0.0f) & (squared > reach2 + 1e-36f));
     return ~missed & (count < SHAPE_LANES ? (1u << count) - 1u : 0xffu);
 }
-
-#endif

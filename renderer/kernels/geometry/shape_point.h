@@ -40,8 +40,6 @@
 #include "renderer/kernels/geometry/shape_space.h"
 #include "renderer/kernels/geometry/surface_point.h"
 
-#if FEATURE_shapes
-
 /// Returns the point of a hit. `object_point` is that of ShapeHit, or any point within a few ulps
 /// of the surface.
 DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_point) {
@@ -49,25 +47,13 @@ DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_p
     // vanishes on the surface.
     float3 g;
     float residual;
-#if FEATURE_julia && FEATURE_quadrics
-    const bool julia = shape->kind == SHAPE_JULIA;
-#elif FEATURE_julia
-    const bool julia = true;
-#else
-    const bool julia = false;
-#endif
-#if FEATURE_julia
-    if (julia) {
+    if (is_julia(shape)) {
         g = julia_gradient(shape, object_point, &residual);
-    }
-#endif
-#if FEATURE_quadrics
-    if (!julia) {
+    } else {
         g = quadric_half_gradient(shape, object_point) * 2.0f;
         residual = fabs(quadric_value(shape, object_point)) +
                    6.0f * HALF_ULP * quadric_magnitude(shape, object_point);
     }
-#endif
     const float steepness = fabs(g.x) + fabs(g.y) + fabs(g.z);
     if (steepness > 1e-30f) {
         g = g / steepness;
@@ -136,5 +122,3 @@ DEVICE float3 shape_tangent(GLOBAL const ShapeRecord *shape, float3 object_point
     }
     return vector_to_world(shape, tangent);
 }
-
-#endif

@@ -19,6 +19,11 @@ typedef struct ShapeRay {
     float t_scale;  ///< positive
 } ShapeRay;
 
+/// Returns whether a shape is a Julia set; all other shapes are quadrics.
+DEVICE bool is_julia(GLOBAL const ShapeRecord *shape) {
+    return FEATURE_julia && (!FEATURE_quadrics || shape->kind == SHAPE_JULIA);
+}
+
 DEVICE float3 shape_centre(GLOBAL const ShapeRecord *shape) {
     return make_float3(shape->world_from_object[0][3], shape->world_from_object[1][3],
                        shape->world_from_object[2][3]);

@@ -3,6 +3,8 @@
 // precision, and with the one set that has a closed form.
 #define FEATURE_shapes 1
 #define FEATURE_julia 1
+#include "testing/other_features.h"
+
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"

@@ -2,14 +2,13 @@
 // Tests that grazing rays do not enter closed mirrors: the reflected ray must leave on the side of
 // the incident ray. The code is compiled for a scene of shapes alone, in which shading normals
 // equal geometric normals.
-#define FEATURE_shapes 1
-#define FEATURE_quadrics 1
 #define FEATURE_smooth_normals 0
+#include "renderer/testing/bsdf_cases.h"
+
 #include <gtest/gtest.h>
 
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/geometry/shape_point.h"
-#include "renderer/testing/bsdf_cases.h"
 #include "renderer/testing/shape_hits.h"
 #include "renderer/testing/shapes_double.h"
 

@@ -4,6 +4,8 @@
 // maps.
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
+#include "testing/other_features.h"
+
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"

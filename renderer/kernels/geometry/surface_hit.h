@@ -19,7 +19,24 @@ typedef struct SurfaceHit {
     uint emitter;
 } SurfaceHit;
 
-#if FEATURE_triangles
+/// Returns a tangent of a triangle: its first edge, unless the (u, v) of its corners span the
+/// plane. Then it is dp/du up to a positive factor: (dv2 e1 - dv1 e2) times the sign of the
+/// Jacobian.
+DEVICE float3 triangle_tangent(PRIVATE const SceneView *scene, uint triangle) {
+    GLOBAL const SurfaceTriangle *surface = scene->surface_triangles + triangle;
+    const float3 p0 = make_float3(surface->p0[0], surface->p0[1], surface->p0[2]);
+    const float3 e1 = make_float3(surface->p1[0], surface->p1[1], surface->p1[2]) - p0;
+    const float3 e2 = make_float3(surface->p2[0], surface->p2[1], surface->p2[2]) - p0;
+    if (!FEATURE_texture_coordinates) {
+        return e1;
+    }
+    GLOBAL const TriangleUv *at = scene->triangle_uvs + triangle;
+    const float du1 = at->uv[1][0] - at->uv[0][0], dv1 = at->uv[1][1] - at->uv[0][1];
+    const float du2 = at->uv[2][0] - at->uv[0][0], dv2 = at->uv[2][1] - at->uv[0][1];
+    const float jacobian = du1 * dv2 - du2 * dv1;
+    const float3 along = e1 * dv2 - e2 * dv1;
+    return jacobian > 0.0f ? along : jacobian != 0.0f ? -along : e1;
+}
 
 /// Returns the hit with barycentrics (1 - u - v, u, v) on a triangle.
 DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, float u, float v) {
@@ -31,10 +48,9 @@ DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, fl
     hit.uv = make_float2(0.0f, 0.0f);
     hit.material = surface->material;
     hit.emitter = surface->emitter;
-    MAYBE_UNUSED const float w = 1.0f - u - v;
-#if FEATURE_smooth_normals
-    GLOBAL const TriangleNormals *corners = scene->triangle_normals + triangle;
-    if (corners->is_smooth != 0u) {
+    const float w = 1.0f - u - v;
+    if (FEATURE_smooth_normals && scene->triangle_normals[triangle].is_smooth != 0u) {
+        GLOBAL const TriangleNormals *corners = scene->triangle_normals + triangle;
         const float3 n = make_float3(
             w * corners->normal[0][0] + u * corners->normal[1][0] + v * corners->normal[2][0],
             w * corners->normal[0][1] + u * corners->normal[1][1] + v * corners->normal[2][1],
@@ -43,35 +59,16 @@ DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, fl
         const float squared = dot(n, n);
         hit.normal = squared > 1e-12f ? n / sqrt(squared) : hit.point.normal;
     }
-#endif
-#if FEATURE_texture_coordinates
-    GLOBAL const TriangleUv *at = scene->triangle_uvs + triangle;
-    hit.uv = make_float2(w * at->uv[0][0] + u * at->uv[1][0] + v * at->uv[2][0],
-                         w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
-#endif
-#if FEATURE_tangents
-    // The tangent is the first edge, unless the coordinates span the plane. Then it is dp/du up to
-    // a positive factor: (dv2 e1 - dv1 e2) times the sign of the Jacobian.
-    const float3 p0 = make_float3(surface->p0[0], surface->p0[1], surface->p0[2]);
-    const float3 e1 = make_float3(surface->p1[0], surface->p1[1], surface->p1[2]) - p0;
-    const float3 e2 = make_float3(surface->p2[0], surface->p2[1], surface->p2[2]) - p0;
-    hit.tangent = e1;
-#if FEATURE_texture_coordinates
-    const float du1 = at->uv[1][0] - at->uv[0][0], dv1 = at->uv[1][1] - at->uv[0][1];
-    const float du2 = at->uv[2][0] - at->uv[0][0], dv2 = at->uv[2][1] - at->uv[0][1];
-    const float jacobian = du1 * dv2 - du2 * dv1;
-    if (jacobian != 0.0f) {
-        const float3 along = e1 * dv2 - e2 * dv1;
-        hit.tangent = jacobian > 0.0f ? along : -along;
+    if (FEATURE_texture_coordinates) {
+        GLOBAL const TriangleUv *at = scene->triangle_uvs + triangle;
+        hit.uv = make_float2(w * at->uv[0][0] + u * at->uv[1][0] + v * at->uv[2][0],
+                             w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
     }
-#endif
-#endif
+    if (FEATURE_tangents) {
+        hit.tangent = triangle_tangent(scene, triangle);
+    }
     return hit;
 }
-
-#endif
-
-#if FEATURE_shapes
 
 /// Returns the hit at `object_point`, on the surface of a shape in object space.
 DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point) {
@@ -80,46 +77,30 @@ DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point
     hit.normal = hit.point.normal;
     hit.tangent = make_float3(0.0f, 0.0f, 0.0f);
     hit.uv = make_float2(0.0f, 0.0f);
-#if FEATURE_textures
-    hit.uv = shape_uv(shape, object_point);
-#endif
-#if FEATURE_tangents
-    hit.tangent = shape_tangent(shape, object_point);
-#endif
+    if (FEATURE_textures) {
+        hit.uv = shape_uv(shape, object_point);
+    }
+    if (FEATURE_tangents) {
+        hit.tangent = shape_tangent(shape, object_point);
+    }
     hit.material = shape->material;
     hit.emitter = shape->light;
     return hit;
 }
 
-#endif
-
-#if FEATURE_triangles || FEATURE_shapes
-
 /// Returns the hit of a path; `primitive` and `at` are those of the path state.
 DEVICE SurfaceHit surface_hit(PRIVATE const SceneView *scene, uint primitive, float3 at) {
-#if FEATURE_shapes
-#if FEATURE_triangles
-    if ((primitive & SHAPE_BIT) == 0u) {
-        return triangle_hit(scene, primitive, at.x, at.y);
+    if (FEATURE_shapes && (!FEATURE_triangles || (primitive & SHAPE_BIT) != 0u)) {
+        return shape_hit(scene->shapes + (primitive & ~SHAPE_BIT), at);
     }
-#endif
-    return shape_hit(scene->shapes + (primitive & ~SHAPE_BIT), at);
-#else
     return triangle_hit(scene, primitive, at.x, at.y);
-#endif
 }
-
-#endif
 
 #ifdef __OPENCL_VERSION__
 
 /// Returns the barycentrics of a path's hit on a triangle, or its object-space point on a shape.
 DEVICE float3 get_hit_at(PathStates paths, uint slot) {
-#if FEATURE_shapes
     return make_float3(get_hit_u(paths, slot), get_hit_v(paths, slot), get_hit_w(paths, slot));
-#else
-    return make_float3(get_hit_u(paths, slot), get_hit_v(paths, slot), 0.0f);
-#endif
 }
 
 #endif

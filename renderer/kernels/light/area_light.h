@@ -10,8 +10,6 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-#if FEATURE_area_lights
-
 /// A point on a light.
 typedef struct LightPoint {
     SurfacePoint point;  ///< emits on the side of its normal
@@ -22,12 +20,12 @@ typedef struct LightPoint {
 DEVICE LightPoint sample_mesh_light(GLOBAL const EmitterTriangle *emitter_triangles,
                                     GLOBAL const SurfaceTriangle *surface_triangles,
                                     LightRecord light, uint4 words) {
-#if FEATURE_light_triangles
-    SELECT_BY_WORD(emitter_triangles, .selection_end, light.first_triangle, light.triangle_count,
-                   words.y, picked)
-#else
-    const uint picked = light.first_triangle;
-#endif
+    uint picked = light.first_triangle;
+    if (FEATURE_light_triangles) {
+        SELECT_BY_WORD(emitter_triangles, .selection_end, light.first_triangle,
+                       light.triangle_count, words.y, selected)
+        picked = selected;
+    }
     const EmitterTriangle emitter = emitter_triangles[picked];
     const float2 uv = sample_triangle(uniform_float(words.z), uniform_float(words.w));
     LightPoint sample;
@@ -35,5 +33,3 @@ DEVICE LightPoint sample_mesh_light(GLOBAL const EmitterTriangle *emitter_triang
     sample.pdf_a = emitter.pdf_a;
     return sample;
 }
-
-#endif

@@ -15,8 +15,6 @@
 #include "renderer/kernels/light/light.h"
 #include "renderer/kernels/math/circle.h"
 
-#if FEATURE_lights && FEATURE_from_light
-
 /// The start of a light path.
 typedef struct EmissionSample {
     /// On the light, with `normal` on the emitting side. For lights without a surface: the origin
@@ -39,8 +37,6 @@ typedef struct EmissionSample {
     uint at_infinity;  ///< dome, environment and directional lights
 } EmissionSample;
 
-#if FEATURE_infinite_lights || FEATURE_directional_lights
-
 /// Samples a uniform point on the disc that rays of direction `d` (unit) from infinity cross before
 /// they meet the scene.
 DEVICE float3 sample_disc_origin(PRIVATE const SceneView *scene, float3 d, float u, float v) {
@@ -49,11 +45,10 @@ DEVICE float3 sample_disc_origin(PRIVATE const SceneView *scene, float3 d, float
     float3 origin = make_float3(scene->lighting.scene_centre[0], scene->lighting.scene_centre[1],
                                 scene->lighting.scene_centre[2]) +
                     (frame.x * disc.x + frame.y * disc.y - d) * scene->lighting.scene_radius;
-#if FEATURE_quadrics
     // Planes extend beyond the sphere, so the ray starts before the first plane that it meets.
     // Planes beyond the length of shadow rays are ignored, as shadow rays ignore them.
     float back = 0.0f;
-    for (uint i = 0; i < scene->lighting.plane_end; ++i) {
+    for (uint i = 0; FEATURE_quadrics && i < scene->lighting.plane_end; ++i) {
         GLOBAL const ShapeRecord *shape = scene->shapes + i;
         if (shape->uv_kind == SHAPE_UV_PLANE) {
             const float way = vector_to_object(shape, origin - shape_centre(shape)).z /
@@ -63,14 +58,8 @@ DEVICE float3 sample_disc_origin(PRIVATE const SceneView *scene, float3 d, float
     }
     // The ray moves back twice as far; otherwise rounding would decide on which side of the plane
     // it starts. No other surface is there.
-    origin -= d * (2.0f * back);
-#endif
-    return origin;
+    return FEATURE_quadrics ? origin - d * (2.0f * back) : origin;
 }
-
-#endif
-
-#if FEATURE_area_lights || FEATURE_shape_lights
 
 /// Emits from a point on an area light into the hemisphere of its normal, in proportion to the
 /// cosine.
@@ -86,21 +75,66 @@ DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a
     sample->weight = light_radiance(light) * (PI / sample->pdf_origin);
 }
 
-#endif
+/// Samples the start of a light path from a point or spot light.
+DEVICE void emit_from_position(LightRecord light, float u, float v,
+                               PRIVATE EmissionSample *sample) {
+    sample->origin = make_float3(light.position[0], light.position[1], light.position[2]);
+    sample->is_delta = 1u;
+    if (FEATURE_spot_lights && (!FEATURE_point_lights || light.kind == LIGHT_SPOT)) {
+        const SpotDirection spot = sample_spot(light, u);
+        const float sine = sqrt(spot.versine * (2.0f - spot.versine));
+        const float2 around = point_on_circle(v);
+        sample->direction =
+            make_float3(light.axis_x[0], light.axis_x[1], light.axis_x[2]) * (sine * around.x) +
+            make_float3(light.axis_y[0], light.axis_y[1], light.axis_y[2]) * (sine * around.y) +
+            light_axis_z(light) * (spot.versine - 1.0f);
+        sample->pdf_direction = spot_pdf_w(light, spot);
+        sample->weight *= spot_share(light, spot) / sample->pdf_direction;
+    } else {
+        sample->direction = sample_uniform_sphere(u, v);
+        sample->pdf_direction = 0.25f * INV_PI;
+        sample->weight *= 4.0f * PI;
+    }
+}
+
+/// Samples the start of a light path from a light at infinity from the words of `a` and the first
+/// two of `b`.
+DEVICE void emit_from_infinity(PRIVATE const SceneView *scene, LightRecord light, uint4 a, uint4 b,
+                               PRIVATE EmissionSample *sample) {
+    sample->at_infinity = 1u;
+    if (FEATURE_directional_lights && light.kind == LIGHT_DIRECTIONAL) {
+        sample->direction = -light_axis_z(light);
+        sample->is_delta = 1u;
+    } else if (is_environment(light)) {
+        const EnvironmentSample towards =
+            sample_environment(scene->environment_ends, scene->lighting, a);
+        sample->direction = -from_light_space(light, towards.direction);
+        sample->pdf_origin *= towards.pdf_w;
+        sample->weight *=
+            environment_radiance(scene->environment_texels, scene->lighting, towards.direction) /
+            towards.pdf_w;
+    } else {
+        sample->direction = sample_uniform_sphere(uniform_float(a.z), uniform_float(a.w));
+        sample->pdf_origin *= 0.25f * INV_PI;
+        sample->weight *= 4.0f * PI;
+    }
+    sample->origin =
+        sample_disc_origin(scene, sample->direction, uniform_float(b.x), uniform_float(b.y));
+    sample->pdf_direction = disc_pdf_a_inside(scene->lighting);
+    sample->weight = sample->weight / sample->pdf_direction;
+}
 
 /// Samples the start of a light path from the words of `a` and the first two of `b`.
-DEVICE EmissionSample sample_emission(PRIVATE const SceneView *scene, uint4 a,
-                                      MAYBE_UNUSED uint4 b) {
+DEVICE EmissionSample sample_emission(PRIVATE const SceneView *scene, uint4 a, uint4 b) {
     EmissionSample sample;
-#if FEATURE_many_lights || FEATURE_independent_lights
-    SELECT_BY_WORD(scene->lights, .selection_end, 0u, scene->lighting.light_count, a.x, selected)
-    sample.light = selected;
-#else
     sample.light = 0u;
-#endif
+    if (FEATURE_many_lights || FEATURE_independent_lights) {
+        SELECT_BY_WORD(scene->lights, .selection_end, 0u, scene->lighting.light_count, a.x,
+                       selected)
+        sample.light = selected;
+    }
     const LightRecord light = scene->lights[sample.light];
-    MAYBE_UNUSED const float u = uniform_float(a.z);
-    MAYBE_UNUSED const float v = uniform_float(a.w);
+    const float u = uniform_float(a.z), v = uniform_float(a.w);
     const float3 none = make_float3(0.0f, 0.0f, 0.0f);
     sample.origin = none;
     sample.direction = none;
@@ -109,95 +143,28 @@ DEVICE EmissionSample sample_emission(PRIVATE const SceneView *scene, uint4 a,
     sample.pdf_direction = 0.0f;
     sample.is_delta = 0u;
     sample.at_infinity = 0u;
-    switch (light.kind) {
-#if FEATURE_area_lights
-        case LIGHT_MESH: {
-            const LightPoint on =
-                sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, a);
-            emit_from_surface(light, on.point, on.pdf_a, b, &sample);
-            return sample;
-        }
-#endif
-#if FEATURE_shape_lights
-        case LIGHT_DISC:
-        case LIGHT_SPHERE:
-        case LIGHT_SPHERE_BY_AREA: {
-            LightRecord by_area = light;
-            by_area.kind = light.kind == LIGHT_DISC ? LIGHT_DISC : LIGHT_SPHERE_BY_AREA;
-            const ShapeLightSample on = sample_shape_light(
-                by_area, scene->shapes, shape_centre(scene->shapes + light.first_triangle), u, v);
-            emit_from_surface(light, on.point, on.pdf_a, b, &sample);
-            return sample;
-        }
-#endif
-#if FEATURE_point_lights
-        case LIGHT_POINT:
-            sample.origin = make_float3(light.position[0], light.position[1], light.position[2]);
-            sample.direction = sample_uniform_sphere(u, v);
-            sample.pdf_direction = 0.25f * INV_PI;
-            sample.weight *= 4.0f * PI;
-            sample.is_delta = 1u;
-            break;
-#endif
-#if FEATURE_spot_lights
-        case LIGHT_SPOT: {
-            const SpotDirection spot = sample_spot(light, u);
-            const float sine = sqrt(spot.versine * (2.0f - spot.versine));
-            const float2 around = point_on_circle(v);
-            sample.origin = make_float3(light.position[0], light.position[1], light.position[2]);
-            sample.direction =
-                make_float3(light.axis_x[0], light.axis_x[1], light.axis_x[2]) * (sine * around.x) +
-                make_float3(light.axis_y[0], light.axis_y[1], light.axis_y[2]) * (sine * around.y) +
-                light_axis_z(light) * (spot.versine - 1.0f);
-            sample.pdf_direction = spot_pdf_w(light, spot);
-            sample.weight *= spot_share(light, spot) / sample.pdf_direction;
-            sample.is_delta = 1u;
-            break;
-        }
-#endif
-#if FEATURE_directional_lights
-        case LIGHT_DIRECTIONAL:
-            sample.direction = -light_axis_z(light);
-            sample.is_delta = 1u;
-            sample.at_infinity = 1u;
-            break;
-#endif
-#if FEATURE_dome
-        case LIGHT_DOME:
-            sample.direction = sample_uniform_sphere(u, v);
-            sample.pdf_origin *= 0.25f * INV_PI;
-            sample.weight *= 4.0f * PI;
-            sample.at_infinity = 1u;
-            break;
-#endif
-#if FEATURE_environment
-        case LIGHT_ENVIRONMENT: {
-            const EnvironmentSample towards =
-                sample_environment(scene->environment_ends, scene->lighting, a);
-            sample.direction = -from_light_space(light, towards.direction);
-            sample.pdf_origin *= towards.pdf_w;
-            sample.weight *= environment_radiance(scene->environment_texels, scene->lighting,
-                                                  towards.direction) /
-                             towards.pdf_w;
-            sample.at_infinity = 1u;
-            break;
-        }
-#endif
-        default:
-            break;
+    if (FEATURE_area_lights && light.kind == LIGHT_MESH) {
+        const LightPoint on =
+            sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, a);
+        emit_from_surface(light, on.point, on.pdf_a, b, &sample);
+        return sample;
     }
-#if FEATURE_infinite_lights || FEATURE_directional_lights
-    if (sample.at_infinity != 0u) {
-        sample.origin =
-            sample_disc_origin(scene, sample.direction, uniform_float(b.x), uniform_float(b.y));
-        sample.pdf_direction = disc_pdf_a_inside(scene->lighting);
-        sample.weight = sample.weight / sample.pdf_direction;
+    if (FEATURE_shape_lights && is_shape_light(light)) {
+        LightRecord by_area = light;
+        by_area.kind = light.kind == LIGHT_DISC ? LIGHT_DISC : LIGHT_SPHERE_BY_AREA;
+        const ShapeLightSample on = sample_shape_light(
+            by_area, scene->shapes, shape_centre(scene->shapes + light.first_triangle), u, v);
+        emit_from_surface(light, on.point, on.pdf_a, b, &sample);
+        return sample;
     }
-#endif
+    if ((FEATURE_point_lights || FEATURE_spot_lights) &&
+        (light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT)) {
+        emit_from_position(light, u, v, &sample);
+    } else if (FEATURE_infinite_lights || FEATURE_directional_lights) {
+        emit_from_infinity(scene, light, a, b, &sample);
+    }
     sample.point.position = sample.origin;
     sample.point.normal = sample.direction;
     sample.point.error = none;
     return sample;
 }
-
-#endif

@@ -15,8 +15,6 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-#if FEATURE_environment
-
 /// Position of a direction (in light space, unit): the cell, and the position in it from its left
 /// and upper edge.
 typedef struct EnvironmentPosition {
@@ -135,5 +133,3 @@ DEVICE EnvironmentSample sample_environment(GLOBAL const uint *ends, LightingRec
     sample.pdf_w = cell_pdf_w(ends, lighting, column, row);
     return sample;
 }
-
-#endif

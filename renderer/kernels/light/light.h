@@ -6,16 +6,11 @@
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/light/area_light.h"
 #include "renderer/kernels/light/environment.h"
+#include "renderer/kernels/light/shape_light.h"
 #include "renderer/kernels/light/spot.h"
 #include "renderer/kernels/sampling/select.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/shared/scene_records.h"
-
-#if FEATURE_shape_lights
-#include "renderer/kernels/light/shape_light.h"
-#endif
-
-#if FEATURE_lights
 
 /// A sampled direction towards a light.
 typedef struct LightSample {
@@ -27,14 +22,13 @@ typedef struct LightSample {
     /// light the probability alone. 0: no light is received.
     float pdf_w;
     uint is_delta;  ///< point, spot and directional lights, which cannot be hit
-#if FEATURE_light_strategy
-    // Densities of a light path that comes this way (EmissionSample).
+    // Densities of a light path that comes this way (EmissionSample), set with
+    // FEATURE_light_strategy.
     /// Density of this sample's origin over that of a light path's origin.
     float sampling_over_emission;
     /// Density with which light paths arrive here, per area perpendicular to the ray; for lights at
     /// infinity 0 outside the disc.
     float arrival_pdf_a;
-#endif
 } LightSample;
 
 DEVICE float3 light_radiance(LightRecord light) {
@@ -52,9 +46,6 @@ DEVICE float solid_angle_per_area(float3 way, float3 normal) {
     const float projected = -dot(normal, way);  // cosine times distance
     return projected > 0.0f ? squared * (sqrt(squared) / projected) : 0.0f;
 }
-
-#if (FEATURE_infinite_lights || FEATURE_directional_lights) && \
-    (FEATURE_from_light || FEATURE_light_strategy)
 
 /// Returns the density per area of the origins of light paths from infinity, on the disc as wide as
 /// the sphere around the scene's bounded surfaces.
@@ -74,10 +65,6 @@ DEVICE float disc_pdf_a(LightingRecord lighting, float3 point, float3 d) {
                : 0.0f;
 }
 
-#endif
-
-#if FEATURE_environment
-
 /// Transforms a direction to light space; from_light_space is the inverse.
 DEVICE float3 to_light_space(LightRecord light, float3 d) {
     return make_float3(light.axis_x[0] * d.x + light.axis_x[1] * d.y + light.axis_x[2] * d.z,
@@ -90,52 +77,37 @@ DEVICE float3 from_light_space(LightRecord light, float3 d) {
                        light.axis_x[2] * d.x + light.axis_y[2] * d.y + light.axis_z[2] * d.z);
 }
 
-#endif
-
-#if FEATURE_infinite_lights
+/// Returns whether the light at infinity is an image, not a dome.
+DEVICE bool is_environment(LightRecord light) {
+    return FEATURE_environment && (!FEATURE_dome || light.kind == LIGHT_ENVIRONMENT);
+}
 
 /// Returns the radiance that a path meets if it leaves the scene in direction d.
-DEVICE float3 infinite_radiance(PRIVATE const SceneView *scene, MAYBE_UNUSED float3 d) {
+DEVICE float3 infinite_radiance(PRIVATE const SceneView *scene, float3 d) {
     const LightRecord light = scene->lights[scene->lighting.infinite_light];
-#if FEATURE_environment
-#if FEATURE_dome
-    if (light.kind == LIGHT_ENVIRONMENT)
-#endif
-    {
+    if (is_environment(light)) {
         return light_radiance(light) * environment_radiance(scene->environment_texels,
                                                             scene->lighting,
                                                             to_light_space(light, d));
     }
-#endif
-#if FEATURE_dome
     return light_radiance(light);
-#endif
 }
 
 /// Returns the density per solid angle with which light sampling samples direction d, without the
 /// selection probability.
-DEVICE float infinite_pdf_w(PRIVATE const SceneView *scene, MAYBE_UNUSED float3 d) {
+DEVICE float infinite_pdf_w(PRIVATE const SceneView *scene, float3 d) {
     const LightRecord light = scene->lights[scene->lighting.infinite_light];
-#if FEATURE_environment
-#if FEATURE_dome
-    if (light.kind == LIGHT_ENVIRONMENT)
-#endif
-    {
+    if (is_environment(light)) {
         return environment_pdf_w(scene->environment_ends, scene->lighting,
                                  to_light_space(light, d));
     }
-#endif
-#if FEATURE_dome
     return 0.25f * INV_PI;
-#endif
 }
-
-#endif
 
 /// Turns a point on an area light into a light sample. `pdf_a` and `uniform_pdf_a` are the
 /// densities per area of light sampling and of emission, both given the light.
 DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a,
-                          MAYBE_UNUSED float uniform_pdf_a, PRIVATE LightSample *sample) {
+                          float uniform_pdf_a, PRIVATE LightSample *sample) {
     const float3 way = point.position - from;
     // From behind the density is 0. It is computed without a division by the distance, which may be
     // 0.
@@ -144,106 +116,84 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
     sample->target = offset_ray_origin(point, -way);
     sample->radiance = light_radiance(light);
     sample->is_delta = 0u;
-#if FEATURE_light_strategy
-    sample->sampling_over_emission *= pdf_a / uniform_pdf_a;
-    sample->arrival_pdf_a = max(-dot(point.normal, sample->wi), 0.0f) * INV_PI / dot(way, way);
-#endif
+    if (FEATURE_light_strategy) {
+        sample->sampling_over_emission *= pdf_a / uniform_pdf_a;
+        sample->arrival_pdf_a = max(-dot(point.normal, sample->wi), 0.0f) * INV_PI / dot(way, way);
+    }
+}
+
+/// Turns the position of a point or spot light into a light sample.
+DEVICE void look_at_position(float3 from, LightRecord light, PRIVATE LightSample *sample) {
+    sample->target = make_float3(light.position[0], light.position[1], light.position[2]);
+    const float3 way = sample->target - from;
+    const float squared = dot(way, way);
+    float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
+    sample->wi = way / sqrt(squared);
+    if (FEATURE_light_strategy) {
+        sample->arrival_pdf_a = 0.25f * INV_PI / squared;
+    }
+    if (FEATURE_spot_lights && light.kind == LIGHT_SPOT) {
+        const SpotDirection spot = spot_direction(light, -sample->wi);
+        // At the position of the light wi is NaN.
+        intensity *= intensity > 0.0f ? spot_share(light, spot) : 0.0f;
+        if (FEATURE_light_strategy) {
+            sample->arrival_pdf_a = spot_pdf_w(light, spot) / squared;
+        }
+    }
+    sample->radiance = light_radiance(light) * intensity;
+    sample->is_delta = 1u;
+    sample->pdf_w = intensity > 0.0f ? 1.0f : 0.0f;
+}
+
+/// Turns a light at infinity into a light sample.
+DEVICE void look_at_infinity(PRIVATE const SceneView *scene, float3 from, LightRecord light,
+                             uint4 words, PRIVATE LightSample *sample) {
+    sample->radiance = light_radiance(light);
+    if (FEATURE_directional_lights && light.kind == LIGHT_DIRECTIONAL) {
+        sample->wi = light_axis_z(light);
+        sample->is_delta = 1u;
+        sample->pdf_w = 1.0f;
+    } else if (is_environment(light)) {
+        const EnvironmentSample towards =
+            sample_environment(scene->environment_ends, scene->lighting, words);
+        sample->wi = from_light_space(light, towards.direction);
+        sample->radiance *=
+            environment_radiance(scene->environment_texels, scene->lighting, towards.direction);
+        sample->pdf_w = towards.pdf_w;
+    } else {
+        sample->wi = sample_uniform_sphere(uniform_float(words.z), uniform_float(words.w));
+        sample->pdf_w = 0.25f * INV_PI;
+    }
+    sample->target = from + sample->wi * scene->lighting.far_distance;
+    if (FEATURE_light_strategy) {
+        sample->arrival_pdf_a = disc_pdf_a(scene->lighting, from, sample->wi);
+    }
 }
 
 /// Samples a direction from point `from` towards a given light.
 DEVICE LightSample sample_one_light(PRIVATE const SceneView *scene, LightRecord light, float3 from,
-                                    MAYBE_UNUSED uint4 words) {
+                                    uint4 words) {
     LightSample sample;
     sample.pdf_w = 0.0f;
     sample.is_delta = 0u;
-#if FEATURE_light_strategy
-    sample.sampling_over_emission = light.selection / light.emission_selection;
-    sample.arrival_pdf_a = 0.0f;
-#endif
-    switch (light.kind) {
-#if FEATURE_area_lights
-        case LIGHT_MESH: {
-            const LightPoint on =
-                sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, words);
-            look_at_point(from, light, on.point, on.pdf_a, on.pdf_a, &sample);
-            break;
-        }
-#endif
-#if FEATURE_shape_lights
-        case LIGHT_DISC:
-        case LIGHT_SPHERE:
-        case LIGHT_SPHERE_BY_AREA: {
-            const ShapeLightSample on = sample_shape_light(
-                light, scene->shapes, from, uniform_float(words.z), uniform_float(words.w));
-            look_at_point(from, light, on.point, on.pdf_a, 1.0f / light.area, &sample);
-            break;
-        }
-#endif
-#if FEATURE_point_lights || FEATURE_spot_lights
-        case LIGHT_POINT:
-        case LIGHT_SPOT: {
-            sample.target = make_float3(light.position[0], light.position[1], light.position[2]);
-            const float3 way = sample.target - from;
-            const float squared = dot(way, way);
-            float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
-            sample.wi = way / sqrt(squared);
-#if FEATURE_light_strategy
-            sample.arrival_pdf_a = 0.25f * INV_PI / squared;
-#endif
-#if FEATURE_spot_lights
-            if (light.kind == LIGHT_SPOT) {
-                const SpotDirection spot = spot_direction(light, -sample.wi);
-                // At the position of the light wi is NaN.
-                intensity *= intensity > 0.0f ? spot_share(light, spot) : 0.0f;
-#if FEATURE_light_strategy
-                sample.arrival_pdf_a = spot_pdf_w(light, spot) / squared;
-#endif
-            }
-#endif
-            sample.radiance = light_radiance(light) * intensity;
-            sample.is_delta = 1u;
-            sample.pdf_w = intensity > 0.0f ? 1.0f : 0.0f;
-            break;
-        }
-#endif
-#if FEATURE_directional_lights
-        case LIGHT_DIRECTIONAL:
-            sample.wi = light_axis_z(light);
-            sample.target = from + sample.wi * scene->lighting.far_distance;
-            sample.radiance = light_radiance(light);
-            sample.is_delta = 1u;
-            sample.pdf_w = 1.0f;
-            break;
-#endif
-#if FEATURE_dome
-        case LIGHT_DOME:
-            sample.wi = sample_uniform_sphere(uniform_float(words.z), uniform_float(words.w));
-            sample.target = from + sample.wi * scene->lighting.far_distance;
-            sample.radiance = light_radiance(light);
-            sample.pdf_w = 0.25f * INV_PI;
-            break;
-#endif
-#if FEATURE_environment
-        case LIGHT_ENVIRONMENT: {
-            const EnvironmentSample towards =
-                sample_environment(scene->environment_ends, scene->lighting, words);
-            sample.wi = from_light_space(light, towards.direction);
-            sample.target = from + sample.wi * scene->lighting.far_distance;
-            sample.radiance =
-                light_radiance(light) *
-                environment_radiance(scene->environment_texels, scene->lighting, towards.direction);
-            sample.pdf_w = towards.pdf_w;
-            break;
-        }
-#endif
-        default:
-            break;
+    if (FEATURE_light_strategy) {
+        sample.sampling_over_emission = light.selection / light.emission_selection;
+        sample.arrival_pdf_a = 0.0f;
     }
-#if FEATURE_light_strategy && (FEATURE_infinite_lights || FEATURE_directional_lights)
-    if (light.kind >= LIGHT_DIRECTIONAL) {
-        sample.arrival_pdf_a = disc_pdf_a(scene->lighting, from, sample.wi);
+    if (FEATURE_area_lights && light.kind == LIGHT_MESH) {
+        const LightPoint on =
+            sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, words);
+        look_at_point(from, light, on.point, on.pdf_a, on.pdf_a, &sample);
+    } else if (FEATURE_shape_lights && is_shape_light(light)) {
+        const ShapeLightSample on = sample_shape_light(
+            light, scene->shapes, from, uniform_float(words.z), uniform_float(words.w));
+        look_at_point(from, light, on.point, on.pdf_a, 1.0f / light.area, &sample);
+    } else if ((FEATURE_point_lights || FEATURE_spot_lights) &&
+               (light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT)) {
+        look_at_position(from, light, &sample);
+    } else if (FEATURE_infinite_lights || FEATURE_directional_lights) {
+        look_at_infinity(scene, from, light, words, &sample);
     }
-#endif
     sample.pdf_w *= light.selection;
     return sample;
 }
@@ -254,73 +204,45 @@ DEVICE LightSample sample_lights(PRIVATE const SceneView *scene, uint chosen, fl
                                  uint4 words) {
     uint index = chosen;
     if (chosen == SELECT_LIGHT) {
-#if FEATURE_many_lights
-        SELECT_BY_WORD(scene->lights, .selection_end, 0u, scene->lighting.light_count, words.x,
-                       selected)
-        index = selected;
-#else
         index = 0u;
-#endif
+        if (FEATURE_many_lights) {
+            SELECT_BY_WORD(scene->lights, .selection_end, 0u, scene->lighting.light_count, words.x,
+                           selected)
+            index = selected;
+        }
     }
     return sample_one_light(scene, scene->lights[index], from, words);
 }
 
-#if FEATURE_area_lights || FEATURE_shape_lights
+/// Returns whether the emitter of a hit is a shape, not a triangle.
+DEVICE bool is_emitting_shape(uint primitive) {
+    return FEATURE_shape_lights && (!FEATURE_area_lights || (primitive & SHAPE_BIT) != 0u);
+}
 
 /// Returns the index of the light that an emitting surface belongs to.
-DEVICE uint light_of_hit(PRIVATE const SceneView *scene, MAYBE_UNUSED uint primitive,
-                         uint emitter) {
-#if FEATURE_area_lights
-#if FEATURE_shape_lights
-    return (primitive & SHAPE_BIT) != 0u ? emitter : scene->emitter_triangles[emitter].light;
-#else
-    return scene->emitter_triangles[emitter].light;
-#endif
-#else
-    return emitter;
-#endif
+DEVICE uint light_of_hit(PRIVATE const SceneView *scene, uint primitive, uint emitter) {
+    return is_emitting_shape(primitive) ? emitter : scene->emitter_triangles[emitter].light;
 }
 
 /// Returns the density per area, with the selection probability, with which `sample_lights` samples
 /// this point from `from`.
-DEVICE float light_pdf_a(PRIVATE const SceneView *scene, LightRecord light,
-                         MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter,
-                         MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint point) {
-#if FEATURE_shape_lights
-    if ((primitive & SHAPE_BIT) != 0u) {
-        return light.selection * shape_light_pdf_a(light, scene->shapes, from, point);
-    }
-#endif
-#if FEATURE_area_lights
-    return light.selection * scene->emitter_triangles[emitter].pdf_a;
-#else
-    return 0.0f;
-#endif
+DEVICE float light_pdf_a(PRIVATE const SceneView *scene, LightRecord light, uint primitive,
+                         uint emitter, float3 from, SurfacePoint point) {
+    return light.selection * (is_emitting_shape(primitive)
+                                  ? shape_light_pdf_a(light, scene->shapes, from, point)
+                                  : scene->emitter_triangles[emitter].pdf_a);
 }
 
-#endif
-
-#if FEATURE_light_strategy
-
 // Densities of emission (EmissionSample) for paths sampled as camera paths or light samples.
-
-#if FEATURE_area_lights || FEATURE_shape_lights
 
 /// Returns the density per area, with the selection probability, with which a light path starts at
 /// a point of this emitter (of SurfaceHit). Multiplied by 1 / pi, the cosine-weighted density per
 /// projected solid angle, it is the density of the ray from there.
-DEVICE float emission_pdf_a(PRIVATE const SceneView *scene, LightRecord light,
-                            MAYBE_UNUSED uint primitive, MAYBE_UNUSED uint emitter) {
-#if FEATURE_shape_lights
-    if ((primitive & SHAPE_BIT) != 0u) {
-        return light.emission_selection / light.area;
-    }
-#endif
-#if FEATURE_area_lights
-    return light.emission_selection * scene->emitter_triangles[emitter].pdf_a;
-#else
-    return 0.0f;
-#endif
+DEVICE float emission_pdf_a(PRIVATE const SceneView *scene, LightRecord light, uint primitive,
+                            uint emitter) {
+    return is_emitting_shape(primitive)
+               ? light.emission_selection / light.area
+               : light.emission_selection * scene->emitter_triangles[emitter].pdf_a;
 }
 
 /// Returns the density per area and projected solid angle, with the selection probability, of a
@@ -330,10 +252,6 @@ DEVICE float emission_line_pdf(PRIVATE const SceneView *scene, LightRecord light
     return INV_PI * emission_pdf_a(scene, light, primitive, emitter);
 }
 
-#endif
-
-#if FEATURE_infinite_lights
-
 /// Returns the density, with the selection probability, of a light path from infinity that arrives
 /// at `point` from direction d: pdf_origin pdf_direction, per solid angle and area of the disc.
 DEVICE float infinite_line_pdf(PRIVATE const SceneView *scene, float3 point, float3 d) {
@@ -341,23 +259,15 @@ DEVICE float infinite_line_pdf(PRIVATE const SceneView *scene, float3 point, flo
            infinite_pdf_w(scene, d) * disc_pdf_a(scene->lighting, point, d);
 }
 
-#endif
-
 /// Returns the density with which `sample_lights`, called for `from`, samples this point or
 /// direction of a light, over the density with which light paths start there. The ratio is finite.
 /// The two differ in the selection probability if every light is sampled, and on spheres that are
 /// sampled by their cones. `on` (position and normal) is read for such spheres only.
-DEVICE float sampling_over_emission(PRIVATE const SceneView *scene, LightRecord light,
-                                    MAYBE_UNUSED float3 from, MAYBE_UNUSED SurfacePoint on) {
+DEVICE float sampling_over_emission(PRIVATE const SceneView *scene, LightRecord light, float3 from,
+                                    SurfacePoint on) {
     float ratio = light.selection / light.emission_selection;
-#if FEATURE_shape_lights
-    if (light.kind == LIGHT_SPHERE) {
+    if (FEATURE_shape_lights && light.kind == LIGHT_SPHERE) {
         ratio *= light.area * shape_light_pdf_a(light, scene->shapes, from, on);
     }
-#endif
     return ratio;
 }
-
-#endif
-
-#endif

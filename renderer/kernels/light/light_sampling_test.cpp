@@ -15,8 +15,9 @@
 #define FEATURE_infinite_lights 1
 #define FEATURE_dome 1
 #define FEATURE_environment 1
-#include "renderer/testing/float_traps.h"
 #include "testing/other_features.h"
+
+#include "renderer/testing/float_traps.h"
 
 #include "renderer/kernels/light/light.h"
 

@@ -14,13 +14,16 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-#if FEATURE_shape_lights
-
 /// A point on an emitting shape, which emits on the side of its normal.
 typedef struct ShapeLightSample {
     SurfacePoint point;
     float pdf_a;  ///< conditional density per area, given the light
 } ShapeLightSample;
+
+/// Returns whether a light is an emitting shape.
+DEVICE bool is_shape_light(LightRecord light) {
+    return light.kind >= LIGHT_DISC && light.kind <= LIGHT_SPHERE_BY_AREA;
+}
 
 /// Returns sin^2 of the half angle of the cone that a sphere subtends from a point. Returns 0 if
 /// area is sampled instead: for other kinds of light, and from inside or within 1e-4 radii of the
@@ -105,5 +108,3 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
     sample.point.error += make_float3(rounding, rounding, rounding);
     return sample;
 }
-
-#endif

@@ -7,6 +7,8 @@
 #define FEATURE_shapes 1
 #define FEATURE_quadrics 1
 #define FEATURE_shape_lights 1
+#include "testing/other_features.h"
+
 #include <gtest/gtest.h>
 
 #include "renderer/kernels/geometry/intersect_shapes.h"

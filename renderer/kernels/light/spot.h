@@ -12,8 +12,6 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
-#if FEATURE_spot_lights
-
 /// A direction out of a spot.
 typedef struct SpotDirection {
     float versine;  ///< versine of the angle from the axis
@@ -47,8 +45,6 @@ DEVICE float spot_share(LightRecord light, SpotDirection spot) {
     return spot.profile < 1.0f ? min(2.0f * half_difference * light.angle_scale, 1.0f) : 1.0f;
 }
 
-#if FEATURE_from_light || FEATURE_light_strategy
-
 /// Returns the density per solid angle of `sample_spot`. The integral of the profile over the inner
 /// cone is 2 pi times the inner versine. Between the cones it is pi times the difference of their
 /// versines.
@@ -72,7 +68,3 @@ DEVICE SpotDirection sample_spot(LightRecord light, float u) {
     }
     return spot;
 }
-
-#endif
-
-#endif

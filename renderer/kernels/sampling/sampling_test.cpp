@@ -3,6 +3,8 @@
 // host. Tests of light samplers are in light_sampling_test.cpp, of BSDF samplers in
 // bsdf_sampling_test.cpp.
 #define FEATURE_sobol 1
+#include "testing/other_features.h"
+
 #include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/kernels/sampling/sampler.h"

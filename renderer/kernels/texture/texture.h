@@ -3,12 +3,9 @@
 // Rows are stored from the top. Texel centres are at half-integer texel coordinates.
 #pragma once
 
+#include "renderer/kernels/texture/srgb_table.h"
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
-
-#if FEATURE_textures
-
-#include "renderer/kernels/texture/srgb_table.h"
 
 /// Returns the linear colour of texel `index`, counted row by row.
 DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
@@ -84,5 +81,3 @@ DEVICE float3 texture_lookup(GLOBAL const TextureRecord *texture, GLOBAL const u
         texture_texel(texture, texels, rows.second * width + columns.second) * columns.t;
     return top * (1.0f - rows.t) + bottom * rows.t;
 }
-
-#endif

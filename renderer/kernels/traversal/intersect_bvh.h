@@ -2,21 +2,10 @@
 // The ray queries of a hierarchy in any layout (shared/bvh_layout.h).
 #pragma once
 
-// Headers that several layouts share come first: the include resolver expands a file where it is
-// first named, even in a disabled block.
-#include "renderer/kernels/traversal/intersect_box.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
-#include "renderer/shared/bvh_layout.h"
-
-#if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_BVH2
 #include "renderer/kernels/traversal/traverse_bvh2.h"
-#endif
-#if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_STACKLESS
 #include "renderer/kernels/traversal/traverse_stackless.h"
-#endif
-#if defined(__cplusplus) || BVH_LAYOUT == BVH_LAYOUT_WIDE8
 #include "renderer/kernels/traversal/traverse_wide.h"
-#endif
+#include "renderer/shared/bvh_layout.h"
 
 // trace_nearest returns the nearest hit at 0 < t < t_max, where t_max may be INFINITY. Rays that
 // are not finite hit nothing. trace_any returns whether anything is hit at 0 < t < t_max. It is

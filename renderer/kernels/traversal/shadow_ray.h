@@ -14,16 +14,11 @@
 
 /// Returns whether a surface is between `origin` and `origin + way`.
 DEVICE bool is_blocked(PRIVATE const SceneView *scene, float3 origin, float3 way) {
-#if FEATURE_shapes
     // The few shape tests often avoid the traversal.
-    if (any_shape(scene->shapes, scene->shape_bounds, scene->shape_count, origin, way,
-                  SHADOW_END)) {
+    if (FEATURE_shapes && any_shape(scene->shapes, scene->shape_bounds, scene->shape_count, origin,
+                                    way, SHADOW_END)) {
         return true;
     }
-#endif
-#if FEATURE_triangles
-    return trace_any(scene->bvh_nodes, scene->bvh_triangles, origin, way, SHADOW_END);
-#else
-    return false;
-#endif
+    return FEATURE_triangles &&
+           trace_any(scene->bvh_nodes, scene->bvh_triangles, origin, way, SHADOW_END);
 }
