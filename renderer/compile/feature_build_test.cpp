@@ -69,13 +69,13 @@ TEST_P(FeatureBuild, Succeeds) {
         build(pass, {});
     }
     for (Pass pass : passes(algorithms::light_tracing)) {
-        pass.round = pass.last_paths;
+        pass.round = pass.tail;
         build(pass, {});
     }
     // For other algorithms, compile only the stages that the algorithms above do not have.
     for (Pass pass : passes(algorithms::whitted)) {
         pass.round = {pass.round[pass.round.size() - 2]};
-        build(pass, {Stage::end_paths});
+        build(pass, {Stage::retire_paths});
     }
 }
 

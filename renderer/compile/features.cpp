@@ -54,8 +54,8 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::explicit_light, Feature::scattering},
     {Feature::explicit_light, Feature::lights},
     {Feature::light_strategy, Feature::lights},
-    {Feature::vertex_joins, Feature::scattering},
-    {Feature::vertex_joins, Feature::light_strategy},
+    {Feature::vertex_connections, Feature::scattering},
+    {Feature::vertex_connections, Feature::light_strategy},
     {Feature::light_emitters, Feature::light_strategy},
     {Feature::from_light, Feature::lights},
     {Feature::area_lights, Feature::lights},
@@ -126,7 +126,7 @@ FeatureMask FeatureMask::closed() const {
     // Features that follow from the others.
     const bool from_light = mask.has(Feature::from_light),
                strategy = mask.has(Feature::light_strategy);
-    const bool joins = mask.has(Feature::vertex_joins);
+    const bool joins = mask.has(Feature::vertex_connections);
     return mask.with(Feature::from_camera, !from_light)
         .with(Feature::convergence, mask.has(Feature::convergence) && !from_light)
         .with(Feature::shadow_rays, mask.has(Feature::explicit_light) || joins || from_light)

@@ -18,7 +18,8 @@ enum class StageInput {
     film_sums,
     settings,
     first_sample,
-    chosen,
+    light_index,
+    vertex_index,
     first_work,
     work,
     vertices,
@@ -30,12 +31,12 @@ enum class StageInput {
 
 /// Meaning of a stage's work-item.
 enum class StageItems {
-    entries,    ///< a chunk of a queue's entries
-    slots,      ///< a slot of the stream
-    paths,      ///< a chunk of the work's paths
-    few_paths,  ///< one of the last few paths
-    film_sums,  ///< a sum of the film
-    one,        ///< the only work-item
+    entries,     ///< a chunk of a queue's entries
+    slots,       ///< a slot of the stream
+    paths,       ///< a chunk of the work's paths
+    tail_paths,  ///< a path of the tail of a batch
+    film_sums,   ///< a sum of the film
+    one,         ///< the only work-item
 };
 
 // X(name of the kernel, file, work-items, inputs ...). A row is one stage. The names also appear in
@@ -51,7 +52,7 @@ enum class StageItems {
     X(evaluate_emission, "kernels/evaluate_emission.cl", entries, In::shading, In::settings,       \
       In::streams)                                                                                 \
     X(sample_light, "kernels/sample_light.cl", entries, In::shading, In::settings,                 \
-      In::first_sample, In::chosen, In::streams)                                                   \
+      In::first_sample, In::light_index, In::streams)                                              \
     X(intersect_any, "kernels/intersect_any.cl", entries, In::tracing, In::streams)                \
     X(connect_emitter, "kernels/connect_emitter.cl", entries, In::shading, In::camera,             \
       In::settings, In::first_sample, In::streams)                                                 \
@@ -60,19 +61,18 @@ enum class StageItems {
     X(store_vertex, "kernels/store_vertex.cl", entries, In::shading, In::settings, In::vertices,   \
       In::streams)                                                                                 \
     X(connect_vertices, "kernels/connect_vertices.cl", entries, In::shading, In::settings,         \
-      In::chosen, In::vertices, In::streams)                                                       \
-    X(splat_unblocked, "kernels/splat_unblocked.cl", entries, In::tracing, In::film,               \
-      In::half_film, In::streams)                                                                  \
+      In::vertex_index, In::vertices, In::streams)                                                 \
+    X(splat_unblocked, "kernels/splat_unblocked.cl", entries, In::tracing, In::film, In::streams)  \
     X(extend_path, "kernels/extend_path.cl", entries, In::shading, In::film, In::half_film,        \
       In::settings, In::first_sample, In::streams)                                                 \
-    X(follow_branches, "kernels/follow_branches.cl", entries, In::shading, In::film,               \
-      In::half_film, In::settings, In::branches, In::streams)                                      \
-    X(end_paths, "kernels/end_paths.cl", entries, In::film, In::half_film, In::streams)            \
+    X(follow_branches, "kernels/follow_branches.cl", entries, In::shading, In::film, In::settings, \
+      In::branches, In::streams)                                                                   \
+    X(retire_paths, "kernels/retire_paths.cl", entries, In::film, In::streams)                     \
     X(trace_paths, "kernels/trace_paths.cl", paths, In::scene, In::camera, In::film,               \
       In::half_film, In::settings, In::first_sample, In::first_work, In::work, In::live_pixels,    \
       In::counters)                                                                                \
-    X(finish_paths, "kernels/finish_paths.cl", few_paths, In::scene, In::camera, In::film,         \
-      In::half_film, In::settings, In::first_sample, In::streams)                                  \
+    X(run_tail, "kernels/run_tail.cl", tail_paths, In::scene, In::camera, In::film, In::half_film, \
+      In::settings, In::first_sample, In::streams)                                                 \
     X(end_shadow_rays, "kernels/advance_streams.cl", one, In::counters)                            \
     X(count_nearest_rays, "kernels/count_rays.cl", entries, In::ray_counts, In::streams)           \
     X(count_shadow_rays, "kernels/count_rays.cl", entries, In::ray_counts, In::streams)            \

@@ -92,7 +92,7 @@ TEST(AlgorithmsPage, ListsTheStagesOfEveryAlgorithm) {
             }
         }
         for (const Pass &pass : algorithm_passes(*algorithm, {FeatureMask::all(), 1, true, 2})) {
-            for (const std::vector<RoundStage> *stages : {&pass.round, &pass.last_paths}) {
+            for (const std::vector<RoundStage> *stages : {&pass.round, &pass.tail}) {
                 for (const RoundStage &stage : *stages) {
                     if (bookkeeping.count(stage.stage) == 0) {
                         used.insert(to_string(stage.stage));
@@ -127,7 +127,7 @@ TEST(Algorithms, AreFoundByName) {
 TEST(Algorithms, HaveNoFeatureOfOthers) {
     for (const Algorithm *algorithm : all_algorithms()) {
         for (const Pass &pass : algorithm_passes(*algorithm, {FeatureMask::all(), 1, true, 2})) {
-            for (const Feature feature : {Feature::vertex_joins, Feature::branches}) {
+            for (const Feature feature : {Feature::vertex_connections, Feature::branches}) {
                 EXPECT_EQ(pass.features.has(feature), algorithm->features.has(feature))
                     << algorithm->name;
             }

@@ -25,7 +25,7 @@ Pass with_stages(Pass pass, const std::vector<RoundStage> &stages) {
         return s.stage == Stage::extend_path;
     });
     pass.round.insert(extend, stages.begin(), stages.end());
-    pass.last_paths.clear();
+    pass.tail.clear();
     return pass;
 }
 
@@ -45,9 +45,9 @@ std::vector<RoundStage> connections(uint32_t light_vertices) {
 
 std::vector<Pass> bdpt_passes(const PassRequest &request) {
     const FeatureMask camera = request.camera_features();
-    if (!camera.has(Feature::vertex_joins) || request.light_vertices == 0) {
+    if (!camera.has(Feature::vertex_connections) || request.light_vertices == 0) {
         PassRequest truncated = request;
-        truncated.features = request.features.with(Feature::vertex_joins, false);
+        truncated.features = request.features.with(Feature::vertex_connections, false);
         return algorithms::truncated_bdpt.passes(truncated);
     }
     // Light paths come first: the camera paths of a chunk are connected to their vertices.
@@ -76,7 +76,7 @@ constexpr Algorithm algorithms::bdpt = [] {
     a.computes = "both, and all connections of their vertices";
     a.sees = Sight::everything().without(PathClass::mirrored_delta_light_caustics);
     a.light_paths = LightPaths::one_per_camera_path;
-    a.features = FeatureMask().with(Feature::vertex_joins);
+    a.features = FeatureMask().with(Feature::vertex_connections);
     a.passes = bdpt_passes;
     return a;
 }();

@@ -10,12 +10,12 @@ std::vector<Pass> counting_passes(std::vector<Pass> passes) {
             if (stage.stage == Stage::begin_round) {
                 round.push_back({Stage::count_nearest_rays});
             } else if (stage.stage == Stage::end_shadow_rays) {
-                round.push_back({Stage::count_shadow_rays, stage.chosen, stage.rounds});
+                round.push_back({Stage::count_shadow_rays, stage.index, stage.rounds});
             }
             round.push_back(stage);
         }
         pass.round = round;
-        pass.last_paths.clear();
+        pass.tail.clear();
     }
     return passes;
 }

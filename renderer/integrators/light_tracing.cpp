@@ -44,7 +44,7 @@ std::vector<Pass> light_tracing_passes(const PassRequest &request) {
 Pass light_pass(const PassRequest &request, bool weighted) {
     const FeatureMask features =
         request.features.with(Feature::from_light).with(Feature::light_strategy, weighted).closed();
-    return with_last_paths({PassKind::light, features, light_round(features)});
+    return with_tail({PassKind::light, features, light_round(features)});
 }
 
 constexpr Algorithm algorithms::light_tracing = [] {

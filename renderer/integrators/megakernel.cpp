@@ -7,7 +7,7 @@ std::vector<Pass> megakernel_passes(std::vector<Pass> path_tracing) {
     for (Pass &pass : path_tracing) {
         pass.round = {{Stage::trace_paths}};
         pass.streams = false;
-        pass.last_paths.clear();
+        pass.tail.clear();
     }
     return path_tracing;
 }

@@ -14,9 +14,9 @@ namespace rtrays {
 /// A stage in a round.
 struct RoundStage {
     Stage stage;
-    /// Index of the light of sample_light (SELECT_LIGHT: one is selected at random), or of the
-    /// light vertex of connect_vertices.
-    uint32_t chosen = SELECT_LIGHT;
+    /// Index of the light that sample_light connects to (SELECT_LIGHT: one is selected at random),
+    /// or of the light vertex that connect_vertices connects to.
+    uint32_t index = SELECT_LIGHT;
     /// The stage is launched in the first `rounds` rounds of a chunk of work, 0: in every round.
     uint32_t rounds = 0;
 };
@@ -25,10 +25,10 @@ struct RoundStage {
 /// flight by one vertex, and rounds repeat until all paths have ended. An algorithm's image is the
 /// sum over its passes.
 ///
-/// Passes are independent of each other unless they have `vertex_joins`. With that feature the work
-/// is cut into chunks of as many paths as the streams hold, and the passes follow one another
-/// within each chunk. All paths of a chunk start in its first round, so that a path's depth equals
-/// the round's index.
+/// Passes are independent of each other unless they have `vertex_connections`. With that feature
+/// the work is cut into chunks of as many paths as the streams hold, and the passes follow one
+/// another within each chunk. All paths of a chunk start in its first round, so that a path's depth
+/// equals the round's index.
 struct Pass {
     PassKind kind;
     /// Features of the pass's kernels and path states.
@@ -40,9 +40,9 @@ struct Pass {
     /// Whether streams of paths connect the pass's stages; otherwise its only stage runs once and
     /// traces all paths to their ends.
     bool streams = true;
-    /// Round for the last few paths, which advances each of them by many vertices. Empty if they
-    /// use the normal round to the end.
-    std::vector<RoundStage> last_paths = {};
+    /// Round for the tail of a batch, its last few paths: it advances each of them by many
+    /// vertices. Empty if they use the normal round to the end.
+    std::vector<RoundStage> tail = {};
 };
 
 /// Facts about the scene and the settings that decide the passes of an algorithm.
@@ -66,10 +66,10 @@ struct PassRequest {
     }
 };
 
-/// Returns `pass` with the stages for its last few paths, if its paths may become long.
-inline Pass with_last_paths(Pass pass) {
+/// Returns `pass` with the stages for the tail of a batch, if its paths may become long.
+inline Pass with_tail(Pass pass) {
     if (pass.features.has(Feature::scattering)) {
-        pass.last_paths = {{Stage::finish_paths}, {Stage::end_round}};
+        pass.tail = {{Stage::run_tail}, {Stage::end_round}};
     }
     return pass;
 }

@@ -38,7 +38,7 @@ std::vector<RoundStage> camera_round(FeatureMask features, uint32_t light_count,
 std::vector<Pass> camera_passes(const PassRequest &request) {
     const FeatureMask features = request.camera_features();
     const auto pass = [&](PassKind kind, FeatureMask of_round, bool adds_hits) {
-        return with_last_paths(
+        return with_tail(
             {kind, features, camera_round(of_round, request.light_count, adds_hits), adds_hits});
     };
     if (!request.separate_strategies) {

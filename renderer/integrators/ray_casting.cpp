@@ -17,7 +17,7 @@ std::vector<Pass> ray_casting_passes(const PassRequest &request) {
 }  // namespace
 
 std::vector<RoundStage> ray_casting_round(FeatureMask features, uint32_t light_count) {
-    return camera_round(features, light_count, true, Stage::end_paths);
+    return camera_round(features, light_count, true, Stage::retire_paths);
 }
 
 constexpr Algorithm algorithms::ray_casting = [] {

@@ -25,7 +25,7 @@ __kernel void reset_streams(uint first_work, STREAM_PARAMETERS) {
 /// rays of the round.
 __kernel void begin_round(GLOBAL StreamCounters *counters) {
     if (get_global_id(0) == 0u) {
-        const uint active = active_count(counters);
+        const uint active = counters->active[counters->parity];
         counters->free_slots = 0u;
         counters->nearest_rays += active;
         counters->iterations += active > 0u ? 1u : 0u;

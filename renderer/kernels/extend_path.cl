@@ -1,168 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Stage extend_path: samples the next direction of each active path, or ends the path and adds it
 // to the film.
-//
-// Reads: hit, ray_direction, throughput, radiance, depth, pixel, sample, roulette_scale, log_ratio,
-// log_arrival, log_strategies, active queue.
-// Writes: ray_origin, ray_direction, throughput, depth, roulette_scale, pdf_w, log_ratio,
-// log_strategies; film, half film.
-// Enqueues: active queue of the next round, or free queue.
 
-#include "renderer/kernels/bsdf/reverse.h"
-#include "renderer/kernels/film/add_sample.h"
-#include "renderer/kernels/geometry/prefetch_hit.h"
-#include "renderer/kernels/geometry/surface_hit.h"
-#include "renderer/kernels/light/mis.h"
-#include "renderer/kernels/sampling/sampler.h"
-#include "renderer/kernels/scene_view.h"
+#include "renderer/kernels/path/hit_path_at.h"
+#include "renderer/kernels/path/retire.h"
+#include "renderer/kernels/path/scatter.h"
 #include "renderer/kernels/stream.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
-#include "renderer/shared/integrator_settings.h"
-#include "renderer/shared/live_pixels.h"
-#include "renderer/shared/path_state.h"
-
-/// Returns whether a path ends at a hit after `depth` scattering events because of the depth limit.
-///
-/// The ray of the last scattering event counts only if it can find light: in implicit paths, or
-/// after a delta event. A light path needs no such ray, since its last event is the one connected
-/// to the camera.
-DEVICE bool is_last_hit(IntegratorSettings settings, uint depth) {
-    const bool last_ray_finds_light =
-        !FEATURE_from_light && (FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u);
-    return FEATURE_depth_limit && depth + (last_ray_finds_light ? 0u : 1u) >= settings.max_depth;
-}
-
-/// Divides the throughput of a path by the probability with which roulette continues it, and
-/// returns false if the path ends.
-///
-/// Thesis, section 2.7.2: from the first bounce on, the continuation probability is proportional to
-/// throughput. The bound below 1 ends paths between surfaces that absorb nothing. It is close to 1
-/// because the variance is infinite if the squared albedo exceeds it. The probability is part of
-/// the contribution, but not of the MIS densities.
-///
-/// Inside glass radiance is larger by eta^2, a factor that the path loses on its way out. Roulette
-/// excludes this factor (PBRT 4th ed., section 13.2.2), hence `scale_change`. The throughput of a
-/// light path is measured relative to its initial value.
-DEVICE bool survives_roulette(PathStates paths, uint slot, IntegratorSettings settings,
-                              float largest, float scale_change, float u,
-                              PRIVATE float3 *throughput) {
-    float scale = 1.0f;
-    if (FEATURE_roulette_scale) {
-        scale = get_roulette_scale(paths, slot) * scale_change;
-        set_roulette_scale(paths, slot, scale);
-    }
-    const float continuation = min(largest / scale, settings.max_continuation);
-    if (!(u < continuation)) {
-        return false;
-    }
-    *throughput = *throughput / continuation;
-    return true;
-}
-
-/// Updates the ratios of the MIS weights at a scattering event.
-DEVICE void continue_ratios(PathStates paths, uint slot, IntegratorSettings settings, uint depth,
-                            bool is_delta, TwoWay both) {
-    const float log_ratio = get_log_ratio(paths, slot);
-    const float log_arrival = get_log_arrival(paths, slot);
-    set_log_ratio(
-        paths, slot,
-        FEATURE_from_light
-            ? continue_light_ratio(log_ratio, log_arrival, depth, is_delta, both.log_forward,
-                                   both.log_ratio, settings.beta)
-            : continue_camera_ratio(log_ratio, depth, is_delta, both.log_forward, both.log_ratio));
-    if (FEATURE_vertex_joins) {
-        set_log_strategies(
-            paths, slot,
-            continue_strategies(get_log_strategies(paths, slot), log_arrival, is_delta,
-                                both.log_forward, both.log_ratio, settings.beta));
-    }
-}
-
-/// Samples scattering at the hit and moves the path's ray there. Returns false if the path ends.
-DEVICE bool scatter(PathStates paths, uint slot, PRIVATE const SceneView *scene,
-                    IntegratorSettings settings, ulong first_sample) {
-    const uint primitive = get_hit_primitive(paths, slot);
-    const uint depth = get_depth(paths, slot);
-    if (!FEATURE_scattering || primitive == NO_HIT || is_last_hit(settings, depth)) {
-        return false;
-    }
-    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(paths, slot));
-    const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(paths, slot));
-    const uint4 words = path_sample(settings, get_pixel(paths, slot),
-                                    first_sample + get_sample(paths, slot), BLOCK_SCATTER(depth));
-    const BsdfSample sample = bsdf_sample(scene, hit.material, frame, uniform_float(words.w),
-                                          uniform_float(words.x), uniform_float(words.y));
-    if (!(sample.pdf_w > 0.0f)) {
-        return false;
-    }
-    TwoWay both = one_way();
-    if (FEATURE_light_strategy || FEATURE_from_light) {
-        both = look_back(scene, hit, frame, sample);
-    }
-    float3 throughput =
-        get_throughput(paths, slot) * (FEATURE_from_light ? both.importance : sample.weight);
-    const float largest = max(throughput.x, max(throughput.y, throughput.z));
-    if (!(largest > 0.0f)) {
-        return false;
-    }
-    if (FEATURE_roulette && settings.termination == TERMINATION_ROULETTE) {
-        // Importance crosses boundaries unchanged.
-        const float scale_change = FEATURE_from_light ? 1.0f : sample.scale;
-        if (!survives_roulette(paths, slot, settings, largest, scale_change, uniform_float(words.z),
-                               &throughput)) {
-            return false;
-        }
-    }
-    if (FEATURE_adaptive && settings.termination == TERMINATION_ADAPTIVE &&
-        largest < settings.adaptive_threshold) {
-        return false;
-    }
-    set_ray_origin(paths, slot, offset_ray_origin(hit.point, sample.wi));
-    set_ray_direction(paths, slot, sample.wi);
-    set_throughput(paths, slot, throughput);
-    set_depth(paths, slot, depth + 1u);
-    set_pdf_w(paths, slot, sample.pdf_w);
-    if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
-        const bool is_delta = !(sample.pdf_w < INFINITY);
-        continue_ratios(paths, slot, settings, depth, is_delta, both);
-    }
-    return true;
-}
-
-/// Adds a path that ends here to the film.
-DEVICE void end_path(PathStates paths, uint slot, FilmView film, ulong first_sample) {
-    if (FEATURE_from_camera && add_path(paths, slot, film) && FEATURE_convergence) {
-        add_path_to_half(paths, slot, film, first_sample);
-    }
-}
-
-#if !PATH_STATES_PRIVATE
 
 __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL long *half_film_words,
                           IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
     const SceneView scene = SHADING_VIEW;
-    const PathStates paths = {path_words, capacity};
-    const FilmView film = {film_words, half_film_words, counters};
-    PushBuffer extended, ended;
-    extended.count = 0u;
+    const Stream stream = STREAM_VIEW;
+    const FilmView film = {film_words, counters};
+    PushBuffer continued, ended;
+    continued.count = 0u;
     ended.count = 0u;
-    GLOBAL const uint *queue = active_queue(queues, counters, capacity);
-    FOR_EACH_ENTRY(i, active_count(counters)) {
-        const uint slot = shaded_path_at(&scene, paths, queue, i, i_end);
-        if (scatter(paths, slot, &scene, settings, first_sample)) {
-            push_slot(&extended, slot);
-            continue;
+    FOR_EACH_ENTRY(i, active_count(stream)) {
+        const Path path = shaded_path_at(&scene, stream, i, i_end);
+        if (scatter(path, &scene, settings, first_sample)) {
+            push_slot(&continued, path.slot);
+        } else {
+            prefetch_film(path, film);
+            push_slot(&ended, path.slot);
         }
-        if (FEATURE_from_camera) {
-            prefetch_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot));
-        }
-        push_slot(&ended, slot);
     }
     for (uint i = 0u; i < ended.count; ++i) {
-        end_path(paths, ended.slots[i], film, first_sample);
+        retire_path(path_in(stream, ended.slots[i]), film, half_film_words, first_sample);
     }
-    append_active(queues, counters, capacity, 1u - counters->parity, &extended);
-    append_slots(queues, QUEUE_FREE, capacity, &counters->free_slots, counters, &ended);
+    append_continued(stream, &continued);
+    append_free(stream, &ended);
 }
-
-#endif

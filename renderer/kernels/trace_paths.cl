@@ -5,11 +5,13 @@
 // the comparison of the thesis (section 4.4.3, figure 4.22) it replaces OptiX 3.0, which built such
 // kernels. The difference between it and the wavefront shows what streams between stages cost and
 // gain.
-//
-// Writes: film; ray counts.
 
-#include "renderer/kernels/advance_path.h"
-#include "renderer/kernels/generate_camera_rays.cl"
+#define PATH_STATES_PRIVATE 1
+
+#include "renderer/kernels/path/advance.h"
+#include "renderer/kernels/path/camera_start.h"
+#include "renderer/kernels/path/retire.h"
+#include "renderer/kernels/stream.h"
 
 __kernel void trace_paths(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *film_words,
                           GLOBAL long *half_film_words, IntegratorSettings settings,
@@ -17,16 +19,16 @@ __kernel void trace_paths(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *fi
                           GLOBAL const uint *live_pixels, uint live_count,
                           GLOBAL StreamCounters *counters) {
     const SceneView scene = SCENE_VIEW;
-    uint words[PATH_STATE_WORDS];
-    const PathStates paths = {words, 1u};
-    const FilmView film = {film_words, half_film_words, counters};
+    const FilmView film = {film_words, counters};
     const LivePixels live = make_live_pixels(live_pixels, live_count, camera.width * camera.height);
+    uint words[PATH_STATE_WORDS];
+    const Path path = {words, 1u, 0u};
     RayCounts rays = {0u, 0u};
     FOR_EACH_ENTRY(i, work - first_work) {
-        start_item(paths, 0u, camera, settings, first_sample, live, first_work + i, work);
-        while (advance_path(paths, &scene, camera, film, settings, first_sample, &rays)) {
+        start_camera_item(path, camera, settings, first_sample, live, first_work + i, work);
+        while (advance_path(path, &scene, camera, film, settings, first_sample, &rays)) {
         }
-        end_path(paths, 0u, film, first_sample);
+        retire_path(path, film, half_film_words, first_sample);
     }
     count_rays(counters, rays);
 }

@@ -280,7 +280,7 @@ TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
         return errors_off(
             mean("bdpt", seed++, {}, {{file, text.replace(at, search.size(), replacement)}}));
     };
-    EXPECT_GT(planted("kernels/connect_vertices.cl", "weight * cos_there", "weight"), 6);
+    EXPECT_GT(planted("kernels/path/vertex_connection.h", "weight * cos_there", "weight"), 6);
     EXPECT_GT(planted("kernels/light/mis.h",
                       "return log_norm(log_arrival, log_pdf + log_strategies, beta);",
                       "(void)log_arrival; (void)beta; return log_pdf + log_strategies;"),
@@ -429,7 +429,7 @@ TEST(Features, AreNamedAndClosed) {
     // Without scattering, no vertices are connected, but both passes still see the emitters and
     // weight them.
     const FeatureMask bare = FeatureMask::all().with(Feature::scattering, false).closed();
-    EXPECT_FALSE(bare.has(Feature::vertex_joins));
+    EXPECT_FALSE(bare.has(Feature::vertex_connections));
     EXPECT_TRUE(bare.has(Feature::light_emitters));
     EXPECT_TRUE(bare.has(Feature::from_light));
 }

@@ -7,7 +7,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/session/state.h"
-#include "renderer/shared/finish_paths.h"
+#include "renderer/shared/tail.h"
 
 namespace rtrays {
 
@@ -27,16 +27,17 @@ constexpr int rounds_per_check = 8;
 /// launch until then.
 constexpr int checks_per_profile = 64;
 
-/// Number of rounds of a batch's last few paths after which a kernel that advances them by many
+/// Number of rounds of a batch's tail after which a kernel that advances them by many
 /// vertices per launch is worth its compilation.
-constexpr int many_rounds = 512;
+constexpr int tail_rounds_before_compilation = 512;
 
-/// Binds the light or vertex of a stage. All stages share this argument, so it is bound only when
-/// the value changes for a stage that reads it.
-void bind_chosen(CompiledPass &pass, const RoundStage &stage) {
-    if (stage.chosen != pass.chosen && stage_description(stage.stage).reads(StageInput::chosen)) {
-        pass.stages.bind({{StageInput::chosen, {stage.chosen}}});
-        pass.chosen = stage.chosen;
+/// Binds the index of the light or vertex that a stage connects to, if it has changed.
+void bind_index(CompiledPass &pass, const RoundStage &stage) {
+    for (auto &[input, bound] : pass.indices) {
+        if (stage.index != bound && stage_description(stage.stage).reads(input)) {
+            pass.stages.bind({{input, {stage.index}}});
+            bound = stage.index;
+        }
     }
 }
 
@@ -71,8 +72,8 @@ void RenderSession::State::enqueue(CompiledPass &pass, Stage stage, uint64_t pat
             return pass.stages.enqueue(stage, (paths + layout.chunk - 1) / layout.chunk);
         case StageItems::slots:
             return pass.stages.enqueue(stage, layout.capacity);
-        case StageItems::few_paths:
-            return pass.stages.enqueue(stage, FEW_PATHS(layout.capacity));
+        case StageItems::tail_paths:
+            return pass.stages.enqueue(stage, TAIL_PATHS(layout.capacity));
         case StageItems::film_sums:
             return pass.stages.enqueue(stage, film_sums());
         case StageItems::one:
@@ -87,7 +88,7 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
         }
         make_room(pass, count);
     }
-    if (features.has(Feature::vertex_joins)) {
+    if (features.has(Feature::vertex_connections)) {
         // Each pass traces one path per pixel, chunk by chunk, so that both passes use the same
         // light vertices.
         const auto work = static_cast<uint32_t>(count * pixels());
@@ -143,11 +144,11 @@ void RenderSession::State::collect_profile(CompiledPass &pass) {
     }
 }
 
-void RenderSession::State::add_last_stages(CompiledPass &pass, uint64_t in_flight) {
+void RenderSession::State::add_tail_stages(CompiledPass &pass, uint64_t in_flight) {
     collect_profile(pass);
-    make_room(pass, pass.splats * in_flight * FINISH_EVENTS);
+    make_room(pass, pass.splats * in_flight * TAIL_EVENTS);
     const auto start = Clock::now();
-    for (const RoundStage &stage : pass.last_paths) {
+    for (const RoundStage &stage : pass.tail) {
         if (!pass.stages.has(stage.stage)) {
             pass.stages.add({stage.stage});
         }
@@ -169,27 +170,28 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
     }
     enqueue(pass, Stage::reset_streams);
     uint64_t in_flight = layout.capacity;
-    int rounds_of_few = 0;
+    int tail_rounds = 0;
     // The host waits for the counters of the previous check, so that the device stays busy.
     std::array<StreamCounters, 2> seen{};
     std::array<ClEvent, 2> read;
     for (int check = 0;; ++check) {
-        const bool few = in_flight <= FEW_PATHS(layout.capacity);
-        rounds_of_few += few ? rounds_per_check : 0;
-        if (rounds_of_few > many_rounds && !pass.last_paths.empty() && !pass.has_last_stages()) {
-            add_last_stages(pass, in_flight);
+        const bool few = in_flight <= TAIL_PATHS(layout.capacity);
+        tail_rounds += few ? rounds_per_check : 0;
+        if (tail_rounds > tail_rounds_before_compilation && !pass.tail.empty() &&
+            !pass.has_tail_stages()) {
+            add_tail_stages(pass, in_flight);
         }
-        const bool takes_far = few && pass.has_last_stages();
+        const bool runs_tail = few && pass.has_tail_stages();
         for (int i = 0; i < rounds_per_check; ++i) {
             // A camera path ends with one addition to its pixel, which run_batch counts. The splats
             // of all light paths may go to the same pixel.
-            make_room(pass, pass.splats * in_flight * (takes_far ? FINISH_EVENTS : 1));
-            for (const RoundStage &stage : takes_far ? pass.last_paths : pass.round) {
+            make_room(pass, pass.splats * in_flight * (runs_tail ? TAIL_EVENTS : 1));
+            for (const RoundStage &stage : runs_tail ? pass.tail : pass.round) {
                 if (stage.rounds > 0 &&
                     static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
                     continue;
                 }
-                bind_chosen(pass, stage);
+                bind_index(pass, stage);
                 enqueue(pass, stage.stage);
             }
         }

@@ -239,7 +239,7 @@ void RenderSession::State::bind() {
     StageArguments arguments = scene_arguments();
     arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
     arguments[In::first_sample] = {uint64_t{0}};
-    arguments[In::chosen] = {uint32_t{SELECT_LIGHT}};
+    arguments[In::light_index] = arguments[In::vertex_index] = {uint32_t{SELECT_LIGHT}};
     arguments[In::first_work] = {uint32_t{0}};
     arguments[In::work] = {uint32_t{0}};
     arguments[In::vertices] = {vertex_words};
@@ -247,7 +247,9 @@ void RenderSession::State::bind() {
     arguments[In::streams] = {path_words, queues, counters, layout.capacity};
     arguments[In::counters] = {counters};
     for (CompiledPass &pass : passes) {
-        pass.chosen = SELECT_LIGHT;
+        for (auto &[input, bound] : pass.indices) {
+            bound = SELECT_LIGHT;
+        }
         arguments[In::settings] = {pass.numbers(numbers)};
         arguments[In::film] = {pass.film};
         arguments[In::ray_counts] = {pass.ray_counts};

@@ -41,7 +41,7 @@ struct CompiledPass {
           round(pass.round),
           adds_hits(pass.adds_hits),
           streams(pass.streams),
-          last_paths(pass.last_paths),
+          tail(pass.tail),
           splats(static_cast<uint64_t>(std::count_if(
               round.begin(), round.end(),
               [](const RoundStage &s) { return s.stage == Stage::splat_unblocked; }))),
@@ -58,10 +58,8 @@ struct CompiledPass {
         return list;
     }
 
-    /// Returns whether the stages for the last few paths of a batch are compiled.
-    bool has_last_stages() const {
-        return !last_paths.empty() && stages.has(last_paths.front().stage);
-    }
+    /// Returns whether the stages for the tail of a batch are compiled.
+    bool has_tail_stages() const { return !tail.empty() && stages.has(tail.front().stage); }
 
     /// Returns the integrator's settings for this pass.
     IntegratorSettings numbers(IntegratorSettings of_all) const {
@@ -95,12 +93,14 @@ struct CompiledPass {
     std::vector<RoundStage> round;
     bool adds_hits;
     bool streams;
-    std::vector<RoundStage> last_paths;
+    std::vector<RoundStage> tail;
     uint64_t splats;  ///< maximum number of splats per path in flight and round
     StageSet stages;
     Buffer<int64_t> film;
     Buffer<int64_t> ray_counts;
-    uint32_t chosen = SELECT_LIGHT;  ///< value to which StageInput::chosen is bound
+    /// Values to which the index of a light or vertex is bound.
+    std::map<StageInput, uint32_t> indices = {{StageInput::light_index, SELECT_LIGHT},
+                                              {StageInput::vertex_index, SELECT_LIGHT}};
     /// Maximum number of additions to one pixel since the last carry propagation.
     uint64_t additions = 0;
     std::map<std::string, Profiler::Stage> profile;  ///< profile of the stages in `render`
@@ -149,7 +149,7 @@ struct RenderSession::State {
 
     /// Returns the number of 4-byte words of stored light vertices per path in flight.
     uint32_t vertex_words_per_path() const {
-        return features.has(Feature::vertex_joins)
+        return features.has(Feature::vertex_connections)
                    ? numbers.light_vertices * light_vertex_words(features)
                    : 0;
     }
@@ -201,7 +201,7 @@ struct RenderSession::State {
 
     /// Compiles the stages for the last few paths of a batch, of which `in_flight` are left, and
     /// runs their first round.
-    void add_last_stages(CompiledPass &pass, uint64_t in_flight);
+    void add_tail_stages(CompiledPass &pass, uint64_t in_flight);
 
     /// Enqueues a stage. `paths` is the number of paths that a stage of complete paths
     /// (StageItems::paths) traces.

@@ -92,7 +92,7 @@ DEVICE void store_light_vertex(WordPlace place, LightVertex vertex) {
 namespace rtrays {
 
 /// Returns the size of a light vertex, in words of 4 bytes, under a feature mask with
-/// `vertex_joins`.
+/// `vertex_connections`.
 uint32_t light_vertex_words(FeatureMask mask);
 
 }  // namespace rtrays

@@ -13,28 +13,28 @@
 // X(feature, type, name): a field exists if its feature is on. Types are uint, float and float3
 // (three words). (hit_u, hit_v) are the barycentrics of a triangle; (hit_u, hit_v, hit_w) is the
 // hit on a shape in its object space. kernels/light/mis.h defines R, Q, S and A.
-#define PATH_STATE_FIELDS(X)                                                                    \
-    X(ALWAYS, uint, pixel)                   /* light path: index within the sample */          \
-    X(ALWAYS, uint, sample)                  /* index within the batch */                       \
-    X(ALWAYS, uint, depth)                   /* scattering events so far */                     \
-    X(ALWAYS, float3, ray_origin)            /* of the path's ray, then of its shadow ray */    \
-    X(ALWAYS, float3, ray_direction)         /* unit; the path's ray */                         \
-    X(FEATURE_from_camera, float3, radiance) /* accumulated so far, W / (sr m^2) */             \
-    X(ALWAYS, uint, hit_primitive)           /* NO_HIT, a triangle, or SHAPE_BIT and a shape */ \
-    X(ALWAYS, float, hit_u)                                                                     \
-    X(ALWAYS, float, hit_v)                                                                     \
-    X(FEATURE_shapes, float, hit_w)                                                             \
-    X(FEATURE_scattering, float3, throughput)                                                   \
-    X(FEATURE_roulette_scale, float, roulette_scale) /* roulette uses throughput over this */   \
-    X(FEATURE_direction_density, float, pdf_w)       /* per solid angle; INFINITY: delta */     \
-    X(FEATURE_light_strategy, float, log_ratio)      /* log2 R, or log2 Q */                    \
-    X(FEATURE_arrival_density, float, log_arrival)   /* log2 A of the last ray */               \
-    X(FEATURE_vertex_joins, float, log_strategies)   /* log2 S of all strategies */             \
-    X(FEATURE_emission_density, uint, light)         /* index of the light at the start */      \
-    X(FEATURE_branches, uint, pending)               /* size of the stack of branch.h */        \
-    X(FEATURE_shadow_rays, float3, shadow_vector)    /* from ray_origin to the other end */     \
-    X(FEATURE_shadow_rays, float3, shadow_radiance)  /* added unless the ray is blocked */      \
-    X(FEATURE_from_light, uint, splat_pixel)         /* pixel to which it is added */
+#define PATH_STATE_FIELDS(X)                                                                      \
+    X(ALWAYS, uint, pixel)                   /* light path: index within the sample */            \
+    X(ALWAYS, uint, sample)                  /* index within the batch */                         \
+    X(ALWAYS, uint, depth)                   /* scattering events so far */                       \
+    X(ALWAYS, float3, ray_origin)            /* of the path's ray, then of its shadow ray */      \
+    X(ALWAYS, float3, ray_direction)         /* unit; the path's ray */                           \
+    X(FEATURE_from_camera, float3, radiance) /* accumulated so far, W / (sr m^2) */               \
+    X(ALWAYS, uint, hit_primitive)           /* NO_HIT, a triangle, or SHAPE_BIT and a shape */   \
+    X(ALWAYS, float, hit_u)                                                                       \
+    X(ALWAYS, float, hit_v)                                                                       \
+    X(FEATURE_shapes, float, hit_w)                                                               \
+    X(FEATURE_scattering, float3, throughput)                                                     \
+    X(FEATURE_roulette_scale, float, roulette_scale)     /* roulette uses throughput over this */ \
+    X(FEATURE_direction_density, float, pdf_w)           /* per solid angle; INFINITY: delta */   \
+    X(FEATURE_light_strategy, float, log_ratio)          /* log2 R, or log2 Q */                  \
+    X(FEATURE_arrival_density, float, log_arrival)       /* log2 A of the last ray */             \
+    X(FEATURE_vertex_connections, float, log_strategies) /* log2 S of all strategies */           \
+    X(FEATURE_emission_density, uint, light)             /* index of the light at the start */    \
+    X(FEATURE_branches, uint, pending)                   /* size of the stack of branch.h */      \
+    X(FEATURE_shadow_rays, float3, shadow_vector)        /* from ray_origin to the other end */   \
+    X(FEATURE_shadow_rays, float3, shadow_radiance)      /* added unless the ray is blocked */    \
+    X(FEATURE_from_light, uint, splat_pixel)             /* pixel to which it is added */
 
 /// Marks `hit_primitive` as a shape, not a triangle; NO_HIT has this bit set as well.
 #define SHAPE_BIT 0x80000000u
@@ -48,8 +48,8 @@
 #define STREAM_WORD(capacity, slot, word) ((word) * (capacity) + (slot))
 #endif
 
-// A program whose work-items each follow one path (advance_path.h) keeps the path in private
-// memory.
+// A program whose work-items each follow one path (kernels/path/advance.h) keeps the path in
+// private memory.
 #ifndef PATH_STATES_PRIVATE
 #define PATH_STATES_PRIVATE 0
 #endif
@@ -74,70 +74,52 @@ enum PathStateLayout {
         PATH_STATE_WORDS
 };
 
-/// The path states of one stream.
-typedef struct PathStates {
+/// A path in flight: the handle through which stages read and write its state.
+typedef struct Path {
     PATH_MEMORY uint *words;
-    uint capacity;
-} PathStates;
+    uint capacity;  ///< number of paths in `words`
+    uint slot;      ///< index of the path
+} Path;
 
-#define PATH_WORD(paths, slot, word) (paths).words[STREAM_WORD((paths).capacity, slot, word)]
+#define PATH_WORD(path, word) (path).words[STREAM_WORD((path).capacity, (path).slot, word)]
 
 // Whether the stages prefetch what they will read for the next paths. It pays where the words of a
 // path are contiguous.
 #define PREFETCHES (HAS_PREFETCH && PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE)
 
-/// Prefetches the words of a path.
-DEVICE void prefetch_path(PathStates paths, uint slot) {
-    for (uint word = 0u; PREFETCHES && word < PATH_STATE_WORDS; word += CACHE_LINE / 4u) {
-        PREFETCH(&PATH_WORD(paths, slot, word));
+// get_<name>(path) and set_<name>(path, value) for every field. Without the field's feature there
+// is no word: get returns 0 and set does nothing.
+#define ACCESS_uint(name)                           \
+    DEVICE uint get_##name(Path path) {             \
+        return PATH_WORD(path, PATH_##name);        \
+    }                                               \
+    DEVICE void set_##name(Path path, uint value) { \
+        PATH_WORD(path, PATH_##name) = value;       \
     }
-    if (PREFETCHES) {
-        PREFETCH(&PATH_WORD(paths, slot, PATH_STATE_WORDS - 1u));
+#define ACCESS_float(name)                             \
+    DEVICE float get_##name(Path path) {               \
+        return as_float(PATH_WORD(path, PATH_##name)); \
+    }                                                  \
+    DEVICE void set_##name(Path path, float value) {   \
+        PATH_WORD(path, PATH_##name) = as_uint(value); \
     }
-}
-
-/// Returns the slot of the path at entry i of a queue. For use in FOR_EACH_ENTRY, with i_end as
-/// `end`. Prefetches the path three entries ahead: on a CPU its words may be in another core's
-/// cache.
-DEVICE uint path_at(MAYBE_UNUSED PathStates paths, GLOBAL const uint *queue, uint i,
-                    MAYBE_UNUSED uint end) {
-    prefetch_path(paths, queue[min(i + 3u, end - 1u)]);
-    return queue[i];
-}
-
-// get_<name>(paths, slot) and set_<name>(paths, slot, value) for every field. Without the field's
-// feature there is no word: get returns 0 and set does nothing.
-#define ACCESS_uint(name)                                             \
-    DEVICE uint get_##name(PathStates paths, uint slot) {             \
-        return PATH_WORD(paths, slot, PATH_##name);                   \
-    }                                                                 \
-    DEVICE void set_##name(PathStates paths, uint slot, uint value) { \
-        PATH_WORD(paths, slot, PATH_##name) = value;                  \
+#define ACCESS_float3(name)                                             \
+    DEVICE float3 get_##name(Path path) {                               \
+        return make_float3(as_float(PATH_WORD(path, PATH_##name)),      \
+                           as_float(PATH_WORD(path, PATH_##name + 1)),  \
+                           as_float(PATH_WORD(path, PATH_##name + 2))); \
+    }                                                                   \
+    DEVICE void set_##name(Path path, float3 value) {                   \
+        PATH_WORD(path, PATH_##name) = as_uint(value.x);                \
+        PATH_WORD(path, PATH_##name + 1) = as_uint(value.y);            \
+        PATH_WORD(path, PATH_##name + 2) = as_uint(value.z);            \
     }
-#define ACCESS_float(name)                                             \
-    DEVICE float get_##name(PathStates paths, uint slot) {             \
-        return as_float(PATH_WORD(paths, slot, PATH_##name));          \
-    }                                                                  \
-    DEVICE void set_##name(PathStates paths, uint slot, float value) { \
-        PATH_WORD(paths, slot, PATH_##name) = as_uint(value);          \
-    }
-#define ACCESS_float3(name)                                                    \
-    DEVICE float3 get_##name(PathStates paths, uint slot) {                    \
-        return make_float3(as_float(PATH_WORD(paths, slot, PATH_##name)),      \
-                           as_float(PATH_WORD(paths, slot, PATH_##name + 1)),  \
-                           as_float(PATH_WORD(paths, slot, PATH_##name + 2))); \
-    }                                                                          \
-    DEVICE void set_##name(PathStates paths, uint slot, float3 value) {        \
-        PATH_WORD(paths, slot, PATH_##name) = as_uint(value.x);                \
-        PATH_WORD(paths, slot, PATH_##name + 1) = as_uint(value.y);            \
-        PATH_WORD(paths, slot, PATH_##name + 2) = as_uint(value.z);            \
-    }
-#define ACCESS_NOTHING(type, name)                                                              \
-    DEVICE type get_##name(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot) {             \
-        return (type)(0);                                                                       \
-    }                                                                                           \
-    DEVICE void set_##name(MAYBE_UNUSED PathStates paths, MAYBE_UNUSED uint slot, type value) { \
-        (void)value;                                                                            \
+#define ACCESS_NOTHING(type, name)                               \
+    DEVICE type get_##name(MAYBE_UNUSED Path path) {             \
+        return (type)(0);                                        \
+    }                                                            \
+    DEVICE void set_##name(MAYBE_UNUSED Path path, type value) { \
+        (void)value;                                             \
     }
 #define X(feature, type, name) \
     WHEN(feature)(ACCESS_##type(name)) UNLESS(feature)(ACCESS_NOTHING(type, name))

@@ -207,7 +207,7 @@ typedef struct LightingRecord {
     uint padding[2];
 } LightingRecord;
 
-/// Value of `chosen` by which stage sample_light selects a light at random.
+/// Value of `light_index` by which stage sample_light selects a light at random.
 #define SELECT_LIGHT 0xffffffffu
 
 /// A triangle of a mesh light.

@@ -67,6 +67,11 @@ DEVICE bool side_scatters(MaterialRecord material, SurfaceFrame frame, float cos
     return cos_wo >= MIN_COSINE;
 }
 
+/// Returns whether no channel of a value is positive; NaN counts as black.
+DEVICE bool is_black(float3 value) {
+    return !(value.x > 0.0f || value.y > 0.0f || value.z > 0.0f);
+}
+
 /// Returns whether all components of a material are deltas.
 DEVICE bool is_delta_material(MaterialRecord material) {
     return FEATURE_delta && (material.flags & MATERIAL_DELTA) != 0u;

@@ -156,7 +156,7 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
             camera_ray(record, static_cast<float>(x), static_cast<float>(y), u, v);
         const double distance = log_uniform(random, -2, 4);
         const float3 point = to_float3(to_double(ray.origin) + distance * to_double(ray.direction));
-        const CameraJoin join = join_camera(record, point, u, v);
+        const CameraConnection connection = camera_connection(record, point, u, v);
         const Eigen::Vector3d forward = to_double(camera_forward(record));
         const double cosine = to_double(ray.direction).normalized().dot(forward);
         const double rounding =
@@ -165,25 +165,25 @@ TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
             ++left_out;  // rounding has destroyed the position of the point
             continue;
         }
-        ASSERT_EQ(length(join.lens_point - ray.origin), 0.0f);
+        ASSERT_EQ(length(connection.lens_point - ray.origin), 0.0f);
         const double slope = camera.largest_slope + camera.lens_slope;
         const double error =
             8 * half_ulp * (1 + slope) * (1 + camera.largest_slope) + rounding * (1 + slope);
         const double pixels =
             error / camera.pixel + 2 * half_ulp * std::max(record.width, record.height);
-        if (join.pdf_w == 0.0f) {
+        if (connection.pdf_w == 0.0f) {
             // Rounding may move a point at the edge of the film outside.
             const double edge = std::min({x, y, record.width - x, record.height - y});
             ASSERT_LT(edge, pixels);
             ++lost;
             continue;
         }
-        const double off = std::max(std::abs(static_cast<double>(join.raster.x) - x),
-                                    std::abs(static_cast<double>(join.raster.y) - y));
+        const double off = std::max(std::abs(static_cast<double>(connection.raster.x) - x),
+                                    std::abs(static_cast<double>(connection.raster.y) - y));
         ASSERT_LT(off, pixels) << i;
         worst = std::max(worst, pixels < 0.01 ? off : 0.0);
         // dw = cos^3 dA, so relative errors of the cosine are tripled.
-        const auto pdf_w = static_cast<double>(join.pdf_w);
+        const auto pdf_w = static_cast<double>(connection.pdf_w);
         ASSERT_NEAR(static_cast<double>(camera_pdf_w(record, ray.direction)) / pdf_w, 1.0,
                     6 * error + 1e-6);
         ASSERT_NEAR(pdf_w * camera.pixel * camera.pixel * cosine * cosine * cosine, 1.0,
@@ -229,7 +229,7 @@ TEST(Camera, DensityIsThatOfTheRaysItMakes) {
 }
 
 /// Returns the integral of the density over the directions from a point of the lens that
-/// `join_camera` finds on the film. Uses midpoints of cosine and azimuth about the axis.
+/// `camera_connection` finds on the film. Uses midpoints of cosine and azimuth about the axis.
 double total_density(const CameraRecord &camera, float u, float v, double largest_slope) {
     constexpr int rings = 1500, sectors = 1500;
     const double least_cosine = 1 / std::sqrt(1 + largest_slope * largest_slope);
@@ -244,8 +244,8 @@ double total_density(const CameraRecord &camera, float u, float v, double larges
             const double phi = 2 * pi * (j + 0.5) / sectors;
             const Eigen::Vector3d d = sine * std::cos(phi) * to_double(frame.x) +
                                       sine * std::sin(phi) * to_double(frame.y) + cosine * z;
-            sum +=
-                static_cast<double>(join_camera(camera, to_float3(lens_point + 7 * d), u, v).pdf_w);
+            sum += static_cast<double>(
+                camera_connection(camera, to_float3(lens_point + 7 * d), u, v).pdf_w);
         }
     }
     return sum * 2 * pi * (1 - least_cosine) / (double(rings) * sectors);
@@ -275,11 +275,12 @@ TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
         double largest = 0;
         for (uint32_t i = 0; i < 1000; ++i) {
             const uint4 w = words(i, 8);
-            const CameraJoin join =
-                join_camera(camera, to_float3(point), uniform_float(w.x), uniform_float(w.y));
-            ASSERT_GT(join.pdf_w, 0.0f);
-            const double off = std::hypot(static_cast<double>(join.raster.x) - (20 + 0.2 / pixel),
-                                          static_cast<double>(join.raster.y) - (10 + 0.1 / pixel));
+            const CameraConnection connection =
+                camera_connection(camera, to_float3(point), uniform_float(w.x), uniform_float(w.y));
+            ASSERT_GT(connection.pdf_w, 0.0f);
+            const double off =
+                std::hypot(static_cast<double>(connection.raster.x) - (20 + 0.2 / pixel),
+                           static_cast<double>(connection.raster.y) - (10 + 0.1 / pixel));
             ASSERT_LT(off, blur + 1e-4);
             largest = std::max(largest, off);
         }
@@ -300,10 +301,11 @@ TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
               make_float3(1e30f, 0, -1e-30f), make_float3(inf, 0, -1), make_float3(inf, 0, -inf),
               make_float3(nan, 0, -1), make_float3(0, 0, nan), make_float3(0, 0, inf),
               make_float3(0, 0, -inf)}) {
-            EXPECT_EQ(join_camera(camera, point, 0.5f, 0.25f).pdf_w, 0.0f)
+            EXPECT_EQ(camera_connection(camera, point, 0.5f, 0.25f).pdf_w, 0.0f)
                 << point.x << ' ' << point.y << ' ' << point.z;
         }
-        const CameraJoin far = join_camera(camera, make_float3(0, 0, -1e37f), 0.5f, 0.25f);
+        const CameraConnection far =
+            camera_connection(camera, make_float3(0, 0, -1e37f), 0.5f, 0.25f);
         EXPECT_NEAR(far.pdf_w, 1 / camera.pixel_area,
                     0.02 / static_cast<double>(camera.pixel_area));
         EXPECT_TRUE(std::isfinite(far.raster.x) && std::isfinite(far.raster.y));
@@ -311,10 +313,10 @@ TEST(Camera, SeesNothingBehindBesideOrInTheLens) {
     // The left and upper edges belong to the film, but the right and lower edges do not.
     const CameraRecord camera =
         compile_camera(one_camera(CameraArrays::FovAxis::x, 0, 1), 0, 40, 20);
-    EXPECT_GT(join_camera(camera, make_float3(-1, 0, -1), 0, 0).pdf_w, 0.0f);
-    EXPECT_GT(join_camera(camera, make_float3(0, 0.5f, -1), 0, 0).pdf_w, 0.0f);
-    EXPECT_EQ(join_camera(camera, make_float3(1, 0, -1), 0, 0).pdf_w, 0.0f);
-    EXPECT_EQ(join_camera(camera, make_float3(0, -0.5f, -1), 0, 0).pdf_w, 0.0f);
+    EXPECT_GT(camera_connection(camera, make_float3(-1, 0, -1), 0, 0).pdf_w, 0.0f);
+    EXPECT_GT(camera_connection(camera, make_float3(0, 0.5f, -1), 0, 0).pdf_w, 0.0f);
+    EXPECT_EQ(camera_connection(camera, make_float3(1, 0, -1), 0, 0).pdf_w, 0.0f);
+    EXPECT_EQ(camera_connection(camera, make_float3(0, -0.5f, -1), 0, 0).pdf_w, 0.0f);
 }
 
 /// Result of connecting points on a tilted plane of radiance 1, which fills the view, to the
@@ -337,14 +339,14 @@ Film splat_plane(double aperture, double planted) {
         const Eigen::Vector3d p = Eigen::Vector3d(0, 0, -5) +
                                   side * ((static_cast<double>(uniform_float(w.x)) - 0.5) * x +
                                           (static_cast<double>(uniform_float(w.y)) - 0.5) * y);
-        const CameraJoin join =
-            join_camera(camera, to_float3(p), uniform_float(w.z), uniform_float(w.w));
-        if (join.pdf_w > 0.0f) {
-            const Eigen::Vector3d way = to_double(join.lens_point) - p;
-            const double value = side * side * static_cast<double>(join.pdf_w) * normal.dot(way) /
-                                 std::pow(way.norm(), 3);
-            const auto pixel =
-                static_cast<size_t>(join.raster.y) * 8 + static_cast<size_t>(join.raster.x);
+        const CameraConnection connection =
+            camera_connection(camera, to_float3(p), uniform_float(w.z), uniform_float(w.w));
+        if (connection.pdf_w > 0.0f) {
+            const Eigen::Vector3d way = to_double(connection.lens_point) - p;
+            const double value = side * side * static_cast<double>(connection.pdf_w) *
+                                 normal.dot(way) / std::pow(way.norm(), 3);
+            const auto pixel = static_cast<size_t>(connection.raster.y) * 8 +
+                               static_cast<size_t>(connection.raster.x);
             sum.at(pixel) += value * (pixel % 8 < 4 ? 1.0 : 1.0 + planted);
             squares.at(pixel) += value * value;
         }

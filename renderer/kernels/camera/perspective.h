@@ -65,30 +65,30 @@ DEVICE float camera_pdf_w(CameraRecord camera, float3 direction) {
 }
 
 /// A connection of a scene point to the camera.
-typedef struct CameraJoin {
+typedef struct CameraConnection {
     float3 lens_point;
     float2 raster;  ///< film position in pixels from the top left corner; valid if pdf_w is not 0
     float pdf_w;  ///< `camera_pdf_w` of the ray to the point; 0 behind the lens or outside the film
-} CameraJoin;
+} CameraConnection;
 
 /// Connects a point to the point of the lens that (u, v) samples; the inverse of `camera_ray`. Let
 /// radiance L arrive at the lens point from an area dA around the point, at distance d, with `cos`
 /// the cosine at the area. It adds L cos pdf_w / d^2 dA to the mean radiance of the pixel at
 /// `raster`.
-DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, float u, float v) {
-    CameraJoin join;
-    join.lens_point = make_float3(camera.position[0], camera.position[1], camera.position[2]);
-    join.raster = make_float2(0.0f, 0.0f);
-    join.pdf_w = 0.0f;
+DEVICE CameraConnection camera_connection(CameraRecord camera, float3 point, float u, float v) {
+    CameraConnection connection;
+    connection.lens_point = make_float3(camera.position[0], camera.position[1], camera.position[2]);
+    connection.raster = make_float2(0.0f, 0.0f);
+    connection.pdf_w = 0.0f;
     float3 on_lens = make_float3(0.0f, 0.0f, 0.0f);
     if (FEATURE_lens) {
         on_lens = point_on_lens(camera, u, v);
-        join.lens_point += on_lens;
+        connection.lens_point += on_lens;
     }
-    const float3 way = point - join.lens_point;
+    const float3 way = point - connection.lens_point;
     const float depth = dot(way, camera_forward(camera));
     if (!(depth > 0.0f)) {
-        return join;
+        return connection;
     }
     // Intersections with the plane at unit distance: `slope` of the ray, `seen` of the ray through
     // the centre of the lens to the same point in focus. Comparisons are such that overflow and NaN
@@ -107,8 +107,8 @@ DEVICE CameraJoin join_camera(CameraRecord camera, float3 point, float u, float 
                                       0.5f * height + dot(seen, step_y) / camera.pixel_area);
     if (raster.x >= 0.0f && raster.x < width && raster.y >= 0.0f && raster.y < height) {
         const float square = dot(slope, slope);  // 1 / cos^2
-        join.raster = raster;
-        join.pdf_w = square * sqrt(square) / camera.pixel_area;
+        connection.raster = raster;
+        connection.pdf_w = square * sqrt(square) / camera.pixel_area;
     }
-    return join;
+    return connection;
 }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Adds the samples of paths to the film and counts those that the film rejects.
+// Adds samples to the film and counts those that the film rejects.
 #pragma once
 
-#include "renderer/kernels/film/convergence.h"
 #include "renderer/kernels/film/film.h"
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/stream_counters.h"
 
-/// The films to which a stage adds samples, and the counters of rejected samples.
+/// The film to which a stage adds samples, and the counters of rejected samples.
 typedef struct FilmView {
     GLOBAL long *words;
-    GLOBAL long *half_words;  ///< the half film; read only with FEATURE_convergence
     GLOBAL StreamCounters *counters;
 } FilmView;
 
@@ -41,18 +39,4 @@ DEVICE bool add_to_pixel(FilmView film, uint pixel, float3 sample) {
                                             : &film.counters->out_of_range);
     }
     return error == 0u;
-}
-
-/// Adds the radiance of a camera path that ends here. Returns whether the film accepted it.
-DEVICE bool add_path(PathStates paths, uint slot, FilmView film) {
-    return add_to_pixel(film, get_pixel(paths, slot), get_radiance(paths, slot));
-}
-
-/// Adds a camera path that the film accepted to the half film, if its sample has an even index.
-DEVICE void add_path_to_half(PathStates paths, uint slot, FilmView film, ulong first_sample) {
-    const float3 radiance = get_radiance(paths, slot);
-    if (half_film_add_sample(film.half_words, get_pixel(paths, slot),
-                             first_sample + get_sample(paths, slot), radiance) != 0u) {
-        atomic_inc(&film.counters->out_of_range);
-    }
 }

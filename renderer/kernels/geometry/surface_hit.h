@@ -99,8 +99,8 @@ DEVICE SurfaceHit surface_hit(PRIVATE const SceneView *scene, uint primitive, fl
 #ifdef __OPENCL_VERSION__
 
 /// Returns the barycentrics of a path's hit on a triangle, or its object-space point on a shape.
-DEVICE float3 get_hit_at(PathStates paths, uint slot) {
-    return make_float3(get_hit_u(paths, slot), get_hit_v(paths, slot), get_hit_w(paths, slot));
+DEVICE float3 get_hit_at(Path path) {
+    return make_float3(get_hit_u(path), get_hit_v(path), get_hit_w(path));
 }
 
 #endif

@@ -198,12 +198,12 @@ DEVICE LightSample sample_one_light(PRIVATE const SceneView *scene, LightRecord 
     return sample;
 }
 
-/// Samples a direction from a point towards light `chosen`, or towards a light selected at random
-/// for SELECT_LIGHT.
-DEVICE LightSample sample_lights(PRIVATE const SceneView *scene, uint chosen, float3 from,
+/// Samples a direction from a point towards light `light_index`, or towards a light selected at
+/// random for SELECT_LIGHT.
+DEVICE LightSample sample_lights(PRIVATE const SceneView *scene, uint light_index, float3 from,
                                  uint4 words) {
-    uint index = chosen;
-    if (chosen == SELECT_LIGHT) {
+    uint index = light_index;
+    if (light_index == SELECT_LIGHT) {
         index = 0u;
         if (FEATURE_many_lights) {
             SELECT_BY_WORD(scene->lights, .selection_end, 0u, scene->lighting.light_count, words.x,

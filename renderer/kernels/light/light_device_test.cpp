@@ -46,10 +46,10 @@ __kernel void test(SHADING_PARAMETERS, CameraRecord camera, GLOBAL float *found,
     PUT3(any ? s.radiance : from);
     PUT1(any ? s.sampling_over_emission : 0.0f);
     PUT1(any ? s.arrival_pdf_a : 0.0f);
-    const CameraJoin join = join_camera(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
-    PUT3(join.lens_point);
-    PUT1(join.pdf_w);
-    PUT1(join.pdf_w > 0.0f ? camera_pdf_w(camera, normalize(e.point.position - join.lens_point)) : 0.0f);
+    const CameraConnection connection = camera_connection(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
+    PUT3(connection.lens_point);
+    PUT1(connection.pdf_w);
+    PUT1(connection.pdf_w > 0.0f ? camera_pdf_w(camera, normalize(e.point.position - connection.lens_point)) : 0.0f);
 }
 )";
 
@@ -105,13 +105,14 @@ std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &
         append(list, any ? s.radiance : from);
         list.insert(list.end(),
                     {any ? s.sampling_over_emission : 0.0f, any ? s.arrival_pdf_a : 0.0f});
-        const CameraJoin join =
-            join_camera(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
-        append(list, join.lens_point);
-        list.push_back(join.pdf_w);
-        list.push_back(join.pdf_w > 0.0f
-                           ? camera_pdf_w(camera, normalize(e.point.position - join.lens_point))
-                           : 0.0f);
+        const CameraConnection connection =
+            camera_connection(camera, e.point.position, uniform_float(b.z), uniform_float(b.w));
+        append(list, connection.lens_point);
+        list.push_back(connection.pdf_w);
+        list.push_back(
+            connection.pdf_w > 0.0f
+                ? camera_pdf_w(camera, normalize(e.point.position - connection.lens_point))
+                : 0.0f);
     }
     return list;
 }

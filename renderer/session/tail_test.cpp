@@ -30,10 +30,10 @@ Scene bright_room(double albedo) {
 struct Rendered {
     FilmState film;
     nlohmann::json report;
-    std::map<std::string, int> launches;  ///< launches of finish_paths per pass
+    std::map<std::string, int> launches;  ///< launches of run_tail per pass
 };
 
-/// Renders two batches. If the last paths of the first batch are long, it compiles finish_paths.
+/// Renders two batches. If the last paths of the first batch are long, it compiles run_tail.
 Rendered render(const Scene &scene, const std::string &algorithm,
                 const std::vector<std::string> &assignments) {
     static DeviceContext device;
@@ -51,7 +51,7 @@ Rendered render(const Scene &scene, const std::string &algorithm,
     Rendered rendered = {session.film(), session.report(), {}};
     require_valid(rendered.film);
     for (const auto &stage : rendered.report["stages"]) {
-        if (stage.at("name") == "finish_paths") {
+        if (stage.at("name") == "run_tail") {
             rendered.launches[stage.at("pass")] = stage.at("launches");
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Queue entries of the stages that shade hits, with prefetching on a CPU.
+// The paths at the entries of the active queue, for stages that shade hits, with prefetching on a
+// CPU.
 //
 // Hits are scattered over the scene. A CPU processes the entries of a chunk one after the other, so
 // it prefetches the data of the next entries. path_at prefetches the path three entries ahead. One
@@ -7,6 +8,9 @@
 #pragma once
 
 #include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/kernels/path/path_at.h"
+#include "renderer/kernels/scene_view.h"
+#include "renderer/kernels/stream.h"
 #include "renderer/kernels/texture/texture.h"
 #include "renderer/shared/path_state.h"
 
@@ -51,29 +55,27 @@ DEVICE void prefetch_texels(PRIVATE const SceneView *scene, uint material, float
     }
 }
 
-/// path_at, for a stage that reads the hit primitive.
-DEVICE uint hit_path_at(PRIVATE const SceneView *scene, PathStates paths, GLOBAL const uint *queue,
-                        uint i, uint end) {
+/// Returns the active path at entry i, for a stage that reads the hit primitive.
+DEVICE Path hit_path_at(PRIVATE const SceneView *scene, Stream stream, uint i, uint end) {
+    GLOBAL const uint *queue = active_queue(stream);
     if (PREFETCHES && FEATURE_triangles) {
-        const uint triangle = get_hit_primitive(paths, queue[min(i + 2u, end - 1u)]);
+        const uint triangle = get_hit_primitive(path_in(stream, queue[min(i + 2u, end - 1u)]));
         if ((triangle & SHAPE_BIT) == 0u) {
             prefetch_triangle(scene, triangle);
         }
     }
-    return path_at(paths, queue, i, end);
+    return path_at(stream, queue, i, end);
 }
 
-/// path_at, for a stage that evaluates the material of the hit.
-DEVICE uint shaded_path_at(PRIVATE const SceneView *scene, PathStates paths,
-                           GLOBAL const uint *queue, uint i, uint end) {
+/// Returns the active path at entry i, for a stage that evaluates the material of the hit.
+DEVICE Path shaded_path_at(PRIVATE const SceneView *scene, Stream stream, uint i, uint end) {
     if (PREFETCHES && FEATURE_triangles && FEATURE_textures && FEATURE_scattering) {
-        const uint next = queue[min(i + 1u, end - 1u)];
-        const uint triangle = get_hit_primitive(paths, next);
+        const Path next = path_in(stream, active_queue(stream)[min(i + 1u, end - 1u)]);
+        const uint triangle = get_hit_primitive(next);
         if ((triangle & SHAPE_BIT) == 0u) {
-            const SurfaceHit hit =
-                triangle_hit(scene, triangle, get_hit_u(paths, next), get_hit_v(paths, next));
+            const SurfaceHit hit = triangle_hit(scene, triangle, get_hit_u(next), get_hit_v(next));
             prefetch_texels(scene, hit.material, hit.uv);
         }
     }
-    return hit_path_at(scene, paths, queue, i, end);
+    return hit_path_at(scene, stream, i, end);
 }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Connections of a hit to a point sampled on a light: explicit paths, also called next-event
+// estimation.
+#pragma once
+
+#include "renderer/kernels/bsdf/bsdf.h"
+#include "renderer/kernels/bsdf/shading_frame.h"
+#include "renderer/kernels/light/light.h"
+#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/path/shadow_ray.h"
+#include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/scene_view.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+
+/// Returns log2 of p_L / p_E (light/mis.h). If light vertices are stored, p_L stands for all
+/// strategies that involve light paths.
+DEVICE float light_over_explicit(Path path, PRIVATE const SceneView *scene, SurfaceHit hit,
+                                 float3 wo, LightSample light, IntegratorSettings settings) {
+    const uint depth = get_depth(path);
+    const float cos_wo = fabs(dot(hit.point.normal, wo));
+    // A zero cosine would make log_back +INFINITY, and its sum with -INFINITY is NaN.
+    if (!(cos_wo > 0.0f)) {
+        return -INFINITY;
+    }
+    const float log_arrive = log2_quotient(
+        light.arrival_pdf_a * fabs(dot(hit.point.normal, light.wi)), light.sampling_over_emission);
+    const float log_ratio = get_log_ratio(path);
+    const bool all = FEATURE_vertex_connections && all_strategies(settings, depth + 1u);
+    if (depth == 0u || (!all && !(log_ratio > -INFINITY))) {
+        return log_ratio + log_arrive;
+    }
+    const SurfaceFrame back = shading_frame(scene, hit, light.wi);
+    const float log_back =
+        log2_quotient(bsdf_evaluate(scene, hit.material, back, wo).pdf_w, cos_wo);
+    if (all) {
+        return log_arrive + strategies_before(get_log_strategies(path), get_log_arrival(path),
+                                              log_back, settings.beta);
+    }
+    return log_ratio + log_arrive + log_back;
+}
+
+/// Connects the hit of a path to light `light_index`, or to a light selected at random for
+/// SELECT_LIGHT, and prepares the shadow ray. Returns false if the connection contributes nothing.
+DEVICE bool connect_to_light(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
+                             ulong first_sample, uint light_index) {
+    const uint primitive = get_hit_primitive(path);
+    const uint depth = get_depth(path);
+    if (primitive == NO_HIT || (settings.strategies & STRATEGY_EXPLICIT) == 0u) {
+        return false;
+    }
+    if (FEATURE_depth_limit && depth >= settings.max_depth) {
+        return false;
+    }
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(path));
+    if (is_delta_material(scene->materials[hit.material])) {
+        return false;
+    }
+    // Lights that are sampled one after the other have their own random streams.
+    const uint stream = light_index == SELECT_LIGHT ? STREAM_CAMERA : STREAM_LIGHT(light_index);
+    const uint4 words = sample_words(settings, stream, get_pixel(path),
+                                     first_sample + get_sample(path), BLOCK_LIGHT(depth));
+    const LightSample light = sample_lights(scene, light_index, hit.point.position, words);
+    if (!(light.pdf_w > 0.0f)) {
+        return false;
+    }
+    const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(path));
+    const BsdfValue bsdf = bsdf_evaluate(scene, hit.material, frame, light.wi);
+    if (is_black(bsdf.f_cos)) {
+        return false;
+    }
+    // f cos L / p_E of thesis (2.62).
+    float3 radiance = get_throughput(path) * bsdf.f_cos * light.radiance / light.pdf_w;
+    if (FEATURE_implicit_light) {
+        // p_I / p_E of thesis (2.73), both per solid angle.
+        const bool by_hit = light.is_delta == 0u && (settings.strategies & STRATEGY_IMPLICIT) != 0u;
+        const float by_implicit = by_hit ? bsdf.pdf_w / light.pdf_w : 0.0f;
+        if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
+            const float log_light =
+                light_over_explicit(path, scene, hit, frame.wo, light, settings);
+            radiance *= camera_path_weight(by_implicit, log_light, settings.beta);
+        } else if (by_hit) {
+            radiance *= power_heuristic(by_implicit, settings.beta);
+        }
+    }
+    aim_shadow_ray(path, offset_ray_origin(hit.point, light.wi), light.target, radiance);
+    return true;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The start of a light path.
+#pragma once
+
+#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/light/start.h"
+#include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/scene_view.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+
+/// Starts light path `index` of sample `sample` of the batch.
+DEVICE void start_light_path(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
+                             ulong first_sample, uint index, uint sample) {
+    set_pixel(path, index);
+    set_sample(path, sample);
+    set_depth(path, 0u);
+    const EmissionSample emission = light_path_start(scene, settings, index, first_sample + sample);
+    set_ray_origin(path, emission.origin);
+    set_ray_direction(path, emission.direction);
+    set_throughput(path, emission.weight);
+    set_roulette_scale(path, max(emission.weight.x, max(emission.weight.y, emission.weight.z)));
+    set_light(path, emission.light);
+    // Surfaces emit in proportion to the cosine, so p_d per projected solid angle is 1 / pi there.
+    // A delta light cannot be hit by an implicit path.
+    const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
+    const float log_ratio =
+        emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
+    set_log_ratio(path, log_ratio);
+    set_log_strategies(path, log_ratio);
+    // At the first hit, its distance and cosine complete this factor.
+    set_log_arrival(path, log2_quotient(1.0f, emission.pdf_direction));
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Scattering: the next direction of a path, Russian roulette and the other ends of paths.
+#pragma once
+
+#include "renderer/kernels/bsdf/reverse.h"
+#include "renderer/kernels/geometry/surface_hit.h"
+#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/scene_view.h"
+#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/shared/integrator_settings.h"
+#include "renderer/shared/path_state.h"
+
+/// Returns whether a path ends at a hit after `depth` scattering events because of the depth limit.
+///
+/// The ray of the last scattering event counts only if it can find light: in implicit paths, or
+/// after a delta event. A light path needs no such ray, since its last event is the one connected
+/// to the camera.
+DEVICE bool is_last_hit(IntegratorSettings settings, uint depth) {
+    const bool last_ray_finds_light =
+        !FEATURE_from_light && (FEATURE_delta || (settings.strategies & STRATEGY_IMPLICIT) != 0u);
+    return FEATURE_depth_limit && depth + (last_ray_finds_light ? 0u : 1u) >= settings.max_depth;
+}
+
+/// Divides the throughput of a path by the probability with which roulette continues it, and
+/// returns false if the path ends.
+///
+/// Thesis, section 2.7.2: from the first bounce on, the continuation probability is proportional to
+/// throughput. The bound below 1 ends paths between surfaces that absorb nothing. It is close to 1
+/// because the variance is infinite if the squared albedo exceeds it. The probability is part of
+/// the contribution, but not of the MIS densities.
+///
+/// Inside glass radiance is larger by eta^2, a factor that the path loses on its way out. Roulette
+/// excludes this factor (PBRT 4th ed., section 13.2.2), hence `scale_change`. The throughput of a
+/// light path is measured relative to its initial value.
+DEVICE bool survives_roulette(Path path, IntegratorSettings settings, float largest,
+                              float scale_change, float u, PRIVATE float3 *throughput) {
+    float scale = 1.0f;
+    if (FEATURE_roulette_scale) {
+        scale = get_roulette_scale(path) * scale_change;
+        set_roulette_scale(path, scale);
+    }
+    const float continuation = min(largest / scale, settings.max_continuation);
+    if (!(u < continuation)) {
+        return false;
+    }
+    *throughput = *throughput / continuation;
+    return true;
+}
+
+/// Updates the ratios of the MIS weights at a scattering event.
+DEVICE void continue_ratios(Path path, IntegratorSettings settings, uint depth, bool is_delta,
+                            TwoWay both) {
+    const float log_ratio = get_log_ratio(path);
+    const float log_arrival = get_log_arrival(path);
+    set_log_ratio(path, FEATURE_from_light
+                            ? continue_light_ratio(log_ratio, log_arrival, depth, is_delta,
+                                                   both.log_forward, both.log_ratio, settings.beta)
+                            : continue_camera_ratio(log_ratio, depth, is_delta, both.log_forward,
+                                                    both.log_ratio));
+    if (FEATURE_vertex_connections) {
+        set_log_strategies(path,
+                           continue_strategies(get_log_strategies(path), log_arrival, is_delta,
+                                               both.log_forward, both.log_ratio, settings.beta));
+    }
+}
+
+/// Samples scattering at the hit and moves the path's ray there. Returns false if the path ends.
+DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
+                    ulong first_sample) {
+    const uint primitive = get_hit_primitive(path);
+    const uint depth = get_depth(path);
+    if (!FEATURE_scattering || primitive == NO_HIT || is_last_hit(settings, depth)) {
+        return false;
+    }
+    const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(path));
+    const SurfaceFrame frame = shading_frame(scene, hit, -get_ray_direction(path));
+    const uint4 words = path_sample(settings, get_pixel(path), first_sample + get_sample(path),
+                                    BLOCK_SCATTER(depth));
+    const BsdfSample sample = bsdf_sample(scene, hit.material, frame, uniform_float(words.w),
+                                          uniform_float(words.x), uniform_float(words.y));
+    if (!(sample.pdf_w > 0.0f)) {
+        return false;
+    }
+    TwoWay both = one_way();
+    if (FEATURE_light_strategy || FEATURE_from_light) {
+        both = look_back(scene, hit, frame, sample);
+    }
+    float3 throughput =
+        get_throughput(path) * (FEATURE_from_light ? both.importance : sample.weight);
+    const float largest = max(throughput.x, max(throughput.y, throughput.z));
+    if (!(largest > 0.0f)) {
+        return false;
+    }
+    if (FEATURE_roulette && settings.termination == TERMINATION_ROULETTE) {
+        // Importance crosses boundaries unchanged.
+        const float scale_change = FEATURE_from_light ? 1.0f : sample.scale;
+        if (!survives_roulette(path, settings, largest, scale_change, uniform_float(words.z),
+                               &throughput)) {
+            return false;
+        }
+    }
+    if (FEATURE_adaptive && settings.termination == TERMINATION_ADAPTIVE &&
+        largest < settings.adaptive_threshold) {
+        return false;
+    }
+    set_ray_origin(path, offset_ray_origin(hit.point, sample.wi));
+    set_ray_direction(path, sample.wi);
+    set_throughput(path, throughput);
+    set_depth(path, depth + 1u);
+    set_pdf_w(path, sample.pdf_w);
+    if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
+        const bool is_delta = !(sample.pdf_w < INFINITY);
+        continue_ratios(path, settings, depth, is_delta, both);
+    }
+    return true;
+}
