@@ -3,7 +3,8 @@
 //
 // One work-item per sum. Runs before a word of a sum could overflow, and before the sums are read.
 //
-// Reads and writes: film.
+// STAGE(carry_film,
+//       writes(film))
 
 #include "renderer/kernels/film/film.h"
 

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stage connect_camera: connects the hit of each light path to a point on the lens (light paths of
 // the thesis, section 2.8).
+//
+// STAGE(connect_camera,
+//       reads(active, hit, pixel, sample, depth, ray_origin, ray_direction, throughput, pdf_w,
+//             log_ratio, log_arrival, log_strategies, light),
+//       writes(ray_origin, log_arrival, shadow_vector, shadow_radiance, splat_pixel),
+//       to(shadow))
 
 #include "renderer/kernels/path/camera_connection.h"
 #include "renderer/kernels/path/hit_path_at.h"

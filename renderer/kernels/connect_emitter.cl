@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Stage connect_emitter: connects the start of each new light path to the camera, for emitters that
 // the camera sees directly.
+//
+// STAGE(connect_emitter,
+//       reads(active, pixel, sample, depth),
+//       writes(shadow_vector, shadow_radiance, splat_pixel),
+//       to(shadow))
 
 #include "renderer/kernels/path/camera_connection.h"
 #include "renderer/kernels/path/path_at.h"

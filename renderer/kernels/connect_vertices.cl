@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stage connect_vertices: connects the hit of each camera path to vertex `vertex_index` of the
 // light path with the same index.
+//
+// STAGE(connect_vertices,
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_arrival,
+//             log_strategies, vertices),
+//       writes(ray_origin, shadow_vector, shadow_radiance),
+//       to(shadow))
 
 #include "renderer/kernels/path/hit_path_at.h"
 #include "renderer/kernels/path/vertex_connection.h"

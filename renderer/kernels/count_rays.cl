@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stages count_nearest_rays and count_shadow_rays: count by depth the rays of the active paths and
-// of the shadow queue.
+// Stages that count rays by depth.
 
 #include "renderer/kernels/film/film.h"
 #include "renderer/kernels/path/path_at.h"
@@ -13,6 +12,11 @@ DEVICE void count_ray(GLOBAL long *counts, uint kind, uint depth) {
     film_add_word(counts + kind * RAY_DEPTHS + min(depth, RAY_DEPTHS - 1u), 1);
 }
 
+/// Stage count_nearest_rays: counts the rays of the active paths.
+///
+/// STAGE(count_nearest_rays,
+///       reads(active, depth),
+///       writes(ray_counts))
 __kernel void count_nearest_rays(GLOBAL long *ray_counts, STREAM_PARAMETERS) {
     const Stream stream = STREAM_VIEW;
     FOR_EACH_ENTRY(i, active_count(stream)) {
@@ -20,6 +24,11 @@ __kernel void count_nearest_rays(GLOBAL long *ray_counts, STREAM_PARAMETERS) {
     }
 }
 
+/// Stage count_shadow_rays: counts the rays of the shadow queue.
+///
+/// STAGE(count_shadow_rays,
+///       reads(shadow, depth),
+///       writes(ray_counts))
 __kernel void count_shadow_rays(GLOBAL long *ray_counts, STREAM_PARAMETERS) {
     const Stream stream = STREAM_VIEW;
     FOR_EACH_ENTRY(i, shadow_count(stream)) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Stage evaluate_emission: adds the light that the hit of each active path, or the light at
 // infinity, emits towards it. This covers emitters seen directly and implicit paths.
+//
+// STAGE(evaluate_emission,
+//       reads(active, hit, depth, ray_origin, ray_direction, throughput, radiance, pdf_w,
+//             log_ratio, log_strategies),
+//       writes(radiance, log_ratio, log_arrival))
 
 #include "renderer/kernels/path/emission_hit.h"
 #include "renderer/kernels/path/path_at.h"

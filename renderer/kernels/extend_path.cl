@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Stage extend_path: samples the next direction of each active path, or ends the path and adds it
 // to the film.
+//
+// STAGE(extend_path,
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, roulette_scale,
+//             radiance, log_ratio, log_arrival, log_strategies),
+//       writes(depth, ray_origin, ray_direction, throughput, roulette_scale, pdf_w, log_ratio,
+//              log_strategies, film, half_film),
+//       to(next, free))
 
 #include "renderer/kernels/path/hit_path_at.h"
 #include "renderer/kernels/path/retire.h"

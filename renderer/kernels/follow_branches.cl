@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Stage follow_branches: continues each active path by ideal reflection or refraction, or from the
 // last vertex that has components left.
+//
+// STAGE(follow_branches,
+//       reads(active, hit, pixel, depth, ray_direction, throughput, radiance, pending, branches),
+//       writes(depth, ray_origin, ray_direction, throughput, pdf_w, pending, branches, film),
+//       to(next, free))
 
 #include "renderer/kernels/path/branches.h"
 #include "renderer/kernels/path/path_at.h"

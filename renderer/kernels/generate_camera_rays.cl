@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stage generate_camera_rays: starts a camera path in every free slot while samples of the batch
 // are left.
+//
+// STAGE(generate_camera_rays,
+//       reads(free, live_pixels),
+//       writes(pixel, sample, depth, ray_origin, ray_direction, throughput, roulette_scale,
+//              radiance, pdf_w, log_strategies, pending),
+//       to(active))
 
 #include "renderer/kernels/path/camera_start.h"
 #include "renderer/kernels/path/path_at.h"

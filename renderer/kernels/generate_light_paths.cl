@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stage generate_light_paths: starts a light path in every free slot while light paths of the batch
 // are left, and clears its stored vertices.
+//
+// STAGE(generate_light_paths,
+//       reads(free, pixel, sample),
+//       writes(pixel, sample, depth, ray_origin, ray_direction, throughput, roulette_scale,
+//              log_ratio, log_arrival, log_strategies, light, vertices),
+//       to(active))
 
 #include "renderer/kernels/path/light_start.h"
 #include "renderer/kernels/path/path_at.h"

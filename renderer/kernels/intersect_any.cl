@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Stage intersect_any: traces the shadow rays of camera paths and adds the connections that nothing
 // blocks.
+//
+// STAGE(intersect_any,
+//       reads(shadow, ray_origin, radiance, shadow_vector, shadow_radiance),
+//       writes(radiance))
 
 #include "renderer/kernels/path/path_at.h"
 #include "renderer/kernels/path/shadow_ray.h"

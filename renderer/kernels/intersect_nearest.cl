@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Stage intersect_nearest: finds the nearest hits of the rays of the active paths.
+//
+// STAGE(intersect_nearest,
+//       reads(active, ray_origin, ray_direction),
+//       writes(hit))
 
 #include "renderer/kernels/path/nearest_hit.h"
 #include "renderer/kernels/path/path_at.h"

@@ -11,8 +11,11 @@
     for (uint pixel = (block)*LIVE_BLOCK, pixel##_end = min(pixel + LIVE_BLOCK, (pixels)); \
          pixel < pixel##_end; ++pixel)
 
-/// Stage count_live_pixels: counts the live pixels of each block. One work-item per block. Reads:
-/// stopping counts. Writes: counts of the blocks.
+/// Stage count_live_pixels: counts the live pixels of each block. One work-item per block.
+///
+/// STAGE(count_live_pixels,
+///       reads(stopped_at),
+///       writes(live_blocks))
 __kernel void count_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
                                 GLOBAL uint *live_blocks) {
     const uint block = get_global_id(0);
@@ -27,7 +30,10 @@ __kernel void count_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
 }
 
 /// Stage place_live_blocks (one work-item): replaces the counts of the blocks by their offsets in
-/// the list. Writes: offsets of the blocks; length of the list.
+/// the list, and writes the length of the list.
+///
+/// STAGE(place_live_blocks,
+///       writes(live_blocks, live_count))
 __kernel void place_live_blocks(uint pixels, GLOBAL uint *live_blocks, GLOBAL uint *live_count) {
     if (get_global_id(0) != 0u) {
         return;
@@ -41,8 +47,11 @@ __kernel void place_live_blocks(uint pixels, GLOBAL uint *live_blocks, GLOBAL ui
     *live_count = begin;
 }
 
-/// Stage list_live_pixels: writes the list. One work-item per block. Reads: stopping counts,
-/// offsets of the blocks. Writes: list of live pixels.
+/// Stage list_live_pixels: writes the list. One work-item per block.
+///
+/// STAGE(list_live_pixels,
+///       reads(live_blocks, stopped_at),
+///       writes(live_pixels))
 __kernel void list_live_pixels(GLOBAL const ulong *stopped_at, uint pixels,
                                GLOBAL const uint *live_blocks, GLOBAL uint *live_pixels) {
     const uint block = get_global_id(0);

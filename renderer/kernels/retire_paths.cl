@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Stage retire_paths: ends all active paths and adds them to the film.
+//
+// STAGE(retire_paths,
+//       reads(active, pixel, radiance),
+//       writes(film),
+//       to(free))
 
 #include "renderer/kernels/path/path_at.h"
 #include "renderer/kernels/path/retire.h"

@@ -4,6 +4,11 @@
 //
 // Light trapped in glass scatters for thousands of events. With few such paths left, the launches
 // of ordinary rounds would cost more than the paths themselves.
+//
+// STAGE(run_tail,
+//       reads(active, path),
+//       writes(path, film, half_film, counters),
+//       to(next))
 
 #define PATH_STATES_PRIVATE 1
 

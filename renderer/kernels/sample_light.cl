@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Stage sample_light: connects the hit of each active path to a point sampled on a light (explicit
 // paths).
+//
+// STAGE(sample_light,
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_ratio, log_arrival,
+//             log_strategies),
+//       writes(ray_origin, shadow_vector, shadow_radiance),
+//       to(shadow))
 
 #include "renderer/kernels/path/hit_path_at.h"
 #include "renderer/kernels/path/light_sample.h"

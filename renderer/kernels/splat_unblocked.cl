@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Stage splat_unblocked: traces the shadow rays of light paths and adds the paths visible to the
 // camera to the film.
+//
+// STAGE(splat_unblocked,
+//       reads(shadow, ray_origin, shadow_vector, shadow_radiance, splat_pixel),
+//       writes(film))
 
 #include "renderer/kernels/path/path_at.h"
 #include "renderer/kernels/path/splat.h"

@@ -2,9 +2,11 @@
 // Stage stop_converged: records the number of samples at which a live pixel has converged.
 //
 // One work-item per live pixel. Runs between batches, at the checks of convergence control.
+// The carries of the film are propagated before, those of the half film here.
 //
-// Reads: film (carries propagated), list of live pixels.
-// Reads and writes: half film (carries propagated here), stopping counts.
+// STAGE(stop_converged,
+//       reads(film, live_pixels),
+//       writes(half_film, stopped_at))
 
 #include "renderer/kernels/film/convergence.h"
 

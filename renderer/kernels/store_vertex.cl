@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Stage store_vertex: stores the hit of each light path if camera paths can be connected to it.
+//
+// STAGE(store_vertex,
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_arrival,
+//             log_strategies),
+//       writes(vertices))
 
 #include "renderer/kernels/path/hit_path_at.h"
 #include "renderer/kernels/path/stored_vertex.h"

@@ -5,6 +5,10 @@
 // the comparison of the thesis (section 4.4.3, figure 4.22) it replaces OptiX 3.0, which built such
 // kernels. The difference between it and the wavefront shows what streams between stages cost and
 // gain.
+//
+// STAGE(trace_paths,
+//       reads(live_pixels),
+//       writes(film, half_film, counters))
 
 #define PATH_STATES_PRIVATE 1
 

@@ -3,6 +3,7 @@
 
 from rtrays.claims.judge import all_counts, judge_all, summary
 from rtrays.documents.gains import gain_entries
+from rtrays.lint.stages import stage_rows
 from rtrays.paths import RESULTS
 from rtrays.summary.runs import durations, runs
 from rtrays.summary.speeds import speeds, speeds_at_a_glance
@@ -46,6 +47,11 @@ def gains():
     ).markdown()
 
 
+def stages():
+    """Returns what each stage may touch, from the heads of the kernels."""
+    return Table("Stages", ["stage", "reads", "writes", "fills"], stage_rows()).markdown()
+
+
 BLOCKS = {
     "claims": claims,
     "claims_sentence": claims_sentence,
@@ -54,4 +60,5 @@ BLOCKS = {
     "speeds": speeds,
     "speeds_at_a_glance": speeds_at_a_glance,
     "durations": durations,
+    "stages": stages,
 }
