@@ -3,7 +3,7 @@
 // light path with the same index.
 //
 // STAGE(connect_vertices,
-//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_arrival,
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_inverse_arrival,
 //             log_strategies, vertices),
 //       writes(ray_origin, shadow_vector, shadow_radiance),
 //       to(shadow))

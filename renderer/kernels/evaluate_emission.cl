@@ -4,8 +4,8 @@
 //
 // STAGE(evaluate_emission,
 //       reads(active, hit, depth, ray_origin, ray_direction, throughput, radiance, pdf_w,
-//             log_ratio, log_strategies),
-//       writes(radiance, log_ratio, log_arrival))
+//             log_running_ratio, log_strategies),
+//       writes(radiance, log_running_ratio, log_inverse_arrival))
 
 #include "renderer/kernels/path/emission_hit.h"
 #include "renderer/kernels/path/path_at.h"

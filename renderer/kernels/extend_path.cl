@@ -4,9 +4,9 @@
 //
 // STAGE(extend_path,
 //       reads(active, hit, pixel, sample, depth, ray_direction, throughput, roulette_scale,
-//             radiance, log_ratio, log_arrival, log_strategies),
-//       writes(depth, ray_origin, ray_direction, throughput, roulette_scale, pdf_w, log_ratio,
-//              log_strategies, film, half_film),
+//             radiance, log_running_ratio, log_inverse_arrival, log_strategies),
+//       writes(depth, ray_origin, ray_direction, throughput, roulette_scale, pdf_w,
+//              log_running_ratio, log_strategies, film, half_film),
 //       to(next, free))
 
 #include "renderer/kernels/path/hit_path_at.h"

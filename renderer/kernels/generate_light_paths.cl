@@ -5,7 +5,7 @@
 // STAGE(generate_light_paths,
 //       reads(free, pixel, sample),
 //       writes(pixel, sample, depth, ray_origin, ray_direction, throughput, roulette_scale,
-//              log_ratio, log_arrival, log_strategies, light, vertices),
+//              log_running_ratio, log_inverse_arrival, log_strategies, light, vertices),
 //       to(active))
 
 #include "renderer/kernels/path/light_start.h"

@@ -3,8 +3,8 @@
 // paths).
 //
 // STAGE(sample_light,
-//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_ratio, log_arrival,
-//             log_strategies),
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_running_ratio,
+//             log_inverse_arrival, log_strategies),
 //       writes(ray_origin, shadow_vector, shadow_radiance),
 //       to(shadow))
 

@@ -2,7 +2,7 @@
 // Stage store_vertex: stores the hit of each light path if camera paths can be connected to it.
 //
 // STAGE(store_vertex,
-//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_arrival,
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_inverse_arrival,
 //             log_strategies),
 //       writes(vertices))
 

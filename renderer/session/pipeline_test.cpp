@@ -233,7 +233,7 @@ TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
 // limit. Five differences from path tracing share a family-wise level of 0.01 (two-sided, Student's
 // t with 31 degrees of freedom, Bonferroni), so each may be 3.4 standard errors off. The standard
 // errors come from the spread of 32 batches.
-TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
+TEST(Pipeline, ConnectsToAsManyVerticesAsSet) {
     const auto mean = [&](const std::string &algorithm, uint32_t seed,
                           const std::vector<std::string> &assignments,
                           const SourceOverlays &overlays = {}) {
@@ -281,10 +281,10 @@ TEST(Pipeline, JoinsToAsManyVerticesAsItIsTold) {
             mean("bdpt", seed++, {}, {{file, text.replace(at, search.size(), replacement)}}));
     };
     EXPECT_GT(planted("kernels/path/vertex_connection.h", "weight * cos_there", "weight"), 6);
-    EXPECT_GT(planted("kernels/light/mis.h",
-                      "return log_norm(log_arrival, log_pdf + log_strategies, beta);",
-                      "(void)log_arrival; (void)beta; return log_pdf + log_strategies;"),
-              6);
+    EXPECT_GT(
+        planted("kernels/mis/bidirectional.h", "return log_norm(log_a, log_reverse + log_s, beta);",
+                "(void)log_a; (void)beta; return log_reverse + log_s;"),
+        6);
 }
 
 TEST(Pipeline, KeepsLightVerticesInProportionToTheirNumber) {

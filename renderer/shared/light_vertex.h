@@ -12,8 +12,8 @@
 #include "word_place.h"
 
 // X(feature, type, name), as in path_state.h. `hit_primitive` is NO_VERTEX if there is no vertex to
-// connect. `direction` and `throughput` are those with which the path arrived. kernels/light/mis.h
-// defines the logarithms.
+// connect. `direction` and `throughput` are those with which the path arrived. The logarithms are
+// log2 of A and S at arrival (kernels/mis/bidirectional.h).
 #define LIGHT_VERTEX_FIELDS(X)              \
     X(ALWAYS, uint, hit_primitive)          \
     X(ALWAYS, float, hit_u)                 \
@@ -21,7 +21,7 @@
     X(FEATURE_shapes, float, hit_w)         \
     X(ALWAYS, float3, direction) /* unit */ \
     X(ALWAYS, float3, throughput)           \
-    X(ALWAYS, float, log_arrival)           \
+    X(ALWAYS, float, log_inverse_arrival)   \
     X(ALWAYS, float, log_strategies)
 
 #define NO_VERTEX 0xffffffffu

@@ -12,7 +12,8 @@
 
 // X(feature, type, name): a field exists if its feature is on. Types are uint, float and float3
 // (three words). (hit_u, hit_v) are the barycentrics of a triangle; (hit_u, hit_v, hit_w) is the
-// hit on a shape in its object space. kernels/light/mis.h defines R, Q, S and A.
+// hit on a shape in its object space. kernels/mis/truncated.h defines R (camera paths) and Q (light
+// paths), kernels/mis/bidirectional.h defines A and S.
 #define PATH_STATE_FIELDS(X)                                                                      \
     X(ALWAYS, uint, pixel)                   /* light path: index within the sample */            \
     X(ALWAYS, uint, sample)                  /* index within the batch */                         \
@@ -25,16 +26,16 @@
     X(ALWAYS, float, hit_v)                                                                       \
     X(FEATURE_shapes, float, hit_w)                                                               \
     X(FEATURE_scattering, float3, throughput)                                                     \
-    X(FEATURE_roulette_scale, float, roulette_scale)     /* roulette uses throughput over this */ \
-    X(FEATURE_direction_density, float, pdf_w)           /* per solid angle; INFINITY: delta */   \
-    X(FEATURE_light_strategy, float, log_ratio)          /* log2 R, or log2 Q */                  \
-    X(FEATURE_arrival_density, float, log_arrival)       /* log2 A of the last ray */             \
-    X(FEATURE_vertex_connections, float, log_strategies) /* log2 S of all strategies */           \
-    X(FEATURE_emission_density, uint, light)             /* index of the light at the start */    \
-    X(FEATURE_branches, uint, pending)                   /* size of the stack of branch.h */      \
-    X(FEATURE_shadow_rays, float3, shadow_vector)        /* from ray_origin to the other end */   \
-    X(FEATURE_shadow_rays, float3, shadow_radiance)      /* added unless the ray is blocked */    \
-    X(FEATURE_from_light, uint, splat_pixel)             /* pixel to which it is added */
+    X(FEATURE_roulette_scale, float, roulette_scale)    /* roulette uses throughput over this */  \
+    X(FEATURE_direction_density, float, pdf_w)          /* per solid angle; INFINITY: delta */    \
+    X(FEATURE_light_strategy, float, log_running_ratio) /* log2 R or log2 Q */                    \
+    X(FEATURE_arrival_density, float, log_inverse_arrival) /* log2 A at the hit */                \
+    X(FEATURE_vertex_connections, float, log_strategies)   /* log2 S at the last event */         \
+    X(FEATURE_emission_density, uint, light)               /* index of the light at the start */  \
+    X(FEATURE_branches, uint, pending)                     /* size of the stack of branch.h */    \
+    X(FEATURE_shadow_rays, float3, shadow_vector)          /* from ray_origin to the other end */ \
+    X(FEATURE_shadow_rays, float3, shadow_radiance)        /* added unless the ray is blocked */  \
+    X(FEATURE_from_light, uint, splat_pixel)               /* pixel to which it is added */
 
 /// Marks `hit_primitive` as a shape, not a triangle; NO_HIT has this bit set as well.
 #define SHAPE_BIT 0x80000000u

@@ -3,8 +3,10 @@
 // same event (Veach 1997, section 10.2; thesis (2.74)-(2.79)), and the weight of importance (Veach
 // 1997, section 5.3).
 //
-// The ratios are of densities per PROJECTED solid angle, with geometric cosines: p_wp = p_w /
-// |cos(ng, w)|.
+// All densities of this file are per PROJECTED solid angle: the density per solid angle over
+// |cos(ng, w)|, with the geometric normal. `forward` is in the direction in which the path travels,
+// `reverse` against it. On a camera path forward is f_i and reverse is b_i of MIS (2)-(5); on a
+// light path forward is b_i and reverse is f_i (docs/mis-weights.md).
 #pragma once
 
 #include "renderer/kernels/bsdf/bsdf.h"
@@ -13,22 +15,24 @@
 
 /// A scattering event in both directions: from wo, where the path came from, to wi, where it
 /// continues.
-typedef struct TwoWay {
-    float log_forward;  ///< log2 of p_wp(wo -> wi); 0 for a delta event
-    /// log2 of p_wp(wi -> wo) / p_wp(wo -> wi); -INFINITY if the reverse event is impossible.
-    float log_ratio;
+typedef struct ScatterEvent {
+    /// log2 of the forward density, from wo to wi; 0 for a delta event.
+    float log_forward;
+    /// log2 of the reverse density, from wi to wo, over the forward density; -INFINITY if the
+    /// reverse event is impossible. For a delta event both are probabilities of the event.
+    float log_reverse_ratio;
     /// Weight of a light path along these directions: f |cos(ng, wi)| / p_w(wi), where f is that of
     /// radiance from wo to wi.
     float3 importance;
-} TwoWay;
+} ScatterEvent;
 
 /// Returns an event whose reverse is impossible.
-DEVICE TwoWay one_way(void) {
-    TwoWay both;
-    both.log_forward = 0.0f;
-    both.log_ratio = -INFINITY;
-    both.importance = make_float3(0.0f, 0.0f, 0.0f);
-    return both;
+DEVICE ScatterEvent irreversible_event(void) {
+    ScatterEvent event;
+    event.log_forward = 0.0f;
+    event.log_reverse_ratio = -INFINITY;
+    event.importance = make_float3(0.0f, 0.0f, 0.0f);
+    return event;
 }
 
 /// Returns the probability with which a delta component is selected for frame.wo; 0 if the material
@@ -56,16 +60,16 @@ DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, Su
     return shares > 0.0f ? own / shares : 0.0f;
 }
 
-/// Returns both directions of `sample`, which was sampled in `frame` at `hit`.
-DEVICE TwoWay look_back(PRIVATE const SceneView *scene, SurfaceHit hit, SurfaceFrame frame,
-                        BsdfSample sample) {
+/// Returns the event of `sample`, which was sampled in `frame` at `hit`, in both directions.
+DEVICE ScatterEvent scatter_event(PRIVATE const SceneView *scene, SurfaceHit hit,
+                                  SurfaceFrame frame, BsdfSample sample) {
     const SurfaceFrame back = shading_frame(scene, hit, sample.wi);
     const float cos_wo = fabs(dot(frame.ng, frame.wo));
     const float cos_wi = fabs(dot(frame.ng, sample.wi));
-    TwoWay both = one_way();
+    ScatterEvent event = irreversible_event();
     // A hit in the plane of the surface does not exist in exact arithmetic.
     if (!(cos_wo > 0.0f && cos_wi > 0.0f)) {
-        return both;
+        return event;
     }
     if (FEATURE_delta && !(sample.pdf_w < INFINITY)) {
         float bend = 1.0f;
@@ -74,7 +78,7 @@ DEVICE TwoWay look_back(PRIVATE const SceneView *scene, SurfaceHit hit, SurfaceF
             // geometric normal. The two frames then differ, and the reverse event is impossible.
             const float3 sum = frame.ns + back.ns, difference = frame.ns - back.ns;
             if (dot(sum, sum) > 0.0f && dot(difference, difference) > 0.0f) {
-                return both;
+                return event;
             }
             // Cosines with the shading normal map solid angles; cosines with the geometric normal
             // map projected solid angles. The former are not 0, as bsdf_sample rejects directions
@@ -85,16 +89,16 @@ DEVICE TwoWay look_back(PRIVATE const SceneView *scene, SurfaceHit hit, SurfaceF
         }
         const float probability = delta_probability(scene, hit.material, back, sample.component);
         // n^2 |cos| dw is equal on both sides of a boundary.
-        both.log_ratio =
+        event.log_reverse_ratio =
             log2_quotient(probability, sample.probability) + log2_of(bend) + log2_of(sample.scale);
         if (probability > 0.0f) {
-            both.importance = sample.weight / sample.scale * bend;
+            event.importance = sample.weight / sample.scale * bend;
         }
-        return both;
+        return event;
     }
     const BsdfValue value = bsdf_evaluate(scene, hit.material, back, frame.wo);
-    both.log_forward = log2_quotient(sample.pdf_w, cos_wi);
-    both.log_ratio = log2_quotient(value.pdf_w, cos_wo) - both.log_forward;
-    both.importance = value.f_cos * (cos_wi / cos_wo / sample.pdf_w);
-    return both;
+    event.log_forward = log2_quotient(sample.pdf_w, cos_wi);
+    event.log_reverse_ratio = log2_quotient(value.pdf_w, cos_wo) - event.log_forward;
+    event.importance = value.f_cos * (cos_wi / cos_wo / sample.pdf_w);
+    return event;
 }

@@ -53,7 +53,7 @@ DEVICE float3 camera_forward(CameraRecord camera) {
 }
 
 /// Returns the density per solid angle at the lens point of this ray of `camera_ray`, for one
-/// sample per pixel of the film.
+/// sample per pixel of the film. It is the first factor of P_1 in MIS (6).
 ///
 /// Per area of the plane at unit distance the density is 1 / pixel_area, whatever the lens point
 /// and the plane in focus, and dw = cos^3 dA there. With the box filter of one pixel, it also

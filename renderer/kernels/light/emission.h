@@ -25,12 +25,12 @@ typedef struct EmissionSample {
     /// Power of the path in W, L cos / (pdf_origin pdf_direction). For a surface: pi L /
     /// pdf_origin.
     float3 weight;
-    /// Density of the origin, with the selection probability. Surfaces: per area. Dome and
-    /// environment: per solid angle of the direction. Point, spot and directional lights: the
-    /// probability alone.
+    /// p_o of MIS (4): density of the origin, with the selection probability. Surfaces: per area.
+    /// Dome and environment: per solid angle of the direction. Point, spot and directional lights:
+    /// the probability alone.
     float pdf_origin;
-    /// Density of the direction. Surfaces, point and spot lights: per solid angle. Lights at
-    /// infinity: per area of the disc.
+    /// p_d of MIS (4) in another measure: density of the direction. Surfaces, point and spot
+    /// lights: per solid angle. Lights at infinity: per area of the disc.
     float pdf_direction;
     uint light;        ///< index of the light
     uint is_delta;     ///< point, spot and directional lights, which cannot be hit

@@ -24,10 +24,10 @@ typedef struct LightSample {
     uint is_delta;  ///< point, spot and directional lights, which cannot be hit
     // Densities of a light path that comes this way (EmissionSample), set with
     // FEATURE_light_strategy.
-    /// Density of this sample's origin over that of a light path's origin.
+    /// Density of this sample's origin over that of a light path's origin: p_oe / p_o of MIS (12).
     float sampling_over_emission;
     /// Density with which light paths arrive here, per area perpendicular to the ray; for lights at
-    /// infinity 0 outside the disc.
+    /// infinity 0 outside the disc. Times the cosine here, it is E of MIS (12), given x_k.
     float arrival_pdf_a;
 } LightSample;
 
@@ -260,9 +260,10 @@ DEVICE float infinite_line_pdf(PRIVATE const SceneView *scene, float3 point, flo
 }
 
 /// Returns the density with which `sample_lights`, called for `from`, samples this point or
-/// direction of a light, over the density with which light paths start there. The ratio is finite.
-/// The two differ in the selection probability if every light is sampled, and on spheres that are
-/// sampled by their cones. `on` (position and normal) is read for such spheres only.
+/// direction of a light, over the density with which light paths start there. It is p_oe / p_o of
+/// MIS (20) and finite. The two differ in the selection probability if every light is
+/// sampled, and on spheres that are sampled by their cones. `on` (position and normal) is read for
+/// such spheres only.
 DEVICE float sampling_over_emission(PRIVATE const SceneView *scene, LightRecord light, float3 from,
                                     SurfacePoint on) {
     float ratio = light.selection / light.emission_selection;

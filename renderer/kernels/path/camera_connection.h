@@ -7,9 +7,10 @@
 #include "renderer/kernels/bsdf/shading_frame.h"
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/light/light.h"
-#include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/mis/bidirectional.h"
+#include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/path/shadow_ray.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/scene_view.h"
@@ -17,9 +18,10 @@
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 
-/// Returns log2 of p_o,explicit / (p_o E) at the first hit of a light path, where E is the density
-/// per area with which the path arrives (light/mis.h).
-DEVICE float explicit_over_light(Path path, PRIVATE const SceneView *scene, SurfaceHit hit) {
+/// Returns log2 of A_{k-1} = p_oe / (p_o E) at the first hit of a light path, MIS (20). E is the
+/// density per area with which the path arrives: p_d in its measure of `pdf_direction`, times the
+/// cosine, over the squared distance unless the light is at infinity.
+DEVICE float first_inverse_arrival(Path path, PRIVATE const SceneView *scene, SurfaceHit hit) {
     const LightRecord light = scene->lights[get_light(path)];
     SurfacePoint start;
     start.position = get_ray_origin(path);
@@ -31,38 +33,39 @@ DEVICE float explicit_over_light(Path path, PRIVATE const SceneView *scene, Surf
     const float cosine = fabs(dot(hit.point.normal, get_ray_direction(path)));
     const float3 way = hit.point.position - start.position;
     const float squared = light.kind < LIGHT_DIRECTIONAL ? dot(way, way) : 1.0f;
-    return get_log_arrival(path) +
+    return get_log_inverse_arrival(path) +
            log2_quotient(sampling_over_emission(scene, light, hit.point.position, start) * squared,
                          cosine);
 }
 
-/// Sets A_i of light/mis.h at a hit of a light path; without vertex connections, at the first hit
+/// Sets A_i of MIS (20) at a hit of a light path; without vertex connections, at the first hit
 /// alone.
-DEVICE void light_path_arrives(Path path, PRIVATE const SceneView *scene, SurfaceHit hit) {
+DEVICE void set_light_path_arrival(Path path, PRIVATE const SceneView *scene, SurfaceHit hit) {
     if (FEATURE_emission_density && get_depth(path) == 0u) {
-        set_log_arrival(path, explicit_over_light(path, scene, hit));
+        set_log_inverse_arrival(path, first_inverse_arrival(path, scene, hit));
     } else if (FEATURE_vertex_connections) {
         const float3 from = hit.point.position - get_ray_origin(path);
         const float cosine = fabs(dot(hit.point.normal, get_ray_direction(path)));
-        set_log_arrival(path, log_inverse_pdf_a(get_pdf_w(path), cosine, dot(from, from)));
+        set_log_inverse_arrival(path, log_inverse_pdf_a(get_pdf_w(path), cosine, dot(from, from)));
     }
 }
 
-/// Returns the weight of a light path that is connected to the camera. `log_back` is log2 of the
-/// density per projected solid angle with which a camera path continues along the light path,
-/// `log_first` is log2 of P_1 / n_L (light/mis.h).
-DEVICE float camera_connection_weight(Path path, IntegratorSettings settings, float log_back,
-                                      float log_first) {
+/// Returns the weight w_L of a light path that is connected to the camera at x_1. `log_f` is log2
+/// of f_1, the density per projected solid angle with which a camera path continues along the light
+/// path. `log_p1_over_nl` is log2 of P_1 / n_L.
+DEVICE float camera_connection_weight(Path path, IntegratorSettings settings, float log_f,
+                                      float log_p1_over_nl) {
     const uint depth = get_depth(path);
-    const float log_arrival = get_log_arrival(path);
+    const float log_a = get_log_inverse_arrival(path);
     if (FEATURE_vertex_connections && all_strategies(settings, depth + 1u)) {
-        return join_weight(-INFINITY,
-                           log_first + strategies_before(get_log_strategies(path), log_arrival,
-                                                         log_back, settings.beta),
-                           settings.beta);
+        // The bracket of MIS (21) at x_1; the camera side has no vertex.
+        return power_heuristic_of_log(
+            log_p1_over_nl +
+                strategies_before(get_log_strategies(path), log_a, log_f, settings.beta),
+            settings.beta);
     }
-    return light_path_weight(get_log_ratio(path), log_arrival, depth, log_back, log_first,
-                             settings.beta);
+    return light_path_weight(get_log_running_ratio(path), log_a, depth, log_f, log_p1_over_nl,
+                             settings.beta);  // MIS (16)
 }
 
 /// Connects a hit to the camera and prepares the shadow ray. Returns false if the connection
@@ -75,7 +78,7 @@ DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, Cam
         return false;
     }
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(path));
-    light_path_arrives(path, scene, hit);
+    set_light_path_arrival(path, scene, hit);
     if ((FEATURE_depth_limit && depth >= settings.max_depth) ||
         is_delta_material(scene->materials[hit.material])) {
         return false;
@@ -103,13 +106,13 @@ DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, Cam
     if (is_black(bsdf.f_cos)) {
         return false;
     }
-    // P_1, the density of camera paths per area at the hit.
+    // P_1 of MIS (6), the density of camera paths per area at the hit.
     const float camera_pdf_a = connection.pdf_w * cos_wo / squared;
     const float light_paths = (float)settings.light_paths;
+    // MIS (9)
     float3 radiance = get_throughput(path) * bsdf.f_cos * (camera_pdf_a / cos_wi / light_paths);
     if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
-        // p_I / p_L and p_E / p_L: the product of the contribution of the previous vertices and the
-        // densities at this one (light/mis.h).
+        // f_1 per projected solid angle, and P_1 / n_L.
         radiance *= camera_connection_weight(path, settings, log2_quotient(bsdf.pdf_w, cos_wi),
                                              log2_quotient(camera_pdf_a, light_paths));
     }
@@ -144,15 +147,14 @@ DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, C
     if (!(connection.pdf_w > 0.0f && facing > 0.0f)) {
         return false;
     }
-    // P_1, the density of camera paths per area at the start. The path contributes L P_1 / (p_o
-    // n_L).
+    // P_1 of MIS (6), the density of camera paths per area at the start. The path contributes
+    // L_e P_1 / (n_L p_o), MIS (9) for k = 1.
     const float camera_pdf_a = connection.pdf_w * (facing / sqrt(squared)) / squared;
     const float light_pdf_a = start.pdf_origin * (float)settings.light_paths;  // p_o n_L
     float3 radiance = light_radiance(scene->lights[start.light]) * (camera_pdf_a / light_pdf_a);
     if (FEATURE_light_emitters && (settings.strategies & STRATEGY_LIGHT) != 0u) {
-        // p_I / p_L = P_1 / (n_L p_o) of a path with one edge (light/mis.h).
-        radiance *=
-            camera_path_weight(0.0f, log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
+        // p_I / p_L = P_1 / (n_L p_o) for k = 1, the inverse of MIS (17).
+        radiance *= power_heuristic_of_log(log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
     }
     set_shadow_vector(path, connection.lens_point - start.origin);
     set_shadow_radiance(path, radiance);

@@ -3,21 +3,23 @@
 #pragma once
 
 #include "renderer/kernels/light/light.h"
-#include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/mis/bidirectional.h"
+#include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 
-/// Emission that a path meets, with the densities of the other techniques that could have sampled
+/// Emission that a path meets, with the densities of the other strategies that could have sampled
 /// the path.
 typedef struct Emission {
     float3 radiance;
     /// Density per solid angle with which light sampling at the previous vertex samples this
     /// direction.
     float explicit_pdf_w;
-    float line_pdf;  ///< p_o p_d of kernels/light/mis.h; p_o for emitters seen directly
+    /// p_o p_d, per area and projected solid angle; for emitters seen directly p_o, per area.
+    float line_pdf;
 } Emission;
 
 /// Sets the emission of the light at infinity towards a path that left the scene. Returns false if
@@ -78,34 +80,37 @@ DEVICE bool emission_met(Path path, PRIVATE const SceneView *scene, bool by_ligh
                : surface_emission(path, scene, by_light_sampling, by_light_path, met);
 }
 
-/// Sets R_0 of kernels/light/mis.h at the first hit and, for vertex connections, A_i at every hit.
-/// At the first hit `pdf_w` is the density of the camera ray.
-DEVICE void arrive(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings) {
+/// Sets R_0 of MIS (11) at the first hit of a camera path and, for vertex connections, A_i of
+/// MIS (19) at every hit. At the first hit `pdf_w` is the density of the camera ray per solid
+/// angle.
+DEVICE void set_camera_path_arrival(Path path, PRIVATE const SceneView *scene,
+                                    IntegratorSettings settings) {
     const uint primitive = get_hit_primitive(path);
     const bool first = get_depth(path) == 0u;
-    float log_arrival = -INFINITY;
+    float log_a = -INFINITY;
     if (primitive != NO_HIT) {
         const SurfacePoint hit = surface_hit(scene, primitive, get_hit_at(path)).point;
         const float3 way = hit.position - get_ray_origin(path);
         const float cosine = fabs(dot(hit.normal, get_ray_direction(path)));
-        const float strategies = first ? (float)settings.light_paths : 1.0f;
-        log_arrival = log_inverse_pdf_a(get_pdf_w(path), cosine, strategies * dot(way, way));
+        // R_0 = A_1 = n_L / P_1 with P_1 of MIS (6), and A_i = 1 / E_i.
+        const float paths = first ? (float)settings.light_paths : 1.0f;
+        log_a = log_inverse_pdf_a(get_pdf_w(path), cosine, paths * dot(way, way));
     }
     if (first) {
-        set_log_ratio(path, log_arrival);
+        set_log_running_ratio(path, log_a);
     }
     if (FEATURE_vertex_connections) {
-        set_log_arrival(path, log_arrival);
+        set_log_inverse_arrival(path, log_a);
     }
 }
 
-/// Adds emission to a path, with the MIS weight of its technique.
+/// Adds emission to a path, with the MIS weight of the implicit strategy.
 DEVICE void add_emission(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings) {
     const uint depth = get_depth(path);
     bool by_light_sampling = false, by_light_path = false;
     if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
         if (FEATURE_vertex_connections || depth == 0u) {
-            arrive(path, scene, settings);
+            set_camera_path_arrival(path, scene, settings);
         }
         by_light_path = depth > 0u || (settings.strategies & STRATEGY_LIGHT_EMITTERS) != 0u;
     }
@@ -133,17 +138,19 @@ DEVICE void add_emission(Path path, PRIVATE const SceneView *scene, IntegratorSe
     if (FEATURE_scattering) {
         radiance *= get_throughput(path);
     }
-    // p_E / p_I of thesis (2.73), both per solid angle. The density of a sampled direction is
-    // positive.
+    // p_E / p_I of MIS (7), thesis (2.73), both per solid angle. The density of a sampled direction
+    // is positive.
     const float by_explicit = by_light_sampling ? met.explicit_pdf_w / get_pdf_w(path) : 0.0f;
     if (FEATURE_light_strategy && by_light_path) {
         const bool all =
             FEATURE_vertex_connections && depth > 0u && all_strategies(settings, depth);
-        const float log_light = (all ? get_log_strategies(path) : get_log_ratio(path)) +
-                                log2_of(met.line_pdf);  // p_L / p_I
-        radiance *= camera_path_weight(by_explicit, log_light, settings.beta);
+        // p_L / p_I of MIS (10), or of MIS (17) for k = 1. With light vertices, S instead of R is
+        // the sum over all strategies with a light path.
+        const float log_light =
+            (all ? get_log_strategies(path) : get_log_running_ratio(path)) + log2_of(met.line_pdf);
+        radiance *= camera_path_weight(by_explicit, log_light, settings.beta);  // MIS (13)
     } else if (by_light_sampling) {
-        radiance *= power_heuristic(by_explicit, settings.beta);
+        radiance *= power_heuristic(by_explicit, settings.beta);  // MIS (8)
     }
     set_radiance(path, get_radiance(path) + radiance);
 }

@@ -2,7 +2,6 @@
 // The start of a light path.
 #pragma once
 
-#include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/light/start.h"
 #include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/scene_view.h"
@@ -24,10 +23,11 @@ DEVICE void start_light_path(Path path, PRIVATE const SceneView *scene, Integrat
     // Surfaces emit in proportion to the cosine, so p_d per projected solid angle is 1 / pi there.
     // A delta light cannot be hit by an implicit path.
     const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
-    const float log_ratio =
+    const float log_s =
         emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
-    set_log_ratio(path, log_ratio);
-    set_log_strategies(path, log_ratio);
-    // At the first hit, its distance and cosine complete this factor.
-    set_log_arrival(path, log2_quotient(1.0f, emission.pdf_direction));
+    set_log_running_ratio(path, log_s);  // begins Q of MIS (15)
+    set_log_strategies(path, log_s);     // S_k of MIS (20)
+    // A_{k-1} of MIS (20) without the distance and the cosine of the first hit, and without p_oe
+    // and p_o. `set_light_path_arrival` completes it.
+    set_log_inverse_arrival(path, log2_quotient(1.0f, emission.pdf_direction));
 }

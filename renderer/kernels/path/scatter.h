@@ -4,7 +4,8 @@
 
 #include "renderer/kernels/bsdf/reverse.h"
 #include "renderer/kernels/geometry/surface_hit.h"
-#include "renderer/kernels/light/mis.h"
+#include "renderer/kernels/mis/bidirectional.h"
+#include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/traversal/intersect_triangle.h"
@@ -48,20 +49,21 @@ DEVICE bool survives_roulette(Path path, IntegratorSettings settings, float larg
     return true;
 }
 
-/// Updates the ratios of the MIS weights at a scattering event.
+/// Updates R or Q, and S, at a scattering event after `depth` events: MIS (11), (15), (19), (20).
 DEVICE void continue_ratios(Path path, IntegratorSettings settings, uint depth, bool is_delta,
-                            TwoWay both) {
-    const float log_ratio = get_log_ratio(path);
-    const float log_arrival = get_log_arrival(path);
-    set_log_ratio(path, FEATURE_from_light
-                            ? continue_light_ratio(log_ratio, log_arrival, depth, is_delta,
-                                                   both.log_forward, both.log_ratio, settings.beta)
-                            : continue_camera_ratio(log_ratio, depth, is_delta, both.log_forward,
-                                                    both.log_ratio));
+                            ScatterEvent event) {
+    const float log_r_or_q = get_log_running_ratio(path);
+    const float log_a = get_log_inverse_arrival(path);
+    set_log_running_ratio(
+        path, FEATURE_from_light
+                  ? continue_light_ratio(log_r_or_q, log_a, depth, is_delta, event.log_forward,
+                                         event.log_reverse_ratio, settings.beta)
+                  : continue_camera_ratio(log_r_or_q, depth, is_delta, event.log_forward,
+                                          event.log_reverse_ratio));
     if (FEATURE_vertex_connections) {
-        set_log_strategies(path,
-                           continue_strategies(get_log_strategies(path), log_arrival, is_delta,
-                                               both.log_forward, both.log_ratio, settings.beta));
+        set_log_strategies(
+            path, continue_strategies(get_log_strategies(path), log_a, is_delta, event.log_forward,
+                                      event.log_reverse_ratio, settings.beta));
     }
 }
 
@@ -82,12 +84,12 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
     if (!(sample.pdf_w > 0.0f)) {
         return false;
     }
-    TwoWay both = one_way();
+    ScatterEvent event = irreversible_event();
     if (FEATURE_light_strategy || FEATURE_from_light) {
-        both = look_back(scene, hit, frame, sample);
+        event = scatter_event(scene, hit, frame, sample);
     }
     float3 throughput =
-        get_throughput(path) * (FEATURE_from_light ? both.importance : sample.weight);
+        get_throughput(path) * (FEATURE_from_light ? event.importance : sample.weight);
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
     if (!(largest > 0.0f)) {
         return false;
@@ -111,7 +113,7 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
     set_pdf_w(path, sample.pdf_w);
     if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
         const bool is_delta = !(sample.pdf_w < INFINITY);
-        continue_ratios(path, settings, depth, is_delta, both);
+        continue_ratios(path, settings, depth, is_delta, event);
     }
     return true;
 }

@@ -46,7 +46,7 @@ DEVICE void store_hit(Path path, PRIVATE const SceneView *scene, GLOBAL uint *ve
     vertex.hit_w = at.z;
     vertex.direction = get_ray_direction(path);
     vertex.throughput = get_throughput(path);
-    vertex.log_arrival = get_log_arrival(path);
+    vertex.log_inverse_arrival = get_log_inverse_arrival(path);
     vertex.log_strategies = get_log_strategies(path);
     store_light_vertex(stored_vertex(path, vertex_words, settings, depth), vertex);
 }

@@ -4,8 +4,8 @@
 
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/bsdf/shading_frame.h"
-#include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/mis/bidirectional.h"
 #include "renderer/kernels/path/shadow_ray.h"
 #include "renderer/kernels/path/stored_vertex.h"
 #include "renderer/kernels/scene_view.h"
@@ -21,16 +21,16 @@ typedef struct ConnectionEnd {
     float3 f_cos;
     /// Density per solid angle with which a path from this end continues to the other end.
     float pdf_w;
-    /// log2 of this side's contribution to p_others / p_own, without the factor p_arrive
-    /// (light/mis.h).
-    float log_strategies;
+    /// log2 of the bracket of MIS (21) at this end, to the power 1 / beta.
+    float log_strategies_before;
 } ConnectionEnd;
 
 /// Returns the end of a connection at `hit`. The path came from direction `before` and is connected
-/// along direction `other`; both are unit vectors away from the surface.
+/// along direction `other`; both are unit vectors away from the surface. `log_s` and `log_a` are
+/// log2 of S at the vertex before and of A at this one.
 DEVICE ConnectionEnd connection_end(PRIVATE const SceneView *scene, SurfaceHit hit, float3 before,
-                                    float3 other, bool from_camera, float log_arrival,
-                                    float log_strategies, float beta) {
+                                    float3 other, bool from_camera, float log_s, float log_a,
+                                    float beta) {
     const BsdfValue onwards =
         bsdf_evaluate(scene, hit.material, shading_frame(scene, hit, before), other);
     const BsdfValue back =
@@ -38,8 +38,9 @@ DEVICE ConnectionEnd connection_end(PRIVATE const SceneView *scene, SurfaceHit h
     ConnectionEnd end;
     end.f_cos = from_camera ? onwards.f_cos : back.f_cos;
     end.pdf_w = onwards.pdf_w;
-    const float log_back = log2_quotient(back.pdf_w, fabs(dot(hit.point.normal, before)));
-    end.log_strategies = strategies_before(log_strategies, log_arrival, log_back, beta);
+    // b_m on a camera path, f_{m+1} on a light path, per projected solid angle.
+    const float log_reverse = log2_quotient(back.pdf_w, fabs(dot(hit.point.normal, before)));
+    end.log_strategies_before = strategies_before(log_s, log_a, log_reverse, beta);
     return end;
 }
 
@@ -77,22 +78,25 @@ DEVICE bool connect_to_vertex(Path path, PRIVATE const SceneView *scene, GLOBAL 
           fabs(dot(hit.point.normal, wo)) > 0.0f)) {
         return false;
     }
-    const ConnectionEnd here = connection_end(scene, hit, wo, wi, true, get_log_arrival(path),
-                                              get_log_strategies(path), settings.beta);
+    const ConnectionEnd here = connection_end(scene, hit, wo, wi, true, get_log_strategies(path),
+                                              get_log_inverse_arrival(path), settings.beta);
     if (is_black(here.f_cos)) {
         return false;
     }
     const ConnectionEnd there =
-        connection_end(scene, lit, from_light, -wi, false, vertex.log_arrival,
-                       vertex.log_strategies, settings.beta);
+        connection_end(scene, lit, from_light, -wi, false, vertex.log_strategies,
+                       vertex.log_inverse_arrival, settings.beta);
     if (is_black(there.f_cos)) {
         return false;
     }
-    // log2 of the densities per area with which a path from either end arrives at the other.
-    const float log_here = log2_quotient(there.pdf_w, squared) + log2_of(cos_here);
-    const float log_there = log2_quotient(here.pdf_w, squared) + log2_of(cos_there);
-    const float weight = join_weight(log_here + here.log_strategies,
-                                     log_there + there.log_strategies, settings.beta);
+    // log2 of the densities per area with which a path from either end arrives at the other:
+    // b_{m+1} G_m here and f_m G_m there. One cosine of G_m is part of each density per solid
+    // angle.
+    const float log_arrival_here = log2_quotient(there.pdf_w, squared) + log2_of(cos_here);
+    const float log_arrival_there = log2_quotient(here.pdf_w, squared) + log2_of(cos_there);
+    const float weight = connection_weight(log_arrival_here + here.log_strategies_before,
+                                           log_arrival_there + there.log_strategies_before,
+                                           settings.beta);  // MIS (21)
     // At the light vertex f_cos contains the cosine with the shading normal. The area measure of
     // the light path has the cosine with the geometric normal instead (Veach 1997, section 5.3).
     // The weight comes before the quotient by d^2: on short connections it falls with d^(2 beta).

@@ -5,7 +5,6 @@
 #define FEATURE_sobol 1
 #include "testing/other_features.h"
 
-#include "renderer/kernels/light/mis.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/kernels/sampling/sampler.h"
 
@@ -249,17 +248,6 @@ TEST(SelectionTable, ProbabilitiesAreThoseOfTheWords) {
     EXPECT_EQ(sum, 1.0);
     EXPECT_EQ(table.probability[0], 0.0);
     EXPECT_NEAR(table.probability[4], 5.0 / 8.0, 1e-9);
-}
-
-TEST(PowerHeuristic, StaysInRangeAndSumsToOne) {
-    const float infinity = std::numeric_limits<float>::infinity();
-    for (const float beta : {1.0f, 2.0f, 3.5f}) {
-        for (const float ratio : {0.0f, 1e-38f, 0.1f, 1.0f, 7.0f, 1e38f, infinity}) {
-            const float one = power_heuristic(ratio, beta);
-            const float other = power_heuristic(1.0f / ratio, beta);
-            EXPECT_NEAR(one + other, 1.0f, 1e-6f) << ratio;
-        }
-    }
 }
 
 }  // namespace
