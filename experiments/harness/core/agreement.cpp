@@ -13,6 +13,7 @@
 #include <numeric>
 #include <vector>
 
+#include "experiments/harness/core/blocks.h"
 #include "experiments/harness/core/metrics.h"
 #include "renderer/base/error.h"
 #include "renderer/base/statistics.h"
@@ -20,89 +21,6 @@
 namespace rtrays {
 
 namespace {
-
-/// Sums a channel over the pixels of every block. The last sum is that of the full image.
-std::vector<double> block_sums(const Image &image, const std::string &channel, int size) {
-    const int columns = (image.width() + size - 1) / size,
-              rows = (image.height() + size - 1) / size;
-    std::vector<double> sums(static_cast<size_t>(columns * rows) + 1);
-    const std::vector<float> &values = image.channel(channel);
-    for (size_t i = 0; i < values.size(); ++i) {
-        const int x = static_cast<int>(i) % image.width(), y = static_cast<int>(i) / image.width();
-        const auto value = static_cast<double>(values[i]);
-        if (!std::isfinite(value) || (value < 0 && channel.rfind("variance", 0) == 0)) {
-            throw input_error(fmt::format(
-                "pixel ({}, {}), channel {}: value {}; values must be finite, and variances must "
-                "not be negative",
-                x, y, channel, value));
-        }
-        sums[static_cast<size_t>(y / size * columns + x / size)] += value;
-        sums.back() += value;
-    }
-    return sums;
-}
-
-/// Counts the pixels of every block and, last, of the full image.
-std::vector<double> block_pixels(const Image &image, int size) {
-    Image ones(image.width(), image.height());
-    std::fill_n(ones.add_channel("R").begin(), image.pixel_count(), 1.0f);
-    return block_sums(ones, "R", size);
-}
-
-/// Names a block by its corner, "(16, 0)", or the last one "whole image".
-std::string name_of(size_t block, const Image &image, int size) {
-    const int columns = (image.width() + size - 1) / size,
-              rows = (image.height() + size - 1) / size;
-    const int i = static_cast<int>(block);
-    return i == columns * rows ? "whole image"
-                               : fmt::format("({}, {})", i % columns * size, i / columns * size);
-}
-
-/// Estimate of a sum, its variance with the degrees of freedom of that variance, and the skewness
-/// of the batches it was computed from.
-struct NoisySum {
-    double value = 0;
-    double variance = 0;
-    double freedom = std::numeric_limits<double>::infinity();
-    double skewness = 0;
-};
-
-/// Sums every block and the full image. The variances come from the variance layer, which is
-/// treated as exactly known (infinite degrees of freedom).
-std::vector<NoisySum> sums_by_layer(const Image &image, size_t channel, int size) {
-    const std::vector<double> values = block_sums(image, rgb_names()[channel], size);
-    const std::vector<double> variances = block_sums(image, rgb_names("variance")[channel], size);
-    std::vector<NoisySum> sums(values.size());
-    for (size_t i = 0; i < values.size(); ++i) {
-        sums[i].value = values[i];
-        sums[i].variance = variances[i];
-    }
-    return sums;
-}
-
-/// Sums every block and the full image. The variances come from the scatter of the batches.
-std::vector<NoisySum> sums_by_batch(const std::vector<Image> &batches, size_t channel, int size) {
-    std::vector<std::vector<double>> values;
-    for (const Image &batch : batches) {
-        values.push_back(block_sums(batch, rgb_names()[channel], size));
-    }
-    const auto n = static_cast<double>(batches.size());
-    std::vector<NoisySum> sums(values.front().size());
-    for (size_t i = 0; i < sums.size(); ++i) {
-        for (const auto &batch : values) {
-            sums[i].value += batch[i] / n;
-        }
-        double second = 0, third = 0;  // central moments
-        for (const auto &batch : values) {
-            second += std::pow(batch[i] - sums[i].value, 2) / n;
-            third += std::pow(batch[i] - sums[i].value, 3) / n;
-        }
-        sums[i].variance = second / (n - 1);
-        sums[i].freedom = n - 1;
-        sums[i].skewness = second > 0 ? third / std::pow(second, 1.5) : 0;
-    }
-    return sums;
-}
 
 /// Test of the difference of one channel's means over a block.
 struct BlockTest {
@@ -266,7 +184,7 @@ Agreement test_sums(const Sums &image_sums, const Sums &reference_sums, const Im
         if (std::abs(tests[i].z) >= result.largest_z) {
             result.largest_z = std::abs(tests[i].z);
             result.largest_z_at = rgb_names()[i / pixels.size()] + " " +
-                                  name_of(i % pixels.size(), shape, policy.block_size);
+                                  block_name(i % pixels.size(), shape, policy.block_size);
         }
     }
 

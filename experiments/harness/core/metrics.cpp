@@ -142,6 +142,17 @@ Image last_batch(const Image &before, const Image &all, uint64_t count) {
     return batch;
 }
 
+Image shifted(const Image &base, const Image &image, const Image &other) {
+    Image result = Image::rgb(base.width(), base.height());
+    for (const std::string &name : rgb_names()) {
+        std::vector<float> &values = result.channel(name);
+        for (size_t i = 0; i < values.size(); ++i) {
+            values[i] = base.channel(name)[i] + (image.channel(name)[i] - other.channel(name)[i]);
+        }
+    }
+    return result;
+}
+
 Image downsample(const Image &image, int factor) {
     if (factor < 1 || image.width() % factor != 0 || image.height() % factor != 0) {
         throw input_error(fmt::format("image size {}x{} is not divisible by {}", image.width(),

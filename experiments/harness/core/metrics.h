@@ -76,6 +76,10 @@ Image average_runs(const std::vector<Image> &images);
 /// taken in double precision. The rounding of float32 pixels is 1e-7 of the sums.
 Image last_batch(const Image &before, const Image &all, uint64_t count);
 
+/// Returns base + (image - other) for R, G, B. If image and other share samples, their difference
+/// has little noise.
+Image shifted(const Image &base, const Image &image, const Image &other);
+
 /// Averages squares of `factor` x `factor` pixels. With a box filter of one pixel, the result is
 /// exactly the image that the camera gives on the smaller film. Variances are computed as those of
 /// independent pixels. Throws `Error` (bad input) if the size is not divisible by `factor`.

@@ -7,32 +7,24 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/statistics/linear_regression.hpp>
+#include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "renderer/base/error.h"
 
 namespace rtrays {
 
+using boost::math::statistics::mean;
+using boost::math::statistics::sample_variance;
+using boost::math::statistics::simple_ordinary_least_squares;
+using boost::math::statistics::variance;
+
 namespace {
 
-double mean(const std::vector<double> &values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// Unbiased sample variance in two passes.
-double variance(const std::vector<double> &values) {
-    const double center = mean(values);
-    double sum = 0;
-    for (double v : values) {
-        sum += (v - center) * (v - center);
-    }
-    return sum / static_cast<double>(values.size() - 1);
-}
-
 double standard_error(const std::vector<double> &values) {
-    return std::sqrt(variance(values) / static_cast<double>(values.size()));
+    return std::sqrt(sample_variance(values) / static_cast<double>(values.size()));
 }
 
 double checked_log(double error) {
@@ -55,7 +47,7 @@ std::vector<double> inverse_variances(const std::vector<std::vector<double>> &lo
         for (const auto &row : logs) {
             column.push_back(row[p]);
         }
-        weights[p] = variance(column);
+        weights[p] = sample_variance(column);
     }
     const double largest = *std::max_element(weights.begin(), weights.end());
     for (double &w : weights) {
@@ -147,15 +139,14 @@ Interval power_law_exponent(const std::vector<double> &x, const std::vector<doub
         log_x.push_back(std::log(x[i]));
         log_y.push_back(std::log(y[i]));
     }
-    const double exponent = weighted_slope(log_x, log_y, std::vector<double>(n, 1.0));
+    const auto [constant, exponent] = simple_ordinary_least_squares(log_x, log_y);
     double residuals = 0;
     for (size_t i = 0; i < n; ++i) {
-        const double residual = log_y[i] - mean(log_y) - exponent * (log_x[i] - mean(log_x));
-        residuals += residual * residual;
+        residuals += std::pow(log_y[i] - constant - exponent * log_x[i], 2);
     }
     const auto freedom = static_cast<double>(n - 2);
     const double error =
-        std::sqrt(residuals / freedom / (variance(log_x) * static_cast<double>(n - 1)));
+        std::sqrt(residuals / freedom / (variance(log_x) * static_cast<double>(n)));
     const double reach =
         error * boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
     return {exponent, exponent - reach, exponent + reach};
@@ -210,7 +201,7 @@ double slope_bias_of_scatter(const std::vector<double> &spp,
         for (const auto &row : errors) {
             squares.push_back(row.at(point) * row.at(point));
         }
-        return variance(squares) / (mean(squares) * mean(squares));
+        return sample_variance(squares) / (mean(squares) * mean(squares));
     };
     return (relative_variance(0) - relative_variance(spp.size() - 1)) / 4 /
            std::log(spp.back() / spp.front());

@@ -78,33 +78,15 @@ double sum_of(const Image &image) {
 
 /// Returns the mean of the images with zero variances, so that tests treat it as exact.
 Image mean_of(const std::vector<ControlledRender> &renders) {
-    Image mean = Image::rgb(renders.front().image.width(), renders.front().image.height());
+    std::vector<Image> images;
+    for (const ControlledRender &render : renders) {
+        images.push_back(render.image);
+    }
+    Image mean = average_images(images);
     for (const std::string &name : rgb_names("variance")) {
         mean.add_channel(name);
     }
-    for (const std::string &name : rgb_names()) {
-        std::vector<float> &values = mean.channel(name);
-        for (size_t i = 0; i < values.size(); ++i) {
-            double sum = 0;
-            for (const ControlledRender &render : renders) {
-                sum += static_cast<double>(render.image.channel(name)[i]);
-            }
-            values[i] = static_cast<float>(sum / static_cast<double>(renders.size()));
-        }
-    }
     return mean;
-}
-
-/// Returns base + (with - without).
-Image shifted(const Image &base, const Image &with, const Image &without) {
-    Image image = Image::rgb(base.width(), base.height());
-    for (const std::string &name : rgb_names()) {
-        std::vector<float> &values = image.channel(name);
-        for (size_t i = 0; i < values.size(); ++i) {
-            values[i] = base.channel(name)[i] + (with.channel(name)[i] - without.channel(name)[i]);
-        }
-    }
-    return image;
 }
 
 ControlledRender render(RenderSession &session, uint32_t seed, uint64_t spp) {

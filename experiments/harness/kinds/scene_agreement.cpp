@@ -15,6 +15,7 @@
 #include "experiments/harness/core/array_file.h"
 #include "experiments/harness/core/description.h"
 #include "experiments/harness/core/document.h"
+#include "experiments/harness/core/metrics.h"
 #include "experiments/harness/core/rendering.h"
 #include "experiments/harness/core/resumption.h"
 #include "reference/film.h"
@@ -198,22 +199,6 @@ std::vector<Image> render(const Scene &scene, const Description &description,
     return render_batches(session, seed, description.spp, batches);
 }
 
-/// Returns the mean of R, G, B over the batches.
-Image mean_of(const std::vector<Image> &images) {
-    Image mean = Image::rgb(images.front().width(), images.front().height());
-    for (const std::string &name : rgb_names()) {
-        std::vector<float> &values = mean.channel(name);
-        for (size_t i = 0; i < values.size(); ++i) {
-            double sum = 0;
-            for (const Image &image : images) {
-                sum += static_cast<double>(image.channel(name)[i]);
-            }
-            values[i] = static_cast<float>(sum / static_cast<double>(images.size()));
-        }
-    }
-    return mean;
-}
-
 std::vector<Image> render_reference(const Scene &scene, const Description &description,
                                     const std::optional<JoinableLight> &joinable_only) {
     ReferenceSettings settings;
@@ -238,7 +223,7 @@ std::vector<Image> render_reference(const Scene &scene, const Description &descr
 Json measure_scene(const Scene &scene, const Description &description, DeviceContext &device,
                    const fs::path &folder) {
     const std::vector<Image> whole = render_reference(scene, description, {});
-    write_array(mean_of(whole), folder / (scene.name() + ".reference.npy"));
+    write_array(average_images(whole), folder / (scene.name() + ".reference.npy"));
     Json rows = Json::array();
     const auto add_row = [&](const std::string &algorithm, const std::string &against,
                              const BlindSpot &blind, const Agreement &agreement) {
@@ -258,12 +243,13 @@ Json measure_scene(const Scene &scene, const Description &description, DeviceCon
     uint32_t seed = renderer_seed;
     for (const std::string &algorithm : description.algorithms) {
         const std::vector<Image> images = render(scene, description, algorithm, seed++, device);
-        write_array(mean_of(images), folder / fmt::format("{}.{}.npy", scene.name(), algorithm));
+        write_array(average_images(images),
+                    folder / fmt::format("{}.{}.npy", scene.name(), algorithm));
         const BlindSpot blind = blind_spot(algorithm, scene, description);
         const std::vector<Image> reference =
             blind.joinable ? render_reference(scene, description, blind.joinable) : whole;
         if (blind.joinable) {
-            write_array(mean_of(reference),
+            write_array(average_images(reference),
                         folder / fmt::format("{}.reference.{}.npy", scene.name(), algorithm));
         }
         add_row(algorithm, "reference", blind,

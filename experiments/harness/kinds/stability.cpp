@@ -96,18 +96,11 @@ Image render_reference(const StabilityCase &tested, const RenderSettings &settin
 /// Returns mean + (images - others). Equal samples differ little if the scenes are equivalent.
 std::vector<Image> paired(const std::vector<Image> &images, const std::vector<Image> &others,
                           const Image &mean) {
-    std::vector<Image> shifted;
+    std::vector<Image> result;
     for (size_t i = 0; i < images.size(); ++i) {
-        shifted.push_back(Image::rgb(mean.width(), mean.height()));
-        for (const std::string &channel : rgb_names()) {
-            std::vector<float> &values = shifted.back().channel(channel);
-            for (size_t pixel = 0; pixel < values.size(); ++pixel) {
-                values[pixel] = mean.channel(channel)[pixel] + (images[i].channel(channel)[pixel] -
-                                                                others[i].channel(channel)[pixel]);
-            }
-        }
+        result.push_back(shifted(mean, images[i], others[i]));
     }
-    return shifted;
+    return result;
 }
 
 StabilityTest test_case(const StabilityCase &tested, const RenderSettings &settings,

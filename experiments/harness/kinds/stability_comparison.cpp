@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/harness/core/agreement.h"
+#include "experiments/harness/core/blocks.h"
 #include "experiments/harness/core/metrics.h"
 #include "renderer/base/error.h"
 
@@ -14,69 +15,59 @@ namespace {
 
 constexpr int block_size = stability_block_size;
 
-/// Returns the means of a channel over every block and, last, over the full image.
-std::vector<double> block_means(const Image &image, const std::string &channel) {
-    const int columns = (image.width() + block_size - 1) / block_size,
-              rows = (image.height() + block_size - 1) / block_size;
-    std::vector<double> sums(static_cast<size_t>(columns * rows) + 1), pixels(sums.size());
-    const std::vector<float> &values = image.channel(channel);
-    for (size_t i = 0; i < values.size(); ++i) {
-        const int x = static_cast<int>(i) % image.width(), y = static_cast<int>(i) / image.width();
-        for (const size_t block :
-             {static_cast<size_t>(y / block_size * columns + x / block_size), sums.size() - 1}) {
-            sums[block] += static_cast<double>(values[i]);
-            pixels[block] += 1;
+/// Expected means of the blocks of a channel and, last, of the full image, with their variances.
+std::vector<NoisySum> expected_means(const ExpectedImage &expected, size_t channel,
+                                     const std::vector<double> &pixels) {
+    std::vector<NoisySum> means;
+    if (expected.noisy) {
+        means = sums_by_layer(expected.mean, channel, block_size);
+    } else {
+        for (const double sum : block_sums(expected.mean, rgb_names()[channel], block_size)) {
+            means.emplace_back().value = sum;
         }
     }
-    for (size_t block = 0; block < sums.size(); ++block) {
-        sums[block] /= pixels[block];
+    for (size_t block = 0; block < means.size(); ++block) {
+        means[block].value /= pixels[block];
+        means[block].variance /= pixels[block] * pixels[block];
     }
-    return sums;
-}
-
-/// Returns the variances of the block means, assuming independent pixels.
-std::vector<double> block_variances(const Image &image, const std::string &channel) {
-    std::vector<double> variances = block_means(image, channel);
-    for (size_t block = 0; block < variances.size(); ++block) {
-        const bool whole = block + 1 == variances.size();
-        const int across = whole ? image.width() : std::min(block_size, image.width());
-        const int down = whole ? image.height() : std::min(block_size, image.height());
-        variances[block] /= across * down;
-    }
-    return variances;
-}
-
-/// Moments of the batches' values of one block and channel.
-struct Moments {
-    double mean = 0, standard_error = 0, skewness = 0;
-};
-
-Moments moments_of(const std::vector<double> &values) {
-    const auto n = static_cast<double>(values.size());
-    Moments result;
-    for (const double value : values) {
-        result.mean += value / n;
-    }
-    double second = 0, third = 0;
-    for (const double value : values) {
-        second += std::pow(value - result.mean, 2) / n;
-        third += std::pow(value - result.mean, 3) / n;
-    }
-    result.standard_error = std::sqrt(second / (n - 1));
-    result.skewness = second > 0 ? third / std::pow(second, 1.5) : 0;
-    return result;
+    return means;
 }
 
 /// Returns the mean variance of the pixels of an expected image.
 double expected_error(const ExpectedImage &expected) {
     double sum = 0;
-    for (const std::string &channel : rgb_names()) {
-        const std::vector<double> means = expected.noisy
-                                              ? block_means(expected.mean, "variance." + channel)
-                                              : std::vector<double>{0};
-        sum += means.back() / 3;
+    for (const std::string &channel : rgb_names("variance")) {
+        sum += expected.noisy ? block_sums(expected.mean, channel, block_size).back() : 0;
     }
-    return sum;
+    return sum / 3 / static_cast<double>(expected.mean.pixel_count());
+}
+
+/// Means of a channel of the full image.
+struct ChannelResult {
+    double expected = 0, measured = 0, standard_error = 0;
+};
+
+/// Tests every block and the full image, and counts the tests in `result`.
+ChannelResult test_channel(const std::vector<NoisySum> &measured,
+                           const std::vector<NoisySum> &expected, const std::vector<double> &pixels,
+                           double bound, double far, StabilityTest &result) {
+    ChannelResult channel;
+    for (size_t block = 0; block < pixels.size(); ++block) {
+        const double mean = measured[block].value / pixels[block];
+        const double standard_error = std::sqrt(
+            measured[block].variance / std::pow(pixels[block], 2) + expected[block].variance);
+        const double off = std::abs(mean - expected[block].value),
+                     allowed = bound * expected[block].value;
+        if (std::abs(measured[block].skewness) > AgreementPolicy().largest_skewness &&
+            off + far * standard_error > allowed) {
+            ++result.undecided;
+        } else {
+            ++result.tests;
+            result.rejected += off - far * standard_error > allowed ? 1 : 0;
+        }
+        channel = {expected[block].value, mean, standard_error};
+    }
+    return channel;
 }
 
 }  // namespace
@@ -103,39 +94,15 @@ StabilityTest test_stability(const std::vector<Image> &images, const ExpectedIma
     const double freedom = static_cast<double>(images.size() - 1);
     const double far = student_quantile_two_sided(1 - alpha, freedom),
                  near = student_quantile_two_sided(0.99, freedom);
+    const std::vector<double> pixels = block_pixels(expected.mean, block_size);
     double error = 0;  // upper bound of the standard error of the mean over channels
-    for (const std::string &channel : rgb_names()) {
-        std::vector<std::vector<double>> by_batch;
-        for (const Image &image : images) {
-            by_batch.push_back(block_means(image, channel));
-        }
-        const std::vector<double> wanted = block_means(expected.mean, channel);
-        const std::vector<double> noise =
-            expected.noisy ? block_variances(expected.mean, "variance." + channel)
-                           : std::vector<double>(wanted.size());
-        for (size_t block = 0; block < wanted.size(); ++block) {
-            std::vector<double> values;
-            for (const auto &batch : by_batch) {
-                values.push_back(batch[block]);
-            }
-            const Moments moments = moments_of(values);
-            const double standard_error =
-                std::hypot(moments.standard_error, std::sqrt(noise[block]));
-            const double off = std::abs(moments.mean - wanted[block]),
-                         allowed = bound * wanted[block];
-            if (std::abs(moments.skewness) > AgreementPolicy().largest_skewness &&
-                off + far * standard_error > allowed) {
-                ++result.undecided;
-            } else {
-                ++result.tests;
-                result.rejected += off - far * standard_error > allowed ? 1 : 0;
-            }
-            if (block + 1 == wanted.size()) {
-                result.expected += wanted[block] / 3;
-                result.measured += moments.mean / 3;
-                error += standard_error / 3;
-            }
-        }
+    for (size_t c = 0; c < rgb_names().size(); ++c) {
+        const ChannelResult channel =
+            test_channel(sums_by_batch(images, c, block_size), expected_means(expected, c, pixels),
+                         pixels, bound, far, result);
+        result.expected += channel.expected / 3;
+        result.measured += channel.measured / 3;
+        error += channel.standard_error / 3;
     }
     if (!(result.expected > 0)) {
         throw input_error("the expected image is black, so a relative difference is undefined");
