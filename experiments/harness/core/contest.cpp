@@ -12,16 +12,30 @@ void Contest::add(const std::string &name, const std::function<Seconds()> &run) 
     contestants_.push_back({name, run});
 }
 
+Contest::ForeignLoad Contest::measured_foreign_load() {
+    return [meter = CpuMeter()]() mutable {
+        const CpuUse use = meter.use();
+        meter.start();
+        return use.foreign + use.steal;
+    };
+}
+
 void Contest::turn() {
-    const CpuMeter meter;
+    foreign_since_();
     const size_t count = contestants_.size();
     for (size_t i = 0; i < count; ++i) {
-        Contestant &contestant = contestants_[turns_ % 2 == 0 ? i : count - 1 - i];
+        Contestant &contestant = contestants_[started_ % 2 == 0 ? i : count - 1 - i];
         contestant.times.push_back(contestant.run());
     }
-    const CpuUse use = meter.use();
-    foreign_.push_back(use.foreign + use.steal);
-    ++turns_;
+    foreign_.push_back(foreign_since_());
+    ++started_;
+}
+
+void Contest::discard_turn() {
+    for (Contestant &contestant : contestants_) {
+        contestant.times.pop_back();
+    }
+    foreign_.pop_back();
 }
 
 std::vector<std::string> Contest::names() const {

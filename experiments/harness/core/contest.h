@@ -7,6 +7,7 @@
 #include <ctime>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/harness/core/statistics.h"
@@ -43,7 +44,12 @@ inline Clock clock_of(const DeviceInfo &device) {
 /// Interleaved repetitions ("turns") of all contestants.
 class Contest {
   public:
-    explicit Contest(Clock clock = Clock::processor) : clock_(clock) {}
+    /// Returns the share of the machine's processor time that other processes and the hypervisor
+    /// used since the previous call.
+    using ForeignLoad = std::function<double()>;
+
+    explicit Contest(Clock clock = Clock::processor, ForeignLoad foreign = measured_foreign_load())
+        : clock_(clock), foreign_since_(std::move(foreign)) {}
 
     /// Adds a contestant. `run` does the work once and returns its duration without preparation.
     void add(const std::string &name, const std::function<Seconds()> &run);
@@ -51,7 +57,14 @@ class Contest {
     /// Runs every contestant once. Every second turn runs them in reverse order.
     void turn();
 
-    size_t turns() const { return turns_; }
+    /// Times and foreign load of the last turn.
+    Seconds last_seconds(const std::string &name) const { return find(name).times.back(); }
+    double last_foreign_load() const { return foreign_.back(); }
+
+    /// Forgets the last turn, for instance because of foreign load.
+    void discard_turn();
+
+    size_t turns() const { return foreign_.size(); }
     std::vector<std::string> names() const;
 
     /// Return medians with 95 % intervals. Throw `Error` (run failed) for fewer than 6 turns, and
@@ -74,10 +87,12 @@ class Contest {
         std::vector<Seconds> times{};
     };
     const Contestant &find(const std::string &name) const;
+    static ForeignLoad measured_foreign_load();
 
     Clock clock_;
+    ForeignLoad foreign_since_;
     std::vector<Contestant> contestants_;
-    size_t turns_ = 0;
+    size_t started_ = 0;  ///< turns, including discarded ones
     std::vector<double> foreign_;
 };
 

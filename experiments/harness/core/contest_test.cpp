@@ -30,6 +30,23 @@ TEST(Contest, TakesTurnsThereAndBack) {
     EXPECT_THROW(contest.wall_seconds("d"), std::out_of_range);
 }
 
+TEST(Contest, DiscardedTurnsLeaveNoTimes) {
+    int calls = 0, runs = 0;
+    Contest contest(Clock::wall, [&] { return ++calls % 2 == 0 ? 0.01 * calls : 9; });
+    contest.add("a", [&] { return Seconds{1.0 * ++runs, 0}; });
+    for (int turn = 0; turn < 7; ++turn) {
+        contest.turn();
+        if (turn == 3) {
+            EXPECT_EQ(contest.last_seconds("a").wall, 4);
+            EXPECT_NEAR(contest.last_foreign_load(), 0.08, 1e-12);
+            contest.discard_turn();
+        }
+    }
+    EXPECT_EQ(contest.turns(), 6u);
+    EXPECT_EQ(contest.wall_seconds("a").value, 4);  // of 1, 2, 3, 5, 6, 7
+    EXPECT_NEAR(contest.foreign_load(), 0.08, 1e-12);
+}
+
 TEST(Contest, SpeedsAreRatiosWithinATurn) {
     // Both are slowed by the number of the turn, so the times spread and the ratio is constant.
     Contest contest;

@@ -3,62 +3,51 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "experiments/harness/core/contest.h"
 #include "experiments/harness/core/document.h"
 
 namespace rtrays {
-
-namespace {
-
-double wall_seconds(const Contestant &render) {
-    const auto start = std::chrono::steady_clock::now();
-    render();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-}  // namespace
 
 Throughput measure_throughput(const ThroughputSettings &settings, const Contestant &renderer,
                               const Contestant &reference, const std::function<CpuUse()> &use_since,
                               const std::function<void(int)> &progress) {
     Throughput result;
-    std::vector<double> renderer_rates, reference_rates, ratios;
-    const int attempts = settings.repetitions * settings.attempts_per_repetition;
-    for (int attempt = 0;
-         attempt < attempts && static_cast<int>(ratios.size()) < settings.repetitions; ++attempt) {
-        ThroughputRepetition turn;
-        use_since();
-        if (attempt % 2 == 0) {
-            turn.renderer_seconds = wall_seconds(renderer);
-            turn.reference_seconds = wall_seconds(reference);
-        } else {
-            turn.reference_seconds = wall_seconds(reference);
-            turn.renderer_seconds = wall_seconds(renderer);
-        }
+    Contest contest(Clock::wall, [&] {
         const CpuUse use = use_since();
-        turn.foreign = use.foreign + use.steal;
-        turn.accepted = turn.foreign <= settings.foreign_limit;
-        result.repetitions.push_back(turn);
-        if (turn.accepted) {
-            renderer_rates.push_back(settings.samples / turn.renderer_seconds);
-            reference_rates.push_back(settings.samples / turn.reference_seconds);
-            ratios.push_back(turn.reference_seconds / turn.renderer_seconds);
+        return use.foreign + use.steal;
+    });
+    contest.add("renderer", [&] { return time_of(renderer); });
+    contest.add("reference", [&] { return time_of(reference); });
+    const auto wanted = static_cast<size_t>(settings.repetitions),
+               attempts = wanted * static_cast<size_t>(settings.attempts_per_repetition);
+    while (result.repetitions.size() < attempts && contest.turns() < wanted) {
+        contest.turn();
+        result.repetitions.push_back(
+            {contest.last_seconds("renderer").wall, contest.last_seconds("reference").wall,
+             contest.last_foreign_load(), contest.last_foreign_load() <= settings.foreign_limit});
+        if (!result.repetitions.back().accepted) {
+            contest.discard_turn();
         }
-        progress(static_cast<int>(ratios.size()));
+        progress(static_cast<int>(contest.turns()));
     }
-    if (static_cast<int>(ratios.size()) < settings.repetitions) {
+    if (contest.turns() < wanted) {
         result.reason = fmt::format(
             "foreign load: in only {} of {} repetitions did other processes use at most {:.0f} % "
             "of the CPU",
-            ratios.size(), result.repetitions.size(), 100 * settings.foreign_limit);
+            contest.turns(), result.repetitions.size(), 100 * settings.foreign_limit);
         return result;
     }
+    const auto rate = [&](const char *name) {
+        const Interval seconds = contest.wall_seconds(name);
+        return Interval{settings.samples / seconds.value, settings.samples / seconds.high,
+                        settings.samples / seconds.low};
+    };
     result.accepted = true;
-    result.renderer = median_interval(renderer_rates);
-    result.reference = median_interval(reference_rates);
-    result.ratio = median_interval(ratios);
+    result.renderer = rate("renderer");
+    result.reference = rate("reference");
+    result.ratio = contest.speed_over("renderer", "reference");
     return result;
 }
 
