@@ -44,6 +44,7 @@ struct Options {
     bool dry_run = false;
     bool print_scene = false;
     std::string algorithm = algorithms::path_tracing.name;
+    std::string passes = "all";
     RenderSettings settings;
 };
 
@@ -210,6 +211,7 @@ ExitCode run(Options &options) {
         }
     }
     options.settings.algorithm = &algorithm_named(options.algorithm);
+    options.settings.only_pass = find_named(pass_kinds, options.passes);
     scene.update(options.scene_time);
     if (options.print_scene) {
         fmt::print("{}", scene.describe());
@@ -244,7 +246,7 @@ ExitCode run(Options &options) {
     }
 
     DeviceContext device(options.device, Binaries::keep);
-    const bool refits = options.settings.bvh_update == "refit";
+    const bool refits = options.settings.bvh_update == BvhUpdate::refit;
     if (refits) {
         scene.update(0);
     }
@@ -346,7 +348,7 @@ ExitCode parse_and_run(int argc, char **argv) {
         "write the scene for Mitsuba 3 (.xml) or Blender's Cycles (.blender.json) and stop");
     app.add_option("--algorithm", options.algorithm, "see --list-algorithms")
         ->capture_default_str();
-    app.add_option("--passes", options.settings.passes,
+    app.add_option("--passes", options.passes,
                    "passes to render: all, camera or light; truncated_bdpt has both, for merge")
         ->check(CLI::IsMember({"all", "camera", "light"}))
         ->capture_default_str();

@@ -32,7 +32,7 @@ Image render(const Scene &scene, const std::string &strategies, DeviceContext &d
     RenderSettings settings;
     settings.width = settings.height = size;
     settings.seed = runs.at(strategies).seed;
-    settings.strategies = strategies;
+    apply_setting(settings, "integrator.strategies=" + strategies);
     RenderSession session(scene, settings, device);
     session.render(0, runs.at(strategies).spp);
     return session.develop();

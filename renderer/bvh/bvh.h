@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "renderer/base/named.h"
 #include "renderer/device/buffer.h"
 #include "renderer/shared/bvh_layout.h"
 
@@ -17,15 +18,12 @@ enum class BvhMethod : uint32_t {
     hploc,
 };
 
-/// A method and its name in settings.
-struct NamedBvhMethod {
-    BvhMethod method;
-    const char *name;
-};
-inline constexpr NamedBvhMethod bvh_methods[] = {{BvhMethod::binned_sah, "binned_sah"},
-                                                 {BvhMethod::hploc, "hploc"}};
+inline constexpr Named<BvhMethod> bvh_methods[] = {{BvhMethod::binned_sah, "binned_sah"},
+                                                   {BvhMethod::hploc, "hploc"}};
 
-const char *to_string(BvhMethod method);
+constexpr const char *to_string(BvhMethod method) {
+    return name_in(bvh_methods, method);
+}
 
 /// Facts about one build. All of them except the seconds are deterministic.
 struct BvhReport {
@@ -62,16 +60,13 @@ enum class BvhLayout : uint32_t {
     wide8 = BVH_LAYOUT_WIDE8,
 };
 
-/// A layout and its name in settings.
-struct NamedBvhLayout {
-    BvhLayout layout;
-    const char *name;
-};
-inline constexpr NamedBvhLayout bvh_layouts[] = {{BvhLayout::bvh2, "bvh2"},
-                                                 {BvhLayout::bvh2_stackless, "bvh2_stackless"},
-                                                 {BvhLayout::wide8, "wide8"}};
+inline constexpr Named<BvhLayout> bvh_layouts[] = {{BvhLayout::bvh2, "bvh2"},
+                                                   {BvhLayout::bvh2_stackless, "bvh2_stackless"},
+                                                   {BvhLayout::wide8, "wide8"}};
 
-const char *to_string(BvhLayout layout);
+constexpr const char *to_string(BvhLayout layout) {
+    return name_in(bvh_layouts, layout);
+}
 
 /// A hierarchy over the triangles of a scene in device memory, the input of
 /// kernels/traversal/intersect_bvh.h. Only the buffers of its layout are filled.

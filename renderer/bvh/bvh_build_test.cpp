@@ -15,19 +15,19 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Fixture for each build method.
-class BvhBuild : public testing::TestWithParam<NamedBvhMethod> {
+class BvhBuild : public testing::TestWithParam<Named<BvhMethod>> {
   protected:
     static HostBvh build(const Mesh &mesh) {
-        return build_bvh(mesh, {BvhLayout::bvh2, GetParam().method});
+        return build_bvh(mesh, {BvhLayout::bvh2, GetParam().value});
     }
 
     /// Builds with the given group, chunk and subtree sizes.
     static HostBvh build(const Mesh &mesh, BvhBuildParameters parameters) {
-        parameters.method = GetParam().method;
+        parameters.method = GetParam().value;
         return HostBvh(BvhBuilder(test_device(), parameters).build(mesh.positions, mesh.triangles));
     }
 
-    static bool is_binned() { return GetParam().method == BvhMethod::binned_sah; }
+    static bool is_binned() { return GetParam().value == BvhMethod::binned_sah; }
 };
 INSTANTIATE_TEST_SUITE_P(Methods, BvhBuild, testing::ValuesIn(bvh_methods),
                          [](const auto &test) { return std::string(test.param.name); });

@@ -132,9 +132,9 @@ WideFacts expect_valid(const HostBvh &bvh, const Mesh &mesh) {
     return facts;
 }
 
-class BvhCollapse : public testing::TestWithParam<NamedBvhMethod> {
+class BvhCollapse : public testing::TestWithParam<Named<BvhMethod>> {
   protected:
-    static TreeKind kind() { return {BvhLayout::wide8, GetParam().method}; }
+    static TreeKind kind() { return {BvhLayout::wide8, GetParam().value}; }
 };
 INSTANTIATE_TEST_SUITE_P(Methods, BvhCollapse, testing::ValuesIn(bvh_methods),
                          [](const auto &test) { return std::string(test.param.name); });
@@ -193,7 +193,7 @@ TEST_P(BvhCollapse, BitsDoNotDependOnTheDistributionOfWork) {
     const Mesh mesh = terrain(80, 5);
     const auto build = [&](uint32_t group_size) {
         return HostBvh(
-            BvhBuilder(test_device(), {group_size, 1024, 256, BvhLayout::wide8, GetParam().method})
+            BvhBuilder(test_device(), {group_size, 1024, 256, BvhLayout::wide8, GetParam().value})
                 .build(mesh.positions, mesh.triangles));
     };
     const HostBvh expected = build(1), other = build(64);

@@ -55,7 +55,7 @@ void follow(const std::vector<StacklessNode> &nodes, uint32_t number, uint32_t o
     }
 }
 
-class BvhLinearize : public testing::TestWithParam<NamedBvhMethod> {};
+class BvhLinearize : public testing::TestWithParam<Named<BvhMethod>> {};
 INSTANTIATE_TEST_SUITE_P(Methods, BvhLinearize, testing::ValuesIn(bvh_methods),
                          [](const auto &test) { return std::string(test.param.name); });
 
@@ -65,8 +65,8 @@ TEST_P(BvhLinearize, HoldsTheTreeByPairs) {
         meshes.push_back(soup(count, count));
     }
     for (const Mesh &mesh : meshes) {
-        const HostBvh tree = build_bvh(mesh, {BvhLayout::bvh2, GetParam().method});
-        const HostBvh stackless = build_bvh(mesh, {BvhLayout::bvh2_stackless, GetParam().method});
+        const HostBvh tree = build_bvh(mesh, {BvhLayout::bvh2, GetParam().value});
+        const HostBvh stackless = build_bvh(mesh, {BvhLayout::bvh2_stackless, GetParam().value});
         std::string fault;
         const uint32_t end = compare_subtree(tree, 0, stackless, 0, 2, &fault);
         EXPECT_EQ(fault, "") << mesh.name << ' ' << mesh.triangles.size();

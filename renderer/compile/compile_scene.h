@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/base/named.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shared/features.h"
 #include "renderer/shared/scene_records.h"
@@ -16,12 +17,21 @@ namespace rtrays {
 /// Selection of a light for next-event estimation (thesis 2.7.3). With `independent`, every light
 /// is sampled, one after the other.
 enum class LightSelection { uniform, power, mixed, independent };
+inline constexpr Named<LightSelection> light_selections[] = {
+    {LightSelection::uniform, "uniform"},
+    {LightSelection::power, "power"},
+    {LightSelection::mixed, "mixed"},
+    {LightSelection::independent, "independent"}};
+
+/// Sampling of sphere lights: in the cone that the sphere subtends, or on its surface.
+enum class SphereSampling { cone, area };
+inline constexpr Named<SphereSampling> sphere_samplings[] = {{SphereSampling::cone, "cone"},
+                                                             {SphereSampling::area, "area"}};
 
 /// Settings that decide the compiled scene.
 struct CompileSettings {
     LightSelection light_selection = LightSelection::mixed;
-    /// Sphere lights are sampled by area instead of in the cone that they subtend.
-    bool spheres_by_area = false;
+    SphereSampling sphere_sampling = SphereSampling::cone;
     /// Corner normals and texture coordinates are compiled even if the scene has none.
     bool every_array = false;
     /// A scene without lights is lit by a point light at the camera.
@@ -29,7 +39,7 @@ struct CompileSettings {
 };
 
 inline bool operator==(const CompileSettings &a, const CompileSettings &b) {
-    return a.light_selection == b.light_selection && a.spheres_by_area == b.spheres_by_area &&
+    return a.light_selection == b.light_selection && a.sphere_sampling == b.sphere_sampling &&
            a.every_array == b.every_array && a.headlight == b.headlight;
 }
 

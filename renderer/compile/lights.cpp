@@ -83,9 +83,10 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
                                   record.triangle_count > 1);
             } else {
                 const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
-                record.kind = is_disc                    ? LIGHT_DISC
-                              : settings.spheres_by_area ? LIGHT_SPHERE_BY_AREA
-                                                         : LIGHT_SPHERE;
+                record.kind = is_disc ? LIGHT_DISC
+                              : settings.sphere_sampling == SphereSampling::area
+                                  ? LIGHT_SPHERE_BY_AREA
+                                  : LIGHT_SPHERE;
                 record.first_triangle = lights.shape[i];
                 record.area = static_cast<float>(lights.area[i]);
                 compiled.shapes[lights.shape[i]].light =

@@ -255,9 +255,9 @@ TEST(Convergence, StopsCameraPathsAloneInTruncatedBdpt) {
     EXPECT_EQ(half(both, 1), half(free, 1)) << "all samples have light paths";
     // The passes are rendered separately, and the light pass in two ranges.
     RenderSettings settings = controlled({}, "truncated_bdpt");
-    settings.passes = "camera";
+    settings.only_pass = PassKind::camera;
     FilmState camera = render(settings, {{0, end}});
-    settings.passes = "light";
+    settings.only_pass = PassKind::light;
     FilmState light = render(settings, {{30, end}});
     EXPECT_FALSE(light.convergence);
     merge_film(light, render(settings, {{0, 30}}));

@@ -122,7 +122,7 @@ TEST(Megakernel, RefusesOtherAlgorithms) {
     for (const std::string &algorithm : algorithm_names()) {
         RenderSettings settings;
         settings.algorithm = &algorithm_named(algorithm);
-        settings.pipeline = "megakernel";
+        settings.pipeline = Pipeline::megakernel;
         if (algorithm == "path_tracing") {
             EXPECT_NO_THROW(require_consistent(settings));
         } else {

@@ -56,7 +56,7 @@ Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene
                          const RenderSettings &settings) {
     RenderSettings small = settings;
     small.seed = ~settings.seed;
-    small.passes = "all";
+    small.only_pass.reset();
     small.variance = small.strategies_apart = false;
     small.convergence_error = 0;
     const double pixels = static_cast<double>(settings.width) * settings.height;

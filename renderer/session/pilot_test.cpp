@@ -94,7 +94,7 @@ TEST(Pilot, NoLightPathsArePathTracing) {
         render_words(scene, settings_of(LIGHT_PATHS_LIKE_PIXELS, "path_tracing"));
     EXPECT_EQ(render_words(scene, settings_of(0)), expected);
     RenderSettings all = settings_of(0);
-    all.features = "all";
+    all.features = CompiledFeatures::all;
     EXPECT_EQ(render_words(scene, all), expected);
 }
 

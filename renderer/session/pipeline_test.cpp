@@ -116,13 +116,13 @@ TEST_P(Algorithms, GiveTheImageOfEverythingCompiledInWhereNothingScatters) {
     const Scene lamp = load_scene(RTRAYS_SCENES "/extreme/bright_lamp.json");
     RenderSettings settings = small();
     settings.algorithm = &algorithm_named(GetParam());
-    const auto render = [&](const char *features) {
+    const auto render = [&](CompiledFeatures features) {
         settings.features = features;
         RenderSession session(lamp, settings, device());
         session.render(0, 4);
         return develop_film(session.film());
     };
-    const Image image = render("scene"), other = render("all");
+    const Image image = render(CompiledFeatures::scene), other = render(CompiledFeatures::all);
     for (const char *channel : {"R", "G", "B", "variance.R"}) {
         EXPECT_EQ(image.channel(channel), other.channel(channel)) << channel;
     }
@@ -133,8 +133,8 @@ INSTANTIATE_TEST_SUITE_P(All, Algorithms, testing::ValuesIn(algorithm_names()),
 
 TEST(Pipeline, HierarchiesDifferInTiesAlone) {
     const std::vector<int64_t> words = render_words(small({}));
-    for (const NamedBvhMethod &method : bvh_methods) {
-        for (const NamedBvhLayout &layout : bvh_layouts) {
+    for (const Named<BvhMethod> &method : bvh_methods) {
+        for (const Named<BvhLayout> &layout : bvh_layouts) {
             const std::vector<int64_t> other =
                 render_words(small({std::string("device.bvh_builder=") + method.name,
                                     std::string("device.bvh_layout=") + layout.name}));
@@ -167,14 +167,14 @@ TEST(Pipeline, EverythingCompiledInChangesNoBit) {
 TEST(Pipeline, MergesPassesThatWereRenderedApart) {
     RenderSettings settings = small();
     settings.algorithm = &algorithms::truncated_bdpt;
-    const auto render = [&](const char *passes) {
-        settings.passes = passes;
+    const auto render = [&](std::optional<PassKind> pass) {
+        settings.only_pass = pass;
         RenderSession session(cornell_box(), settings, device());
         session.render(0, 4);
         return session.film();
     };
-    const FilmState whole = render("all"), camera = render("camera");
-    FilmState merged = render("light");
+    const FilmState whole = render({}), camera = render(PassKind::camera);
+    FilmState merged = render(PassKind::light);
     expect_input_error("films differ in passes", [&] {
         FilmState film = merged;
         merge_film(film, whole);
@@ -189,13 +189,13 @@ TEST(Pipeline, MergesPassesThatWereRenderedApart) {
                     image.channel("G")[i], 1e-6 * (1 + image.channel("G")[i]));
     }
     settings.algorithm = &algorithms::bdpt;
-    expect_input_error("share their light paths", [&] { render("light"); });
-    settings.passes = "all";
+    expect_input_error("share their light paths", [&] { render(PassKind::light); });
+    settings.only_pass.reset();
     settings.light_paths = 7;
-    expect_input_error("one light path per camera path", [&] { render("all"); });
+    expect_input_error("one light path per camera path", [&] { render({}); });
     settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
     settings.algorithm = &algorithms::light_tracing;
-    expect_input_error("light_tracing has no pass 'camera'", [&] { render("camera"); });
+    expect_input_error("light_tracing has no pass 'camera'", [&] { render(PassKind::camera); });
 }
 
 TEST(Pipeline, KeepsWhatARoundMaySplatWithinOneWordOfTheFilm) {
@@ -461,25 +461,6 @@ TEST(Features, LeaveOutCodeFieldsBuffersAndLaunchesThatTheSceneDoesNotNeed) {
     EXPECT_FALSE(contains(names(bare["passes"][0]["path_state"], "field"), "throughput"));
     EXPECT_EQ(bare["rays"]["shadow"], 0);
     EXPECT_EQ(bare["rays"]["nearest"], 32 * 32 * 4);
-}
-
-TEST(Settings, NameTheAlternatives) {
-    for (const auto &[assignment, fragment] :
-         {std::pair("integrator.strategies=both", "implicit, explicit, mis"),
-          std::pair("integrator.strategy=mis", "integrator.strategies"),
-          std::pair("integrator.max_depth=-1", "number"),
-          std::pair("integrator.max_depth=3x", "number"),
-          std::pair("integrator.beta=nan", "number"), std::pair("integrator.beta=0", "above 0"),
-          std::pair("integrator.beta", "NAME=VALUE")}) {
-        RenderSettings settings;
-        expect_input_error(fragment, [&, text = assignment] { apply_setting(settings, text); });
-    }
-    RenderSettings settings;
-    EXPECT_NO_THROW(require_consistent(settings));
-    settings.termination = "fixed";
-    expect_input_error("integrator.max_depth", [&] { require_consistent(settings); });
-    settings.termination = "sudden";
-    expect_input_error("roulette, fixed, adaptive", [&] { require_consistent(settings); });
 }
 
 }  // namespace

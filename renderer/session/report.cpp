@@ -22,7 +22,7 @@ nlohmann::json RenderSession::report() const {
           {"platform", s.device.info().platform_name}}},
         {"settings", image_settings(s.settings)},
         {"features", s.features.names()},
-        {"pipeline", s.settings.pipeline},
+        {"pipeline", name_in(pipelines, s.settings.pipeline)},
         {"stream",
          {{"group_size", s.layout.group_size},
           {"capacity", s.layout.capacity},

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Render settings: names, values, defaults, consistency, and conversion for the other modules.
+// Render settings: fields and defaults, text, consistency, and conversion for the other modules.
 #pragma once
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/bvh/bvh.h"
 #include "renderer/compile/compile_scene.h"
 #include "renderer/device/source.h"
 #include "renderer/integrators/algorithm.h"
+#include "renderer/session/setting_values.h"
 #include "renderer/shared/integrator_settings.h"
 
 namespace rtrays {
@@ -31,18 +34,15 @@ struct RenderSettings {
     uint32_t seed = 1;
     /// Whether the film stores second moments, for the layers variance.R, .G, .B.
     bool variance = true;
-    /// Passes of the algorithm that are rendered: all | camera | light.
-    std::string passes = "all";
+    /// The only pass that is rendered, if not all of them are.
+    std::optional<PassKind> only_pass;
     /// Whether the image has a layer per strategy, with its contribution; this excludes `variance`.
     bool strategies_apart = false;
 
     // integrator.*
-    /// Strategies of path_tracing: implicit | explicit | mis.
-    std::string strategies = "mis";
-    /// Random numbers: independent | sobol | regular.
-    std::string sampler = "independent";
-    /// Passes of bdpt and truncated_bdpt that add emitters seen directly: mis (both) | camera.
-    std::string seen_emitters = "mis";
+    PathStrategies strategies = PathStrategies::mis;
+    Sampler sampler = Sampler::independent;
+    SeenEmitters seen_emitters = SeenEmitters::mis;
     /// Light paths per sample of the image, or LIGHT_PATHS_LIKE_PIXELS or LIGHT_PATHS_AUTO.
     uint32_t light_paths = LIGHT_PATHS_LIKE_PIXELS;
     /// Vertices of each light path that bdpt stores. All strategies sample paths of at most one
@@ -50,18 +50,15 @@ struct RenderSettings {
     uint32_t bdpt_vertices = 8;
     /// Exponent of the power heuristic, above 0.
     float beta = 2.0f;
-    /// How paths end: roulette | fixed | adaptive.
-    std::string termination = "roulette";
+    Termination termination = Termination::roulette;
     /// Maximum number of scattering events, 0: no limit.
     uint32_t max_depth = 0;
     /// Largest continuation probability of Russian roulette, in (0, 1). The default is 1 - 2^-20.
     float max_continuation = 0x1.ffffep-1f;
     /// Throughput below which adaptive termination ends a path.
     float adaptive_threshold = 0.01f;
-    /// Selection of lights: uniform | power | mixed | independent.
-    std::string light_selection = "mixed";
-    /// Sampling of sphere lights: cone | area.
-    std::string sphere_sampling = "cone";
+    LightSelection light_selection = LightSelection::mixed;
+    SphereSampling sphere_sampling = SphereSampling::cone;
     /// Relative change of a pixel's mean below which the pixel stops (biased), 0: no pixel stops.
     float convergence_error = 0.0f;
     /// Samples between two convergence checks, even.
@@ -76,25 +73,17 @@ struct RenderSettings {
     uint32_t stream_capacity = 0;
     /// Queue entries per work-item, 0: the device's default.
     uint32_t stream_chunk = 0;
-    /// Layout of path states: auto | interleaved (all words of a path together) | arrays (an array
-    /// per word).
-    std::string path_layout = "auto";
-    /// Layout of the BVH: auto | bvh2 | bvh2_stackless | wide8.
-    std::string bvh_layout = "auto";
-    /// BVH builder: binned_sah | hploc.
-    std::string bvh_builder = "binned_sah";
-    /// Bins per axis of binned_sah: 4 | 8 | 16 | 32.
-    std::string bvh_bins = "16";
-    /// Axes that binned_sah bins: all | widest.
-    std::string bvh_axes = "all";
-    /// Update of the BVH when the scene has moved: rebuild | refit.
-    std::string bvh_update = "rebuild";
-    /// One kernel per stage, or one kernel for all of them: wavefront | megakernel.
-    std::string pipeline = "wavefront";
-    /// Ray counts in the document of `--stats`: in_all | by_depth.
-    std::string count_rays = "in_all";
-    /// Features that are compiled in: scene (those in use) | all.
-    std::string features = "scene";
+    /// Layout of path states; without a value, that of the device.
+    std::optional<PathLayout> path_layout;
+    /// Layout of the BVH; without a value, that of the device.
+    std::optional<BvhLayout> bvh_layout;
+    BvhMethod bvh_builder = BvhMethod::binned_sah;
+    uint32_t bvh_bins = 16;  ///< bins per axis of binned_sah (bvh_bins_choices)
+    uint32_t bvh_axes = 3;   ///< axes that binned_sah bins (bvh_axes_choices)
+    BvhUpdate bvh_update = BvhUpdate::rebuild;
+    Pipeline pipeline = Pipeline::wavefront;
+    RayCounts count_rays = RayCounts::in_all;
+    CompiledFeatures features = CompiledFeatures::scene;
 
     /// Replaced kernel sources, with which tests plant errors.
     SourceOverlays source_overlays;
@@ -104,7 +93,7 @@ struct RenderSettings {
 /// that lists the alternatives when name or value is unknown, malformed or out of range.
 void apply_setting(RenderSettings &settings, const std::string &assignment);
 
-/// Throws `Error` (bad usage) when settings contradict each other or a named value is unknown.
+/// Throws `Error` (bad usage) when settings contradict each other or do not suit the algorithm.
 void require_consistent(const RenderSettings &settings);
 
 /// Returns consistent settings with the choices filled in that an algorithm makes itself. They

@@ -35,11 +35,10 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
         layout.capacity = std::min(layout.capacity, FILM_ADDITIONS_BETWEEN_CARRIES / 2);
     }
     layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
-    layout.interleaved =
-        settings.path_layout == "auto" ? layout.interleaved : settings.path_layout == "interleaved";
-    for (const NamedBvhLayout &named : bvh_layouts) {
-        layout.bvh = settings.bvh_layout == named.name ? named.layout : layout.bvh;
+    if (settings.path_layout) {
+        layout.interleaved = *settings.path_layout == PathLayout::interleaved;
     }
+    layout.bvh = settings.bvh_layout.value_or(layout.bvh);
     if (layout.group_size > info.max_group_size) {
         throw input_error(fmt::format("device.group_size={}: '{}' allows at most {}",
                                       layout.group_size, info.name, info.max_group_size));
@@ -54,7 +53,7 @@ FeatureMask select_features(const CompiledScene &compiled, const RenderSettings 
             .with(Feature::variance, settings.variance)
             .with(Feature::convergence, has_convergence_control(settings))
             .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
-    if (settings.features == "scene") {
+    if (settings.features == CompiledFeatures::scene) {
         features = settings_features(settings) | compiled.features;
     }
     return features.with(Feature::int64_atomics, info.has_int64_atomics);
@@ -109,7 +108,7 @@ DeviceSceneSettings device_scene_settings(const RenderSettings &requested, const
     require_consistent(requested);
     const RenderSettings settings = with_fixed_choices(requested);
     DeviceSceneSettings scene = {compile_settings(settings), BvhBuildParameters::for_device(info),
-                                 settings.bvh_update == "refit"};
+                                 settings.bvh_update == BvhUpdate::refit};
     scene.bvh.layout = stream_layout(settings, info).bvh;
     choose_builder(settings, scene.bvh);
     return scene;
@@ -130,24 +129,25 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
         *settings.algorithm,
         {select_features(scene->compiled(), settings, device.info()), light_count,
          has_light_pass(settings), numbers.light_vertices, settings.strategies_apart});
-    if (settings.pipeline == "megakernel") {
+    if (settings.pipeline == Pipeline::megakernel) {
         all_passes = megakernel_passes(std::move(all_passes));
     }
-    if (settings.count_rays == "by_depth") {
+    if (settings.count_rays == RayCounts::by_depth) {
         all_passes = counting_passes(std::move(all_passes));
     }
     for (const Pass &pass : all_passes) {
-        if (settings.passes == "all" || settings.passes == to_string(pass.kind)) {
+        if (!settings.only_pass || *settings.only_pass == pass.kind) {
             passes.emplace_back(pass, device, layout, settings);
             features = features | pass.features;
             compile_seconds += passes.back().stages.build_seconds();
         }
     }
     if (passes.empty()) {
-        throw input_error(settings.passes == "all"
-                              ? fmt::format("{}: the scene has no light", settings.algorithm->name)
-                              : fmt::format("{} has no pass '{}' in this scene",
-                                            settings.algorithm->name, settings.passes));
+        throw input_error(
+            settings.only_pass
+                ? fmt::format("{} has no pass '{}' in this scene", settings.algorithm->name,
+                              to_string(*settings.only_pass))
+                : fmt::format("{}: the scene has no light", settings.algorithm->name));
     }
     set_config();
     scene->require(graph, features);
@@ -219,7 +219,7 @@ void RenderSession::State::allocate_film() {
     for (CompiledPass &pass : passes) {
         pass.film =
             Buffer<int64_t>(device, std::string("film.") + to_string(pass.kind), film_words());
-        if (settings.count_rays == "by_depth") {
+        if (settings.count_rays == RayCounts::by_depth) {
             pass.ray_counts = Buffer<int64_t>(
                 device, std::string("ray_counts.") + to_string(pass.kind), RAY_KINDS * RAY_DEPTHS);
         }

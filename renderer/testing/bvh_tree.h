@@ -89,9 +89,9 @@ struct TreeKind {
 
 inline std::vector<TreeKind> all_tree_kinds() {
     std::vector<TreeKind> kinds;
-    for (const NamedBvhMethod &method : bvh_methods) {
-        for (const NamedBvhLayout &layout : bvh_layouts) {
-            kinds.emplace_back(layout.layout, method.method);
+    for (const Named<BvhMethod> &method : bvh_methods) {
+        for (const Named<BvhLayout> &layout : bvh_layouts) {
+            kinds.emplace_back(layout.value, method.value);
         }
     }
     return kinds;

@@ -96,7 +96,7 @@ inline std::shared_ptr<const TextureImage> small_sky() {
 /// Compiles the scene. Its sky is a dome or a rotated environment.
 inline CompiledScene compile_light_scene(LightArrays::Kind infinite = LightArrays::Kind::dome,
                                          LightSelection selection = LightSelection::mixed,
-                                         bool spheres_by_area = false) {
+                                         SphereSampling sphere_sampling = SphereSampling::cone) {
     const Scene scene = parse_scene_json(light_scene_text(), "light_scene", "light_scene");
     SceneArrays arrays = scene.arrays();
     if (infinite == LightArrays::Kind::environment) {
@@ -108,7 +108,7 @@ inline CompiledScene compile_light_scene(LightArrays::Kind infinite = LightArray
     }
     CompileSettings settings;
     settings.light_selection = selection;
-    settings.spheres_by_area = spheres_by_area;
+    settings.sphere_sampling = sphere_sampling;
     return compile_arrays(
         arrays, compile_camera(arrays.cameras, 0, scene.film_width(), scene.film_height()),
         settings);

@@ -80,7 +80,8 @@ void require_increasing(const std::vector<uint64_t> &spp, const std::string &loc
 }
 
 std::string CurveDescription::id() const {
-    std::string id = std::string(settings.algorithm->name) + "." + settings.strategies;
+    std::string id = fmt::format("{}.{}", settings.algorithm->name,
+                                 name_in(path_strategies, settings.strategies));
     const std::string root = "integrator.";
     for (const std::string &setting : changed_settings(settings)) {
         if (setting.rfind(root + "strategies", 0) != 0) {

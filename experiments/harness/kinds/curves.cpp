@@ -83,7 +83,8 @@ Json run_throughput(const CurvesDescription &experiment, const Scene &scene, Dev
     reference_settings.width = experiment.width;
     reference_settings.height = experiment.height;
     reference_settings.camera = static_cast<size_t>(scene.active_camera());
-    reference_settings.strategies = strategies_from_name(settings.strategies);
+    reference_settings.strategies =
+        strategies_from_name(name_in(path_strategies, settings.strategies));
     reference_settings.max_depth = settings.max_depth;
     ReferenceRenderer reference(scene.arrays(), reference_settings);
 
@@ -135,7 +136,7 @@ Json run_curve(const CurvesDescription &experiment, const CurveDescription &desc
     curve["id"] = description.id();
     curve["scene"] = task.scenes.scene().name();
     curve["algorithm"] = description.settings.algorithm->name;
-    curve["strategies"] = description.settings.strategies;
+    curve["strategies"] = name_in(path_strategies, description.settings.strategies);
     curve["settings"] = image_settings(task.settings);
     // Batches are tested even if the image has variance layers. With few samples a pixel's variance
     // misses the rarest paths, and a normal test would be too certain.
@@ -216,7 +217,7 @@ class Curves : public Experiment {
         Progress progress(description_.name, total, "spp", bench.quiet);
         progress.update(0);
         SharedScenes scenes(scene_, bench.device);
-        const LadderTask task{scenes,      {},
+        const LadderTask task{scenes,      RenderSettings(),
                               {},          0,
                               {},          reference_.reference.image,
                               bench.parts, [&](uint64_t spp) { progress.update(done += spp); }};

@@ -194,7 +194,7 @@ std::vector<Image> render(const Scene &scene, const Description &description,
     settings.algorithm = &algorithm_named(algorithm);
     settings.width = settings.height = description.size;
     settings.seed = seed;
-    settings.features = description.features;
+    apply_setting(settings, "device.features=" + description.features);
     RenderSession session(scene, settings, device);
     return render_batches(session, seed, description.spp, batches);
 }

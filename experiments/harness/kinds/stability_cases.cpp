@@ -169,7 +169,7 @@ StabilityCase read_case(const DescriptionFile &file, const Json &json,
             parse_render_settings({{"algorithm", algorithm}, {"settings", all}});
         settings.width = settings.height = setting("size");
         settings.variance = false;
-        settings.features = profile.at("features");
+        apply_setting(settings, "device.features=" + profile.at("features").get<std::string>());
         // The stream is no larger than a batch: empty queue entries cost time in every round. The
         // image does not depend on the capacity.
         const double paths =

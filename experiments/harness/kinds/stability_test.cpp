@@ -120,7 +120,7 @@ TEST(StabilityCases, AreReadWithTheirSweepsAndFormulas) {
     const StabilitySuite stiff = load("stiffness", "quick");
     EXPECT_TRUE(stiff.survey);
     EXPECT_EQ(stiff.cases.front().runs.front().name, "path_tracing implicit");
-    EXPECT_EQ(stiff.cases.front().runs.front().settings.strategies, "implicit");
+    EXPECT_EQ(stiff.cases.front().runs.front().settings.strategies, PathStrategies::implicit_only);
     for (const char *profile : {"ci", "full"}) {
         for (const StabilityCase &tested : load("stability", profile).cases) {
             EXPECT_NO_THROW(tested.scene.load()) << tested.name;

@@ -92,12 +92,12 @@ std::vector<HierarchyVariant> hierarchy_variants(const DeviceInfo &device) {
         variants.push_back(
             {fmt::format("{} {}", to_string(method), to_string(layout)), parameters});
     };
-    for (const NamedBvhLayout &named : bvh_layouts) {
-        add(usual.method, named.layout);
+    for (const Named<BvhLayout> &named : bvh_layouts) {
+        add(usual.method, named.value);
     }
-    for (const NamedBvhMethod &named : bvh_methods) {
-        if (named.method != usual.method) {
-            add(named.method, usual.layout);
+    for (const Named<BvhMethod> &named : bvh_methods) {
+        if (named.value != usual.method) {
+            add(named.value, usual.layout);
         }
     }
     return variants;

@@ -148,9 +148,11 @@ TEST(Emission, LeavesDiscsUniformlyByAreaAndByTheCosine) {
 }
 
 TEST(Emission, LeavesSpheresUniformlyByAreaAndByTheCosine) {
-    for (const bool by_area : {false, true}) {  // independent of the sampling from a point
+    // The emission is independent of the sampling from a point.
+    for (const SphereSampling sampling : {SphereSampling::cone, SphereSampling::area}) {
+        const bool by_area = sampling == SphereSampling::area;
         const CompiledScene scene =
-            compile_light_scene(LightArrays::Kind::dome, LightSelection::mixed, by_area);
+            compile_light_scene(LightArrays::Kind::dome, LightSelection::mixed, sampling);
         const uint32_t light = light_of(scene, by_area ? LIGHT_SPHERE_BY_AREA : LIGHT_SPHERE);
         const ShapeRecord &shape = scene.shapes[scene.lights[light].first_triangle];
         Cells cells(8 * 8);

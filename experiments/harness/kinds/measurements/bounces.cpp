@@ -26,15 +26,17 @@ namespace fs = std::filesystem;
 /// Numbers of scattering events for 1, 4 and 8 bounces. The first hit counts as an event.
 constexpr uint32_t depths[] = {2, 5, 9};
 
-constexpr const char *ours = "wavefront", *megakernel = "megakernel", *embree = "Embree reference";
+constexpr const char *ours = name_in(pipelines, Pipeline::wavefront),
+                     *megakernel = name_in(pipelines, Pipeline::megakernel),
+                     *embree = "Embree reference";
 
-RenderSettings settings_for(const MeasurementSettings &measurement, const std::string &pipeline) {
+RenderSettings settings_for(const MeasurementSettings &measurement, Pipeline pipeline) {
     RenderSettings settings;
     settings.width = measurement.width;
     settings.height = measurement.height;
     settings.variance = false;
-    settings.strategies = "explicit";
-    settings.termination = "fixed";
+    settings.strategies = PathStrategies::explicit_only;
+    settings.termination = Termination::fixed;
     settings.max_depth = depths[0];
     settings.pipeline = pipeline;
     return settings;
@@ -148,29 +150,29 @@ class Bounces {
                 {"contestants", contestants}};
     }
 
-    struct Pipeline {
-        const char *name;
+    struct Timed {
+        Pipeline pipeline;
         std::unique_ptr<RenderSession> session{};
     };
 
     /// Creates the sessions in the given order. The session created first is up to 7 % slower
     /// because of the memory it gets, so each half of the turns uses another order. The first frame
     /// touches all memory and is not timed.
-    void make_sessions(const std::array<Pipeline *, 2> &order) {
-        for (Pipeline *pipeline : order) {
-            pipeline->session.reset();
+    void make_sessions(const std::array<Timed *, 2> &order) {
+        for (Timed *timed : order) {
+            timed->session.reset();
         }
-        for (Pipeline *pipeline : order) {
-            pipeline->session = std::make_unique<RenderSession>(
-                timed_.scene, settings_for(settings_, pipeline->name), *device_);
-            pipeline->session->render(0, settings_.spp);
+        for (Timed *timed : order) {
+            timed->session = std::make_unique<RenderSession>(
+                timed_.scene, settings_for(settings_, timed->pipeline), *device_);
+            timed->session->render(0, settings_.spp);
         }
     }
 
-    void add(Contest &contest, const std::string &contestant, Pipeline &pipeline, uint32_t depth) {
-        contest.add(contestant, [this, &pipeline, depth] {
-            pipeline.session->restart(1, depth);
-            return time_of([&] { pipeline.session->render(0, settings_.spp); });
+    void add(Contest &contest, const std::string &contestant, Timed &timed, uint32_t depth) {
+        contest.add(contestant, [this, &timed, depth] {
+            timed.session->restart(1, depth);
+            return time_of([&] { timed.session->render(0, settings_.spp); });
         });
     }
 
@@ -178,7 +180,7 @@ class Bounces {
     MeasurementSettings settings_;
     DeviceContext *device_;
     TimedScene timed_;
-    Pipeline wavefront_{ours}, megakernel_{megakernel};
+    Timed wavefront_{Pipeline::wavefront}, megakernel_{Pipeline::megakernel};
     std::vector<std::unique_ptr<Peer>> peers_;
     Json absent_peers_ = Json::array();
 };

@@ -22,8 +22,8 @@ RenderSettings settings_for(const MeasurementSettings &measurement) {
 }
 
 RenderSettings explicit_paths(RenderSettings settings) {
-    settings.strategies = "explicit";
-    settings.termination = "fixed";
+    settings.strategies = PathStrategies::explicit_only;
+    settings.termination = Termination::fixed;
     settings.max_depth = 1;
     return settings;
 }

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Conversion of settings for the scene compiler, the BVH builder and the stages.
+#include "renderer/bvh/builder.h"
+#include "renderer/session/settings.h"
+
+namespace rtrays {
+
+bool has_light_pass(const RenderSettings &settings) {
+    return settings.algorithm->traces_light_paths() && settings.light_paths != 0;
+}
+
+bool has_convergence_control(const RenderSettings &settings) {
+    return settings.convergence_error > 0;
+}
+
+uint32_t light_paths_per_sample(const RenderSettings &settings) {
+    return settings.light_paths != LIGHT_PATHS_LIKE_PIXELS
+               ? settings.light_paths
+               : static_cast<uint32_t>(settings.width) * static_cast<uint32_t>(settings.height);
+}
+
+IntegratorSettings integrator_settings(const RenderSettings &settings) {
+    IntegratorSettings numbers{};
+    numbers.seed = settings.seed;
+    const FeatureMask features = settings_features(settings);
+    for (const auto &[feature, bit] :
+         {std::pair(Feature::implicit_light, STRATEGY_IMPLICIT),
+          std::pair(Feature::explicit_light, STRATEGY_EXPLICIT),
+          std::pair(Feature::light_strategy, STRATEGY_LIGHT),
+          std::pair(Feature::light_emitters, STRATEGY_LIGHT_EMITTERS)}) {
+        numbers.strategies |= features.has(feature) ? bit : 0u;
+    }
+    numbers.sampler = static_cast<uint32_t>(settings.sampler);
+    numbers.light_paths = light_paths_per_sample(settings);
+    numbers.light_vertices = settings.bdpt_vertices;
+    numbers.termination = static_cast<uint32_t>(settings.termination);
+    numbers.max_depth = settings.max_depth == 0 ? UNLIMITED_DEPTH : settings.max_depth;
+    numbers.beta = settings.beta;
+    numbers.max_continuation = settings.max_continuation;
+    numbers.adaptive_threshold = settings.adaptive_threshold;
+    return numbers;
+}
+
+CompileSettings compile_settings(const RenderSettings &settings) {
+    return {settings.light_selection, settings.sphere_sampling,
+            settings.features == CompiledFeatures::all, !settings.algorithm->is_random};
+}
+
+void choose_builder(const RenderSettings &settings, BvhBuildParameters &parameters) {
+    parameters.method = settings.bvh_builder;
+    parameters.bins = settings.bvh_bins;
+    parameters.axes = settings.bvh_axes;
+}
+
+FeatureMask settings_features(const RenderSettings &settings) {
+    const Algorithm &algorithm = *settings.algorithm;
+    const bool both_ways = algorithm.traces_camera_paths && has_light_pass(settings);
+    return algorithm.features
+        .with(Feature::implicit_light,
+              algorithm.traces_camera_paths && settings.strategies != PathStrategies::explicit_only)
+        .with(Feature::explicit_light,
+              algorithm.traces_camera_paths && settings.strategies != PathStrategies::implicit_only)
+        .with(Feature::light_strategy, both_ways)
+        .with(Feature::light_emitters, both_ways && settings.seen_emitters == SeenEmitters::mis)
+        .with(Feature::roulette, settings.termination == Termination::roulette)
+        .with(Feature::adaptive, settings.termination == Termination::adaptive)
+        .with(Feature::sobol, settings.sampler != Sampler::independent)
+        .with(Feature::depth_limit, settings.max_depth != 0)
+        .with(Feature::convergence, has_convergence_control(settings))
+        .with(Feature::variance, settings.variance);
+}
+
+}  // namespace rtrays
