@@ -127,9 +127,11 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
         CameraRecord camera = scene.camera;
         camera.aperture_radius = 0.1f;
         camera.focus_distance = 5.0f;
-        const SceneBuffers buffers(device, scene, FeatureMask::all());
+        SceneBuffers buffers;
+        buffers.require(device, scene, FeatureMask::all());
         const Buffer<float> samples(device, "samples", count * word_count);
-        std::vector<KernelArgument> arguments = buffers.arguments(Bvh()).at(StageInput::shading);
+        std::vector<KernelArgument> arguments =
+            buffers.arguments(scene, Bvh(), FeatureMask::all()).at(StageInput::shading);
         arguments.insert(arguments.end(), {camera, samples, count});
         kernel.bind(arguments);
         kernel.enqueue(count);
