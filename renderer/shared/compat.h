@@ -27,6 +27,11 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
+// Features are constants, so that `FEATURE_a && (!FEATURE_b || x)` may be constant too.
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wconstant-logical-operand"
+#endif
+
 #define DEVICE static inline
 #define GLOBAL __global
 #define PRIVATE __private
