@@ -141,13 +141,16 @@ FeatureMask FeatureMask::closed() const {
 
 namespace {
 
+/// Words of the types of fields.
+constexpr uint32_t words_of_uint = 1, words_of_float = 1, words_of_float3 = 3;
+
 /// Fields of a record (shared/path_state.h, shared/light_vertex.h, shared/branch.h), in the order
 /// of their declaration.
 class FieldList {
   public:
-    void add(bool present, const std::string &type, const char *name) {
+    void add(bool present, uint32_t words, const char *name) {
         if (present) {
-            fields.push_back({name, type == "float3" ? 3u : 1u});
+            fields.push_back({name, words});
         }
     }
 
@@ -166,7 +169,7 @@ class FieldList {
 
 #define FEATURE_VARIABLE(name, text) \
     [[maybe_unused]] const bool FEATURE_##name = mask.has(Feature::name);
-#define ROW(feature, type, name) list.add(feature, #type, #name);
+#define ROW(feature, type, name) list.add(feature, words_of_##type, #name);
 
 std::vector<PathStateField> path_state_fields(FeatureMask mask) {
     RTRAYS_FEATURES(FEATURE_VARIABLE)

@@ -42,6 +42,93 @@ double sum_value(const int64_t *words, size_t stride, int lowest, int step) {
     return value;
 }
 
+/// Means of one channel over the samples of each pixel, and the variances of these means.
+struct Means {
+    explicit Means(size_t pixels) : mean(pixels), variance(pixels) {}
+
+    void add(const Means &other) {
+        for (size_t pixel = 0; pixel < mean.size(); ++pixel) {
+            mean[pixel] += other.mean[pixel];
+            variance[pixel] += other.variance[pixel];
+        }
+    }
+
+    std::vector<double> mean, variance;
+};
+
+/// Returns the means of one channel of a pass. The variances are 0 if the film has no squares.
+Means pass_means(const FilmState &film, size_t pass, size_t channel) {
+    // A sample of a camera pass is one path per pixel. A sample of a light pass is the sum over
+    // `light_paths` paths.
+    const bool splats = film.passes[pass] == PassKind::light;
+    const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
+    const bool stops = !splats && film.convergence;
+    const size_t sums = FILM_PIXEL_SUMS(film.variance);
+    const int64_t *const first = film.words.data() + pass * word_count(film) + channel;
+    Means means(word_count(film) / pixel_words(film));
+    for (size_t pixel = 0; pixel < means.mean.size(); ++pixel) {
+        const int64_t *words = first + pixel * pixel_words(film);
+        const auto n = static_cast<double>(
+            stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
+        const double own = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
+        means.mean[pixel] = own;
+        if (film.variance && n * paths > 1) {
+            // Each square is rounded by up to 2^-21. If all samples are equal, the difference may
+            // fall below zero by that fraction of the mean's square, and 0 is the nearest variance.
+            const double square =
+                sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST, FILM_SQUARE_STEP) / n;
+            means.variance[pixel] = std::max(square - own * own / paths, 0.0) / (n - 1.0 / paths);
+        }
+    }
+    return means;
+}
+
+void copy_to_floats(const std::vector<double> &values, std::vector<float> &floats) {
+    std::transform(values.begin(), values.end(), floats.begin(),
+                   [](double value) { return static_cast<float>(value); });
+}
+
+/// Returns a film with the fields of a file's header, and words of 0. `fail` makes an error of that
+/// file.
+template <typename Fail>
+FilmState film_of_header(const Json &header, const Fail &fail) {
+    if (header.at("version").get<int>() != state_version) {
+        throw fail("film state of another version of the program; render it again");
+    }
+    FilmState film;
+    film.width = header.at("width");
+    film.height = header.at("height");
+    film.variance = header.at("variance");
+    film.seed = header.at("seed");
+    film.config = header.at("config");
+    film.device_seconds = header.at("device_seconds");
+    film.wall_seconds = header.at("wall_seconds");
+    film.passes.clear();
+    for (const Json &name : header.at("passes")) {
+        const std::optional<PassKind> pass = find_named(pass_kinds, name.get<std::string>());
+        if (!pass) {
+            throw fail("film state with an unknown pass; render it again");
+        }
+        film.passes.push_back(*pass);
+    }
+    film.light_paths = header.at("light_paths");
+    film.non_finite = header.at("non_finite");
+    film.out_of_range = header.at("out_of_range");
+    for (const Json &range : header.at("ranges")) {
+        film.add_range({range.at(0), range.at(1)});
+    }
+    film.words.resize(film.passes.size() * word_count(film));
+    if (header.contains("convergence")) {
+        const Json &rule = header.at("convergence");
+        const size_t pixels = word_count(film) / pixel_words(film);
+        film.convergence =
+            ConvergenceState{{rule.at("error"), rule.at("interval"), rule.at("start")},
+                             std::vector<uint64_t>(pixels),
+                             std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
+    }
+    return film;
+}
+
 }  // namespace
 
 uint64_t FilmState::samples() const {
@@ -109,43 +196,18 @@ Image develop_film(const FilmState &film) {
     if (film.samples() == 0) {
         return image;
     }
-    const size_t sums = FILM_PIXEL_SUMS(film.variance);
     for (size_t c = 0; c < FILM_CHANNELS; ++c) {
-        std::vector<double> mean(image.pixel_count()), mean_variance(image.pixel_count());
+        Means all(image.pixel_count());
         for (size_t pass = 0; pass < film.passes.size(); ++pass) {
-            // A sample of a camera pass is one path per pixel. A sample of a light pass is the sum
-            // over `light_paths` paths.
-            const bool splats = film.passes[pass] == PassKind::light;
-            const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
-            const bool stops = !splats && film.convergence;
-            const int64_t *const first = film.words.data() + pass * word_count(film) + c;
-            std::vector<float> *const layer =
-                layers ? &image.channel(rgb_names(to_string(film.passes[pass]))[c]) : nullptr;
-            for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
-                const int64_t *words = first + pixel * pixel_words(film);
-                const auto n = static_cast<double>(
-                    stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
-                const double own = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
-                mean[pixel] += own;
-                if (layer != nullptr) {
-                    (*layer)[pixel] = static_cast<float>(own);
-                }
-                if (film.variance && n * paths > 1) {
-                    // Each square is rounded by up to 2^-21. If all samples are equal, the
-                    // difference may fall below zero by that fraction of the mean's square, and 0
-                    // is the nearest variance.
-                    const double square = sum_value(words + FILM_CHANNELS, sums, FILM_SQUARE_LOWEST,
-                                                    FILM_SQUARE_STEP) /
-                                          n;
-                    mean_variance[pixel] +=
-                        std::max(square - own * own / paths, 0.0) / (n - 1.0 / paths);
-                }
+            const Means own = pass_means(film, pass, c);
+            all.add(own);
+            if (layers) {
+                copy_to_floats(own.mean, image.channel(rgb_names(to_string(film.passes[pass]))[c]));
             }
         }
-        std::copy(mean.begin(), mean.end(), image.channel(colour[c]).begin());
+        copy_to_floats(all.mean, image.channel(colour[c]));
         if (film.variance) {
-            std::copy(mean_variance.begin(), mean_variance.end(),
-                      image.channel(variance[c]).begin());
+            copy_to_floats(all.variance, image.channel(variance[c]));
         }
     }
     return image;
@@ -257,40 +319,7 @@ FilmState load_film(const std::filesystem::path &path) {
     const size_t header_end = content.find('\n', header_begin);
     const Json header =
         parse_json(content.substr(header_begin, header_end - header_begin), path.string());
-    if (header.at("version").get<int>() != state_version) {
-        throw fail("film state of another version of the program; render it again");
-    }
-    FilmState film;
-    film.width = header.at("width");
-    film.height = header.at("height");
-    film.variance = header.at("variance");
-    film.seed = header.at("seed");
-    film.config = header.at("config");
-    film.device_seconds = header.at("device_seconds");
-    film.wall_seconds = header.at("wall_seconds");
-    film.passes.clear();
-    for (const Json &name : header.at("passes")) {
-        const std::optional<PassKind> pass = find_named(pass_kinds, name.get<std::string>());
-        if (!pass) {
-            throw fail("film state with an unknown pass; render it again");
-        }
-        film.passes.push_back(*pass);
-    }
-    film.light_paths = header.at("light_paths");
-    film.non_finite = header.at("non_finite");
-    film.out_of_range = header.at("out_of_range");
-    for (const Json &range : header.at("ranges")) {
-        film.add_range({range.at(0), range.at(1)});
-    }
-    film.words.resize(film.passes.size() * word_count(film));
-    if (header.contains("convergence")) {
-        const Json &rule = header.at("convergence");
-        const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
-        film.convergence =
-            ConvergenceState{{rule.at("error"), rule.at("interval"), rule.at("start")},
-                             std::vector<uint64_t>(pixels),
-                             std::vector<int64_t>(pixels * HALF_FILM_PIXEL_WORDS)};
-    }
+    FilmState film = film_of_header(header, fail);
     size_t at = header_end + 1;
     const auto take = [&](auto &values) {
         const size_t bytes = values.size() * sizeof values[0];

@@ -119,11 +119,11 @@ TEST(Megakernel, HasOneStageAndNoStreams) {
 }
 
 TEST(Megakernel, RefusesOtherAlgorithms) {
-    for (const std::string &algorithm : algorithm_names()) {
+    for (const Algorithm *algorithm : all_algorithms()) {
         RenderSettings settings;
-        settings.algorithm = &algorithm_named(algorithm);
+        settings.algorithm = algorithm;
         settings.pipeline = Pipeline::megakernel;
-        if (algorithm == "path_tracing") {
+        if (algorithm == &algorithms::path_tracing) {
             EXPECT_NO_THROW(require_consistent(settings));
         } else {
             expect_input_error("needs device.pipeline=wavefront",

@@ -8,18 +8,145 @@
 
 namespace rtrays {
 
+namespace {
+
+using Json = nlohmann::json;
+
+Json device_report(const DeviceInfo &info) {
+    return {{"name", info.name}, {"driver", info.driver}, {"platform", info.platform_name}};
+}
+
+Json pilot_report(const Pilot &pilot) {
+    Json report = {{"light_paths", pilot.light_paths}, {"seconds", pilot.seconds}};
+    for (const PilotTrial &trial : pilot.trials) {
+        report["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
+                                    {"variance", trial.variance},
+                                    {"rays_per_pixel", trial.rays}});
+    }
+    return report;
+}
+
+/// Adds an entry for each program of a pass to "programs".
+void add_programs(Json &report, PassKind pass, const std::map<std::string, Program> &programs) {
+    for (const auto &[file, program] : programs) {
+        Json entry = {{"pass", to_string(pass)},
+                      {"file", file},
+                      {"seconds", program.build_seconds()},
+                      {"from_cache", program.from_cache()}};
+        if (program.binary_bytes() > 0) {
+            entry["binary_bytes"] = program.binary_bytes();
+        }
+        report["programs"].push_back(entry);
+    }
+}
+
+/// Adds an entry for each stage of a profile to "stages".
+void add_stages(Json &report, const std::map<std::string, Profiler::Stage> &profile,
+                const char *pass = nullptr) {
+    for (const auto &[name, stage] : profile) {
+        Json entry = {{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}};
+        if (pass != nullptr) {
+            entry["pass"] = pass;
+        }
+        report["stages"].push_back(entry);
+    }
+}
+
+constexpr auto word_bytes = static_cast<uint32_t>(sizeof(uint32_t));
+
+/// Returns the bytes of a path's state and of its entries in queues.
+uint32_t bytes_per_path(const CompiledPass &pass) {
+    return (pass.streams ? STREAM_QUEUES * word_bytes : 0) +
+           path_state_words(pass.features) * word_bytes;
+}
+
+Json pass_report(const CompiledPass &pass, uint64_t paths_per_sample) {
+    Json fields;
+    for (const PathStateField &field : path_state_fields(pass.features)) {
+        fields.push_back({{"field", field.name}, {"bytes", field.words * word_bytes}});
+    }
+    Json report = {{"name", to_string(pass.kind)},
+                   {"features", pass.features.names()},
+                   {"paths_per_sample", paths_per_sample},
+                   {"path_state", fields},
+                   {"bytes_per_path", bytes_per_path(pass)}};
+    if (pass.ray_counts.size() > 0) {
+        report["rays_by_depth"] = {{"nearest", pass.rays_by_depth(RAY_NEAREST)},
+                                   {"shadow", pass.rays_by_depth(RAY_SHADOW)}};
+    }
+    return report;
+}
+
+Json bvh_report(const DeviceScene &scene, BvhLayout layout) {
+    const BvhReport &bvh = scene.bvh().report();
+    Json report = {{"layout", to_string(layout)},
+                   {"builder", to_string(bvh.method)},
+                   {"refitted", scene.is_refitted()},
+                   {"nodes", bvh.nodes},
+                   {"leaves", bvh.leaves},
+                   {"depth", bvh.depth},
+                   {"sah_cost", bvh.sah_cost},
+                   {"wide_nodes", bvh.wide_nodes},
+                   {"wide_leaves", bvh.wide_leaves},
+                   {"rejected", bvh.rejected()},
+                   {"bytes", bvh.bytes},
+                   {"bytes_peak", bvh.bytes_peak}};
+    add_stages(report, scene.bvh_stages());
+    return report;
+}
+
+}  // namespace
+
+void RenderSession::State::report_passes(Json &report) const {
+    uint32_t largest_path = 0;
+    for (const CompiledPass &pass : passes) {
+        add_programs(report, pass.kind, pass.stages.programs());
+        if (pass.features.has(Feature::convergence)) {
+            add_programs(report, pass.kind, convergence->programs());
+        }
+        add_stages(report, pass.profile, to_string(pass.kind));
+        report["passes"].push_back(pass_report(pass, paths_per_sample(pass)));
+        largest_path = std::max(largest_path, bytes_per_path(pass));
+    }
+    // Passes reuse the memory of path states, so that only the largest counts. Light vertices are
+    // kept from one pass to the next.
+    const uint32_t vertex_bytes = vertex_words_per_path() * word_bytes;
+    const uint32_t branch_bytes = branch_words_per_path() * word_bytes;
+    report["light_vertex_bytes_per_path"] = vertex_bytes;
+    report["branch_bytes_per_path"] = branch_bytes;
+    report["bytes_per_path"] = largest_path + vertex_bytes + branch_bytes;
+}
+
+void RenderSession::State::report_buffers(Json &report) const {
+    const auto add = [&](const auto &buffer) {
+        if (buffer.size() > 0) {
+            report["buffers"].push_back({{"name", buffer.name()}, {"bytes", buffer.bytes()}});
+        }
+    };
+    scene->visit_buffers(add);
+    add(path_words);
+    add(vertex_words);
+    add(branch_vertices);
+    add(queues);
+    add(counters);
+    for (const CompiledPass &pass : passes) {
+        add(pass.film);
+        add(pass.ray_counts);
+    }
+    if (convergence != nullptr) {
+        convergence->visit_buffers(add);
+    }
+}
+
 nlohmann::json RenderSession::report() const {
     const State &s = *state_;
     const RenderStats numbers = stats();
     const StreamCounters counters = s.counters.read().front();
-    nlohmann::json report = {
+    Json report = {
         {"schema_version", 1},
         {"commit", commit()},
         {"dirty", built_from_changed_sources()},
-        {"device",
-         {{"name", s.device.info().name},
-          {"driver", s.device.info().driver},
-          {"platform", s.device.info().platform_name}}},
+        {"device", device_report(s.device.info())},
         {"settings", image_settings(s.settings)},
         {"features", s.features.names()},
         {"pipeline", name_in(pipelines, s.settings.pipeline)},
@@ -41,100 +168,14 @@ nlohmann::json RenderSession::report() const {
         {"samples", numbers.samples},
         {"rays", {{"nearest", counters.nearest_rays}, {"shadow", counters.shadow_rays}}},
         {"rounds", counters.iterations},
+        {"bvh", bvh_report(*s.scene, s.layout.bvh)},
     };
-    for (const PilotTrial &trial : s.pilot.trials) {
-        report["pilot"]["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
-                                             {"variance", trial.variance},
-                                             {"rays_per_pixel", trial.rays}});
-    }
     if (!s.pilot.trials.empty()) {
-        report["pilot"].update(
-            {{"light_paths", s.pilot.light_paths}, {"seconds", s.pilot.seconds}});
+        report["pilot"] = pilot_report(s.pilot);
     }
-    uint32_t largest_path = 0;
-    for (const CompiledPass &pass : s.passes) {
-        const auto add_programs = [&](const std::map<std::string, Program> &programs) {
-            for (const auto &[file, program] : programs) {
-                report["programs"].push_back({{"pass", to_string(pass.kind)},
-                                              {"file", file},
-                                              {"seconds", program.build_seconds()},
-                                              {"from_cache", program.from_cache()}});
-                if (program.binary_bytes() > 0) {
-                    report["programs"].back()["binary_bytes"] = program.binary_bytes();
-                }
-            }
-        };
-        add_programs(pass.stages.programs());
-        if (pass.features.has(Feature::convergence)) {
-            add_programs(s.convergence->programs());
-        }
-        for (const auto &[name, stage] : pass.profile) {
-            report["stages"].push_back({{"pass", to_string(pass.kind)},
-                                        {"name", name},
-                                        {"seconds", stage.seconds},
-                                        {"launches", stage.launches}});
-        }
-        uint32_t path_bytes = pass.streams ? STREAM_QUEUES * sizeof(uint32_t) : 0;
-        nlohmann::json fields;
-        for (const PathStateField &field : path_state_fields(pass.features)) {
-            fields.push_back({{"field", field.name}, {"bytes", field.words * sizeof(uint32_t)}});
-            path_bytes += field.words * static_cast<uint32_t>(sizeof(uint32_t));
-        }
-        report["passes"].push_back({{"name", to_string(pass.kind)},
-                                    {"features", pass.features.names()},
-                                    {"paths_per_sample", s.paths_per_sample(pass)},
-                                    {"path_state", fields},
-                                    {"bytes_per_path", path_bytes}});
-        if (pass.ray_counts.size() > 0) {
-            report["passes"].back()["rays_by_depth"] = {
-                {"nearest", pass.rays_by_depth(RAY_NEAREST)},
-                {"shadow", pass.rays_by_depth(RAY_SHADOW)}};
-        }
-        largest_path = std::max(largest_path, path_bytes);
-    }
-    // Passes reuse the memory of path states, so that only the largest counts. Light vertices are
-    // kept from one pass to the next.
-    const uint32_t vertex_bytes =
-        s.vertex_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
-    const uint32_t branch_bytes =
-        s.branch_words_per_path() * static_cast<uint32_t>(sizeof(uint32_t));
-    report["light_vertex_bytes_per_path"] = vertex_bytes;
-    report["branch_bytes_per_path"] = branch_bytes;
-    report["bytes_per_path"] = largest_path + vertex_bytes + branch_bytes;
-    for (const auto &[name, stage] : s.scene->bvh_stages()) {
-        report["bvh"]["stages"].push_back(
-            {{"name", name}, {"seconds", stage.seconds}, {"launches", stage.launches}});
-    }
-    const BvhReport &bvh = s.scene->bvh().report();
-    report["bvh"].update({{"layout", to_string(s.layout.bvh)},
-                          {"builder", to_string(bvh.method)},
-                          {"refitted", s.scene->is_refitted()},
-                          {"nodes", bvh.nodes},
-                          {"leaves", bvh.leaves},
-                          {"depth", bvh.depth},
-                          {"sah_cost", bvh.sah_cost},
-                          {"wide_nodes", bvh.wide_nodes},
-                          {"wide_leaves", bvh.wide_leaves},
-                          {"rejected", bvh.rejected()},
-                          {"bytes", bvh.bytes},
-                          {"bytes_peak", bvh.bytes_peak}});
-    const auto add_buffer = [&](const auto &buffer) {
-        if (buffer.size() > 0) {
-            report["buffers"].push_back({{"name", buffer.name()}, {"bytes", buffer.bytes()}});
-        }
-    };
-    s.scene->visit_buffers(add_buffer);
-    add_buffer(s.path_words);
-    add_buffer(s.vertex_words);
-    add_buffer(s.branch_vertices);
-    add_buffer(s.queues);
-    add_buffer(s.counters);
-    for (const CompiledPass &pass : s.passes) {
-        add_buffer(pass.film);
-        add_buffer(pass.ray_counts);
-    }
+    s.report_passes(report);
+    s.report_buffers(report);
     if (s.convergence != nullptr) {
-        s.convergence->visit_buffers(add_buffer);
         report["convergence"] = convergence_report(s.convergence->state(), s.ranges.samples());
     }
     return report;

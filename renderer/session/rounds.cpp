@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "renderer/base/error.h"
 #include "renderer/session/state.h"
@@ -40,6 +41,42 @@ void bind_index(CompiledPass &pass, const RoundStage &stage) {
         }
     }
 }
+
+/// Reads of the stream counters. The host waits for the read before the last one, so that the
+/// device stays busy.
+class CounterReads {
+  public:
+    CounterReads(DeviceContext &device, const Buffer<StreamCounters> &counters)
+        : device_(&device), counters_(&counters) {}
+
+    /// Enqueues a read and returns the result of the one before, if there was one. Throws `Error`
+    /// (run failed) if a stream has overflowed.
+    std::optional<StreamCounters> next() {
+        cl_event event = nullptr;
+        check_cl(clEnqueueReadBuffer(device_->queue(), counters_->get(), CL_FALSE, 0,
+                                     sizeof(StreamCounters), &seen_[now_], 0, nullptr, &event),
+                 "reading the stream counters");
+        read_[now_] = ClEvent(event);
+        check_cl(clFlush(device_->queue()), "submitting work to the device");
+        now_ = 1 - now_;
+        const cl_event wanted = read_[now_].get();
+        if (wanted == nullptr) {
+            return std::nullopt;
+        }
+        check_cl(clWaitForEvents(1, &wanted), "waiting for the device");
+        if (seen_[now_].overflow > 0) {
+            throw run_error(fmt::format("a stream overflowed {} times", seen_[now_].overflow));
+        }
+        return seen_[now_];
+    }
+
+  private:
+    DeviceContext *device_;
+    const Buffer<StreamCounters> *counters_;
+    std::array<StreamCounters, 2> seen_{};
+    std::array<ClEvent, 2> read_;
+    size_t now_ = 0;
+};
 
 }  // namespace
 
@@ -171,9 +208,7 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
     enqueue(pass, Stage::reset_streams);
     uint64_t in_flight = layout.capacity;
     int tail_rounds = 0;
-    // The host waits for the counters of the previous check, so that the device stays busy.
-    std::array<StreamCounters, 2> seen{};
-    std::array<ClEvent, 2> read;
+    CounterReads reads(device, counters);
     for (int check = 0;; ++check) {
         const bool few = in_flight <= TAIL_PATHS(layout.capacity);
         tail_rounds += few ? rounds_per_check : 0;
@@ -198,24 +233,8 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
         if (check % checks_per_profile == checks_per_profile - 1) {
             collect_profile(pass);
         }
-        const int now = check % 2;
-        cl_event event = nullptr;
-        check_cl(clEnqueueReadBuffer(device.queue(), counters.get(), CL_FALSE, 0,
-                                     sizeof(StreamCounters), &seen[now], 0, nullptr, &event),
-                 "reading the stream counters");
-        read[now] = ClEvent(event);
-        check_cl(clFlush(device.queue()), "submitting work to the device");
-        if (check > 0) {
-            const int before = 1 - now;
-            const cl_event wanted = read[before].get();
-            check_cl(clWaitForEvents(1, &wanted), "waiting for the device");
-            const StreamCounters &c = seen[before];
-            if (c.overflow > 0) {
-                throw run_error(fmt::format("a stream overflowed {} times", c.overflow));
-            }
-            if (c.next_work >= end) {
-                in_flight = c.active[c.parity];
-            }
+        if (const std::optional<StreamCounters> seen = reads.next()) {
+            in_flight = seen->next_work >= end ? seen->active[seen->parity] : in_flight;
             if (in_flight == 0) {
                 break;
             }

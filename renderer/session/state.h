@@ -220,6 +220,14 @@ struct RenderSession::State {
     /// Waits for the device and adds its profile to that of the pass.
     void collect_profile(CompiledPass &pass);
 
+    // report.cpp
+
+    /// Adds the programs, stages and memory of the passes to the document of `--stats`.
+    void report_passes(nlohmann::json &report) const;
+
+    /// Adds all buffers to the document.
+    void report_buffers(nlohmann::json &report) const;
+
     std::shared_ptr<DeviceScene> scene;
     uint64_t scene_version;  ///< version of the scene to which the stages are bound
     FeatureMask scene_features;
