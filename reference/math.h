@@ -6,12 +6,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "renderer/base/angles.h"
+
 namespace rtrays::reference {
 
 using Vec3 = Eigen::Vector3d;
 using Spectrum = Eigen::Array3d;  ///< linear Rec. 709, one value per channel
 
-constexpr double pi = 3.141592653589793238462643383279502884;
 constexpr double inv_pi = 1.0 / pi;
 
 inline double square(double x) {

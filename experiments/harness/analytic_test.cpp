@@ -9,6 +9,7 @@
 
 #include "experiments/harness/core/metrics.h"
 #include "reference/renderer.h"
+#include "renderer/base/angles.h"
 #include "renderer/device/context.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/session/render_session.h"
@@ -16,7 +17,6 @@
 namespace rtrays {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr uint64_t spp = 2048;
 
 /// Bound of a deviation in standard errors. Eleven scenes, two renderers and three channels make 66

@@ -5,13 +5,9 @@
 
 #include "renderer/compile/compile_scene.h"
 
+#include "renderer/base/angles.h"
+
 namespace rtrays {
-
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-}  // namespace
 
 double compile_environment(const TextureImage &image, CompiledScene &compiled) {
     const auto width = static_cast<size_t>(image.width);

@@ -8,14 +8,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 #include "renderer/compile/compile_scene.h"
 
 namespace rtrays {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double triangle_area(const MeshArrays &meshes, uint32_t triangle) {
     const Triangle &t = meshes.triangle[triangle];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/export/mitsuba_bsdf.h"
@@ -24,8 +25,6 @@ namespace {
 using namespace mitsuba;
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 class SceneWriter {
   public:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 
 namespace rtrays {
@@ -16,8 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::Matrix4d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
 
 struct Vertex {
     Vector3d position, normal;  ///< the normal can have any length

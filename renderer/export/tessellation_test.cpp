@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 
+#include "renderer/base/angles.h"
 #include "renderer/testing/errors.h"
 
 namespace rtrays {
@@ -20,7 +21,7 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 using Kind = ShapeArrays::Kind;
 
-constexpr double pi = 3.14159265358979323846, flare = 0.7;
+constexpr double flare = 0.7;
 constexpr TessellationGrid grids[] = {{256, 512}, {32, 64}};
 
 MeshArrays triangles_of(Kind kind, const TessellationGrid &grid = {},

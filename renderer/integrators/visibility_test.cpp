@@ -6,14 +6,13 @@
 #include <map>
 #include <string>
 
+#include "renderer/base/angles.h"
 #include "renderer/device/context.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/session/render_session.h"
 
 namespace rtrays {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Returns the mean of the green channel over the image, and its standard error from 32 batches.
 std::pair<double, double> mean_of(const std::string &scene, const Algorithm &algorithm,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/angles.h"
 #include "renderer/device/context.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
@@ -17,7 +18,6 @@
 namespace rtrays {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int size = 16;
 constexpr double fov = 60;  ///< field of view, degrees
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "renderer/base/angles.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/scene/cores/animated_transform.h"
@@ -17,8 +18,6 @@ namespace {
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-
-constexpr double pi = 3.14159265358979323846;
 
 TEST(Animation, KeyframesAreMetToTheBitAndHoldOutside) {
     const Matrix4d a = translation({0.1, 0.2, 0.3}) * rotation({1, 2, 3}, 0.7) * scaling({1, 2, 3});

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/image.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/testing/scene_builder.h"
@@ -19,8 +20,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Kind = BxdfComponent::Kind;
 using Fresnel = BxdfComponent::Fresnel;
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Returns a scene with a camera and the given nodes. Files are relative to the temporary folder of
 /// the tests.

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "renderer/base/angles.h"
 #include "renderer/bvh/bvh.h"
 #include "renderer/device/context.h"
 #include "renderer/device/source.h"
@@ -396,8 +397,7 @@ TEST(ClosedForm, IrradianceBelowASquareEmitter) {
     for (const auto &[channel, factor] :
          {std::pair("R", 0.8 * 1), std::pair("G", 0.5 * 2), std::pair("B", 0.2 * 4)}) {
         const Mean mean = mean_of(image, channel, 16, 17);
-        EXPECT_NEAR(mean.value, factor * irradiance / 3.14159265358979,
-                    bound * mean.standard_error);
+        EXPECT_NEAR(mean.value, factor * irradiance / pi, bound * mean.standard_error);
         EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * mean.value) << "statistical power";
     }
 }

@@ -9,9 +9,9 @@
 
 #include "renderer/kernels/bsdf/surface_frame.h"
 
-namespace rtrays {
+#include "renderer/base/angles.h"
 
-constexpr double pi = 3.14159265358979323846;
+namespace rtrays {
 
 /// A partition of the sphere of directions about a centre. Rings of the polar angle scale * tan(t)
 /// are divided by azimuth, so cells are narrow near the centre.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "renderer/base/angles.h"
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/sampling/random.h"
@@ -18,8 +19,6 @@ namespace rtrays {
 
 using test::to_double;
 using test::to_float3;
-
-constexpr double pi = 3.14159265358979323846;
 
 inline uint4 words(uint32_t i, uint32_t block) {
     return random_words(13, STREAM_CAMERA, i, 0, block);

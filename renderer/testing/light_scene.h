@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "renderer/base/angles.h"
 #include "renderer/compile/compile_scene.h"
 #include "renderer/compile/shapes.h"
 #include "renderer/import/json/scene_json.h"
@@ -15,8 +16,7 @@
 
 namespace rtrays {
 
-constexpr double spot_inner = 20 * 3.14159265358979323846 / 180,
-                 spot_outer = 35 * 3.14159265358979323846 / 180;
+constexpr double spot_inner = 20 * degree, spot_outer = 35 * degree;
 
 /// Returns the areas of the two triangles of the mesh light.
 inline std::array<double, 2> mesh_areas() {

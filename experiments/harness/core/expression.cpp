@@ -9,13 +9,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 
 namespace rtrays {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int deepest = 64;  ///< maximum nesting of parentheses and signs
 
 struct Function {

@@ -5,13 +5,12 @@
 
 #include <vector>
 
+#include "renderer/base/angles.h"
 #include "renderer/scene/cores/animated_transform.h"
 
 namespace rtrays {
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 Eigen::Matrix4d operation(const Json &value) {
     const std::string name = value.begin().key();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "renderer/base/angles.h"
 #include "renderer/import/mitsuba/light.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/stores/pose.h"
@@ -12,8 +13,6 @@
 namespace rtrays::mitsuba {
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 int pixels(Object &film, const char *name, int initial) {
     const double value = film.number(name, initial);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/files.h"
 #include "renderer/import/images/texture_file.h"
 #include "renderer/import/load_scene.h"
@@ -20,8 +21,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Kind = BxdfComponent::Kind;
 using Fresnel = BxdfComponent::Fresnel;
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// Returns the unit normal of the front of a triangle.
 Vector3d front(const MeshArrays &meshes, size_t triangle) {

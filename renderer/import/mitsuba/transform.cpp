@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "renderer/base/angles.h"
 #include "renderer/import/mitsuba/object.h"
 #include "renderer/scene/cores/transform.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 double one_number(const Element &element, const char *attribute, double initial) {
     if (!element.has(attribute)) {

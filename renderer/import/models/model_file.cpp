@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/ply.h"
@@ -20,8 +21,6 @@
 namespace rtrays {
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 bool is_ply(const std::filesystem::path &path) {
     return lower_extension(path) == ".ply";

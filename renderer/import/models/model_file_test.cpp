@@ -10,6 +10,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/json.h"
 #include "renderer/base/notice.h"
 #include "renderer/import/load_scene.h"
@@ -27,7 +28,6 @@ using Kind = BxdfComponent::Kind;
 using Fresnel = BxdfComponent::Fresnel;
 
 const std::filesystem::path corpus = RTRAYS_CORPUS;
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// A model with the notices of its import.
 struct Loaded {

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 #include "renderer/import/models/assimp.h"
 #include "renderer/import/models/geometry.h"
@@ -26,8 +27,6 @@ namespace {
 
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
 
 Vector3d vector(const aiVector3D &v) {
     return {v.x, v.y, v.z};

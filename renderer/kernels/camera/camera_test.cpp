@@ -14,6 +14,7 @@
 #include <limits>
 #include <random>
 
+#include "renderer/base/angles.h"
 #include "renderer/compile/compile_scene.h"
 #include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/sampling/random.h"
@@ -30,7 +31,6 @@ using test::to_double;
 using test::to_float3;
 using test::uniform;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double half_ulp = 0x1p-24;
 constexpr uint32_t sample_count = 400000;
 constexpr double level = 0.01 / 2;

@@ -19,6 +19,7 @@
 
 #include "renderer/testing/float_traps.h"
 
+#include "renderer/base/angles.h"
 #include "renderer/kernels/light/light.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,6 @@
 namespace rtrays {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr uint32_t sample_count = 400000;
 constexpr double level = 0.01 / 6;
 

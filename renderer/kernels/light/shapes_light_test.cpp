@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/base/angles.h"
 #include "renderer/kernels/geometry/intersect_shapes.h"
 #include "renderer/kernels/light/shape_light.h"
 #include "renderer/kernels/sampling/random.h"
@@ -22,7 +23,6 @@ namespace rtrays::test {
 namespace {
 
 constexpr double level = 0.01 / 7;
-constexpr double pi = 3.14159265358979323846;
 constexpr uint32_t sample_count = 1'000'000;
 constexpr int rings = 20, sectors = 20;
 

@@ -5,6 +5,7 @@
 #define FEATURE_sobol 1
 #include "testing/other_features.h"
 
+#include "renderer/base/angles.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/kernels/sampling/sampler.h"
 
@@ -22,7 +23,6 @@ namespace rtrays {
 namespace {
 
 constexpr double level = 0.01;  // level of a single chi-square test
-constexpr double pi = 3.14159265358979323846;
 constexpr uint32_t sample_count = 1'000'000;
 
 uint4 words(uint32_t sample, uint32_t block = 0) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/base/angles.h"
 #include "renderer/scene/cores/composite.h"
 
 namespace rtrays {
@@ -128,7 +129,7 @@ void check_energy(const std::vector<MaterialComponent> &components) {
         "up to {:.6g} in {}, seen from {} at an angle of {:.3g} degrees; the largest contribution, "
         "{:.6g}, is from component {} ({}); lower its {}",
         worst.sum, channels[worst.channel], worst.behind ? "behind" : "the front",
-        std::acos(worst.cosine) * 180 / 3.14159265358979323846, contribution(*largest, worst),
+        std::acos(worst.cosine) / degree, contribution(*largest, worst),
         largest - components.begin(), bxdf_names()[static_cast<size_t>(largest->bxdf.kind)],
         largest->parameter));
 }

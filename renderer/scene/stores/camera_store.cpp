@@ -3,15 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "renderer/base/angles.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/stores/pose.h"
 
 namespace rtrays {
 
-namespace {
-constexpr double degree = 3.14159265358979323846 / 180;
-}
+namespace {}
 
 void CameraStore::append(const Node &node) {
     arrays.name.push_back(node.name());

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/cores/light.h"
 #include "renderer/scene/cores/material.h"
@@ -19,8 +20,6 @@ namespace rtrays {
 namespace {
 
 using Kind = LightArrays::Kind;
-
-constexpr double pi = 3.14159265358979323846;
 
 const LightCore *light_of(const Node &node) {
     return static_cast<const LightCore *>(node.core(CoreRole::light));
