@@ -43,6 +43,8 @@ struct Options {
     bool quiet = false;
     bool dry_run = false;
     bool print_scene = false;
+    bool list_devices = false;
+    bool list_algorithms = false;
     std::string algorithm = algorithms::path_tracing.name;
     std::string passes = "all";
     RenderSettings settings;
@@ -171,7 +173,8 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
     return false;
 }
 
-ExitCode run(Options &options) {
+/// Throws `Error` (bad usage) when options exclude each other, or an output cannot be written.
+void require_consistent(const Options &options) {
     if (options.state.empty() && options.resume) {
         throw input_error("--resume needs --state FILM, the file to resume from");
     }
@@ -193,10 +196,10 @@ ExitCode run(Options &options) {
             require_writable(path);
         }
     }
-    options.settings.variance = requested(options.layers, "variance");
-    options.settings.strategies_apart = requested(options.layers, "strategies");
+}
 
-    Scene scene = load_scene(options.scene, options.quiet);
+/// Applies --set to the scene and the settings, and the other options that are settings.
+void apply_options(Options &options, Scene &scene) {
     for (const std::string &assignment : options.assignments) {
         const std::string scene_prefix = "scene.";
         if (assignment.rfind(scene_prefix, 0) == 0) {
@@ -212,11 +215,14 @@ ExitCode run(Options &options) {
     }
     options.settings.algorithm = &algorithm_named(options.algorithm);
     options.settings.only_pass = find_named(pass_kinds, options.passes);
-    scene.update(options.scene_time);
-    if (options.print_scene) {
-        fmt::print("{}", scene.describe());
-        return ExitCode::ok;
-    }
+    options.settings.variance = requested(options.layers, "variance");
+    options.settings.strategies_apart = requested(options.layers, "strategies");
+}
+
+/// Sets the size of the image: --size, or that of the scene's film.
+void set_size(Options &options, const Scene &scene) {
+    options.settings.width = scene.film_width();
+    options.settings.height = scene.film_height();
     if (!options.size.empty()) {
         const auto [width, height] = parse_pair(options.size, 'x', "--size");
         if (width < 1 || height < 1 || width > 65536 || height > 65536) {
@@ -225,27 +231,39 @@ ExitCode run(Options &options) {
         }
         options.settings.width = static_cast<int>(width);
         options.settings.height = static_cast<int>(height);
-    } else {
-        options.settings.width = scene.film_width();
-        options.settings.height = scene.film_height();
     }
-    if (!options.exported.empty()) {
-        scene.set_film_size(options.settings.width, options.settings.height);
-        export_scene(scene, options.exported,
-                     {options.spp.value_or(64), options.settings.max_depth});
-        return ExitCode::ok;
+}
+
+/// Returns the samples that the options ask for.
+SampleRange requested_samples(const Options &options) {
+    if (options.samples.empty()) {
+        return {0, options.spp.value_or(64)};
     }
-    SampleRange range{0, options.spp.value_or(64)};
-    if (!options.samples.empty()) {
-        const auto [begin, end] = parse_pair(options.samples, ':', "--samples");
-        range = {begin, end};
-        if (begin >= end) {
-            throw input_error(
-                fmt::format("--samples {}: BEGIN must be below END", options.samples));
+    const auto [begin, end] = parse_pair(options.samples, ':', "--samples");
+    if (begin >= end) {
+        throw input_error(fmt::format("--samples {}: BEGIN must be below END", options.samples));
+    }
+    return {begin, end};
+}
+
+/// Continues with the film of --state. Returns the samples of `range` that it lacks.
+SampleRange resume(RenderSession &session, const Options &options, SampleRange range) {
+    const FilmState film = load_film(options.state);
+    session.restore(film);
+    for (const SampleRange &present : film.ranges) {
+        if (present.begin <= range.begin && range.begin < present.end) {
+            range.begin = std::min(present.end, std::max(range.end, range.begin));
         }
     }
+    if (options.seconds && !film.ranges.empty()) {
+        range.begin = film.ranges.back().end;
+    }
+    return range;
+}
 
-    DeviceContext device(options.device, Binaries::keep);
+/// Creates a session for the scene at the time of --at. A hierarchy that is refitted is first built
+/// at time 0.
+RenderSession session_of(Scene &scene, const Options &options, DeviceContext &device) {
     const bool refits = options.settings.bvh_update == BvhUpdate::refit;
     if (refits) {
         scene.update(0);
@@ -255,21 +273,34 @@ ExitCode run(Options &options) {
         scene.update(options.scene_time);
         session.update(scene);
     }
+    return session;
+}
+
+ExitCode run(Options &options) {
+    require_consistent(options);
+    Scene scene = load_scene(options.scene, options.quiet);
+    apply_options(options, scene);
+    scene.update(options.scene_time);
+    if (options.print_scene) {
+        fmt::print("{}", scene.describe());
+        return ExitCode::ok;
+    }
+    set_size(options, scene);
+    if (!options.exported.empty()) {
+        scene.set_film_size(options.settings.width, options.settings.height);
+        export_scene(scene, options.exported,
+                     {options.spp.value_or(64), options.settings.max_depth});
+        return ExitCode::ok;
+    }
+    SampleRange range = requested_samples(options);
+    DeviceContext device(options.device, Binaries::keep);
+    RenderSession session = session_of(scene, options, device);
     if (options.dry_run) {
         fmt::print("{}\n", session.report().dump(2));
         return ExitCode::ok;
     }
     if (options.resume && std::filesystem::exists(options.state)) {
-        const FilmState film = load_film(options.state);
-        session.restore(film);
-        for (const SampleRange &present : film.ranges) {
-            if (present.begin <= range.begin && range.begin < present.end) {
-                range.begin = std::min(present.end, std::max(range.end, range.begin));
-            }
-        }
-        if (options.seconds && !film.ranges.empty()) {
-            range.begin = film.ranges.back().end;
-        }
+        range = resume(session, options, range);
     }
     const bool complete = render(session, options, range);
     if (!options.stats.empty()) {
@@ -325,21 +356,9 @@ void add_output_options(CLI::App &app, std::vector<std::string> &outputs, double
         ->capture_default_str();
 }
 
-ExitCode parse_and_run(int argc, char **argv) {
-    install_interrupt_handler();
-    Options options;
-    CLI::App app(
-        "Renders a scene on an OpenCL device.\n\n"
-        "Other uses:\n"
-        "  rtrays-render merge FILM... -o OUT      adds films of one scene\n"
-        "  rtrays-render develop IN.exr -o OUT     converts an image for display",
-        "rtrays-render");
-    app.set_version_flag("--version", program_version("rtrays-render"));
-    app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings() +
-               "  scene.NODE.PROPERTY = ...  any property that --print-scene lists");
-    bool devices = false, algorithms = false;
-    app.add_flag("--list-devices", devices, "list the OpenCL devices and stop");
-    app.add_flag("--list-algorithms", algorithms, "list the algorithms and stop");
+void add_options(CLI::App &app, Options &options) {
+    app.add_flag("--list-devices", options.list_devices, "list the OpenCL devices and stop");
+    app.add_flag("--list-algorithms", options.list_algorithms, "list the algorithms and stop");
     app.add_option("SCENE", options.scene,
                    "scene (.json, Mitsuba 3 .xml) or model file (.ply, .obj, .gltf, ...)");
     add_output_options(app, options.outputs, options.exposure);
@@ -379,42 +398,64 @@ ExitCode parse_and_run(int argc, char **argv) {
     app.add_flag("--dry-run", options.dry_run,
                  "compile everything and print the statistics; render nothing");
     app.add_flag("-q,--quiet", options.quiet, "print no progress");
+}
 
-    CLI::App merge_app(
+/// Parses the arguments of one of the commands. Returns the exit code if the program ends then.
+std::optional<ExitCode> parse(CLI::App &app, int argc, char **argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError &error) {
+        return app.exit(error) == 0 ? ExitCode::ok : ExitCode::bad_input;
+    }
+    return std::nullopt;
+}
+
+ExitCode parse_and_merge(int argc, char **argv) {
+    CLI::App app(
         "Adds films of one scene and one seed with disjoint sample ranges. The image has the same "
         "bits as that of one render.",
         "rtrays-render merge");
-    std::vector<std::string> films;
-    std::string merged_state;
-    merge_app.add_option("FILM", films, "film files")->required();
-    add_output_options(merge_app, options.outputs, options.exposure);
-    merge_app.add_option("--state", merged_state, "merged film file to write");
+    std::vector<std::string> films, outputs;
+    std::string state;
+    double exposure = 0;
+    app.add_option("FILM", films, "film files")->required();
+    add_output_options(app, outputs, exposure);
+    app.add_option("--state", state, "merged film file to write");
+    const std::optional<ExitCode> ended = parse(app, argc, argv);
+    return ended ? *ended : merge(films, outputs, state, exposure);
+}
 
-    CLI::App develop_app("Converts an EXR image for display.", "rtrays-render develop");
-    std::string developed;
-    develop_app.add_option("IN.exr", developed, "image to convert")->required();
-    add_output_options(develop_app, options.outputs, options.exposure);
+ExitCode parse_and_develop(int argc, char **argv) {
+    CLI::App app("Converts an EXR image for display.", "rtrays-render develop");
+    std::string input;
+    std::vector<std::string> outputs;
+    double exposure = 0;
+    app.add_option("IN.exr", input, "image to convert")->required();
+    add_output_options(app, outputs, exposure);
+    const std::optional<ExitCode> ended = parse(app, argc, argv);
+    return ended ? *ended : develop(input, outputs, exposure);
+}
 
-    const std::string command = argc > 1 ? argv[1] : "";
-    const bool merging = command == "merge", developing = command == "develop";
-    CLI::App &chosen = merging ? merge_app : developing ? develop_app : app;
-    const int skipped = merging || developing ? 1 : 0;
-    try {
-        chosen.parse(argc - skipped, argv + skipped);
-    } catch (const CLI::ParseError &error) {
-        return chosen.exit(error) == 0 ? ExitCode::ok : ExitCode::bad_input;
+ExitCode parse_and_render(int argc, char **argv) {
+    CLI::App app(
+        "Renders a scene on an OpenCL device.\n\n"
+        "Other uses:\n"
+        "  rtrays-render merge FILM... -o OUT      adds films of one scene\n"
+        "  rtrays-render develop IN.exr -o OUT     converts an image for display",
+        "rtrays-render");
+    app.set_version_flag("--version", program_version("rtrays-render"));
+    app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings() +
+               "  scene.NODE.PROPERTY = ...  any property that --print-scene lists");
+    Options options;
+    add_options(app, options);
+    if (const std::optional<ExitCode> ended = parse(app, argc, argv)) {
+        return *ended;
     }
-    if (merging) {
-        return merge(films, options.outputs, merged_state, options.exposure);
-    }
-    if (developing) {
-        return develop(developed, options.outputs, options.exposure);
-    }
-    if (devices) {
+    if (options.list_devices) {
         print_devices();
         return ExitCode::ok;
     }
-    if (algorithms) {
+    if (options.list_algorithms) {
         for (const std::string &name : algorithm_names()) {
             fmt::print("{}\n", name);
         }
@@ -424,6 +465,18 @@ ExitCode parse_and_run(int argc, char **argv) {
         throw input_error("SCENE is missing; see --help");
     }
     return run(options);
+}
+
+ExitCode parse_and_run(int argc, char **argv) {
+    install_interrupt_handler();
+    const std::string command = argc > 1 ? argv[1] : "";
+    if (command == "merge") {
+        return parse_and_merge(argc - 1, argv + 1);
+    }
+    if (command == "develop") {
+        return parse_and_develop(argc - 1, argv + 1);
+    }
+    return parse_and_render(argc, argv);
 }
 
 }  // namespace

@@ -52,10 +52,69 @@ struct Compiled {
     double power = 0;
 };
 
+/// Completes the record of an area light: a mesh, a disc or a sphere.
+void compile_area_light(const SceneArrays &scene, size_t i, SphereSampling sphere_sampling,
+                        LightRecord &record, CompiledScene &compiled) {
+    const LightArrays &lights = scene.lights;
+    FeatureMask &features = compiled.light_features;
+    if (lights.mesh[i] != no_index) {
+        compile_mesh_light(scene.meshes, lights.mesh[i], record, compiled);
+        features = features.with(Feature::area_lights)
+                       .with(Feature::light_triangles,
+                             features.has(Feature::light_triangles) || record.triangle_count > 1);
+        return;
+    }
+    const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
+    record.kind = is_disc                                   ? LIGHT_DISC
+                  : sphere_sampling == SphereSampling::area ? LIGHT_SPHERE_BY_AREA
+                                                            : LIGHT_SPHERE;
+    record.first_triangle = lights.shape[i];
+    record.area = static_cast<float>(lights.area[i]);
+    compiled.shapes[lights.shape[i]].light = static_cast<uint32_t>(compiled.lights.size());
+    features = features.with(Feature::shape_lights);
+}
+
+/// Completes the record of a spot light. Returns the integral over directions of its intensity,
+/// which is 1 in the inner cone and falls linearly with the angle between the cones.
+double compile_spot_light(double inner, double outer, LightRecord &record) {
+    record.kind = LIGHT_SPOT;
+    record.outer_angle = static_cast<float>(outer);
+    // Differences of cosines are written as products of sines to avoid cancellation.
+    record.versine_outer = static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2));
+    record.versine_range =
+        static_cast<float>(2.0 * std::sin(0.5 * (outer + inner)) * std::sin(0.5 * (outer - inner)));
+    record.angle_scale = static_cast<float>(1.0 / (outer - inner));
+    // 2 pi (1 - mean cosine between the cones)
+    return 2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner));
+}
+
+/// Completes the record of a dome or an environment. Returns the integral of its radiance over all
+/// directions, relative to the light's own radiance. Throws `Error` (bad input) if the scene has
+/// such a light already.
+double compile_infinite_light(const LightArrays &lights, size_t i, LightRecord &record,
+                              CompiledScene &compiled) {
+    if (compiled.lighting.infinite_light != NO_EMITTER) {
+        throw input_error(fmt::format(
+            "light '{}': the scene has another dome or environment; only one is allowed",
+            lights.name[i]));
+    }
+    if (lights.kind[i] == LightArrays::Kind::dome) {
+        record.kind = LIGHT_DOME;
+        return 4.0 * pi;
+    }
+    record.kind = LIGHT_ENVIRONMENT;
+    if (compiled.environment_image != lights.image[i]) {
+        compiled.environment_image = lights.image[i];
+        compiled.environment_integral = compile_environment(*lights.image[i], compiled);
+    }
+    return compiled.environment_integral;
+}
+
 Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings &settings,
                        const SceneExtent &extent, CompiledScene &compiled) {
     using Kind = LightArrays::Kind;
     const LightArrays &lights = scene.lights;
+    FeatureMask &features = compiled.light_features;
     Compiled light;
     LightRecord &record = light.record;
     copy3(lights.radiance[i], record.radiance);
@@ -73,73 +132,33 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
     switch (lights.kind[i]) {
         case Kind::diffuse_area:
             light.power = pi * lights.area[i] * mean;
-            if (lights.mesh[i] != no_index) {
-                compile_mesh_light(scene.meshes, lights.mesh[i], record, compiled);
-                compiled.light_features =
-                    compiled.light_features.with(Feature::area_lights)
-                        .with(Feature::light_triangles,
-                              compiled.light_features.has(Feature::light_triangles) ||
-                                  record.triangle_count > 1);
-            } else {
-                const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
-                record.kind = is_disc ? LIGHT_DISC
-                              : settings.sphere_sampling == SphereSampling::area
-                                  ? LIGHT_SPHERE_BY_AREA
-                                  : LIGHT_SPHERE;
-                record.first_triangle = lights.shape[i];
-                record.area = static_cast<float>(lights.area[i]);
-                compiled.shapes[lights.shape[i]].light =
-                    static_cast<uint32_t>(compiled.lights.size());
-                compiled.light_features = compiled.light_features.with(Feature::shape_lights);
-            }
+            compile_area_light(scene, i, settings.sphere_sampling, record, compiled);
             break;
         case Kind::point:
             record.kind = LIGHT_POINT;
             light.power = 4.0 * pi * mean;
-            compiled.light_features = compiled.light_features.with(Feature::point_lights);
+            features = features.with(Feature::point_lights);
             break;
-        case Kind::spot: {
-            record.kind = LIGHT_SPOT;
-            const double inner = lights.inner_angle[i], outer = lights.outer_angle[i];
-            record.outer_angle = static_cast<float>(outer);
-            // Differences of cosines are written as products of sines to avoid cancellation.
-            record.versine_outer = static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2));
-            record.versine_range = static_cast<float>(2.0 * std::sin(0.5 * (outer + inner)) *
-                                                      std::sin(0.5 * (outer - inner)));
-            record.angle_scale = static_cast<float>(1.0 / (outer - inner));
-            // Integral over directions of an intensity that falls linearly with the angle between
-            // the cones: 2 pi (1 - mean cosine between the cones).
+        case Kind::spot:
             light.power =
-                2.0 * pi * (1.0 - (std::sin(outer) - std::sin(inner)) / (outer - inner)) * mean;
-            compiled.light_features = compiled.light_features.with(Feature::spot_lights);
+                compile_spot_light(lights.inner_angle[i], lights.outer_angle[i], record) * mean;
+            features = features.with(Feature::spot_lights);
             break;
-        }
         case Kind::directional:
             record.kind = LIGHT_DIRECTIONAL;
             light.power = disc * mean;
-            compiled.light_features = compiled.light_features.with(Feature::directional_lights);
+            features = features.with(Feature::directional_lights);
             break;
         case Kind::dome:
-        case Kind::environment: {
-            if (compiled.lighting.infinite_light != NO_EMITTER) {
-                throw input_error(fmt::format(
-                    "light '{}': the scene has another dome or environment; only one is allowed",
-                    lights.name[i]));
-            }
-            const bool dome = lights.kind[i] == Kind::dome;
-            record.kind = dome ? LIGHT_DOME : LIGHT_ENVIRONMENT;
-            if (!dome && compiled.environment_image != lights.image[i]) {
-                compiled.environment_image = lights.image[i];
-                compiled.environment_integral = compile_environment(*lights.image[i], compiled);
-            }
-            light.power = disc * mean * (dome ? 4.0 * pi : compiled.environment_integral);
+        case Kind::environment:
+            light.power = disc * mean * compile_infinite_light(lights, i, record, compiled);
             if (light.power > 0.0) {
                 compiled.lighting.infinite_light = static_cast<uint32_t>(compiled.lights.size());
-                compiled.light_features = compiled.light_features.with(Feature::infinite_lights)
-                                              .with(dome ? Feature::dome : Feature::environment);
+                features =
+                    features.with(Feature::infinite_lights)
+                        .with(lights.kind[i] == Kind::dome ? Feature::dome : Feature::environment);
             }
             break;
-        }
     }
     return light;
 }
