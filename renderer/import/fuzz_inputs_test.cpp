@@ -153,13 +153,13 @@ TEST_F(FuzzInputs, PlyBinary) {
     fuzz_scene("square_little.ply", "square_little.ply", 200);
     fuzz_scene("square_big.ply", "square_big.ply", 200);
 }
-#if RTRAYS_MODELS
 TEST_F(FuzzInputs, Obj) {
     fuzz_scene("materials.obj", "materials.obj", 100);
 }
 TEST_F(FuzzInputs, Mtl) {
     fuzz_scene("materials.mtl", "materials.obj", 100);
 }
+#if RTRAYS_MODELS
 TEST_F(FuzzInputs, Stl) {
     fuzz_scene("triangle.stl", "triangle.stl", 150);
 }

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/base/notice.h"
+#include "renderer/import/models/geometry.h"
 #include "renderer/import/models/model_file.h"
 #include "renderer/import/models/triangulate.h"
 #include "renderer/scene/cores/mesh.h"
@@ -36,6 +38,14 @@ void add_polygon(const Json &polygon, size_t index, const std::string &name,
     }
 }
 
+/// Returns the mesh, with a notice if the normals of triangles oppose their winding.
+std::shared_ptr<MeshCore> with_opposed_noted(std::shared_ptr<MeshCore> mesh) {
+    ModelNotes notes(fmt::format("mesh '{}'", mesh->name()));
+    note_opposed(*mesh, notes);
+    notes.tell();
+    return mesh;
+}
+
 std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name,
                                 const SceneSource &source, const std::string &path) {
     check_keys(value, "mesh", {"vertices", "polygons"}, {"normals", "uvs"});
@@ -63,7 +73,7 @@ std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name,
         source.located(fmt::format("{}/polygons/{}", path, i),
                        [&]() -> void { throw Error(error); });
     }
-    return std::make_shared<MeshCore>(name, std::move(geometry));
+    return with_opposed_noted(std::make_shared<MeshCore>(name, std::move(geometry)));
 }
 
 std::shared_ptr<Core> read_morph(const Json &value, const std::string &name,
@@ -107,7 +117,7 @@ std::shared_ptr<Core> read_geometry(const Json &value, const std::string &name,
             options.normals = normals == "none"     ? MeshFileOptions::Normals::none
                               : normals == "smooth" ? MeshFileOptions::Normals::smooth
                                                     : MeshFileOptions::Normals::stored;
-            return load_mesh_file(source.file(value.at("file")), name, options);
+            return with_opposed_noted(load_mesh_file(source.file(value.at("file")), name, options));
         }
         if (type == "rectangle" || type == "box") {
             check_keys(value, type, {}, {});

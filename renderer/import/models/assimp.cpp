@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/import/models/assimp.h"
 
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <fcntl.h>
@@ -19,6 +21,8 @@
 #include <fstream>
 #include <functional>
 #include <new>
+#include <string>
+#include <utility>
 
 #include "renderer/base/error.h"
 #include "renderer/base/progress.h"
@@ -53,6 +57,25 @@ class PercentWriter : public Assimp::ProgressHandler {
   private:
     int pipe_;
     uint8_t last_ = 0;
+};
+
+/// The file system, with another content of one file.
+class ReplacedFile : public Assimp::DefaultIOSystem {
+  public:
+    ReplacedFile(std::string path, const std::string &content)
+        : path_(std::move(path)), content_(content) {}
+
+    Assimp::IOStream *Open(const char *file, const char *mode) override {
+        if (path_ != file) {
+            return DefaultIOSystem::Open(file, mode);
+        }
+        return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t *>(content_.data()),
+                                          content_.size());
+    }
+
+  private:
+    std::string path_;
+    const std::string &content_;
 };
 
 /// Sets a soft limit, which raises a signal, and a hard limit, which ends the process.
@@ -215,21 +238,15 @@ bool assimp_reads(const std::string &extension) {
     return extension != ".assbin" && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
-std::shared_ptr<const aiScene> read_by_assimp(const std::filesystem::path &path, bool quiet) {
-    return read_fenced(
-        [&](Assimp::Importer &importer) { return importer.ReadFile(path.string(), 0); }, path,
-        quiet);
-}
-
-std::shared_ptr<const aiScene> read_mtl_by_assimp(const std::filesystem::path &path) {
-    // Assimp reads MTL files only through an OBJ file. This one is in memory and has one triangle.
-    const std::string model = fmt::format("mtllib {}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-                                          std::filesystem::absolute(path).string());
-    return read_fenced(
-        [&](Assimp::Importer &importer) {
-            return importer.ReadFileFromMemory(model.data(), model.size(), 0, "obj");
-        },
-        path, true);
+std::shared_ptr<const aiScene> read_by_assimp(const std::filesystem::path &path,
+                                              const std::string &content, bool quiet) {
+    const auto read = [&](Assimp::Importer &importer) {
+        if (!content.empty()) {
+            importer.SetIOHandler(new ReplacedFile(path.string(), content));  // owns it
+        }
+        return importer.ReadFile(path.string(), 0);
+    };
+    return read_fenced(read, path, quiet);
 }
 
 }  // namespace rtrays

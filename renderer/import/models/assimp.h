@@ -8,17 +8,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 struct aiScene;
 
 namespace rtrays {
 
-/// Reads a model file without any post-processing. Throws `Error` (bad input) naming the file and
-/// the reason.
-std::shared_ptr<const aiScene> read_by_assimp(const std::filesystem::path &path, bool quiet);
-
-/// Reads an MTL file. The materials of the result are those of the file, in its order. Assimp's
-/// default material may precede them. Throws `Error` (bad input) naming the file and the reason.
-std::shared_ptr<const aiScene> read_mtl_by_assimp(const std::filesystem::path &path);
+/// Reads a model file without any post-processing. `content` replaces the content of the file,
+/// unless it is empty. Throws `Error` (bad input) naming the file and the reason.
+std::shared_ptr<const aiScene> read_by_assimp(const std::filesystem::path &path,
+                                              const std::string &content, bool quiet);
 
 }  // namespace rtrays

@@ -205,6 +205,28 @@ void repair_normals(Geometry &geometry, const std::string &mesh, ModelNotes &not
     geometry.normals = std::move(normals);
 }
 
+size_t count_opposed(const MeshCore &mesh) {
+    if (mesh.normals().empty()) {
+        return 0;
+    }
+    const auto is_opposed = [&](const Triangle &t) {
+        const Vector3d &origin = mesh.vertices()[t[0]];
+        const Vector3d front =
+            (mesh.vertices()[t[1]] - origin).cross(mesh.vertices()[t[2]] - origin);
+        return front.dot(mesh.normals()[t[0]] + mesh.normals()[t[1]] + mesh.normals()[t[2]]) < 0;
+    };
+    return static_cast<size_t>(
+        std::count_if(mesh.triangles().begin(), mesh.triangles().end(), is_opposed));
+}
+
+void note_opposed(const MeshCore &mesh, ModelNotes &notes) {
+    if (const size_t opposed = count_opposed(mesh); opposed > 0) {
+        notes.add(
+            "normals oppose the winding, which decides what the front is",
+            fmt::format("{} of {} triangles of {}", opposed, mesh.triangles().size(), mesh.name()));
+    }
+}
+
 void append_geometry(Geometry &geometry, Geometry part, const Eigen::Matrix4d &transform) {
     const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
     // The inverse transpose is the cofactor matrix divided by the determinant. Only the sign of the

@@ -30,6 +30,13 @@ void make_smooth_normals(MeshCore::Geometry &geometry);
 /// Replaces normals that are zero or not finite by smooth normals, with a note.
 void repair_normals(MeshCore::Geometry &geometry, const std::string &mesh, ModelNotes &notes);
 
+/// Returns the number of triangles whose normals, in the mean of the corners, are on the other side
+/// than the front that the winding defines.
+size_t count_opposed(const MeshCore &mesh);
+
+/// Adds a note if the normals of triangles oppose their winding. Such files may mean either side.
+void note_opposed(const MeshCore &mesh, ModelNotes &notes);
+
 /// Appends `part`, transformed. If only one of the two has normals, the other one gets the normals
 /// of its triangles. If only one has texture coordinates, those of the other one are zero.
 void append_geometry(MeshCore::Geometry &geometry, MeshCore::Geometry part,

@@ -2,7 +2,6 @@
 #include "renderer/import/models/material.h"
 
 #include <assimp/GltfMaterial.h>
-#include <assimp/ObjMaterial.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -10,47 +9,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "renderer/base/error.h"
-#include "renderer/base/files.h"
-#include "renderer/scene/cores/composite.h"
-#include "renderer/scene/cores/texture.h"
 
 namespace rtrays {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// The parameters of a material, independent of the file format.
-struct ModelSurface {
-    Vector3d diffuse;
-    Vector3d specular;
-    Vector3d emission;
-    Vector3d transmittance;
-    std::shared_ptr<Texture> diffuse_texture;
-    std::shared_ptr<Texture> specular_texture;
-    double exponent = 0;
-    double opacity = 1;
-    double eta = 1;
-    double metalness = 0;
-    double alpha = 0;
-    bool is_physical = false;  ///< described by metalness and roughness
-    bool refracts = false;
-    bool only_reflects = false;
-
-    bool has_highlight() const { return specular.maxCoeff() > 0 && exponent > 0; }
-    bool is_plain() const { return !is_physical && !refracts && !only_reflects; }
-};
-
 namespace {
-
-/// A surface of lower alpha is ideally smooth. Its highlight would be narrower than a pixel.
-constexpr double smooth_alpha = 0.01;
-constexpr double glass_eta = 1.5;
-constexpr double grey = 0.6;  // Assimp's default
 
 struct UnusedMap {
     aiTextureType type;
@@ -69,7 +39,6 @@ constexpr UnusedMap unused_maps[] = {
     {aiTextureType_REFLECTION, "reflection maps are ignored"},
     {aiTextureType_SHEEN, "sheen and clear coats are ignored"},
     {aiTextureType_CLEARCOAT, "sheen and clear coats are ignored"},
-    {aiTextureType_TRANSMISSION, "transmission maps are ignored"},
 };
 
 Vector3d colour(const aiMaterial &source, const char *key, const Vector3d &otherwise) {
@@ -140,167 +109,69 @@ class TemporaryFile {
     std::string path_;
 };
 
-/// Returns the path of an image as given in the model file. Accepts backslashes as separators.
-std::filesystem::path image_path(std::string file) {
-    std::replace(file.begin(), file.end(), '\\', '/');
-    return file;
+/// Returns the index of refraction whose reflectance at normal incidence is that of the dielectric
+/// coat, scaled by KHR_materials_specular.
+double coat_index(const GltfMaterial &material) {
+    const double scale = material.specular * material.specular_colour.mean();
+    if (scale == 1) {
+        return material.ior;
+    }
+    const double amplitude = std::sqrt(scale) * std::abs(material.ior - 1) / (material.ior + 1);
+    return (1 + amplitude) / (1 - amplitude);
 }
 
-/// Returns the location of an image. If the path in the model file does not exist here, an image of
-/// that name beside the model is used.
-std::filesystem::path find_image(const std::filesystem::path &directory,
-                                 const std::filesystem::path &file) {
-    const std::filesystem::path stated = directory / file;
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(stated, ignored)) {
-        const std::filesystem::path beside = directory / file.filename();
-        if (std::filesystem::is_regular_file(beside, ignored)) {
-            return beside;
-        }
-    }
-    return stated;
-}
-
-bool holds_floats(const std::string &file) {
-    const std::string extension = std::filesystem::path(file).extension().string();
-    return extension == ".hdr" || extension == ".exr" || extension == ".pfm";
-}
-
-/// Builds a composite material from components and their parameters.
-class CompositeBuilder {
-  public:
-    /// Adds a component and returns the prefix of its parameter names.
-    std::string add(const char *bxdf, const char *fresnel, const Vector3d &weight,
-                    const std::shared_ptr<Texture> &texture = nullptr) {
-        const std::string prefix = part_prefix(parts_.size());
-        parts_.push_back({bxdf, fresnel});
-        values[prefix + "weight"] = weight;
-        if (texture != nullptr) {
-            textures_[prefix + "weight"] = texture;
-        }
-        return prefix;
-    }
-
-    /// Adds an ideal or a microfacet reflection, depending on `alpha`.
-    std::string add_reflection(double alpha, const char *fresnel, const Vector3d &weight,
-                               const std::shared_ptr<Texture> &texture = nullptr) {
-        if (alpha < smooth_alpha) {
-            return add("ideal_reflection", fresnel, weight, texture);
-        }
-        const std::string prefix = add("microfacet_reflection", fresnel, weight, texture);
-        values[prefix + "alpha"] = Vector2d(alpha, alpha);
-        return prefix;
-    }
-
-    std::shared_ptr<MaterialCore> build(const std::string &name) const {
-        return std::make_shared<MaterialCore>(name, composite_type(parts_), values, textures_);
-    }
-
-    ParameterValues values;
-
-  private:
-    std::vector<CompositePart> parts_;
-    ParameterTextures textures_;
-};
-
-ParameterTextures textured(const char *parameter, const std::shared_ptr<Texture> &texture) {
-    return texture != nullptr ? ParameterTextures{{parameter, texture}} : ParameterTextures{};
-}
-
-/// Scales the colours so that no channel sums to more than one. Returns whether they were scaled.
-bool conserve_energy(ModelSurface &s) {
-    const Vector3d highlight = s.has_highlight() ? s.specular : Vector3d::Zero();
-    const double most = s.is_plain() ? (s.diffuse + highlight).maxCoeff()
-                                     : s.diffuse.cwiseMax(s.specular).maxCoeff();
-    if (most > 1) {
-        s.diffuse /= most;
-        s.specular /= most;
-    }
-    return most > 1;
-}
-
-std::shared_ptr<MaterialCore> make_glass(const ModelSurface &s, const std::string &name) {
-    const double alpha = s.is_physical && s.alpha >= smooth_alpha && s.eta != 1 ? s.alpha : 0;
-    return std::make_shared<MaterialCore>(
-        name, "glass",
-        ParameterValues{{"emission", s.emission},
-                        {"eta", s.eta > 0 ? s.eta : glass_eta},
-                        {"transmittance", s.is_physical ? s.diffuse : s.transmittance},
-                        {"roughness", Vector2d(alpha, alpha)}},
-        textured("transmittance", s.is_physical ? s.diffuse_texture : nullptr));
-}
-
-std::shared_ptr<MaterialCore> make_plain(const ModelSurface &s, const std::string &name) {
-    ParameterValues values = {{"emission", s.emission}, {"reflectance", s.diffuse}};
-    ParameterTextures textures = textured("reflectance", s.diffuse_texture);
-    if (!s.has_highlight()) {
-        return std::make_shared<MaterialCore>(name, "lambert", values, textures);
-    }
-    values["specular"] = s.specular;
-    values["exponent"] = s.exponent;
-    textures.merge(textured("specular", s.specular_texture));
-    return std::make_shared<MaterialCore>(name, "lambert_blinn", values, textures);
-}
-
-/// Adds a mixture by metalness of a metal and a coated base.
-void add_physical(const ModelSurface &s, double share, CompositeBuilder &composite) {
-    const double metal = std::min(std::max(s.metalness, 0.0), 1.0);
-    if (metal > 0) {
-        const std::string part = composite.add_reflection(
-            s.alpha, "schlick", Vector3d::Constant(share * metal), s.diffuse_texture);
-        composite.values[part + "fresnel_reflectance"] = s.diffuse;
-    }
-    if (metal < 1) {
-        share *= 1 - metal;
-        const std::string coat =
-            composite.add_reflection(s.alpha, "dielectric", Vector3d::Constant(share));
-        composite.values[coat + "fresnel_eta"] = s.eta;
-        const std::string base =
-            composite.add("lambert", "dielectric", share * s.diffuse, s.diffuse_texture);
-        composite.values[base + "fresnel_eta"] = s.eta;
-        composite.values[base + "fresnel_complement"] = true;
-    }
-}
-
-std::shared_ptr<MaterialCore> make_composite(const ModelSurface &s, const std::string &name) {
-    CompositeBuilder composite;
-    composite.values["emission"] = s.emission;
-    const double share = std::min(std::max(s.opacity, 0.0), 1.0);
-    if (s.is_physical) {
-        add_physical(s, share, composite);
-    } else if (s.only_reflects) {
-        // An exponent of zero means a mirror. The material requests reflections, not a highlight.
-        const std::string part = composite.add_reflection(
-            s.exponent > 0 ? s.alpha : 0, "schlick", Vector3d::Constant(share), s.specular_texture);
-        composite.values[part + "fresnel_reflectance"] = s.specular;
-    } else {
-        composite.add("lambert", "ideal", share * s.diffuse, s.diffuse_texture);
-        if (s.has_highlight()) {
-            const std::string part =
-                composite.add("blinn", "ideal", share * s.specular, s.specular_texture);
-            composite.values[part + "exponent"] = s.exponent;
-        }
-    }
-    if (share < 1) {
-        const std::string part =
-            composite.add("ideal_refraction", "ideal", Vector3d::Constant(1 - share));
-        composite.values[part + "eta"] = 1.0;
-    }
-    return composite.build(name);
+/// Returns the properties of a material of a format other than glTF.
+GltfMaterial without_extensions(const aiMaterial &source) {
+    GltfMaterial made;
+    made.ior = number(source, "$mat.refracti", made.ior);
+    made.transmission = number(source, "$mat.transmission.factor", 0);
+    return made;
 }
 
 }  // namespace
 
 ModelMaterials::ModelMaterials(std::shared_ptr<const aiScene> model,
-                               std::filesystem::path directory, ModelNotes &notes)
-    : model_(std::move(model)), directory_(std::move(directory)), notes_(notes) {}
+                               std::filesystem::path directory, std::vector<GltfMaterial> extended,
+                               ModelNotes &notes)
+    : model_(std::move(model)),
+      directory_(std::move(directory)),
+      extended_(std::move(extended)),
+      notes_(notes),
+      textures_(notes) {}
+
+const GltfMaterial *ModelMaterials::extended(unsigned index) const {
+    // Assimp appends a default material, which has no name.
+    const std::string stated = text(*model_->mMaterials[index], "?mat.name");
+    size_t number = extended_.size();
+    std::from_chars(stated.data(), stated.data() + stated.size(), number);
+    return number < extended_.size() ? &extended_[number] : nullptr;
+}
+
+std::string ModelMaterials::name(unsigned index) const {
+    const GltfMaterial *const gltf = extended(index);
+    return gltf != nullptr ? gltf->name : text(*model_->mMaterials[index], "?mat.name");
+}
+
+unsigned ModelMaterials::uv_channel(unsigned index) const {
+    if (const GltfMaterial *const gltf = extended(index); gltf != nullptr) {
+        return std::min(gltf->base_uv_set, AI_MAX_NUMBER_OF_TEXTURECOORDS - 1u);
+    }
+    const aiMaterial &source = *model_->mMaterials[index];
+    int channel = 0;
+    source.Get(_AI_MATKEY_UVWSRC_BASE, colour_map(source), 0, channel);
+    return static_cast<unsigned>(std::max(channel, 0));
+}
+
+GltfTextureTransform ModelMaterials::uv_transform(unsigned index) const {
+    const GltfMaterial *const gltf = extended(index);
+    return gltf != nullptr && gltf->base_transform.rotates() ? gltf->base_transform
+                                                             : GltfTextureTransform{};
+}
 
 std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file, bool is_colour) {
     const aiTexture *inside = model_->GetEmbeddedTexture(file.c_str());
-    const TextureEncoding encoding =
-        is_colour && !holds_floats(file) ? TextureEncoding::srgb : TextureEncoding::linear;
     if (inside == nullptr) {
-        return files_.load(find_image(directory_, image_path(file)), encoding);
+        return textures_.load(file, {directory_}, is_colour);
     }
     std::shared_ptr<const TextureImage> &image = embedded_[file + (is_colour ? " srgb" : "")];
     if (image != nullptr) {
@@ -311,7 +182,8 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
         const TemporaryFile copy(inside->pcData, inside->mWidth,
                                  format.empty() ? "" : "." + format);
         try {
-            image = load_texture_file(copy.path(), encoding);
+            image = load_texture_file(copy.path(),
+                                      is_colour ? TextureEncoding::srgb : TextureEncoding::linear);
         } catch (const Error &error) {
             throw Error(error.exit_code(),
                         fmt::format("embedded image '{}': {}", file, error.what()));
@@ -330,21 +202,16 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
     return image;
 }
 
-Vector3d ModelMaterials::mean_of(const aiMaterial &source, int type, bool is_colour) {
+Vector3d ModelMaterials::mean_of_map(const aiMaterial &source, int type, bool is_colour) {
     aiString file;
-    source.GetTexture(static_cast<aiTextureType>(type), 0, &file);
-    const std::shared_ptr<const TextureImage> image = load(file.C_Str(), is_colour);
-    Vector3d sum = Vector3d::Zero();
-    const auto texels = static_cast<Eigen::Index>(image->width) * image->height;
-    for (Eigen::Index i = 0; i < 3 * texels; ++i) {
-        const auto at = static_cast<size_t>(i);
-        const double value = image->floats.empty() ? image->bytes[at] / 255.0 : image->floats[at];
-        sum[i % 3] += image->srgb ? srgb_decoded(value) : value;
+    if (source.GetTexture(static_cast<aiTextureType>(type), 0, &file) != aiReturn_SUCCESS) {
+        return Vector3d::Ones();
     }
-    return sum / static_cast<double>(texels);
+    return mean_of(*load(file.C_Str(), is_colour));
 }
 
 std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int type_number,
+                                                 const GltfTextureTransform *transform,
                                                  const std::string &name) {
     const auto type = static_cast<aiTextureType>(type_number);
     aiString file;
@@ -362,11 +229,6 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
     if (source.GetTextureCount(type) > 1) {
         notes_.add("only the first of several texture layers is used", name);
     }
-    aiUVTransform placement;
-    source.Get(_AI_MATKEY_UVTRANSFORM_BASE, type_number, 0, placement);
-    if (placement.mRotation != 0) {
-        notes_.add("texture rotations are ignored", name);
-    }
     for (int axis = 0; axis < 2; ++axis) {
         if (modes[axis] != aiTextureMapMode_Wrap && modes[axis] != aiTextureMapMode_Clamp) {
             notes_.add("mirrored and decal textures are repeated", name);
@@ -376,45 +238,88 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
     if (clamps != (modes[1] == aiTextureMapMode_Clamp)) {
         notes_.add("textures with different wrap modes along u and v use the mode along u", name);
     }
-    const Vector2d scale(placement.mScaling.x, placement.mScaling.y);
-    const Vector2d offset(placement.mTranslation.x, placement.mTranslation.y);
-    const std::string key = fmt::format("{} {} {} {} {} {}", file.C_Str(), clamps, scale[0],
-                                        scale[1], offset[0], offset[1]);
-    std::shared_ptr<Texture> &made = textures_[key];
-    if (made == nullptr) {
-        made = std::make_shared<Texture>(
-            names_.unique(image_path(file.C_Str()).stem().string(), "texture"),
-            load(file.C_Str(), true),
-            ParameterValues{{"wrap", std::string(clamps ? "clamp" : "repeat")},
-                            {"uv_scale", scale},
-                            {"uv_offset", offset}});
+    TexturePlacement placement;
+    placement.clamps = clamps;
+    int filter = 0;
+    constexpr int nearest = 9728;  // NEAREST of OpenGL, as in glTF
+    placement.is_nearest = source.Get(_AI_MATKEY_GLTF_MAPPINGFILTER_MAG_BASE, type_number, 0,
+                                      filter) == aiReturn_SUCCESS &&
+                           filter == nearest;
+    if (transform == nullptr) {
+        aiUVTransform stated;
+        source.Get(_AI_MATKEY_UVTRANSFORM_BASE, type_number, 0, stated);
+        placement.scale = {stated.mScaling.x, stated.mScaling.y};
+        placement.offset = {stated.mTranslation.x, stated.mTranslation.y};
+        if (stated.mRotation != 0) {
+            notes_.add("texture rotations are ignored", name);
+        }
+    } else if (!transform->rotates()) {
+        placement.scale = transform->linear.diagonal();
+        placement.offset = transform->offset;
     }
-    return made;
+    return textures_.texture(load(file.C_Str(), true), file.C_Str(), placement);
 }
 
-ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &name) {
-    ModelSurface surface;
-    surface.is_physical = has_number(source, metalness_key) && has_number(source, roughness_key);
-    const Vector3d diffuse = colour(source, "$clr.diffuse", Vector3d::Constant(grey));
-    surface.diffuse = surface.is_physical ? colour(source, "$clr.base", diffuse) : diffuse;
-    surface.specular =
-        colour(source, "$clr.specular", Vector3d::Zero()) * number(source, "$mat.shinpercent", 1);
-    surface.transmittance = colour(source, "$clr.transparent", Vector3d::Ones());
-    surface.exponent = number(source, "$mat.shininess", 0);
-    surface.opacity = number(source, "$mat.opacity", 1);
-    surface.eta = number(source, "$mat.refracti", surface.is_physical ? glass_eta : 1);
+void ModelMaterials::read_physical(const aiMaterial &source, const GltfMaterial &extended,
+                                   const std::string &name, ModelSurface &surface) {
+    surface.is_physical = true;
+    surface.diffuse = colour(source, "$clr.base", surface.diffuse);
     surface.metalness = number(source, metalness_key, 0);
     double roughness = number(source, roughness_key, 1);
+    if (has_map(source, aiTextureType_METALNESS)) {
+        notes_.add("metalness and roughness maps are replaced by their mean", name);
+        // glTF stores roughness in the green channel and metalness in the blue one.
+        const Vector3d mean = mean_of_map(source, aiTextureType_METALNESS, false);
+        roughness *= mean.y();
+        surface.metalness *= mean.z();
+    }
+    surface.alpha = roughness * roughness;
+    surface.transmission = extended.transmission;
+    if (surface.transmission > 0 && has_map(source, aiTextureType_TRANSMISSION)) {
+        notes_.add("transmission maps are replaced by their mean", name);
+        surface.transmission *= mean_of_map(source, aiTextureType_TRANSMISSION, false).x();
+    }
+    const bool is_scaled = extended.specular != 1 || !extended.specular_colour.isOnes();
+    surface.eta = surface.transmission > 0 ? extended.ior : coat_index(extended);
+    if (is_scaled) {
+        notes_.add(surface.transmission > 0
+                       ? "KHR_materials_specular is ignored where light is transmitted"
+                       : "KHR_materials_specular is honoured at normal incidence only, as grey",
+                   name);
+    }
+    if (surface.transmission <= 0) {
+        return;
+    }
+    // A path through a body crosses its surface twice.
+    const double share = 0.5 * extended.thickness / extended.attenuation_distance;
+    if (!(extended.thickness > 0)) {
+        notes_.add(
+            "transmission refracts as at the surface of a solid, although it is thin-walled "
+            "in glTF",
+            name);
+    } else if (share > 0 && !extended.attenuation_colour.isOnes()) {
+        notes_.add(
+            "absorption in volumes is replaced by a colour at each crossing, for the stated "
+            "thickness",
+            name);
+        surface.transmittance = extended.attenuation_colour.array().pow(share).matrix();
+    }
+    surface.refracts = surface.transmission >= 1 && surface.metalness <= 0;
+}
 
-    int illumination = 0;
-    source.Get("$mat.illum", 0, 0, illumination);
-    const auto is_one_of = [&](std::initializer_list<int> models) {
-        return std::find(models.begin(), models.end(), illumination) != models.end();
-    };
-    surface.refracts =
-        is_one_of({4, 6, 7, 9}) || number(source, "$mat.transmission.factor", 0) > 0.5;
-    surface.only_reflects = is_one_of({3, 5}) && surface.diffuse.isZero();
-
+ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
+    const aiMaterial &source = *model_->mMaterials[index];
+    const GltfMaterial *const gltf = extended(index);
+    ModelSurface surface;
+    surface.diffuse = colour(source, "$clr.diffuse", surface.diffuse);
+    surface.specular =
+        colour(source, "$clr.specular", Vector3d::Zero()) * number(source, "$mat.shinpercent", 1);
+    surface.exponent = number(source, "$mat.shininess", 0);
+    surface.opacity = number(source, "$mat.opacity", 1);
+    surface.eta = number(source, "$mat.refracti", 1);
+    if (has_number(source, metalness_key) && has_number(source, roughness_key)) {
+        read_physical(source, gltf != nullptr ? *gltf : without_extensions(source), name, surface);
+    }
     const std::string alpha_mode = text(source, "$mat.gltf.alphaMode");
     if (alpha_mode == "MASK") {
         notes_.add("opacity masks are ignored; masked parts are visible", name);
@@ -422,28 +327,25 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
     if (alpha_mode == "MASK" || alpha_mode == "OPAQUE") {
         surface.opacity = 1;
     }
-    surface.diffuse_texture = texture(source, colour_map(source), name);
+    surface.diffuse_texture = texture(source, colour_map(source),
+                                      gltf != nullptr ? &gltf->base_transform : nullptr, name);
     surface.specular_texture =
-        surface.is_physical ? nullptr : texture(source, aiTextureType_SPECULAR, name);
+        surface.is_physical ? nullptr : texture(source, aiTextureType_SPECULAR, nullptr, name);
 
-    surface.emission = colour(source, "$clr.emissive", Vector3d::Zero()) *
-                       number(source, "$mat.emissiveIntensity", 1);
+    // glTF: factor * texture * strength.
+    surface.emission =
+        colour(source, "$clr.emissive", Vector3d::Zero()) *
+        (gltf != nullptr ? gltf->emissive_strength : number(source, "$mat.emissiveIntensity", 1));
     for (const aiTextureType type : {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR}) {
         if (has_map(source, type) && !surface.emission.isZero()) {
             notes_.add("emission maps are replaced by their mean", name);
-            surface.emission = surface.emission.cwiseProduct(mean_of(source, type, true));
+            surface.emission = surface.emission.cwiseProduct(mean_of_map(source, type, true));
             break;
         }
     }
-    if (surface.is_physical && has_map(source, aiTextureType_METALNESS)) {
-        notes_.add("metalness and roughness maps are replaced by their mean", name);
-        // glTF stores roughness in the green channel and metalness in the blue one.
-        const Vector3d mean = mean_of(source, aiTextureType_METALNESS, false);
-        roughness *= mean.y();
-        surface.metalness *= mean.z();
+    if (gltf != nullptr && gltf->is_two_sided && !surface.emission.isZero()) {
+        notes_.add("emission of two-sided materials leaves the front only", name);
     }
-    surface.alpha = surface.is_physical ? roughness * roughness
-                                        : std::sqrt(2 / (std::max(surface.exponent, 0.0) + 2));
     for (const UnusedMap &map : unused_maps) {
         if (has_map(source, map.type)) {
             notes_.add(map.note, name);
@@ -452,35 +354,12 @@ ModelSurface ModelMaterials::read(const aiMaterial &source, const std::string &n
     return surface;
 }
 
-std::shared_ptr<MaterialCore> ModelMaterials::material(const aiMaterial &source,
-                                                       const std::string &name) {
+std::shared_ptr<MaterialCore> ModelMaterials::material(unsigned index, const std::string &name) {
     try {
-        ModelSurface surface = read(source, name);
-        if (surface.is_plain() && surface.specular.maxCoeff() > 0 && !surface.has_highlight()) {
-            notes_.add("specular colours without an exponent are ignored", name);
-        }
-        if (!surface.refracts && conserve_energy(surface)) {
-            notes_.add("colours that would reflect more light than they receive are scaled down",
-                       name);
-        }
-        if (surface.refracts) {
-            return make_glass(surface, name);
-        }
-        return surface.is_plain() && surface.opacity >= 1 ? make_plain(surface, name)
-                                                          : make_composite(surface, name);
+        return make_model_material(read(index, name), name, notes_);
     } catch (const Error &error) {
         throw Error(error.exit_code(), fmt::format("material '{}': {}", name, error.what()));
     }
-}
-
-unsigned uv_channel(const aiMaterial &source) {
-    int channel = 0;
-    source.Get(_AI_MATKEY_UVWSRC_BASE, colour_map(source), 0, channel);
-    return static_cast<unsigned>(std::max(channel, 0));
-}
-
-std::string material_name(const aiMaterial &source) {
-    return text(source, "?mat.name");
 }
 
 }  // namespace rtrays

@@ -12,6 +12,8 @@
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/ply.h"
 #include "renderer/import/models/scene.h"
+#include "renderer/import/models/surface.h"
+#include "renderer/import/models/wavefront.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/light.h"
 #include "renderer/scene/cores/transform.h"
@@ -26,39 +28,8 @@ bool is_ply(const std::filesystem::path &path) {
     return lower_extension(path) == ".ply";
 }
 
-/// Adds the meshes of a PLY file to the scene, one per material.
-void read_ply_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
-                    ModelNotes &notes, bool quiet) {
-    PlyFile file = read_ply(path, notes, quiet);
-    const std::string stem = path.stem().string();
-    const std::filesystem::path mtl = std::filesystem::path(path).replace_extension(".mtl");
-    Node &model = add_model_node(scene.graph().root(), names.unique(stem, "model"),
-                                 Eigen::Matrix4d::Identity());
-    if (file.material.empty() || !std::filesystem::exists(mtl)) {
-        if (!file.material.empty()) {
-            notes.add(fmt::format("{} is missing, so material_index is ignored; everything is grey",
-                                  mtl.filename().string()));
-        }
-        std::shared_ptr<MaterialCore> material = default_model_material();
-        scene.graph().share("materials." + material->name(), material);
-        model.set_core(material);
-        model.set_core(std::make_shared<MeshCore>(stem, std::move(file.geometry)));
-        return;
-    }
-    const std::vector<std::shared_ptr<MaterialCore>> materials =
-        read_model_materials(mtl, scene, notes);
-    for (auto &[index, geometry] : split_geometry(file.geometry, file.material)) {
-        if (static_cast<size_t>(index) >= materials.size()) {
-            throw input_error(
-                fmt::format("{}: material_index {} is out of range; {} has only {} materials",
-                            path.string(), index, mtl.filename().string(), materials.size()));
-        }
-        const std::shared_ptr<MaterialCore> &material = materials[static_cast<size_t>(index)];
-        const std::string name = names.unique(material->name(), "mesh");
-        Node &node = add_model_node(model, name, Eigen::Matrix4d::Identity());
-        node.set_core(material);
-        node.set_core(std::make_shared<MeshCore>(name, std::move(geometry)));
-    }
+bool is_obj(const std::filesystem::path &path) {
+    return lower_extension(path) == ".obj";
 }
 
 /// Adds a camera that looks down on the model slightly from the side. The image just contains the
@@ -93,13 +64,13 @@ bool is_model_file(const std::filesystem::path &path) {
     const std::string extension = lower_extension(path);
     // Assimp associates other formats with these extensions.
     const bool is_scene = extension == ".json" || extension == ".xml";
-    return is_ply(path) || (extension.size() > 1 && !is_scene && assimp_reads(extension));
+    return is_ply(path) || is_obj(path) ||
+           (extension.size() > 1 && !is_scene && assimp_reads(extension));
 }
 
-std::shared_ptr<MaterialCore> default_model_material() {
-    constexpr double grey = 0.6;  // Assimp's value for OBJ files without materials
-    return std::make_shared<MaterialCore>(
-        "default", "lambert", ParameterValues{{"reflectance", Eigen::Vector3d(grey, grey, grey)}});
+std::shared_ptr<MaterialCore> default_model_material(const std::string &name) {
+    return std::make_shared<MaterialCore>(name, "lambert",
+                                          ParameterValues{{"reflectance", ModelSurface{}.diffuse}});
 }
 
 Node &add_model_node(Node &parent, const std::string &name, const Eigen::Matrix4d &transform) {
@@ -113,8 +84,9 @@ std::shared_ptr<MeshCore> load_mesh_file(const std::filesystem::path &path, cons
                                          const MeshFileOptions &options) {
     using Normals = MeshFileOptions::Normals;
     ModelNotes notes(path.string());
-    MeshCore::Geometry geometry = is_ply(path) ? read_ply(path, notes, options.quiet).geometry
-                                               : read_model_geometry(path, notes, options.quiet);
+    MeshCore::Geometry geometry = is_ply(path)   ? read_ply(path, notes, options.quiet).geometry
+                                  : is_obj(path) ? read_obj_geometry(path, notes, options.quiet)
+                                                 : read_model_geometry(path, notes, options.quiet);
     if (options.normals == Normals::none) {
         geometry.normals.clear();
     } else if (options.normals == Normals::smooth && geometry.normals.empty()) {
@@ -139,7 +111,10 @@ Scene load_model(const std::filesystem::path &path, bool quiet) {
     scene.set_name(path.stem().string());
     ModelNames names;
     ModelNotes notes(path.string());
-    (is_ply(path) ? read_ply_scene : read_model_scene)(path, scene, names, notes, quiet);
+    const auto read = is_ply(path)   ? read_ply_scene
+                      : is_obj(path) ? read_obj_scene
+                                     : read_model_scene;
+    read(path, scene, names, notes, quiet);
     try {
         scene.update(0);
         if (scene.meshes().name.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reader of model files. PLY files are read by our own reader. OBJ, STL, glTF, FBX, Collada, 3DS
-// and all other formats are read through Assimp.
+// Reader of model files. PLY and OBJ files are read by our own readers. STL, glTF, FBX, Collada,
+// 3DS and all other formats are read through Assimp.
 #pragma once
 
 #include <filesystem>
@@ -36,7 +36,7 @@ std::shared_ptr<MeshCore> load_mesh_file(const std::filesystem::path &path, cons
 
 /// Reads a model file as a scene and updates it to time 0. The scene has the nodes of the file with
 /// their transforms, and its meshes, materials, lights and cameras. Meshes that the file shares are
-/// shared cores. Materials are converted as described in model_file_material.h. The
+/// shared cores. Materials are converted as described in surface.h. The
 /// "material_index" of a PLY file is the index of a material in the MTL file of the same name.
 /// Notices report everything ignored or changed. A camera that sees the full model is added if the
 /// file has none, and a dome of radiance 1 if it has no light. Throws `Error` (bad input) naming

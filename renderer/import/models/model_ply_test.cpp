@@ -125,6 +125,8 @@ TEST(Ply, SaysWhatIsWrong) {
         {ply("3", "1", three + "3 0 1 -2\n"), "face 0: -2 is not a valid vertex index"},
         {ply("3", "1", three + "-1 0 1 2\n"), "face 0: -1 is not a valid number of corners"},
         {ply("3", "1", three + "3 0 1 1.5\n"), "1.5 is not a valid vertex index"},
+        {ply("3", "1", three + "3 0 1 2\n0\n"), "2 bytes follow the last element"},
+        {ply("3", "0", three + "3 0 1 2\n"), "8 bytes follow the last element"},
         {ply("3", "1", "0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n"), "vertex 1: expected a number"},
     };
     for (const auto &each : cases) {
@@ -141,6 +143,32 @@ TEST(Ply, SaysWhatIsWrong) {
             "in.ply", ply("3", "1", "0 0 0\n1 0 0\n0 1 " + std::string(infinite) + "\n3 0 1 2\n"));
         expect_input_error("vertex 2 is not finite", [&] { load_mesh_file(path, "m"); });
     }
+}
+
+TEST(Ply, BytesAfterTheLastElementAreErrors) {
+    const std::string header =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n"
+        "property char z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
+    const std::string body("\0\0\0\x0a\0\0\0\1\0\3\0\1\2", 13);
+    EXPECT_EQ(read(header + body).geometry.triangles.size(), 1u);
+    expect_input_error("in.ply: 1 bytes follow the last element",
+                       [&] { read(header + body + "\n"); });
+    // A change of line endings made "\n" of the body "\r\n", which shifts what follows.
+    std::string damaged = body;
+    damaged.insert(3, "\r");
+    expect_input_error("in.ply: ", [&] { read(header + damaged); });
+    // The header states fewer faces than the file has.
+    expect_input_error("bytes follow the last element; the header states too few elements",
+                       [&] { read(header + body + std::string("\3\0\1\2", 4)); });
+}
+
+TEST(ModelGeometry, CountsNormalsThatOpposeTheWinding) {
+    Geometry geometry;
+    geometry.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    geometry.triangles = {{0, 1, 2}, {0, 3, 2}, {0, 0, 0}};
+    EXPECT_EQ(count_opposed(MeshCore("m", geometry)), 0u);
+    geometry.normals = std::vector<Vector3d>(4, {0, 0.9, 0.1});
+    EXPECT_EQ(count_opposed(MeshCore("m", geometry)), 1u);
 }
 
 TEST(ModelGeometry, JoinsEqualVerticesOnly) {

@@ -18,6 +18,7 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/import/models/geometry.h"
+#include "renderer/import/models/statements.h"
 
 namespace rtrays {
 
@@ -57,15 +58,6 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
     size_t size = 0;  ///< offset of the data in bytes
 };
-
-/// Returns text of a possibly damaged file in printable and short form, for messages.
-std::string shown(std::string text) {
-    constexpr size_t longest = 40;
-    for (char &letter : text) {
-        letter = letter >= ' ' && letter <= '~' ? letter : '?';
-    }
-    return text.size() > longest ? text.substr(0, longest) + "..." : text;
-}
 
 Scalar scalar_of(const std::string &name) {
     for (const ScalarName &row : scalars) {
@@ -184,9 +176,7 @@ class AsciiData {
     explicit AsciiData(std::string_view data) : at_(data.data()), end_(data.data() + data.size()) {}
 
     double next(Scalar) {
-        while (at_ != end_ && (*at_ == ' ' || (*at_ >= '\t' && *at_ <= '\r'))) {
-            ++at_;
-        }
+        skip_blanks();
         at_ += at_ != end_ && *at_ == '+' ? 1 : 0;
         double value = 0;
         const auto parsed = std::from_chars(at_, end_, value);
@@ -214,7 +204,19 @@ class AsciiData {
     /// Number of bytes left, plus one because the last row may lack its end of line.
     size_t left() const { return static_cast<size_t>(end_ - at_) + 1; }
 
+    /// Number of bytes after the last number, without blanks.
+    size_t extra() {
+        skip_blanks();
+        return static_cast<size_t>(end_ - at_);
+    }
+
   private:
+    void skip_blanks() {
+        while (at_ != end_ && (*at_ == ' ' || (*at_ >= '\t' && *at_ <= '\r'))) {
+            ++at_;
+        }
+    }
+
     const char *at_;
     const char *end_;
 };
@@ -258,6 +260,9 @@ class BinaryData {
     }
 
     size_t left() const { return static_cast<size_t>(end_ - at_); }
+
+    /// Number of bytes after the last element.
+    size_t extra() const { return left(); }
 
   private:
     template <typename T>
@@ -330,6 +335,12 @@ class BodyReader {
                     }
                 });
             }
+        }
+        if (const size_t extra = data_.extra(); extra > 0) {
+            throw input_error(fmt::format(
+                "{} bytes follow the last element; the header states too few elements, or the file "
+                "was damaged by a change of line endings",
+                extra));
         }
         return std::move(rows_);
     }

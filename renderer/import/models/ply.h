@@ -23,7 +23,7 @@ struct PlyFile {
 /// ny, nz, and faces vertex_indices or vertex_index. Texture coordinates may be named (u, v),
 /// (s, t), (texture_u, texture_v) or (texture_s, texture_t). Throws `Error` (bad input) naming the
 /// file and the fault. Counts that exceed the size of the file are rejected before memory is
-/// allocated for them.
+/// allocated for them. Bytes after the last element are an error.
 PlyFile read_ply(const std::filesystem::path &path, ModelNotes &notes, bool quiet);
 
 }  // namespace rtrays

@@ -13,8 +13,10 @@
 
 #include "renderer/base/angles.h"
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
 #include "renderer/import/models/assimp.h"
 #include "renderer/import/models/geometry.h"
+#include "renderer/import/models/gltf.h"
 #include "renderer/import/models/material.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/light.h"
@@ -46,14 +48,27 @@ Matrix4d matrix(const aiMatrix4x4 &m) {
 struct ModelSource {
     std::shared_ptr<const aiScene> scene;
     std::filesystem::path path;
+    std::vector<GltfMaterial> gltf_materials{};  ///< of a glTF file, in its order
+    bool states_outer_cone = false;              ///< a Collada file with such an extension
+    double metres = 1;                           ///< unit of lengths of an FBX file
 
     bool is(const char *extension) const { return lower_extension(path) == extension; }
     bool is_gltf() const { return is(".gltf") || is(".glb"); }
     /// STL has no materials, and its normals repeat those of the triangles.
     bool is_stl() const { return is(".stl"); }
+    bool is_fbx() const { return is(".fbx"); }
+    bool is_collada() const { return is(".dae") || is(".zae"); }
     /// Factor from the cone angles of a file to half angles. glTF measures the cones of spot lights
     /// from the axis, all other formats from side to side.
     double half_angle() const { return is_gltf() ? 1 : 0.5; }
+    /// Returns the angles of a spot light within which it is bright, and beyond which it is dark.
+    /// For Collada, Assimp 5.2.5 adds 84 degrees to the cone of `falloff_angle`, unless the file
+    /// states the outer cone by an extension.
+    std::pair<double, double> cone(const aiLight &light) const {
+        const auto inner = static_cast<double>(light.mAngleInnerCone);
+        const auto outer = static_cast<double>(light.mAngleOuterCone);
+        return {inner, is_collada() && !states_outer_cone ? inner : outer};
+    }
     /// Returns the position of a camera in its node. Assimp 5.2.5 adds the translation of the node
     /// to a glTF camera, although the node already applies it.
     Vector3d position(const aiCamera &camera) const {
@@ -74,17 +89,74 @@ struct ModelSource {
     }
 };
 
-ModelSource open_model(const std::filesystem::path &path, bool quiet) {
-    ModelSource source{read_by_assimp(path, quiet), path};
+/// Reads what Assimp loses of a glTF file. Returns the content that Assimp reads.
+std::string read_gltf_details(ModelSource &source, ModelNotes &notes) {
+    GltfFile file = read_gltf(source.path);
+    try {
+        check_gltf(file.document, source.path, notes);
+        source.gltf_materials = gltf_materials(file.document, notes);
+        return with_numbered_materials(std::move(file));
+    } catch (const Error &error) {
+        throw Error(error.exit_code(), fmt::format("{}: {}", source.path.string(), error.what()));
+    }
+}
+
+/// Reads how a Collada file describes the cones of spot lights.
+void read_collada_details(ModelSource &source, ModelNotes &notes) {
+    if (!source.is(".dae")) {
+        return;  // .zae is compressed
+    }
+    const std::string text = read_file(source.path);
+    const auto states = [&](const char *element) {
+        return text.find(element) != std::string::npos;
+    };
+    source.states_outer_cone = states("<outer_cone") || states("<penumbra_angle");
+    if (states("<falloff_exponent")) {
+        notes.add("falloff_exponent of spot lights is ignored");
+    }
+}
+
+/// Reads the unit of lengths of an FBX file. Assimp leaves lengths in that unit.
+void read_fbx_details(ModelSource &source, ModelNotes &notes) {
+    double centimetres = 1;
+    const aiMetadata *const data = source.scene->mMetaData;
+    float stated = 0;
+    if (data != nullptr && !data->Get("UnitScaleFactor", centimetres) &&
+        data->Get("UnitScaleFactor", stated)) {
+        centimetres = static_cast<double>(stated);
+    }
+    if (!(centimetres > 0)) {
+        throw input_error(
+            fmt::format("{}: UnitScaleFactor is {}", source.path.string(), centimetres));
+    }
+    source.metres = 0.01 * centimetres;
+    if (source.metres != 1) {
+        notes.add(
+            fmt::format("lengths are converted to metres by the factor {:g}; the intensities "
+                        "of lights keep their numbers",
+                        source.metres));
+    }
+}
+
+ModelSource open_model(const std::filesystem::path &path, ModelNotes &notes, bool quiet) {
+    ModelSource source{nullptr, path};
+    const std::string content = source.is_gltf() ? read_gltf_details(source, notes) : "";
+    source.scene = read_by_assimp(path, content, quiet);
     if (source.scene->mRootNode == nullptr || source.scene->mNumMeshes == 0) {
         throw input_error(fmt::format("{}: the file has no geometry", path.string()));
+    }
+    if (source.is_collada()) {
+        read_collada_details(source, notes);
+    } else if (source.is_fbx()) {
+        read_fbx_details(source, notes);
     }
     return source;
 }
 
 /// Returns the triangles of one mesh, or none if it consists of points and lines.
 MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
-                               const std::string &name, unsigned channel, ModelNotes &notes) {
+                               const std::string &name, unsigned channel,
+                               const GltfTextureTransform &uv_transform, ModelNotes &notes) {
     MeshCore::Geometry geometry;
     const bool has_normals = mesh.HasNormals() && !source.is_stl();
     const bool has_uvs = mesh.HasTextureCoords(channel);
@@ -95,7 +167,8 @@ MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
         }
         if (has_uvs) {
             const aiVector3D &uv = mesh.mTextureCoords[channel][i];
-            geometry.uvs.emplace_back(uv.x, uv.y);
+            geometry.uvs.emplace_back(uv_transform.linear * Eigen::Vector2d(uv.x, uv.y) +
+                                      uv_transform.offset);
         }
     }
     for (unsigned face = 0; face < mesh.mNumFaces; ++face) {
@@ -132,7 +205,7 @@ class SceneWriter {
           scene_(scene),
           names_(names),
           notes_(notes),
-          materials_(source_.scene, source_.path.parent_path(), notes),
+          materials_(source_.scene, source_.path.parent_path(), source_.gltf_materials, notes),
           mesh_cores_(model_.mNumMeshes),
           material_cores_(model_.mNumMaterials) {}
 
@@ -144,8 +217,8 @@ class SceneWriter {
         for (unsigned i = 0; i < model_.mNumCameras; ++i) {
             write_camera(*model_.mCameras[i]);
         }
-        for (const auto &entry : materials_.textures()) {
-            scene_.graph().share("textures." + entry.second->name(), entry.second);
+        for (const std::shared_ptr<Texture> &texture : materials_.textures()) {
+            scene_.graph().share("textures." + texture->name(), texture);
         }
         if (model_.mNumAnimations > 0) {
             notes_.add("animations are ignored; nodes keep their stored transforms");
@@ -161,10 +234,11 @@ class SceneWriter {
             const auto [from, parent] = pending.back();
             pending.pop_back();
             const std::string wanted = from->mName.C_Str();
+            const double unit = from == model_.mRootNode ? source_.metres : 1;
             Node *node = nullptr;
             try {
                 node = &add_model_node(*parent, names_.unique(wanted, "node"),
-                                       matrix(from->mTransformation));
+                                       scaling({unit, unit, unit}) * matrix(from->mTransformation));
             } catch (const Error &) {
                 notes_.add(
                     "nodes whose transform cannot be inverted are ignored, with their children",
@@ -188,25 +262,27 @@ class SceneWriter {
 
     void write_mesh(unsigned index, Node &node) {
         const aiMesh &mesh = mesh_at(source_, index);
-        const aiMaterial &material = *model_.mMaterials[mesh.mMaterialIndex];
+        const unsigned material = mesh.mMaterialIndex;
         const std::string name =
             mesh.mName.length > 0 ? mesh.mName.C_Str() : fmt::format("mesh {}", index);
         std::shared_ptr<MeshCore> &core = mesh_cores_[index];
         if (core == nullptr) {
             MeshCore::Geometry geometry =
-                geometry_of(source_, mesh, name, uv_channel(material), notes_);
+                geometry_of(source_, mesh, name, materials_.uv_channel(material),
+                            materials_.uv_transform(material), notes_);
             if (geometry.triangles.empty()) {
                 notes_.add("meshes without triangles are ignored", name);
                 return;
             }
             core = std::make_shared<MeshCore>(name, std::move(geometry));
+            note_opposed(*core, notes_);
         }
-        std::shared_ptr<MaterialCore> &made = material_cores_[mesh.mMaterialIndex];
+        std::shared_ptr<MaterialCore> &made = material_cores_[material];
         if (made == nullptr) {
             made = source_.is_stl()
-                       ? default_model_material()
-                       : materials_.material(
-                             material, material_names_.unique(material_name(material), "material"));
+                       ? default_model_material("default")
+                       : materials_.material(material, material_names_.unique(
+                                                           materials_.name(material), "material"));
             scene_.graph().share("materials." + made->name(), made);
         }
         if (!made->parameters().textures().empty() && core->uvs().empty()) {
@@ -236,9 +312,23 @@ class SceneWriter {
         return look_at(position, position + direction, has_up ? up : other);
     }
 
+    /// Returns the intensity of a light in W/sr, or its irradiance in W/m^2.
+    Vector3d intensity(const aiLight &light) {
+        // Luminous efficacy in lm/W. Blender writes lights with this factor, too.
+        constexpr double efficacy = 683;
+        if (!source_.is_gltf()) {
+            return vector(light.mColorDiffuse);
+        }
+        notes_.add(
+            "intensities of lights are converted from candela to W/sr, and from lux to "
+            "W/m^2, by the factor 1/683; emission keeps its numbers",
+            light.mName.C_Str());
+        return vector(light.mColorDiffuse) / efficacy;
+    }
+
     void write_light(const aiLight &light) {
         const std::string name = light.mName.C_Str();
-        const Vector3d colour = vector(light.mColorDiffuse);
+        const Vector3d colour = intensity(light);
         const Vector3d position = vector(light.mPosition);
         const Vector3d direction = vector(light.mDirection);
         const bool is_pointing = light.mType == aiLightSource_SPOT ||
@@ -292,12 +382,13 @@ class SceneWriter {
         // so that they must differ.
         constexpr double softest = 0.99;
         const double to_degrees = source_.half_angle() * 180 / pi;
-        double outer = to_degrees * light.mAngleOuterCone;
+        const auto [stated_inner, stated_outer] = source_.cone(light);
+        double outer = to_degrees * stated_outer;
         if (outer > widest) {
             notes_.add("spot light cones are limited to 90 degrees", light.mName.C_Str());
             outer = widest;
         }
-        const double inner = std::min(to_degrees * light.mAngleInnerCone, softest * outer);
+        const double inner = std::min(to_degrees * stated_inner, softest * outer);
         return {{"intensity", colour}, {"inner_degrees", inner}, {"outer_degrees", outer}};
     }
 
@@ -355,18 +446,19 @@ auto with_file(const std::filesystem::path &path, const Body &body) {
 
 MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelNotes &notes,
                                        bool quiet) {
-    const ModelSource source = open_model(path, quiet);
+    const ModelSource source = open_model(path, notes, quiet);
     return with_file(path, [&] {
         MeshCore::Geometry geometry;
         std::vector<std::pair<const aiNode *, Matrix4d>> pending{
-            {source.scene->mRootNode, Matrix4d::Identity()}};
+            {source.scene->mRootNode, scaling({source.metres, source.metres, source.metres})}};
         while (!pending.empty()) {
             const aiNode *const node = pending.back().first;
             const Matrix4d transform = pending.back().second * matrix(node->mTransformation);
             pending.pop_back();
             for (unsigned i = 0; i < node->mNumMeshes; ++i) {
                 const aiMesh &mesh = mesh_at(source, node->mMeshes[i]);
-                append_geometry(geometry, geometry_of(source, mesh, mesh.mName.C_Str(), 0, notes),
+                append_geometry(geometry,
+                                geometry_of(source, mesh, mesh.mName.C_Str(), 0, {}, notes),
                                 transform);
             }
             for (unsigned i = node->mNumChildren; i > 0; --i) {
@@ -380,31 +472,8 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
 
 void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
                       ModelNotes &notes, bool quiet) {
-    ModelSource source = open_model(path, quiet);
+    ModelSource source = open_model(path, notes, quiet);
     with_file(path, [&] { SceneWriter(std::move(source), scene, names, notes).write(); });
-}
-
-std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path,
-                                                                Scene &scene, ModelNotes &notes) {
-    const std::shared_ptr<const aiScene> file = read_mtl_by_assimp(path);
-    return with_file(path, [&] {
-        ModelMaterials materials(file, path.parent_path(), notes);
-        ModelNames names;
-        std::vector<std::shared_ptr<MaterialCore>> made;
-        for (unsigned i = 0; i < file->mNumMaterials; ++i) {
-            const aiMaterial &source = *file->mMaterials[i];
-            if (i == 0 && material_name(source) == AI_DEFAULT_MATERIAL_NAME) {
-                continue;  // the material of the triangle in the OBJ file
-            }
-            made.push_back(
-                materials.material(source, names.unique(material_name(source), "material")));
-            scene.graph().share("materials." + made.back()->name(), made.back());
-        }
-        for (const auto &entry : materials.textures()) {
-            scene.graph().share("textures." + entry.second->name(), entry.second);
-        }
-        return made;
-    });
 }
 
 }  // namespace rtrays

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Conversion of Assimp scenes to our scenes. A build without Assimp has the errors of
-// model_file_without_assimp.cpp instead.
+// without_assimp.cpp instead.
 #pragma once
 
 #include <filesystem>
 #include <memory>
-#include <vector>
+#include <string>
 
 #include "renderer/import/models/names.h"
 #include "renderer/import/models/notes.h"
@@ -27,12 +27,8 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
 void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
                       ModelNotes &notes, bool quiet);
 
-/// Reads the materials of an MTL file in its order and registers them in the scene's graph.
-std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path,
-                                                                Scene &scene, ModelNotes &notes);
-
 /// Returns the grey material of meshes without a material.
-std::shared_ptr<MaterialCore> default_model_material();
+std::shared_ptr<MaterialCore> default_model_material(const std::string &name);
 
 /// Adds a node with a transform and visibility. Throws `Error` (bad input) if the transform is
 /// not finite, affine and invertible.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors of a build without Assimp for model files other than PLY.
+// Errors of a build without Assimp for model files other than PLY and OBJ.
 #include <fmt/format.h>
 
 #include "renderer/base/error.h"
@@ -10,10 +10,10 @@ namespace rtrays {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path &path) {
-    throw input_error(
-        fmt::format("{}: model files other than PLY are unsupported by this build; configure with "
-                    "-DRTRAYS_MODELS=ON (requires Assimp)",
-                    path.string()));
+    throw input_error(fmt::format(
+        "{}: model files other than PLY and OBJ are unsupported by this build; configure with "
+        "-DRTRAYS_MODELS=ON (requires Assimp)",
+        path.string()));
 }
 
 }  // namespace
@@ -29,11 +29,6 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
 
 void read_model_scene(const std::filesystem::path &path, Scene &, ModelNames &, ModelNotes &,
                       bool) {
-    refuse(path);
-}
-
-std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const std::filesystem::path &path,
-                                                                Scene &, ModelNotes &) {
     refuse(path);
 }
 

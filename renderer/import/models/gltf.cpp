@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/models/gltf.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "renderer/base/files.h"
+#include "renderer/import/models/statements.h"
+
+namespace rtrays {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Extensions that are honoured, by Assimp or by this file. Notes report approximations.
+constexpr const char *supported_extensions[] = {
+    "FB_ngon_encoding",           "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_volume",
+    "KHR_texture_transform",
+};
+
+bool is_supported(const std::string &extension) {
+    return std::find(std::begin(supported_extensions), std::end(supported_extensions), extension) !=
+           std::end(supported_extensions);
+}
+
+std::string ignored_note(const std::string &extension) {
+    return fmt::format("the extension {} is ignored", shown(extension));
+}
+
+/// Returns a member of an object, or null if the object lacks it.
+const Json &member(const Json &object, const char *key) {
+    static const Json null;
+    if (!object.is_object()) {
+        return null;
+    }
+    const auto found = object.find(key);
+    return found != object.end() ? *found : null;
+}
+
+double number(const Json &object, const char *key, double otherwise) {
+    const Json &value = member(object, key);
+    return value.is_null() ? otherwise : value.get<double>();
+}
+
+Vector3d colour(const Json &object, const char *key) {
+    const Json &value = member(object, key);
+    return value.is_null() ? Vector3d(1, 1, 1)
+                           : Vector3d(value.at(0).get<double>(), value.at(1).get<double>(),
+                                      value.at(2).get<double>());
+}
+
+Vector2d pair(const Json &object, const char *key, const Vector2d &otherwise) {
+    const Json &value = member(object, key);
+    return value.is_null() ? otherwise
+                           : Vector2d(value.at(0).get<double>(), value.at(1).get<double>());
+}
+
+/// Returns translation * rotation * scale of the extension, for a v that points up. glTF's v points
+/// down, and its angle is counter-clockwise seen in an image.
+GltfTextureTransform transform_of(const Json &extension) {
+    const Vector2d offset = pair(extension, "offset", {0, 0});
+    const Vector2d scale = pair(extension, "scale", {1, 1});
+    const double angle = number(extension, "rotation", 0);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    // u' = c * su * u + s * sv * w + offset, w' = -s * su * u + c * sv * w + offset, w = 1 - v.
+    GltfTextureTransform made;
+    made.linear << c * scale[0], -s * scale[1], s * scale[0], c * scale[1];
+    made.offset = {offset[0] + s * scale[1], 1 - offset[1] - c * scale[1]};
+    return made;
+}
+
+void read_base_texture(const Json &texture, GltfMaterial &made) {
+    if (!texture.is_object()) {
+        return;
+    }
+    const Json &transform = member(member(texture, "extensions"), "KHR_texture_transform");
+    made.base_transform = transform_of(transform);
+    made.base_uv_set = static_cast<unsigned>(
+        std::max(0.0, number(transform, "texCoord", number(texture, "texCoord", 0))));
+}
+
+/// Notes textures of extensions, which are not read.
+void note_textures(const Json &extension, const std::string &what, const std::string &name,
+                   ModelNotes &notes) {
+    for (const auto &[key, value] : extension.items()) {
+        if (value.is_object() && value.contains("index") && key != "transmissionTexture") {
+            notes.add(fmt::format("textures of {} are ignored", what), name);
+        }
+    }
+}
+
+GltfMaterial read_material(const Json &material, const std::string &name, ModelNotes &notes) {
+    const Json &extensions = member(material, "extensions");
+    for (const auto &[key, value] : extensions.items()) {
+        if (!is_supported(key)) {
+            notes.add(ignored_note(key), name);
+        } else {
+            note_textures(value, key, name, notes);
+        }
+    }
+    GltfMaterial made;
+    made.name = name;
+    made.emissive_strength =
+        number(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
+    made.ior = number(member(extensions, "KHR_materials_ior"), "ior", made.ior);
+    made.transmission =
+        number(member(extensions, "KHR_materials_transmission"), "transmissionFactor", 0);
+    const Json &volume = member(extensions, "KHR_materials_volume");
+    made.thickness = number(volume, "thicknessFactor", 0);
+    made.attenuation_distance = number(volume, "attenuationDistance", made.attenuation_distance);
+    made.attenuation_colour = colour(volume, "attenuationColor");
+    const Json &specular = member(extensions, "KHR_materials_specular");
+    made.specular = number(specular, "specularFactor", 1);
+    made.specular_colour = colour(specular, "specularColorFactor");
+    const Json &two_sided = member(material, "doubleSided");
+    made.is_two_sided = two_sided.is_boolean() && two_sided.get<bool>();
+    read_base_texture(member(member(material, "pbrMetallicRoughness"), "baseColorTexture"), made);
+    return made;
+}
+
+/// Notes buffers whose files are longer than stated, beyond the padding to four bytes.
+void note_buffers(const Json &document, const std::filesystem::path &folder, ModelNotes &notes) {
+    for (const Json &buffer : member(document, "buffers")) {
+        const Json &uri = member(buffer, "uri");
+        const Json &length = member(buffer, "byteLength");
+        if (!uri.is_string() || !length.is_number_unsigned()) {
+            continue;
+        }
+        const std::string name = uri.get<std::string>();
+        std::error_code missing;
+        const uintmax_t size = name.compare(0, 5, "data:") == 0
+                                   ? 0
+                                   : std::filesystem::file_size(folder / name, missing);
+        if (!missing && size > length.get<uintmax_t>() + 3) {
+            notes.add(
+                "buffers are longer than stated; they may be damaged by a change of line "
+                "endings",
+                shown(name));
+        }
+    }
+}
+
+/// Sizes in a .glb file, little-endian as the host.
+constexpr size_t file_size_at = 8;
+constexpr size_t json_size_at = 12;
+constexpr size_t json_begin = 20;
+
+uint32_t size_in(const std::string &file, size_t at) {
+    uint32_t size = 0;
+    std::memcpy(&size, file.data() + at, sizeof size);
+    return size;
+}
+
+void set_size(std::string &file, size_t at, size_t value) {
+    const auto size = static_cast<uint32_t>(value);
+    std::memcpy(file.data() + at, &size, sizeof size);
+}
+
+/// Checks the sizes in a .glb file. A change of line endings makes them wrong, and Assimp would
+/// read shifted numbers.
+void check_sizes(const std::string &file) {
+    if (file.size() < json_begin) {
+        throw input_error("unexpected end of file");
+    }
+    if (size_in(file, file_size_at) != file.size()) {
+        throw input_error(fmt::format("the file has {} bytes, but its header states {}",
+                                      file.size(), size_in(file, file_size_at)));
+    }
+    if (size_in(file, json_size_at) > file.size() - json_begin) {
+        throw input_error("the JSON is longer than the file");
+    }
+}
+
+}  // namespace
+
+GltfFile read_gltf(const std::filesystem::path &path) {
+    std::string text = read_file(path);
+    GltfFile file;
+    if (text.compare(0, 4, "glTF") == 0) {
+        try {
+            check_sizes(text);
+        } catch (const Error &error) {
+            throw Error(error.exit_code(), fmt::format("{}: {}", path.string(), error.what()));
+        }
+        file.head = text.substr(0, json_begin);
+        const uint32_t size = size_in(text, json_size_at);
+        file.chunks = text.substr(json_begin + size);
+        text = text.substr(json_begin, size);
+    }
+    file.document = parse_json(text, path.string());
+    return file;
+}
+
+std::string with_numbered_materials(GltfFile file) {
+    if (file.document.is_object() && member(file.document, "materials").is_array()) {
+        size_t index = 0;
+        for (Json &material : file.document["materials"]) {
+            if (material.is_object()) {
+                material["name"] = std::to_string(index);
+            }
+            ++index;
+        }
+    }
+    std::string text = file.document.dump();
+    if (file.head.empty()) {
+        return text;
+    }
+    text.append((4 - text.size() % 4) % 4, ' ');
+    set_size(file.head, json_size_at, text.size());
+    set_size(file.head, file_size_at, json_begin + text.size() + file.chunks.size());
+    return file.head + text + file.chunks;
+}
+
+void check_gltf(const Json &document, const std::filesystem::path &path, ModelNotes &notes) {
+    for (const Json &extension : member(document, "extensionsRequired")) {
+        if (!extension.is_string() || !is_supported(extension.get<std::string>())) {
+            throw input_error(fmt::format(
+                "the file requires the extension {}, which is unsupported; supported extensions "
+                "are: {}",
+                shown(extension.dump()), fmt::join(supported_extensions, ", ")));
+        }
+    }
+    for (const Json &extension : member(document, "extensionsUsed")) {
+        if (!extension.is_string() || !is_supported(extension.get<std::string>())) {
+            notes.add(ignored_note(extension.is_string() ? extension.get<std::string>()
+                                                         : extension.dump()));
+        }
+    }
+    note_buffers(document, path.parent_path(), notes);
+    if (member(document, "scenes").size() > 1) {
+        notes.add("only the default scene is used");
+    }
+    const Json &punctual = member(member(document, "extensions"), "KHR_lights_punctual");
+    for (const Json &light : member(punctual, "lights")) {
+        if (!member(light, "range").is_null()) {
+            const Json &name = member(light, "name");
+            notes.add("ranges of lights are ignored",
+                      name.is_string() ? shown(name.get<std::string>()) : "a light without a name");
+        }
+    }
+}
+
+std::vector<GltfMaterial> gltf_materials(const Json &document, ModelNotes &notes) {
+    std::vector<GltfMaterial> made;
+    const Json &materials = member(document, "materials");
+    if (!materials.is_array()) {
+        return made;  // glTF 1.0 has an object
+    }
+    for (const Json &material : materials) {
+        const Json &stated = member(material, "name");
+        const std::string name = stated.is_string() ? stated.get<std::string>() : std::string();
+        try {
+            made.push_back(read_material(material, name, notes));
+        } catch (const nlohmann::json::exception &error) {
+            throw input_error(fmt::format("material '{}': {}", shown(name), error.what()));
+        }
+    }
+    return made;
+}
+
+}  // namespace rtrays

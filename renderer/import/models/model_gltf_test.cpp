@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+// Tests what the import of glTF adds to Assimp: extensions, units and texture transforms. Also
+// tests the units and cones of lights of Collada and FBX.
+#include <gtest/gtest.h>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/angles.h"
+#include "renderer/base/json.h"
+#include "renderer/import/models/model_file.h"
+#include "renderer/scene/graph.h"
+#include "renderer/testing/errors.h"
+#include "renderer/testing/loaded_model.h"
+#include "renderer/testing/temporary_folder.h"
+
+namespace rtrays {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using Kind = BxdfComponent::Kind;
+using Fresnel = BxdfComponent::Fresnel;
+
+const std::filesystem::path corpus = RTRAYS_CORPUS;
+
+/// Half of the texels are (255, 128, 0), half are (0, 64, 255).
+constexpr const char *checker =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAGElEQVR42mNgcPj/v4EBSiJYDv8ZcMoAADqyFfGE/"
+    "XEFAAAAAElFTkSuQmCC";
+
+/// The document of triangles.gltf, whose material is `brass`.
+Json document() {
+    return parse_json(bytes_of(corpus / "triangles.gltf"), "triangles.gltf");
+}
+
+LoadedModel loaded(const Json &model) {
+    const TemporaryFolder folder;
+    return LoadedModel(folder.write("m.gltf", model.dump()));
+}
+
+/// Loads triangles.gltf with an extension of its material.
+LoadedModel with_extension(const char *name, const Json &value) {
+    Json model = document();
+    model["extensionsUsed"].push_back(name);
+    model["materials"][0]["extensions"][name] = value;
+    return loaded(model);
+}
+
+TEST(Gltf, EmissionIsFactorTimesTextureTimesStrength) {
+    Json model = document();
+    Json &material = model["materials"][0];
+    model["images"] = {{{"uri", checker}}};
+    model["textures"] = {{{"source", 0}}};
+    const auto radiance = [&] {
+        const LoadedModel read = loaded(model);
+        EXPECT_FALSE(read.says("KHR_materials_emissive_strength")) << read.told;
+        return read.scene.lights().radiance.at(read.light("left"));
+    };
+    for (const bool has_texture : {false, true}) {
+        material["extensions"] = Json::object();
+        material["emissiveFactor"] = {1, 0.5, 0.25};
+        if (has_texture) {
+            material["emissiveTexture"] = {{"index", 0}};
+        }
+        const Vector3f without = radiance();
+        material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 50}};
+        model["extensionsUsed"] =
+            Json::array({"KHR_lights_punctual", "KHR_materials_emissive_strength"});
+        const Vector3f with = radiance();
+        EXPECT_LT((with - 50 * without).norm(), 1e-5f * with.norm());
+        EXPECT_EQ(without.x(), has_texture ? 0.5f : 1.0f);
+    }
+    model["extensionsRequired"] = Json::array({"KHR_materials_emissive_strength"});
+    EXPECT_EQ(radiance().x(), 25.0f);
+}
+
+TEST(Gltf, RequiredUnknownExtensionsAreErrors) {
+    Json model = document();
+    model["extensionsUsed"].push_back("EXT_nonsense");
+    const LoadedModel used = loaded(model);
+    EXPECT_TRUE(used.says("the extension EXT_nonsense is ignored")) << used.told;
+    model["extensionsRequired"] = Json::array({"KHR_lights_punctual", "EXT_nonsense"});
+    const TemporaryFolder folder;
+    const auto path = folder.write("m.gltf", model.dump());
+    expect_input_error(
+        "m.gltf: the file requires the extension \"EXT_nonsense\", which is unsupported",
+        [&] { LoadedModel read(path); });
+    expect_input_error("EXT_nonsense", [&] { load_mesh_file(path, "m"); });
+}
+
+TEST(Gltf, NamesExtensionsThatAreIgnored) {
+    for (const char *name : {"KHR_materials_clearcoat", "KHR_materials_sheen",
+                             "KHR_materials_unlit", "KHR_materials_anisotropy", "EXT_anything"}) {
+        const LoadedModel model = with_extension(name, Json::object());
+        EXPECT_TRUE(model.says("the extension " + std::string(name) + " is ignored (1: brass)"))
+            << model.told;
+    }
+    const LoadedModel textured =
+        with_extension("KHR_materials_specular", {{"specularTexture", {{"index", 0}}}});
+    EXPECT_TRUE(textured.says("textures of KHR_materials_specular are ignored (1: brass)"))
+        << textured.told;
+}
+
+TEST(Gltf, ReadsTheDocumentOfBinaryFiles) {
+    const std::string text = [] {
+        Json model = document();
+        model["extensionsRequired"] = Json::array({"EXT_nonsense"});
+        return model.dump();
+    }();
+    const auto word = [](size_t value) {
+        std::string bytes(4, '\0');
+        for (size_t i = 0; i < 4; ++i) {
+            bytes[i] = static_cast<char>(value >> (8 * i));
+        }
+        return bytes;
+    };
+    const std::string binary =
+        "glTF" + word(2) + word(20 + text.size()) + word(text.size()) + "JSON" + text;
+    const TemporaryFolder folder;
+    expect_input_error("requires the extension \"EXT_nonsense\"",
+                       [&] { LoadedModel read(folder.write("m.glb", binary)); });
+    // A file that was cut, and one with a changed line ending.
+    for (const std::string &damaged : {binary.substr(0, binary.size() - 1), binary + "\r"}) {
+        expect_input_error(" bytes, but its header states ",
+                           [&] { LoadedModel read(folder.write("m.glb", damaged)); });
+    }
+}
+
+TEST(Gltf, TextureTransformsAreHonoured) {
+    Json model = document();
+    model["images"] = {{{"uri", checker}}};
+    model["textures"] = {{{"source", 0}}};
+    model["extensionsUsed"].push_back("KHR_texture_transform");
+    Json &texture = model["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    texture = {{"index", 0}};
+    Json &transform = texture["extensions"]["KHR_texture_transform"];
+    const Vector2f corners[] = {{0, 0}, {1, 0}, {0, 1}};  // in our coordinates
+
+    transform = {{"offset", {0.25, 0.5}}, {"scale", {2, 4}}};
+    const LoadedModel scaled = loaded(model);
+    const TextureArrays &t = scaled.scene.arrays().textures;
+    ASSERT_EQ(t.uv_scale, std::vector<Vector2d>{Vector2d(2, 4)});
+    // glTF's v points down: 1 - (0.5 + 4 * (1 - v)) = 4 * v - 3.5.
+    EXPECT_LT((t.uv_offset[0] - Vector2d(0.25, -3.5)).norm(), 1e-12);
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(scaled.scene.meshes().uv[i], corners[i]);
+    }
+
+    // The example of the extension: the lower left quadrant of the image, rotated clockwise.
+    transform = {{"offset", {0, 1}}, {"rotation", pi / 2}, {"scale", {0.5, 0.5}}};
+    const LoadedModel rotated = loaded(model);
+    EXPECT_EQ(rotated.scene.arrays().textures.uv_scale, std::vector<Vector2d>{Vector2d(1, 1)});
+    // In glTF's coordinates (0, 1) -> (0.5, 1), (1, 1) -> (0.5, 0.5), (0, 0) -> (0, 1).
+    const Vector2f expected[] = {{0.5f, 0}, {0.5f, 0.5f}, {0, 0}};
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_LT((rotated.scene.meshes().uv[i] - expected[i]).norm(), 1e-6f) << i;
+    }
+    EXPECT_FALSE(rotated.says("rotations")) << rotated.told;
+}
+
+TEST(Gltf, UsesTheTextureCoordinatesThatTheTextureNames) {
+    Json model = document();
+    model["images"] = {{{"uri", checker}}};
+    model["textures"] = {{{"source", 0}}};
+    model["extensionsUsed"].push_back("KHR_texture_transform");
+    // The second set of coordinates is the first two numbers of three other floats per vertex.
+    Json &attributes = model["meshes"][0]["primitives"][0]["attributes"];
+    Json second = model["accessors"][attributes["POSITION"].get<size_t>()];
+    second["type"] = "VEC2";
+    second.erase("min");
+    second.erase("max");
+    attributes["TEXCOORD_1"] = model["accessors"].size();
+    model["accessors"].push_back(second);
+    Json &texture = model["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    texture = {{"index", 0}};
+    const auto uv = [&] { return loaded(model).scene.meshes().uv; };
+    const auto first = uv();
+    texture["texCoord"] = 1;
+    const auto by_texture = uv();
+    EXPECT_NE(by_texture, first);
+    texture["texCoord"] = 0;
+    texture["extensions"]["KHR_texture_transform"] = {{"texCoord", 1}};
+    EXPECT_EQ(uv(), by_texture);
+}
+
+TEST(Gltf, HonoursTheFilterOfTheSampler) {
+    Json model = document();
+    model["images"] = {{{"uri", checker}}};
+    model["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    model["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    using Filter = TextureArrays::Filter;
+    for (const auto &[stated, filter] :
+         {std::pair(9728, Filter::nearest), std::pair(9729, Filter::bilinear)}) {
+        model["samplers"] = {{{"magFilter", stated}}};
+        EXPECT_EQ(loaded(model).scene.arrays().textures.filter, std::vector<Filter>{filter});
+    }
+}
+
+TEST(Gltf, NamesWhatIsDropped) {
+    Json model = document();
+    model["scenes"].push_back(model["scenes"][0]);
+    model["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = 5;
+    model["materials"][0]["emissiveFactor"] = {1, 1, 1};
+    model["materials"][0]["doubleSided"] = true;
+    const LoadedModel read = loaded(model);
+    for (const char *text :
+         {"only the default scene is used", "ranges of lights are ignored (1: bulb)",
+          "emission of two-sided materials leaves the front only (1: brass)"}) {
+        EXPECT_TRUE(read.says(text)) << text << "\n" << read.told;
+    }
+}
+
+TEST(Gltf, NotesBuffersThatAreLongerThanStated) {
+    Json model = document();
+    model["buffers"][0]["uri"] = "m.bin";
+    const TemporaryFolder folder;
+    folder.write("m.bin", std::string(102, '\0'));
+    const auto path = folder.write("m.gltf", model.dump());
+    EXPECT_FALSE(LoadedModel(path).says("longer than stated"));
+    folder.write("m.bin", std::string(106, '\0'));
+    EXPECT_TRUE(LoadedModel(path).says("buffers are longer than stated"));
+}
+
+TEST(Gltf, MaterialsWithoutNamesKeepTheirExtensions) {
+    Json model = document();
+    model["extensionsUsed"].push_back("KHR_materials_emissive_strength");
+    Json lamp = model["materials"][0];
+    lamp.erase("name");
+    lamp["emissiveFactor"] = {1, 1, 1};
+    model["materials"] = Json::array();
+    // The first mesh has the last material.
+    for (const double strength : {2, 3, 4}) {
+        lamp["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+        model["materials"].push_back(lamp);
+    }
+    model["meshes"].push_back(model["meshes"][0]);
+    model["meshes"][0]["primitives"][0]["material"] = 2;
+    model["meshes"][1]["primitives"][0]["material"] = 1;
+    for (Json &node : model["nodes"]) {
+        if (node.contains("mesh")) {
+            node["mesh"] = node["name"] == "left" ? 0 : 1;
+        }
+    }
+    const LoadedModel read = loaded(model);
+    const LightArrays &lights = read.scene.lights();
+    EXPECT_EQ(lights.radiance.at(read.light("left")), Vector3f::Constant(4));
+    EXPECT_EQ(lights.radiance.at(read.light("right")), Vector3f::Constant(3));
+}
+
+TEST(Gltf, TransmissionIsAMixtureOfBaseAndRefraction) {
+    Json model = document();
+    Json &material = model["materials"][0];
+    model["extensionsUsed"] =
+        Json::array({"KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior"});
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {0.8, 0.6, 0.4, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0}};
+    material["extensions"] = {{"KHR_materials_ior", {{"ior", 1.4}}},
+                              {"KHR_materials_transmission", {{"transmissionFactor", 0.25}}}};
+    const LoadedModel quarter = loaded(model);
+    const auto part = quarter.material("brass");
+    ASSERT_EQ(part.size(), 3u);
+    EXPECT_EQ(part[0].kind, Kind::ideal_reflection);
+    EXPECT_DOUBLE_EQ(part[0].eta[0], 1.4);
+    EXPECT_EQ(part[1].kind, Kind::lambert);
+    EXPECT_LT((part[1].weight - Vector3f(0.6f, 0.45f, 0.3f)).norm(), 1e-6f);
+    EXPECT_EQ(part[2].kind, Kind::ideal_refraction);
+    EXPECT_LT((part[2].weight - Vector3f(0.2f, 0.15f, 0.1f)).norm(), 1e-6f);
+    EXPECT_TRUE(part[2].complement);
+    EXPECT_TRUE(quarter.says("thin-walled in glTF (1: brass)")) << quarter.told;
+
+    material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 1;
+    material["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 0.5},
+                                                      {"attenuationDistance", 0.25},
+                                                      {"attenuationColor", {1, 0.5, 0.25}}};
+    const LoadedModel full = loaded(model);
+    const auto glass = full.material("brass");
+    ASSERT_EQ(glass.size(), 2u);
+    // Two lengths of attenuation are passed by two crossings, so each has one.
+    EXPECT_LT((glass[1].weight - Vector3f(0.8f, 0.3f, 0.1f)).norm(), 1e-6f);
+    EXPECT_TRUE(full.says("absorption in volumes is replaced by a colour at each crossing"))
+        << full.told;
+}
+
+TEST(Gltf, SpecularScalesTheReflectanceOfTheCoat) {
+    Json model = document();
+    model["extensionsUsed"].push_back("KHR_materials_specular");
+    Json &material = model["materials"][0];
+    material["pbrMetallicRoughness"]["metallicFactor"] = 0;
+    Json &specular = material["extensions"]["KHR_materials_specular"];
+    specular = {{"specularFactor", 0.25}};
+    const LoadedModel quarter = loaded(model);
+    const auto coat = quarter.material("brass");
+    ASSERT_EQ(coat.size(), 2u);
+    // A reflectance of 0.04 / 4 is that of (1 + 0.1) / (1 - 0.1).
+    EXPECT_NEAR(coat[0].eta[0], 1.1 / 0.9, 1e-12);
+    EXPECT_TRUE(quarter.says("KHR_materials_specular is honoured at normal incidence only"))
+        << quarter.told;
+    specular = {{"specularFactor", 0}};
+    const auto bare = loaded(model).material("brass");
+    ASSERT_EQ(bare.size(), 1u);
+    EXPECT_EQ(bare[0].kind, Kind::lambert);
+}
+
+/// A Collada file with a spot light at (0, 0, 2), whose element has these statements.
+std::string spot_file(const std::string &statements) {
+    std::string text = bytes_of(corpus / "plane.dae");
+    const size_t begin = text.find("<point>");
+    const size_t end = text.find("</point>");
+    EXPECT_NE(begin, std::string::npos);
+    EXPECT_NE(end, std::string::npos);
+    return text.replace(begin, end + 8 - begin,
+                        "<spot><color>4 3 2</color>" + statements + "</spot>");
+}
+
+TEST(Collada, TheFalloffAngleIsTheFullCone) {
+    const TemporaryFolder folder;
+    const LoadedModel model(
+        folder.write("spot.dae", spot_file("<falloff_angle>60</falloff_angle>")));
+    const LightArrays &lights = model.scene.lights();
+    ASSERT_EQ(lights.kind, std::vector<LightArrays::Kind>{LightArrays::Kind::spot});
+    EXPECT_NEAR(2 * std::tan(lights.outer_angle[0]), 1.1547, 1e-4);  // lit radius at distance 2
+    EXPECT_LT(lights.inner_angle[0], lights.outer_angle[0]);
+    EXPECT_GT(lights.inner_angle[0], 0.98 * lights.outer_angle[0]);
+    const LoadedModel soft(
+        folder.write("soft.dae", spot_file("<falloff_angle>60</falloff_angle>"
+                                           "<falloff_exponent>2</falloff_exponent>")));
+    EXPECT_NEAR(soft.scene.lights().outer_angle[0], 30 * degree, 1e-5);
+    EXPECT_TRUE(soft.says("falloff_exponent of spot lights is ignored")) << soft.told;
+}
+
+TEST(Fbx, LengthsAreInMetres) {
+    Assimp::Importer importer;
+    const aiScene *squares = importer.ReadFile((corpus / "triangle.stl").string(), 0);
+    ASSERT_NE(squares, nullptr);
+    const TemporaryFolder folder;
+    const std::string path = (folder.path() / "a.fbx").string();
+    ASSERT_EQ(Assimp::Exporter().Export(squares, "fbxa", path), aiReturn_SUCCESS);
+    const LoadedModel centimetres(path);
+    EXPECT_TRUE(centimetres.says("lengths are converted to metres by the factor 0.01"))
+        << centimetres.told;
+    std::string text = bytes_of(path);
+    const std::string before = "\"UnitScaleFactor\", \"double\", \"Number\", \"\", 1";
+    const size_t at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << text;
+    const LoadedModel metres(folder.write("b.fbx", text.insert(at + before.size(), "00")));
+    EXPECT_FALSE(metres.says("lengths are converted")) << metres.told;
+    const double size = metres.scene.graph().bounds().diagonal().norm();
+    EXPECT_NEAR(centimetres.scene.graph().bounds().diagonal().norm(), 0.01 * size, 1e-9 * size);
+}
+
+}  // namespace
+}  // namespace rtrays

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Conversion of the surfaces of model files to our materials, for all formats.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "renderer/import/models/notes.h"
+#include "renderer/scene/cores/material.h"
+#include "renderer/scene/cores/texture.h"
+
+namespace rtrays {
+
+/// The parameters of a surface, independent of the file format.
+struct ModelSurface {
+    static constexpr double default_grey = 0.6;  ///< Assimp's default
+    static constexpr double glass_eta = 1.5;     ///< glTF's default
+
+    Eigen::Vector3d diffuse = Eigen::Vector3d::Constant(default_grey);
+    Eigen::Vector3d specular = Eigen::Vector3d::Zero();
+    Eigen::Vector3d emission = Eigen::Vector3d::Zero();
+    Eigen::Vector3d transmittance = Eigen::Vector3d::Ones();
+    std::shared_ptr<Texture> diffuse_texture;
+    std::shared_ptr<Texture> specular_texture;
+    double exponent = 0;
+    double opacity = 1;
+    double eta = 1;
+    double metalness = 0;
+    double alpha = 0;
+    double transmission = 0;     ///< fraction of the light below the coat that is refracted
+    bool is_physical = false;    ///< described by metalness and roughness
+    bool refracts = false;       ///< glass
+    bool only_reflects = false;  ///< a mirror or a metal without a diffuse colour
+
+    bool has_highlight() const { return specular.maxCoeff() > 0 && exponent > 0; }
+    bool is_plain() const { return !is_physical && !refracts && !only_reflects; }
+};
+
+/// Converts a surface to a material. The first matching rule applies:
+///
+///   1. `refracts`: glass.
+///   2. `is_physical`: a mixture by metalness of a metal (Schlick) and of a coated base. The base
+///      is Lambert below a dielectric, and refracts the fraction `transmission`. The distribution
+///      is GGX.
+///   3. `only_reflects`: metal (Schlick) of reflectance `specular`, GGX.
+///   4. A specular colour and an exponent: lambert_blinn.
+///   5. Otherwise: lambert.
+///
+/// Colours are scaled down where a material would reflect more light than it receives, with a note.
+/// With an opacity below one, that fraction of the light is scattered, and the rest passes straight
+/// through. Emission is radiance. Throws `Error` (bad input) naming the parameter at fault.
+std::shared_ptr<MaterialCore> make_model_material(ModelSurface surface, const std::string &name,
+                                                  ModelNotes &notes);
+
+}  // namespace rtrays

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/models/textures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/import/models/statements.h"
+
+namespace rtrays {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Returns `folder / path` with the case of letters of the files that exist, or an empty path.
+fs::path find_in_any_case(const fs::path &folder, const fs::path &path) {
+    fs::path found = folder;
+    std::error_code error;
+    for (const fs::path &part : path) {
+        if (fs::exists(found / part, error)) {
+            found /= part;
+            continue;
+        }
+        std::vector<fs::path> same;
+        for (const auto &entry : fs::directory_iterator(found.empty() ? "." : found, error)) {
+            if (in_lower_case(entry.path().filename().string()) == in_lower_case(part.string())) {
+                same.push_back(entry.path().filename());
+            }
+        }
+        if (same.size() != 1) {
+            return {};
+        }
+        found /= same[0];
+    }
+    return found;
+}
+
+bool holds_floats(const fs::path &file) {
+    const std::string extension = lower_extension(file);
+    return extension == ".hdr" || extension == ".exr" || extension == ".pfm";
+}
+
+}  // namespace
+
+fs::path find_model_file(const std::string &stated, const std::vector<fs::path> &folders,
+                         ModelNotes &notes) {
+    std::string with_slashes = stated;
+    std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
+    const fs::path path = with_slashes;
+    std::error_code ignored;
+    for (const fs::path &folder : folders) {
+        for (const fs::path &tried : {path, path.filename()}) {
+            if (fs::is_regular_file(folder / tried, ignored)) {
+                return folder / tried;
+            }
+        }
+    }
+    for (const fs::path &folder : folders) {
+        for (const fs::path &tried : {path.relative_path(), path.filename()}) {
+            const fs::path found = find_in_any_case(folder, tried);
+            if (fs::is_regular_file(found, ignored)) {
+                notes.add("names of files differ in case from the files used",
+                          fmt::format("{} is {}", stated, found.filename().string()));
+                return found;
+            }
+        }
+    }
+    return folders.at(0) / path;
+}
+
+Eigen::Vector3d mean_of(const TextureImage &image) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const auto texels = static_cast<Eigen::Index>(image.width) * image.height;
+    for (Eigen::Index i = 0; i < 3 * texels; ++i) {
+        const auto at = static_cast<size_t>(i);
+        const double value = image.floats.empty() ? image.bytes[at] / 255.0 : image.floats[at];
+        sum[i % 3] += image.srgb ? srgb_decoded(value) : value;
+    }
+    return sum / static_cast<double>(texels);
+}
+
+std::shared_ptr<const TextureImage> ModelTextures::load(const std::string &stated,
+                                                        const std::vector<fs::path> &folders,
+                                                        bool is_colour) {
+    const TextureEncoding encoding =
+        is_colour && !holds_floats(stated) ? TextureEncoding::srgb : TextureEncoding::linear;
+    return files_.load(find_model_file(stated, folders, notes_), encoding);
+}
+
+std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const TextureImage> &image,
+                                                const std::string &file,
+                                                const TexturePlacement &placement) {
+    const Eigen::Vector2d &scale = placement.scale;
+    const Eigen::Vector2d &offset = placement.offset;
+    const std::string key = fmt::format("{} {} {} {} {} {}", static_cast<const void *>(image.get()),
+                                        placement.clamps, scale[0], scale[1], offset[0], offset[1]);
+    std::shared_ptr<Texture> &made = textures_[key];
+    if (made == nullptr) {
+        std::string path = file;
+        std::replace(path.begin(), path.end(), '\\', '/');
+        made = std::make_shared<Texture>(
+            names_.unique(fs::path(path).stem().string(), "texture"), image,
+            ParameterValues{{"filter", std::string(placement.is_nearest ? "nearest" : "bilinear")},
+                            {"wrap", std::string(placement.clamps ? "clamp" : "repeat")},
+                            {"uv_scale", scale},
+                            {"uv_offset", offset}});
+        all_.push_back(made);
+    }
+    return made;
+}
+
+}  // namespace rtrays
