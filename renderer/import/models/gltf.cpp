@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,8 @@ constexpr const char *supported_extensions[] = {
     "KHR_materials_transmission", "KHR_materials_volume",
     "KHR_texture_transform",
 };
+
+constexpr const char *punctual = "KHR_lights_punctual";
 
 bool is_supported(const std::string &extension) {
     return std::find(std::begin(supported_extensions), std::end(supported_extensions), extension) !=
@@ -130,6 +133,97 @@ GltfMaterial read_material(const Json &material, const std::string &name, ModelN
     return made;
 }
 
+/// Calls `change(entry, index)` for the entries of an array of the document.
+template <typename Change>
+void change_each(Json &document, const char *key, const Change &change) {
+    if (!member(document, key).is_array()) {
+        return;
+    }
+    size_t index = 0;
+    for (Json &entry : document[key]) {
+        if (entry.is_object()) {
+            change(entry, index);
+        }
+        ++index;
+    }
+}
+
+/// Appends a copy of the entry that `reference` is the index of, and refers to it.
+void separate(Json &reference, const Json &from, Json &to) {
+    if (reference.is_number_unsigned() && from.is_array() &&
+        reference.get<size_t>() < from.size()) {
+        to.push_back(from[reference.get<size_t>()]);
+        reference = to.size() - 1;
+    }
+}
+
+void separate_lights_and_cameras(Json &document) {
+    const Json cameras = member(document, "cameras");
+    const Json lights = member(member(member(document, "extensions"), punctual), "lights");
+    Json own_cameras = Json::array();
+    Json own_lights = Json::array();
+    change_each(document, "nodes", [&](Json &node, size_t) {
+        if (!member(node, "camera").is_null()) {
+            separate(node["camera"], cameras, own_cameras);
+        }
+        if (!member(member(member(node, "extensions"), punctual), "light").is_null()) {
+            separate(node["extensions"][punctual]["light"], lights, own_lights);
+        }
+    });
+    if (cameras.is_array()) {
+        document["cameras"] = own_cameras;
+    }
+    if (lights.is_array()) {
+        document["extensions"][punctual]["lights"] = own_lights;
+    }
+}
+
+/// Returns a URI without percent-encoding. Embedded data remain as they are.
+std::string decoded(const std::string &uri) {
+    if (uri.compare(0, 5, "data:") == 0) {
+        return uri;
+    }
+    std::string text;
+    for (size_t i = 0; i < uri.size(); ++i) {
+        unsigned code = 0;
+        const char *const digits = uri.data() + i + 1;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+            text.push_back(static_cast<char>(code));
+            i += 2;
+        } else {
+            text.push_back(uri[i]);
+        }
+    }
+    return text;
+}
+
+/// Throws if vertices have attributes of integers, which Assimp reads as the bits of floats.
+void check_attributes(const Json &document) {
+    constexpr int floats = 5126;
+    const Json &accessors = member(document, "accessors");
+    for (const Json &mesh : member(document, "meshes")) {
+        for (const Json &primitive : member(mesh, "primitives")) {
+            for (const auto &[key, value] : member(primitive, "attributes").items()) {
+                const bool is_read =
+                    key == "POSITION" || key == "NORMAL" || key.compare(0, 9, "TEXCOORD_") == 0;
+                if (!is_read || !value.is_number_unsigned() || !accessors.is_array() ||
+                    value.get<size_t>() >= accessors.size()) {
+                    continue;
+                }
+                const Json &type = member(accessors[value.get<size_t>()], "componentType");
+                if (type.is_number_unsigned() && type != floats) {
+                    const Json &name = member(mesh, "name");
+                    throw input_error(
+                        fmt::format("mesh '{}': {} is stored as integers, which is unsupported; "
+                                    "export floats",
+                                    name.is_string() ? shown(name.get<std::string>()) : "", key));
+                }
+            }
+        }
+    }
+}
+
 /// Notes buffers whose files are longer than stated, beyond the padding to four bytes.
 void note_buffers(const Json &document, const std::filesystem::path &folder, ModelNotes &notes) {
     for (const Json &buffer : member(document, "buffers")) {
@@ -138,7 +232,7 @@ void note_buffers(const Json &document, const std::filesystem::path &folder, Mod
         if (!uri.is_string() || !length.is_number_unsigned()) {
             continue;
         }
-        const std::string name = uri.get<std::string>();
+        const std::string name = decoded(uri.get<std::string>());
         std::error_code missing;
         const uintmax_t size = name.compare(0, 5, "data:") == 0
                                    ? 0
@@ -203,17 +297,20 @@ GltfFile read_gltf(const std::filesystem::path &path) {
     return file;
 }
 
-std::string with_numbered_materials(GltfFile file) {
-    if (file.document.is_object() && member(file.document, "materials").is_array()) {
-        size_t index = 0;
-        for (Json &material : file.document["materials"]) {
-            if (material.is_object()) {
-                material["name"] = std::to_string(index);
-            }
-            ++index;
-        }
+std::string for_assimp(GltfFile file) {
+    for (const char *key : {"materials", "nodes"}) {
+        change_each(file.document, key,
+                    [](Json &entry, size_t index) { entry["name"] = std::to_string(index); });
     }
-    std::string text = file.document.dump();
+    separate_lights_and_cameras(file.document);
+    for (const char *key : {"buffers", "images"}) {
+        change_each(file.document, key, [](Json &entry, size_t) {
+            if (member(entry, "uri").is_string()) {
+                entry["uri"] = decoded(entry["uri"].get<std::string>());
+            }
+        });
+    }
+    std::string text = file.document.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (file.head.empty()) {
         return text;
     }
@@ -221,6 +318,19 @@ std::string with_numbered_materials(GltfFile file) {
     set_size(file.head, json_size_at, text.size());
     set_size(file.head, file_size_at, json_begin + text.size() + file.chunks.size());
     return file.head + text + file.chunks;
+}
+
+std::vector<std::string> gltf_node_names(const Json &document) {
+    std::vector<std::string> names;
+    const Json &nodes = member(document, "nodes");
+    if (!nodes.is_array()) {
+        return names;  // glTF 1.0 has an object
+    }
+    for (const Json &node : nodes) {
+        const Json &name = member(node, "name");
+        names.push_back(name.is_string() ? name.get<std::string>() : "");
+    }
+    return names;
 }
 
 void check_gltf(const Json &document, const std::filesystem::path &path, ModelNotes &notes) {
@@ -238,12 +348,13 @@ void check_gltf(const Json &document, const std::filesystem::path &path, ModelNo
                                                          : extension.dump()));
         }
     }
+    check_attributes(document);
     note_buffers(document, path.parent_path(), notes);
     if (member(document, "scenes").size() > 1) {
         notes.add("only the default scene is used");
     }
-    const Json &punctual = member(member(document, "extensions"), "KHR_lights_punctual");
-    for (const Json &light : member(punctual, "lights")) {
+    const Json &lights = member(member(member(document, "extensions"), punctual), "lights");
+    for (const Json &light : lights) {
         if (!member(light, "range").is_null()) {
             const Json &name = member(light, "name");
             notes.add("ranges of lights are ignored",

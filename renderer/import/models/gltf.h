@@ -48,13 +48,18 @@ struct GltfFile {
 /// Reads a .gltf or .glb file. Throws `Error` (bad input) naming the file if it is damaged.
 GltfFile read_gltf(const std::filesystem::path &path);
 
-/// Returns the file with the index of each material as its name. Assimp numbers materials in the
-/// order in which meshes use them, and loses materials without a use.
-std::string with_numbered_materials(GltfFile file);
+/// Returns the file in a form that Assimp 5.2.5 reads without losses. Materials and nodes have
+/// their index as a name: Assimp numbers materials in the order in which meshes use them, and finds
+/// the node of a light or a camera by its name. Each node has its own light and camera, because
+/// Assimp keeps one node of a shared one. Percent-encoded file names are decoded.
+std::string for_assimp(GltfFile file);
+
+/// Returns the names of the nodes of a glTF document. A node without a name has an empty one.
+std::vector<std::string> gltf_node_names(const Json &document);
 
 /// Checks a glTF document. Notes name the extensions that are used and ignored, and what Assimp
 /// drops without a word. Throws `Error` (bad input) naming a required extension that is
-/// unsupported.
+/// unsupported, or attributes that are not floats.
 void check_gltf(const Json &document, const std::filesystem::path &path, ModelNotes &notes);
 
 /// Returns the extended properties of the materials of a glTF document, in its order. Throws

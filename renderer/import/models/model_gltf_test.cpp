@@ -189,6 +189,60 @@ TEST(Gltf, UsesTheTextureCoordinatesThatTheTextureNames) {
     EXPECT_EQ(uv(), by_texture);
 }
 
+TEST(Gltf, SharedLightsAndRepeatedNamesKeepTheirPlaces) {
+    Json model = document();
+    Json &nodes = model["nodes"];
+    const size_t first = nodes.size();
+    const auto add = [&](const Json &node) {
+        nodes[0]["children"].push_back(nodes.size());
+        nodes.push_back(node);
+    };
+    const auto lit = [](const char *name, double x, size_t light) {
+        return Json{{"name", name},
+                    {"translation", {x, 0, 0}},
+                    {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}};
+    };
+    add(lit("second bulb", 5, 0));
+    add(lit("bulb", 7, 1));
+    add(Json{{"name", "eye"}, {"translation", {9, 0, 0}}, {"camera", 0}});
+    add(Json{{"name", "3"}, {"translation", {11, 0, 0}}});  // a name like an index
+    ASSERT_EQ(nodes.size(), first + 4);
+    const LoadedModel read = loaded(model);
+    const LightArrays &lights = read.scene.lights();
+    EXPECT_EQ(lights.name.size(), 5u);
+    const auto x_of = [&](const char *name) {
+        return lights.world_from_light.at(read.light(name))(0, 3);
+    };
+    EXPECT_EQ(x_of("bulb light"), 0);
+    EXPECT_EQ(x_of("second bulb light"), 5);
+    EXPECT_EQ(x_of("bulb light_2"), 7);
+    EXPECT_EQ(lights.kind.at(read.light("bulb light_2")), LightArrays::Kind::spot);
+    ASSERT_EQ(read.scene.cameras().name.size(), 2u);
+    EXPECT_EQ(read.scene.cameras().world_from_camera[0](2, 3), 5);
+    EXPECT_EQ(read.scene.cameras().world_from_camera[1](0, 3), 9);
+}
+
+TEST(Gltf, DecodesNamesOfFiles) {
+    Json model = document();
+    model["images"] = {{{"uri", "my%20im%61ge%.png"}}};
+    model["textures"] = {{{"source", 0}}};
+    model["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    const TemporaryFolder folder;
+    folder.write("my image%.png", bytes_of(corpus / "checker.png"));
+    EXPECT_EQ(LoadedModel(folder.write("m.gltf", model.dump())).scene.arrays().textures.name,
+              std::vector<std::string>{"my image%"});
+}
+
+TEST(Gltf, IntegerAttributesAreErrors) {
+    for (const char *attribute : {"POSITION", "NORMAL", "TEXCOORD_0"}) {
+        Json model = document();
+        const Json &index = model["meshes"][0]["primitives"][0]["attributes"][attribute];
+        model["accessors"][index.get<size_t>()]["componentType"] = 5123;
+        expect_input_error("mesh 'triangle': " + std::string(attribute) + " is stored as integers",
+                           [&] { loaded(model); });
+    }
+}
+
 TEST(Gltf, HonoursTheFilterOfTheSampler) {
     Json model = document();
     model["images"] = {{{"uri", checker}}};

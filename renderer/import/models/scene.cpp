@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <charconv>
 #include <cmath>
 #include <string>
 #include <unordered_map>
@@ -49,8 +50,9 @@ struct ModelSource {
     std::shared_ptr<const aiScene> scene;
     std::filesystem::path path;
     std::vector<GltfMaterial> gltf_materials{};  ///< of a glTF file, in its order
-    bool states_outer_cone = false;              ///< a Collada file with such an extension
-    double metres = 1;                           ///< unit of lengths of an FBX file
+    std::vector<std::string> gltf_nodes{};  ///< names of the nodes of a glTF file, in its order
+    bool states_outer_cone = false;         ///< a Collada file with such an extension
+    double metres = 1;                      ///< unit of lengths of an FBX file
 
     bool is(const char *extension) const { return lower_extension(path) == extension; }
     bool is_gltf() const { return is(".gltf") || is(".glb"); }
@@ -68,6 +70,13 @@ struct ModelSource {
         const auto inner = static_cast<double>(light.mAngleInnerCone);
         const auto outer = static_cast<double>(light.mAngleOuterCone);
         return {inner, is_collada() && !states_outer_cone ? inner : outer};
+    }
+    /// Returns the name in the file of a node, or of the light or camera of a node.
+    std::string name(const aiString &name) const {
+        const std::string stated = name.C_Str();
+        size_t index = gltf_nodes.size();  // the name of a glTF node is its index
+        std::from_chars(stated.data(), stated.data() + stated.size(), index);
+        return index < gltf_nodes.size() ? gltf_nodes[index] : stated;
     }
     /// Returns the position of a camera in its node. Assimp 5.2.5 adds the translation of the node
     /// to a glTF camera, although the node already applies it.
@@ -95,7 +104,8 @@ std::string read_gltf_details(ModelSource &source, ModelNotes &notes) {
     try {
         check_gltf(file.document, source.path, notes);
         source.gltf_materials = gltf_materials(file.document, notes);
-        return with_numbered_materials(std::move(file));
+        source.gltf_nodes = gltf_node_names(file.document);
+        return for_assimp(std::move(file));
     } catch (const Error &error) {
         throw Error(error.exit_code(), fmt::format("{}: {}", source.path.string(), error.what()));
     }
@@ -233,7 +243,7 @@ class SceneWriter {
         while (!pending.empty()) {
             const auto [from, parent] = pending.back();
             pending.pop_back();
-            const std::string wanted = from->mName.C_Str();
+            const std::string wanted = source_.name(from->mName);
             const double unit = from == model_.mRootNode ? source_.metres : 1;
             Node *node = nullptr;
             try {
@@ -245,7 +255,7 @@ class SceneWriter {
                     wanted);
                 continue;
             }
-            nodes_.emplace(wanted, node);
+            nodes_.emplace(from->mName.C_Str(), node);
             for (unsigned i = 0; i < from->mNumMeshes; ++i) {
                 // Our nodes have one geometry each, so several meshes get a child node each.
                 Node &holder = from->mNumMeshes == 1
@@ -295,14 +305,18 @@ class SceneWriter {
     /// Returns the node of the same name as a light or a camera, or the root.
     Node &owner(const aiString &name) {
         const auto found = nodes_.find(name.C_Str());
+        if (nodes_.count(name.C_Str()) > 1) {
+            notes_.add("several nodes have the name of a light or camera, which is placed at one",
+                       name.C_Str());
+        }
         return found != nodes_.end() ? *found->second : scene_.graph().root();
     }
 
     /// Adds a node for a light or a camera as a child of the node of its name.
     Node &placed(const aiString &name, const char *what, const Matrix4d &transform) {
         Node &node = owner(name);
-        return add_model_node(node, names_.unique(fmt::format("{} {}", name.C_Str(), what), what),
-                              transform);
+        return add_model_node(
+            node, names_.unique(fmt::format("{} {}", source_.name(name), what), what), transform);
     }
 
     static Matrix4d pose(const Vector3d &position, const Vector3d &direction, const Vector3d &up) {
@@ -322,12 +336,12 @@ class SceneWriter {
         notes_.add(
             "intensities of lights are converted from candela to W/sr, and from lux to "
             "W/m^2, by the factor 1/683; emission keeps its numbers",
-            light.mName.C_Str());
+            source_.name(light.mName));
         return vector(light.mColorDiffuse) / efficacy;
     }
 
     void write_light(const aiLight &light) {
-        const std::string name = light.mName.C_Str();
+        const std::string name = source_.name(light.mName);
         const Vector3d colour = intensity(light);
         const Vector3d position = vector(light.mPosition);
         const Vector3d direction = vector(light.mDirection);
@@ -385,7 +399,7 @@ class SceneWriter {
         const auto [stated_inner, stated_outer] = source_.cone(light);
         double outer = to_degrees * stated_outer;
         if (outer > widest) {
-            notes_.add("spot light cones are limited to 90 degrees", light.mName.C_Str());
+            notes_.add("spot light cones are limited to 90 degrees", source_.name(light.mName));
             outer = widest;
         }
         const double inner = std::min(to_degrees * stated_inner, softest * outer);
@@ -393,7 +407,7 @@ class SceneWriter {
     }
 
     void write_camera(const aiCamera &camera) {
-        const std::string name = camera.mName.C_Str();
+        const std::string name = source_.name(camera.mName);
         const double fov = source_.fov(camera);
         const Vector3d direction = vector(camera.mLookAt);
         if (camera.mOrthographicWidth > 0 || !(fov > 0 && fov < pi) || !(direction.norm() > 0)) {
@@ -428,7 +442,7 @@ class SceneWriter {
     ModelMaterials materials_;
     std::vector<std::shared_ptr<MeshCore>> mesh_cores_;
     std::vector<std::shared_ptr<MaterialCore>> material_cores_;
-    std::unordered_map<std::string, Node *> nodes_;
+    std::unordered_multimap<std::string, Node *> nodes_;  ///< by the names that Assimp gives them
     bool has_camera_ = false;
 };
 
