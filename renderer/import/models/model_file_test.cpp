@@ -91,7 +91,8 @@ TEST(ModelFile, ReadsNodesInstancesLightsAndCamerasOfGltf) {
     // The light is rotated from -z to straight down.
     EXPECT_LT((lights.world_from_light[sun].col(2) - Eigen::Vector4d(0, 1, 0, 0)).norm(), 1e-6);
     EXPECT_TRUE(model.says("by the factor 1/683; emission keeps its numbers (3: ")) << model.told;
-    EXPECT_EQ(std::count(model.told.begin(), model.told.end(), '\n'), 1) << model.told;
+    EXPECT_TRUE(model.says("linearly with the angle between their cones (1: torch)")) << model.told;
+    EXPECT_EQ(std::count(model.told.begin(), model.told.end(), '\n'), 2) << model.told;
 }
 
 TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {

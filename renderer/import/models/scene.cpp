@@ -403,6 +403,10 @@ class SceneWriter {
             outer = widest;
         }
         const double inner = std::min(to_degrees * stated_inner, softest * outer);
+        if (inner < softest * outer) {
+            notes_.add("spot lights fall off linearly with the angle between their cones",
+                       source_.name(light.mName));
+        }
         return {{"intensity", colour}, {"inner_degrees", inner}, {"outer_degrees", outer}};
     }
 
