@@ -52,7 +52,7 @@ struct PassRequest {
     /// Number of lights, each of which is sampled separately if `independent_lights` is on.
     uint32_t light_count = 1;
     /// Whether light paths are traced, if the algorithm has any.
-    bool light_paths = true;
+    bool traces_light_paths = true;
     /// Number of vertices stored per light path, if the algorithm connects them to camera paths.
     uint32_t light_vertices = 0;
     /// Whether paths from the camera are traced once for each strategy that ends them, weighted

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stage extend_path: samples the next direction of each active path, or ends the path and adds it
-// to the film.
+// Stage extend_path: samples the next direction of each active path, or ends the path.
+//
+// The depth limit, roulette, a miss or a failed sample end it. A camera path that ends is added to
+// the film; a light path adds nothing here. A path that continues also continues R or Q, and S
+// (kernels/mis/truncated.h, kernels/mis/bidirectional.h).
 //
 // STAGE(extend_path,
 //       reads(active, hit, pixel, sample, depth, ray_direction, throughput, roulette_scale,
@@ -31,6 +34,7 @@ __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL lo
             push_slot(&ended, path.slot);
         }
     }
+    // The first loop has prefetched the film words of these paths.
     for (uint i = 0u; i < ended.count; ++i) {
         retire_path(path_in(stream, ended.slots[i]), film, half_film_words, first_sample);
     }

@@ -19,7 +19,8 @@
 #define STREAM_CHUNK 1
 #endif
 
-/// Loops over the entries of this work-item in a queue of `count` entries.
+/// Loops over the entries of this work-item in a queue of `count` entries. Declares i and i_end,
+/// the end of these entries.
 #define FOR_EACH_ENTRY(i, count)                              \
     for (uint i = (uint)get_global_id(0) * STREAM_CHUNK,      \
               i##_end = min(i + STREAM_CHUNK, (uint)(count)); \

@@ -351,6 +351,10 @@ TEST(Pipeline, RestartsWithAnotherDepthToTheSameBits) {
     expect_input_error("max_depth=2 cannot become 0", [&] { session.restart(1, 0); });
     RenderSession unlimited(cornell_box(), small(), device());
     EXPECT_THROW(unlimited.restart(1, 2), Error);
+    RenderSettings casting = small();
+    casting.algorithm = &algorithm_named("ray_casting");
+    RenderSession fixed(cornell_box(), casting, device());
+    EXPECT_THROW(fixed.restart(1, 2), Error);
 }
 
 // Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are not tested here

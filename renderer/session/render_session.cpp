@@ -61,7 +61,7 @@ void RenderSession::restart(uint32_t seed) {
 
 void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
     if (state_->settings.max_depth == 0 || max_depth == 0 ||
-        state_->features.has(Feature::branches)) {
+        state_->settings.algorithm->fixed_depth > 0 || state_->features.has(Feature::branches)) {
         throw input_error(
             fmt::format("{}: integrator.max_depth={} cannot become {}; start a new session",
                         state_->settings.algorithm->name, state_->settings.max_depth, max_depth));
@@ -73,7 +73,10 @@ void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
 
 void RenderSession::update(const Scene &scene) {
     if (!state_->update(scene)) {
+        // The settings have the number of light paths that the pilot chose.
+        const Pilot pilot = state_->pilot;
         state_ = std::make_unique<State>(state_->scene, scene, RenderSettings(state_->settings));
+        state_->pilot = pilot;
     }
 }
 

@@ -19,7 +19,8 @@ class DeviceScene;
 struct DeviceSceneSettings;
 struct DeviceInfo;
 
-/// Times and counts of one session.
+/// Times and counts of one session. Whatever empties or replaces the film resets them, except those
+/// of compilation and BVH.
 struct RenderStats {
     /// Building or loading programs, and the first enqueue of every kernel.
     double compile_seconds = 0;
@@ -27,7 +28,7 @@ struct RenderStats {
     double bvh_seconds = 0;
     /// Device time of all stages of `render` so far, and of the pilot, if there was one.
     double device_seconds = 0;
-    /// Wall time of `render` so far, without compilation and BVH build.
+    /// Wall time of `render` so far, without compilation, BVH build and pilot.
     double wall_seconds = 0;
     /// Number of pixel samples: one per pixel and sample of the image, without those of pixels that
     /// convergence control has stopped.
@@ -41,27 +42,31 @@ struct RenderStats {
 /// stream capacity, and for every split of the samples into ranges, sessions or merged films.
 class RenderSession {
   public:
-    /// Compiles the scene and the kernels. Throws `Error` when settings contradict each other or
-    /// the device has too little memory.
+    /// Compiles the scene and the kernels. `scene` is not kept; `device` must outlive the session.
+    /// Throws `Error` when settings contradict each other, when the device has too little memory or
+    /// when the scene leaves the algorithm without a pass.
     RenderSession(const Scene &scene, const RenderSettings &settings, DeviceContext &device);
 
-    /// Renders a scene that other sessions may share. It is updated to the current state of
-    /// `scene`. Throws `Error` (bad input) if its settings are not `device_scene_settings`.
+    /// Renders `shared`, a scene that other sessions may share, after updating it to `scene`.
+    /// Throws `Error` (bad input) unless its settings equal `device_scene_settings` of these
+    /// settings.
     RenderSession(std::shared_ptr<DeviceScene> shared, const Scene &scene,
                   const RenderSettings &settings);
     ~RenderSession();
     RenderSession(RenderSession &&) noexcept;
 
     /// Adds the samples [begin, end) of every pixel to the film. Returns early, at a batch
-    /// boundary, once `interrupted()` is true. The return value is the end of the rendered range.
-    /// `on_batch`, if given, is called with that end after each batch. With convergence control,
-    /// `begin` must be the end of the film's samples; otherwise throws `Error` (bad input). Throws
-    /// `Error` (bad input) too if a shared scene has changed since the session's last update.
+    /// boundary, once `interrupted()` (base/progress.h) is true. The return value is the end of the
+    /// rendered range. `on_batch`, if given, is called with that end after each batch. With
+    /// convergence control, `begin` must be the end of the film's samples; otherwise throws `Error`
+    /// (bad input). Throws `Error` (bad input) too if a shared scene has changed since the
+    /// session's last update, or if the film has some of the samples already; batches before these
+    /// are kept.
     uint64_t render(uint64_t begin, uint64_t end,
                     const std::function<void(uint64_t)> &on_batch = {});
 
     /// Returns whether no path is left to trace: convergence control has stopped all pixels, and
-    /// the algorithm traces no light paths.
+    /// the session traces no light paths.
     bool is_complete() const;
 
     /// Empties the film, resets the stats of rendering, and sets another seed. Kernels, buffers and
@@ -69,19 +74,21 @@ class RenderSession {
     void restart(uint32_t seed);
 
     /// Restarts with another seed and another maximum depth. Throws `Error` (bad input) if the old
-    /// or the new depth is unlimited, because kernels are compiled for one of the two cases, and
-    /// for whitted, whose memory depends on the depth.
+    /// or the new depth is unlimited (0), because kernels are compiled for one of the two cases.
+    /// Throws it too for whitted, whose memory depends on the depth, and for ray_casting, whose
+    /// depth is fixed.
     void restart(uint32_t seed, uint32_t max_depth);
 
-    /// Empties the film and continues with the current state of `scene`. Kernels are kept, and only
+    /// Empties the film, whose size is kept, and continues with the current state of `scene`. Only
     /// what has changed is compiled, copied and built again (compile/device_scene.h). If triangles
-    /// have moved, the BVH is rebuilt or refitted (device.bvh_update). The passes are compiled from
-    /// scratch if the scene requires other features or has another number of lights. After a change
-    /// of the scene, every session that shares it must be updated before it renders.
+    /// have moved, the BVH is rebuilt or refitted (device.bvh_update). Kernels are kept unless the
+    /// scene requires other features or has another number of lights. After a change of the scene,
+    /// every session that shares it must be updated before it renders.
     void update(const Scene &scene);
 
     /// Empties the film and gives it another size in pixels. Kernels, BVH and scene are kept. If a
-    /// pilot has chosen the number of light paths, their number per pixel is kept.
+    /// pilot has chosen the number of light paths, their number per pixel is kept. Throws `Error`
+    /// (bad input) below 1 and above 2^30 pixels.
     void resize(int width, int height);
 
     /// Returns the film so far.

@@ -282,7 +282,7 @@ TEST(Resize, KeepsKernelsAndScene) {
 }
 
 TEST(Resize, KeepsThePilotsLightPathsPerPixel) {
-    const Scene scene = load_scene(RTRAYS_SCENES "/cornell_mirrors/scene.json");
+    Scene scene = load_scene(RTRAYS_SCENES "/cornell_mirrors/scene.json");
     RenderSession session(scene, small("truncated_bdpt", {"integrator.light_paths=auto"}),
                           device());
     const auto light_paths = [&] {
@@ -293,6 +293,13 @@ TEST(Resize, KeepsThePilotsLightPathsPerPixel) {
     ASSERT_GT(chosen, 0u);
     session.resize(40, 32);
     EXPECT_EQ(light_paths(), 4 * chosen);
+    // The scene now has more lights, so the passes are compiled again.
+    scene.set_property("materials.white.emission", "[1, 1, 1]");
+    scene.update(0);
+    session.update(scene);
+    EXPECT_EQ(light_paths(), 4 * chosen);
+    session.resize(20, 16);
+    EXPECT_EQ(light_paths(), chosen);
 }
 
 TEST(Resize, RejectsEmptyAndHugeFilms) {
