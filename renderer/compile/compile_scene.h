@@ -81,7 +81,7 @@ struct CompiledScene {
     LightingRecord lighting{};
     FeatureMask features;  ///< features of the scene, without those of the integrator
 
-    // What a later compilation of single parts needs.
+    // Inputs of later compilations of single parts.
     FeatureMask material_features, triangle_features, light_features;
     SceneExtent extent;
     TextureArrays texture_sources;

@@ -95,8 +95,8 @@ std::shared_ptr<DeviceScene> updated(std::shared_ptr<DeviceScene> scene, const S
     if (!(wanted == scene->settings())) {
         throw input_error(
             "sessions that share a scene need the same settings of light selection, sphere "
-            "sampling, hierarchy (device.bvh_*) and features, and ray_casting and whitted share "
-            "none with other algorithms");
+            "sampling, hierarchy (device.bvh_*) and features; ray_casting and whitted share scenes "
+            "with each other only");
     }
     scene->update(graph);
     return scene;

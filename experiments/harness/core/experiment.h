@@ -90,10 +90,10 @@ struct Kind {
 std::pair<DescriptionFile, const Kind *> load_experiment(const std::filesystem::path &path,
                                                          const std::vector<Kind> &kinds);
 
-/// Runs an experiment of any of the kinds, writes OUT/run.json, prints its path of its document,
+/// Runs an experiment of any of the kinds, writes OUT/run.json, prints the path of this document,
 /// and returns the exit code of its checks. Repeating the command continues an interrupted run and
-/// keeps a finished one
-/// (`Resumption`). Throws `Error`: bad input, reference missing, run failed, interrupted.
+/// keeps a finished one (`Resumption`). Throws `Error`: bad input, reference missing, run failed,
+/// interrupted.
 ExitCode run_experiment(const RunOptions &options, const std::vector<Kind> &kinds);
 
 }  // namespace rtrays

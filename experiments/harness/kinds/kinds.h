@@ -8,7 +8,7 @@
 
 namespace rtrays {
 
-/// Returns all kinds. A new kind is one more line of this table.
+/// Returns all kinds. docs/architecture.md lists what a new kind consists of.
 const std::vector<Kind> &experiment_kinds();
 
 }  // namespace rtrays
