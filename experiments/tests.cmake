@@ -20,7 +20,7 @@ foreach(entry cornell_box.bitwise cornell_box.convergence cornell_box.planted_er
     list(GET scene_and_check 1 check)
     add_test(NAME gate.${entry}
         COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/gates/gate_${scene}.json --check ${check} --quiet)
-    set_tests_properties(gate.${entry} PROPERTIES TIMEOUT 900 LABELS gate)
+    set_tests_properties(gate.${entry} PROPERTIES TIMEOUT 900 COST 30 LABELS gate)
 endforeach()
 
 add_test(NAME programs.experiment
@@ -30,7 +30,7 @@ set_tests_properties(programs.experiment PROPERTIES TIMEOUT 900 RUN_SERIAL ON)
 add_test(NAME scripts
     COMMAND ${RTRAYS_PYTHON} -m unittest discover -s ${PROJECT_SOURCE_DIR}/scripts/rtrays
             -t ${PROJECT_SOURCE_DIR}/scripts -v)
-set_tests_properties(scripts PROPERTIES TIMEOUT 600)
+set_tests_properties(scripts PROPERTIES TIMEOUT 600 COST 70)
 
 # Programs and data of an installation that was moved.
 add_test(NAME programs.installed
@@ -40,7 +40,7 @@ set_tests_properties(programs.installed PROPERTIES TIMEOUT 600)
 # The commands and JSON blocks of the documentation.
 add_test(NAME docs.commands
     COMMAND ${RTRAYS_PYTHON} ${PROJECT_SOURCE_DIR}/docs/commands_test.py ${CMAKE_BINARY_DIR})
-set_tests_properties(docs.commands PROPERTIES TIMEOUT 900)
+set_tests_properties(docs.commands PROPERTIES TIMEOUT 900 COST 60)
 
 rtrays_test(estimators_test SOURCES harness/estimators_test.cpp LIBRARIES rtrays_experiments)
 rtrays_test(analytic_test SOURCES harness/analytic_test.cpp LIBRARIES rtrays_experiments)
@@ -49,18 +49,18 @@ rtrays_test(analytic_test SOURCES harness/analytic_test.cpp LIBRARIES rtrays_exp
 add_test(NAME features.agree
     COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/gates/feature_scenes.json
             --out ${CMAKE_BINARY_DIR}/feature_scenes.quick --quiet)
-set_tests_properties(features.agree PROPERTIES TIMEOUT 1200 LABELS gate)
+set_tests_properties(features.agree PROPERTIES TIMEOUT 1200 COST 90 LABELS gate)
 # Agreement of every algorithm with the reference on a dozen scenes.
 add_test(NAME algorithms.agree
     COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/gates/algorithms.json
             --out ${CMAKE_BINARY_DIR}/algorithms.quick --quiet)
-set_tests_properties(algorithms.agree PROPERTIES TIMEOUT 1200 LABELS gate)
+set_tests_properties(algorithms.agree PROPERTIES TIMEOUT 1200 COST 200 LABELS gate)
 
 # A dozen stiff and extreme cases; `make stability` runs all of them.
 add_test(NAME stability
     COMMAND rtrays-experiment run ${CMAKE_CURRENT_SOURCE_DIR}/robustness/stability.json --profile ci
             --out ${CMAKE_BINARY_DIR}/stability.ci --quiet)
-set_tests_properties(stability PROPERTIES TIMEOUT 1200 LABELS gate)
+set_tests_properties(stability PROPERTIES TIMEOUT 1200 COST 70 LABELS gate)
 
 # Agreement with Mitsuba 3 and Blender's Cycles on a few scenes, and units; skipped if they are not installed.
 add_test(NAME peers.agree COMMAND ${RTRAYS_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/peers --programs ${CMAKE_BINARY_DIR}/bin

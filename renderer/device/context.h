@@ -36,10 +36,11 @@ std::vector<DeviceInfo> list_devices();
 
 /// Whether the binaries of compiled programs are kept.
 enum class Binaries {
-    /// On disk. A later start takes 0.15 s instead of about 1 s.
+    /// On disk. A later start takes 0.15 s instead of about 1 s. PoCL compiles every kernel when it
+    /// is asked for the binary, and then launches that version.
     keep,
-    /// Left to the driver, which may have its own cache. This saves time: PoCL compiles every
-    /// kernel once more when it is asked for the binary.
+    /// Left to the driver, which may have its own cache. PoCL compiles a kernel at its first
+    /// launch, for the group size of that launch.
     leave,
 };
 
