@@ -18,6 +18,7 @@
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/ply.h"
 #include "renderer/import/models/scene.h"
+#include "renderer/import/models/wavefront.h"
 #include "renderer/scene/cores/mesh.h"
 #include "renderer/scene/graph.h"
 

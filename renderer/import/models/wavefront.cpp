@@ -171,6 +171,18 @@ MeshCore::Geometry read_obj_geometry(const fs::path &path, ModelNotes &notes, bo
     return geometry;
 }
 
+std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const fs::path &path, Scene &scene,
+                                                                ModelNotes &notes) {
+    MtlLibrary library(path.parent_path(), scene, notes);
+    library.add(path);
+    std::vector<std::shared_ptr<MaterialCore>> materials;
+    for (size_t i = 0; i < library.size(); ++i) {
+        materials.push_back(library.at(i));
+    }
+    library.share_textures();
+    return materials;
+}
+
 void read_ply_scene(const fs::path &path, Scene &scene, ModelNames &names, ModelNotes &notes,
                     bool quiet) {
     PlyFile file = read_ply(path, notes, quiet);
