@@ -165,9 +165,9 @@ void Program::compile(const std::string &source, const std::string &key) {
     const std::string options = program_options(device_->info());
     status = clBuildProgram(program_.get(), 1, &device_->info().device, options.c_str(), nullptr,
                             nullptr);
-    log_ = build_log(program_.get(), device_->info().device, source);
     if (status != CL_SUCCESS) {
-        throw run_error(fmt::format("building {}: {}\n{}", path_, cl_status_name(status), log_));
+        throw run_error(fmt::format("building {}: {}\n{}", path_, cl_status_name(status),
+                                    build_log(program_.get(), device_->info().device, source)));
     }
     if (device_->binaries() == Binaries::leave) {
         return;

@@ -34,10 +34,6 @@ class Program {
     bool from_cache() const { return from_cache_; }
     size_t binary_bytes() const { return binary_bytes_; }  ///< 0: the binary is left to the driver
 
-    /// Returns what the compiler printed, with names of files and lines. Empty if the program was
-    /// loaded.
-    const std::string &log() const { return log_; }
-
   private:
     bool load(const std::string &key);
     void compile(const std::string &source, const std::string &key);
@@ -48,7 +44,6 @@ class Program {
     double build_seconds_ = 0;
     bool from_cache_ = false;
     size_t binary_bytes_ = 0;
-    std::string log_;
 };
 
 /// Returns $RTRAYS_CACHE_DIR, otherwise $XDG_CACHE_HOME/rtrays, otherwise ~/.cache/rtrays.
