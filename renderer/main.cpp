@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "renderer/base/clock.h"
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
@@ -127,19 +128,18 @@ std::string image_name(const std::filesystem::path &scene) {
 
 /// Renders until the options are satisfied; returns false if interrupted before.
 bool render(RenderSession &session, const Options &options, SampleRange range) {
-    using Clock = std::chrono::steady_clock;
     const auto save = [&] {
         if (!options.state.empty()) {
             save_film(session.film(), options.state);
         }
     };
-    const auto start = Clock::now();
+    const auto start = SteadyClock::now();
     if (options.seconds) {
         Progress progress("rendering", static_cast<uint64_t>(*options.seconds * 1000), "ms",
                           options.quiet);
         uint64_t step = 1;
         while (!interrupted()) {
-            const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+            const double elapsed = seconds_since(start);
             progress.update(static_cast<uint64_t>(std::min(elapsed, *options.seconds) * 1000));
             if (elapsed >= *options.seconds || session.is_complete()) {
                 save();
@@ -161,9 +161,9 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
         auto last_save = start;
         const uint64_t end = session.render(range.begin, range.end, [&](uint64_t done) {
             progress.update(done);
-            if (Clock::now() - last_save > checkpoint_interval) {
+            if (SteadyClock::now() - last_save > checkpoint_interval) {
                 save();
-                last_save = Clock::now();
+                last_save = SteadyClock::now();
             }
         });
         save();

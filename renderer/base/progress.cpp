@@ -41,7 +41,7 @@ Progress::~Progress() {
 }
 
 void Progress::update(uint64_t done) {
-    const auto now = Clock::now();
+    const auto now = SteadyClock::now();
     if (!started_) {
         started_ = true;
         first_done_ = done;
@@ -59,7 +59,7 @@ void Progress::update(uint64_t done) {
 }
 
 void Progress::print(uint64_t done, const char *end) const {
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double elapsed = seconds_since(start_);
     const uint64_t advanced = done - first_done_;
     const double left =
         advanced > 0 ? elapsed / static_cast<double>(advanced) * static_cast<double>(total_ - done)

@@ -2,9 +2,10 @@
 // Progress messages, and interruption of long runs by signals.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
+
+#include "renderer/base/clock.h"
 
 namespace rtrays {
 
@@ -23,8 +24,6 @@ class Progress {
     void update(uint64_t done);
 
   private:
-    using Clock = std::chrono::steady_clock;
-
     void print(uint64_t done, const char *end) const;
 
     std::string task_;
@@ -36,8 +35,8 @@ class Progress {
     bool drawn_ = false;
     uint64_t first_done_ = 0;
     uint64_t last_done_ = 0;
-    Clock::time_point start_;
-    Clock::time_point last_print_;
+    SteadyClock::time_point start_;
+    SteadyClock::time_point last_print_;
 };
 
 /// Returns whether SIGINT or SIGTERM arrived since `install_interrupt_handler` was called. Long

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/compile/device_scene.h"
 
-#include <chrono>
+#include <utility>
+
+#include "renderer/base/clock.h"
 
 namespace rtrays {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Returns whether two cameras take the same picture.
 bool are_equal(const CameraArrays &a, size_t i, const CameraArrays &b, size_t j) {
@@ -77,7 +73,7 @@ void DeviceScene::require(const Scene &scene, FeatureMask features) {
 
 void DeviceScene::build_bvh(const MeshArrays &meshes) {
     refitter_.reset();
-    const auto start = Clock::now();
+    const auto start = SteadyClock::now();
     bvh_ = builder_->build(meshes.position, meshes.triangle);
     bvh_vertices_ = meshes.position.size();
     device_->finish();
@@ -90,7 +86,7 @@ bool DeviceScene::refit_bvh(const MeshArrays &meshes) {
         meshes.triangle.size() != bvh_.report().triangles + bvh_.report().left_out) {
         return false;
     }
-    const auto start = Clock::now();
+    const auto start = SteadyClock::now();
     const BvhInput input(*device_, meshes.position, meshes.triangle);
     if (refitter_ == nullptr) {
         refitter_ = std::make_unique<BvhRefitter>(*device_, bvh_);

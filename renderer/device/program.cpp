@@ -7,11 +7,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <regex>
 
+#include "renderer/base/clock.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 
@@ -108,7 +108,7 @@ std::string program_cache_directory() {
 Program::Program(DeviceContext &device, const std::string &path, const Defines &defines,
                  const SourceOverlays &overlays)
     : device_(&device), path_(path) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = SteadyClock::now();
     const std::string text = expand_source(path, overlays);
     std::string source;
     for (const auto &[name, value] : defines) {
@@ -131,8 +131,7 @@ Program::Program(DeviceContext &device, const std::string &path, const Defines &
     if (!from_cache_) {
         compile(source, key);
     }
-    build_seconds_ =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    build_seconds_ = seconds_since(start);
 }
 
 bool Program::load(const std::string &key) {

@@ -34,7 +34,7 @@ uint64_t RenderSession::render(uint64_t begin, uint64_t end,
         const uint64_t camera_paths =
             count * (s.convergence != nullptr ? s.convergence->live_count() : s.pixels());
         s.ranges.add_range({begin, begin + count});
-        const auto start = Clock::now();
+        const auto start = SteadyClock::now();
         const double compiled_before = s.compile_seconds;
         s.run_batch(begin, count);
         s.wall_seconds += seconds_since(start) - (s.compile_seconds - compiled_before);

@@ -184,7 +184,7 @@ void RenderSession::State::collect_profile(CompiledPass &pass) {
 void RenderSession::State::add_tail_stages(CompiledPass &pass, uint64_t in_flight) {
     collect_profile(pass);
     make_room(pass, pass.splats * in_flight * TAIL_EVENTS);
-    const auto start = Clock::now();
+    const auto start = SteadyClock::now();
     for (const RoundStage &stage : pass.tail) {
         if (!pass.stages.has(stage.stage)) {
             pass.stages.add({stage.stage});

@@ -272,7 +272,7 @@ StageArguments RenderSession::State::scene_arguments() const {
 }
 
 void RenderSession::State::warm_up() {
-    const auto start = Clock::now();
+    const auto start = SteadyClock::now();
     run_batch(0, 0);
     for (CompiledPass &pass : passes) {
         pass.profile.clear();

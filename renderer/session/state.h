@@ -3,12 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "renderer/base/clock.h"
 #include "renderer/compile/device_scene.h"
 #include "renderer/compile/stages.h"
 #include "renderer/device/buffer.h"
@@ -25,12 +25,6 @@
 #include "renderer/shared/stream_counters.h"
 
 namespace rtrays {
-
-using Clock = std::chrono::steady_clock;
-
-inline double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A compiled pass of the algorithm, with the film that it adds to.
 struct CompiledPass {

@@ -16,6 +16,7 @@
 #include "experiments/harness/core/document.h"
 #include "experiments/harness/core/report.h"
 #include "experiments/harness/core/resumption.h"
+#include "renderer/base/clock.h"
 #include "renderer/base/process.h"
 #include "renderer/base/progress.h"
 #include "renderer/base/resources.h"
@@ -25,12 +26,6 @@ namespace rtrays {
 namespace fs = std::filesystem;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 fs::path collection_file(const std::string &collection) {
     return fs::path(collection).extension() == ".json"
@@ -129,7 +124,7 @@ TimeLeft time_left(const std::vector<Step> &steps, const std::string &collection
 /// Runs all steps and returns the names of those that failed a check.
 std::vector<std::string> run_steps(const std::vector<Step> &steps, TimeLeft left,
                                    const std::vector<Kind> &kinds) {
-    const Clock::time_point start = Clock::now();
+    const SteadyClock::time_point start = SteadyClock::now();
     std::vector<std::string> failed;
     for (size_t i = 0; i < steps.size(); ++i) {
         const Step &step = steps[i];
@@ -138,7 +133,7 @@ std::vector<std::string> run_steps(const std::vector<Step> &steps, TimeLeft left
                    minutes_text(seconds_since(start)),
                    seconds ? ", about " + minutes_text(*seconds) + " left" : "");
         std::fflush(stdout);
-        const Clock::time_point begin = Clock::now();
+        const SteadyClock::time_point begin = SteadyClock::now();
         const auto written = fs::file_time_type::clock::now();
         const ExitCode code = run_experiment(step.options, kinds);
         if (code != ExitCode::ok && !step.may_fail) {
