@@ -216,7 +216,7 @@ void apply_options(Options &options, Scene &scene) {
     options.settings.algorithm = &algorithm_named(options.algorithm);
     options.settings.only_pass = find_named(pass_kinds, options.passes);
     options.settings.variance = requested(options.layers, "variance");
-    options.settings.strategies_apart = requested(options.layers, "strategies");
+    options.settings.separate_strategies = requested(options.layers, "strategies");
 }
 
 /// Sets the size of the image: --size, or that of the scene's film.

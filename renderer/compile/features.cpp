@@ -126,15 +126,16 @@ FeatureMask FeatureMask::closed() const {
     // Features that follow from the others.
     const bool from_light = mask.has(Feature::from_light),
                strategy = mask.has(Feature::light_strategy);
-    const bool joins = mask.has(Feature::vertex_connections);
+    const bool connects = mask.has(Feature::vertex_connections);
     return mask.with(Feature::from_camera, !from_light)
         .with(Feature::convergence, mask.has(Feature::convergence) && !from_light)
-        .with(Feature::shadow_rays, mask.has(Feature::explicit_light) || joins || from_light)
-        .with(Feature::direction_density,
-              joins || (!from_light && (mask.has(Feature::implicit_light) || strategy ||
-                                        (mask.has(Feature::delta) && mask.has(Feature::lights)))))
+        .with(Feature::shadow_rays, mask.has(Feature::explicit_light) || connects || from_light)
+        .with(
+            Feature::direction_density,
+            connects || (!from_light && (mask.has(Feature::implicit_light) || strategy ||
+                                         (mask.has(Feature::delta) && mask.has(Feature::lights)))))
         .with(Feature::emission_density, from_light && strategy)
-        .with(Feature::arrival_density, joins || (from_light && strategy))
+        .with(Feature::arrival_density, connects || (from_light && strategy))
         .with(Feature::roulette_scale,
               mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light));
 }

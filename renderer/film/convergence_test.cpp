@@ -294,10 +294,10 @@ TEST(Convergence, RefusesWhatItCannotDo) {
             [&] { require_consistent(controlled({}, algorithm)); });
         EXPECT_NO_THROW(require_consistent(small({}, algorithm)));
     }
-    RenderSettings apart = controlled();
-    apart.strategies_apart = true;
-    apart.variance = false;
-    expect_input_error("which layers of strategies split", [&] { require_consistent(apart); });
+    RenderSettings separate = controlled();
+    separate.separate_strategies = true;
+    separate.variance = false;
+    expect_input_error("which layers of strategies split", [&] { require_consistent(separate); });
     for (const char *assignment :
          {"integrator.convergence.start=25", "integrator.convergence.interval=0"}) {
         expect_input_error("must be even and not 0",

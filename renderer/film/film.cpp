@@ -153,15 +153,15 @@ void FilmState::add_range(SampleRange range) {
     ranges.push_back(range);
     std::sort(ranges.begin(), ranges.end(),
               [](const SampleRange &a, const SampleRange &b) { return a.begin < b.begin; });
-    std::vector<SampleRange> joined;
+    std::vector<SampleRange> merged;
     for (const SampleRange &r : ranges) {
-        if (!joined.empty() && joined.back().end == r.begin) {
-            joined.back().end = r.end;
+        if (!merged.empty() && merged.back().end == r.begin) {
+            merged.back().end = r.end;
         } else {
-            joined.push_back(r);
+            merged.push_back(r);
         }
     }
-    ranges = joined;
+    ranges = merged;
 }
 
 void require_valid(const FilmState &film) {

@@ -16,14 +16,14 @@
 namespace rtrays {
 namespace {
 
-Image render(const std::string &scene, const std::string &algorithm, bool apart,
+Image render(const std::string &scene, const std::string &algorithm, bool separate,
              const std::string &assignment) {
     static DeviceContext device;
     RenderSettings settings;
     settings.width = settings.height = 32;
     settings.algorithm = &algorithm_named(algorithm);
     settings.variance = false;
-    settings.strategies_apart = apart;
+    settings.separate_strategies = separate;
     settings.stream_capacity = 512;
     apply_setting(settings, assignment);
     RenderSession session(load_scene(RTRAYS_SCENES + scene), settings, device);
@@ -82,13 +82,13 @@ TEST(Contributions, AddUpToTheImage) {
     for (const auto &[scene, algorithm, assignment, layers] : cases) {
         const std::string what = scene + " " + algorithm + " " + assignment;
         const Image whole = render(scene, algorithm, false, assignment);
-        const Image apart = render(scene, algorithm, true, assignment);
+        const Image separate = render(scene, algorithm, true, assignment);
         for (const char channel : {'R', 'G', 'B'}) {
             const std::string name(1, channel);
             std::vector<double> sum(whole.pixel_count());
             for (const std::string &layer : layers) {
-                ASSERT_GT(mean_of(apart, layer + "." + name), 0) << what << " " << layer;
-                const std::vector<float> &values = apart.channel(layer + "." + name);
+                ASSERT_GT(mean_of(separate, layer + "." + name), 0) << what << " " << layer;
+                const std::vector<float> &values = separate.channel(layer + "." + name);
                 std::transform(
                     sum.begin(), sum.end(), values.begin(), sum.begin(),
                     [](double total, float value) { return total + static_cast<double>(value); });
@@ -96,7 +96,7 @@ TEST(Contributions, AddUpToTheImage) {
             for (size_t i = 0; i < sum.size(); ++i) {
                 const double expected = static_cast<double>(whole.channel(name)[i]);
                 ASSERT_NEAR(sum[i], expected, 2e-6 * (1 + expected)) << what;
-                ASSERT_NEAR(static_cast<double>(apart.channel(name)[i]), expected,
+                ASSERT_NEAR(static_cast<double>(separate.channel(name)[i]), expected,
                             2e-6 * (1 + expected))
                     << what;
             }
@@ -115,7 +115,7 @@ TEST(Contributions, AreThoseOfTheirStrategy) {
 TEST(Contributions, GoWithoutVariance) {
     static DeviceContext device;
     RenderSettings settings;
-    settings.strategies_apart = true;
+    settings.separate_strategies = true;
     expect_input_error("omit the layer 'variance'", [&] {
         RenderSession(load_scene(RTRAYS_SCENES "/cornell_box/scene.json"), settings, device);
     });

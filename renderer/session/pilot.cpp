@@ -57,7 +57,7 @@ Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene
     RenderSettings small = settings;
     small.seed = ~settings.seed;
     small.only_pass.reset();
-    small.variance = small.strategies_apart = false;
+    small.variance = small.separate_strategies = false;
     small.convergence_error = 0;
     const double pixels = static_cast<double>(settings.width) * settings.height;
     const double shrink = std::min(1.0, std::sqrt(pilot_pixels / pixels));

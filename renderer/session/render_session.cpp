@@ -52,9 +52,9 @@ bool RenderSession::is_complete() const {
 }
 
 void RenderSession::restart(uint32_t seed) {
-    state_->numbers.seed = state_->settings.seed = seed;
+    state_->integrator.seed = state_->settings.seed = seed;
     for (CompiledPass &pass : state_->passes) {
-        pass.stages.bind({{StageInput::settings, {pass.numbers(state_->numbers)}}});
+        pass.stages.bind({{StageInput::settings, {pass.own_settings(state_->integrator)}}});
     }
     state_->reset_film();
 }
@@ -66,7 +66,7 @@ void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
             fmt::format("{}: integrator.max_depth={} cannot become {}; start a new session",
                         state_->settings.algorithm->name, state_->settings.max_depth, max_depth));
     }
-    state_->numbers.max_depth = state_->settings.max_depth = max_depth;
+    state_->integrator.max_depth = state_->settings.max_depth = max_depth;
     state_->set_config();
     restart(seed);
 }

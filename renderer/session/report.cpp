@@ -140,7 +140,7 @@ void RenderSession::State::report_buffers(Json &report) const {
 
 nlohmann::json RenderSession::report() const {
     const State &s = *state_;
-    const RenderStats numbers = stats();
+    const RenderStats totals = stats();
     const StreamCounters counters = s.counters.read().front();
     Json report = {
         {"schema_version", 1},
@@ -160,12 +160,12 @@ nlohmann::json RenderSession::report() const {
           {"triangles", s.scene->compiled().surface_triangles.size()},
           {"lights", s.scene->compiled().lights.size()}}},
         {"seconds",
-         {{"compile", numbers.compile_seconds},
-          {"bvh_device", numbers.bvh_seconds},
+         {{"compile", totals.compile_seconds},
+          {"bvh_device", totals.bvh_seconds},
           {"bvh_wall", s.scene->bvh_wall_seconds()},
-          {"device", numbers.device_seconds},
-          {"wall", numbers.wall_seconds}}},
-        {"samples", numbers.samples},
+          {"device", totals.device_seconds},
+          {"wall", totals.wall_seconds}}},
+        {"samples", totals.samples},
         {"rays", {{"nearest", counters.nearest_rays}, {"shadow", counters.shadow_rays}}},
         {"rounds", counters.iterations},
         {"bvh", bvh_report(*s.scene, s.layout.bvh)},

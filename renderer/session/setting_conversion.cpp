@@ -20,25 +20,25 @@ uint32_t light_paths_per_sample(const RenderSettings &settings) {
 }
 
 IntegratorSettings integrator_settings(const RenderSettings &settings) {
-    IntegratorSettings numbers{};
-    numbers.seed = settings.seed;
+    IntegratorSettings converted{};
+    converted.seed = settings.seed;
     const FeatureMask features = settings_features(settings);
     for (const auto &[feature, bit] :
          {std::pair(Feature::implicit_light, STRATEGY_IMPLICIT),
           std::pair(Feature::explicit_light, STRATEGY_EXPLICIT),
           std::pair(Feature::light_strategy, STRATEGY_LIGHT),
           std::pair(Feature::light_emitters, STRATEGY_LIGHT_EMITTERS)}) {
-        numbers.strategies |= features.has(feature) ? bit : 0u;
+        converted.strategies |= features.has(feature) ? bit : 0u;
     }
-    numbers.sampler = static_cast<uint32_t>(settings.sampler);
-    numbers.light_paths = light_paths_per_sample(settings);
-    numbers.light_vertices = settings.bdpt_vertices;
-    numbers.termination = static_cast<uint32_t>(settings.termination);
-    numbers.max_depth = settings.max_depth == 0 ? UNLIMITED_DEPTH : settings.max_depth;
-    numbers.beta = settings.beta;
-    numbers.max_continuation = settings.max_continuation;
-    numbers.adaptive_threshold = settings.adaptive_threshold;
-    return numbers;
+    converted.sampler = static_cast<uint32_t>(settings.sampler);
+    converted.light_paths = light_paths_per_sample(settings);
+    converted.light_vertices = settings.bdpt_vertices;
+    converted.termination = static_cast<uint32_t>(settings.termination);
+    converted.max_depth = settings.max_depth == 0 ? UNLIMITED_DEPTH : settings.max_depth;
+    converted.beta = settings.beta;
+    converted.max_continuation = settings.max_continuation;
+    converted.adaptive_threshold = settings.adaptive_threshold;
+    return converted;
 }
 
 CompileSettings compile_settings(const RenderSettings &settings) {
@@ -54,14 +54,14 @@ void choose_builder(const RenderSettings &settings, BvhBuildParameters &paramete
 
 FeatureMask settings_features(const RenderSettings &settings) {
     const Algorithm &algorithm = *settings.algorithm;
-    const bool both_ways = algorithm.traces_camera_paths && has_light_pass(settings);
+    const bool traces_both = algorithm.traces_camera_paths && has_light_pass(settings);
     return algorithm.features
         .with(Feature::implicit_light,
               algorithm.traces_camera_paths && settings.strategies != PathStrategies::explicit_only)
         .with(Feature::explicit_light,
               algorithm.traces_camera_paths && settings.strategies != PathStrategies::implicit_only)
-        .with(Feature::light_strategy, both_ways)
-        .with(Feature::light_emitters, both_ways && settings.seen_emitters == SeenEmitters::mis)
+        .with(Feature::light_strategy, traces_both)
+        .with(Feature::light_emitters, traces_both && settings.seen_emitters == SeenEmitters::mis)
         .with(Feature::roulette, settings.termination == Termination::roulette)
         .with(Feature::adaptive, settings.termination == Termination::adaptive)
         .with(Feature::sobol, settings.sampler != Sampler::independent)

@@ -73,7 +73,7 @@ void require_consistent_pipeline(const RenderSettings &settings) {
             "device.count_rays=by_depth: counts rays in the streams between stages; use "
             "device.pipeline=wavefront");
     }
-    if (settings.pipeline == Pipeline::megakernel && settings.strategies_apart) {
+    if (settings.pipeline == Pipeline::megakernel && settings.separate_strategies) {
         throw input_error(
             "layers of strategies: not supported by megakernel; use device.pipeline=wavefront");
     }
@@ -94,7 +94,7 @@ void require_consistent_convergence(const RenderSettings &settings) {
             "integrator.convergence.error={}: {} does not support convergence control; {} do",
             settings.convergence_error, settings.algorithm->name, fmt::join(names, " and ")));
     }
-    if (settings.strategies_apart) {
+    if (settings.separate_strategies) {
         throw input_error(
             "integrator.convergence.error: convergence is decided by the full image, which layers "
             "of strategies split; use one of the two");
@@ -116,13 +116,13 @@ void require_consistent(const RenderSettings &settings) {
     const Algorithm &algorithm = *settings.algorithm;
     require_supported_choices(settings);
     require_consistent_light_paths(settings);
-    if (settings.strategies_apart && (settings.variance || settings.only_pass)) {
+    if (settings.separate_strategies && (settings.variance || settings.only_pass)) {
         throw input_error(
             "layers of strategies: render all passes and omit the layer 'variance'; the strategies "
             "share their paths");
     }
     require_consistent_pipeline(settings);
-    if (settings.strategies_apart && !algorithm.is_random) {
+    if (settings.separate_strategies && !algorithm.is_random) {
         throw input_error(
             fmt::format("layers of strategies: {} has only one strategy", algorithm.name));
     }

@@ -37,7 +37,7 @@ struct RenderSettings {
     /// The only pass that is rendered, if not all of them are.
     std::optional<PassKind> only_pass;
     /// Whether the image has a layer per strategy, with its contribution; this excludes `variance`.
-    bool strategies_apart = false;
+    bool separate_strategies = false;
 
     // integrator.*
     PathStrategies strategies = PathStrategies::mis;

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +13,6 @@
 #include "renderer/integrators/megakernel.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shared/path_state.h"
-#include "renderer/shared/ray_counts.h"
 
 namespace rtrays {
 
@@ -124,11 +122,11 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
       settings(complete(requested, graph)),
       pilot(settle_light_paths(settings, scene, graph)),
       layout(stream_layout(settings, device.info())),
-      numbers(integrator_settings(settings)) {
+      integrator(integrator_settings(settings)) {
     std::vector<Pass> all_passes = algorithm_passes(
         *settings.algorithm,
         {select_features(scene->compiled(), settings, device.info()), light_count,
-         has_light_pass(settings), numbers.light_vertices, settings.strategies_apart});
+         has_light_pass(settings), integrator.light_vertices, settings.separate_strategies});
     if (settings.pipeline == Pipeline::megakernel) {
         all_passes = megakernel_passes(std::move(all_passes));
     }
@@ -187,7 +185,7 @@ void RenderSession::State::resize(int width, int height) {
     if (!pilot.trials.empty()) {
         settings.light_paths = static_cast<uint32_t>(std::lround(settings.light_paths * ratio));
     }
-    numbers.light_paths = light_paths_per_sample(settings);
+    integrator.light_paths = light_paths_per_sample(settings);
     set_config();
     allocate_film();
     bind();
@@ -250,7 +248,7 @@ void RenderSession::State::bind() {
         for (auto &[input, bound] : pass.indices) {
             bound = SELECT_LIGHT;
         }
-        arguments[In::settings] = {pass.numbers(numbers)};
+        arguments[In::settings] = {pass.own_settings(integrator)};
         arguments[In::film] = {pass.film};
         arguments[In::ray_counts] = {pass.ray_counts};
         // Null pointers, which no kernel reads without convergence control.
@@ -315,9 +313,9 @@ FilmState RenderSession::State::film_header() const {
     for (const CompiledPass &pass : passes) {
         header.passes.push_back(pass.kind);
         header.light_paths =
-            pass.kind == PassKind::light ? numbers.light_paths : header.light_paths;
+            pass.kind == PassKind::light ? integrator.light_paths : header.light_paths;
     }
-    header.seed = numbers.seed;
+    header.seed = integrator.seed;
     header.config = config;
     return header;
 }

@@ -27,19 +27,14 @@
 namespace rtrays {
 
 /// A compiled pass of the algorithm, with the film that it adds to.
-struct CompiledPass {
+struct CompiledPass : Pass {
     CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout,
                  const RenderSettings &settings)
-        : kind(pass.kind),
-          features(pass.features),
-          round(pass.round),
-          adds_hits(pass.adds_hits),
-          streams(pass.streams),
-          tail(pass.tail),
+        : Pass(pass),
           splats(static_cast<uint64_t>(std::count_if(
               round.begin(), round.end(),
               [](const RoundStage &s) { return s.stage == Stage::splat_unblocked; }))),
-          stages(device, stages_of(pass), pass.features, layout, settings.source_overlays) {}
+          stages(device, stages_of(pass), features, layout, settings.source_overlays) {}
 
     static std::vector<Stage> stages_of(const Pass &pass) {
         std::vector<Stage> list = {Stage::carry_film};
@@ -55,10 +50,10 @@ struct CompiledPass {
     /// Returns whether the stages for the tail of a batch are compiled.
     bool has_tail_stages() const { return !tail.empty() && stages.has(tail.front().stage); }
 
-    /// Returns the integrator's settings for this pass.
-    IntegratorSettings numbers(IntegratorSettings of_all) const {
-        of_all.strategies |= adds_hits ? 0u : STRATEGY_HITS_ELSEWHERE;
-        return of_all;
+    /// Returns the integrator's settings for this pass, given those of all passes.
+    IntegratorSettings own_settings(IntegratorSettings common) const {
+        common.strategies |= adds_hits ? 0u : STRATEGY_HITS_ELSEWHERE;
+        return common;
     }
 
     /// Empties film, ray counts and profile.
@@ -82,12 +77,6 @@ struct CompiledPass {
         return rays;
     }
 
-    PassKind kind;
-    FeatureMask features;
-    std::vector<RoundStage> round;
-    bool adds_hits;
-    bool streams;
-    std::vector<RoundStage> tail;
     uint64_t splats;  ///< maximum number of splats per path in flight and round
     StageSet stages;
     Buffer<int64_t> film;
@@ -144,14 +133,14 @@ struct RenderSession::State {
     /// Returns the number of 4-byte words of stored light vertices per path in flight.
     uint32_t vertex_words_per_path() const {
         return features.has(Feature::vertex_connections)
-                   ? numbers.light_vertices * light_vertex_words(features)
+                   ? integrator.light_vertices * light_vertex_words(features)
                    : 0;
     }
 
     /// Returns the number of 4-byte words, per path in flight, of the vertices to which the path
     /// may return to follow further branches.
     uint32_t branch_words_per_path() const {
-        return features.has(Feature::branches) ? numbers.max_depth * branch_words(features) : 0;
+        return features.has(Feature::branches) ? integrator.max_depth * branch_words(features) : 0;
     }
 
     uint64_t film_words() const { return pixels() * FILM_PIXEL_WORDS(settings.variance); }
@@ -159,7 +148,7 @@ struct RenderSession::State {
 
     /// Returns the number of paths of a pass in one sample of the image.
     uint64_t paths_per_sample(const CompiledPass &pass) const {
-        return pass.kind == PassKind::light ? numbers.light_paths : pixels();
+        return pass.kind == PassKind::light ? integrator.light_paths : pixels();
     }
     /// Returns the number of paths of a pass in one sample of the image that convergence control
     /// has not stopped.
@@ -230,7 +219,7 @@ struct RenderSession::State {
     RenderSettings settings;
     Pilot pilot;  ///< pilot that chose the number of light paths, if there was one
     StreamLayout layout;
-    IntegratorSettings numbers;
+    IntegratorSettings integrator;
     FeatureMask features;  ///< union over all passes
     std::vector<CompiledPass> passes;
     std::string config;  ///< hash of scene and settings
