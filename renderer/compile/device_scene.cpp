@@ -48,7 +48,11 @@ void DeviceScene::update(const Scene &scene) {
         return;
     }
     const bool moved = revision_.scene != revision.scene || revision_.geometry != revision.geometry;
+    if (revision_.scene == 0) {
+        compiled_ = CompiledScene();  // after a failed update it may differ from the buffers
+    }
     revision_ = SceneRevision();  // until all of the following has succeeded
+    ++version_;
     cameras_ = scene.cameras();
     active_camera_ = active;
     const CompiledScene former =
@@ -56,25 +60,25 @@ void DeviceScene::update(const Scene &scene) {
                   settings_.compile, parts, compiled_);
     buffers_.update(*device_, former, compiled_, parts);
     if (builder_ && moved && !refit_bvh(scene.meshes())) {
-        build_bvh(scene.meshes());
+        build_bvh(*builder_, scene.meshes());
     }
     hash_ = scene.hash();
-    ++version_;
     revision_ = revision;
 }
 
 void DeviceScene::require(const Scene &scene, FeatureMask features) {
     buffers_.require(*device_, compiled_, features);
     if (features.has(Feature::triangles) && !builder_) {
-        builder_.emplace(*device_, settings_.bvh);
-        build_bvh(scene.meshes());
+        BvhBuilder builder(*device_, settings_.bvh);
+        build_bvh(builder, scene.meshes());
+        builder_.emplace(std::move(builder));
     }
 }
 
-void DeviceScene::build_bvh(const MeshArrays &meshes) {
+void DeviceScene::build_bvh(BvhBuilder &builder, const MeshArrays &meshes) {
     refitter_.reset();
     const auto start = SteadyClock::now();
-    bvh_ = builder_->build(meshes.position, meshes.triangle);
+    bvh_ = builder.build(meshes.position, meshes.triangle);
     bvh_vertices_ = meshes.position.size();
     device_->finish();
     bvh_wall_seconds_ = seconds_since(start);

@@ -51,7 +51,7 @@ class DeviceScene {
     const DeviceSceneSettings &settings() const { return settings_; }
     const CompiledScene &compiled() const { return compiled_; }
 
-    /// Number of updates that changed something.
+    /// Number of updates that changed the scene or failed.
     uint64_t version() const { return version_; }
 
     /// `Scene::hash` at the last update.
@@ -84,12 +84,12 @@ class DeviceScene {
     }
 
   private:
-    void build_bvh(const MeshArrays &meshes);
+    void build_bvh(BvhBuilder &builder, const MeshArrays &meshes);
     bool refit_bvh(const MeshArrays &meshes);
 
     DeviceContext *device_;
     DeviceSceneSettings settings_;
-    SceneRevision revision_;  ///< that of `compiled_`
+    SceneRevision revision_;  ///< that of `compiled_`; empty after an update that failed
     CameraArrays cameras_;
     size_t active_camera_ = 0;
     CompiledScene compiled_;
@@ -97,7 +97,7 @@ class DeviceScene {
     std::string hash_;
     uint64_t version_ = 0;
 
-    std::optional<BvhBuilder> builder_;      ///< set once a hierarchy is required
+    std::optional<BvhBuilder> builder_;      ///< set once a hierarchy has been built
     std::unique_ptr<BvhRefitter> refitter_;  ///< set once the hierarchy has been refitted
     Bvh bvh_;
     size_t bvh_vertices_ = 0;  ///< number of vertices from which the hierarchy was built

@@ -83,7 +83,9 @@ class RenderSession {
     /// what has changed is compiled, copied and built again (compile/device_scene.h). If triangles
     /// have moved, the BVH is rebuilt or refitted (device.bvh_update). Kernels are kept unless the
     /// scene requires other features or has another number of lights. After a change of the scene,
-    /// every session that shares it must be updated before it renders.
+    /// every session that shares it must be updated before it renders. Throws `Error` (bad input)
+    /// for a scene that the device cannot represent; the session must then be updated successfully
+    /// before it renders.
     void update(const Scene &scene);
 
     /// Empties the film and gives it another size in pixels. Kernels, BVH and scene are kept. If a

@@ -187,12 +187,14 @@ TEST(SceneUpdate, InvalidEditIsRejectedUntilItIsUndone) {
     const RenderSettings settings = small();
     RenderSession session(scene, settings, device());
     const std::string shape = scene.arrays().shapes.name.front();
+    scene.set_property("floor.reflectance", "[0.1, 0.2, 0.3]");
     scene.set_property(shape + ".slice", "3.9");
     const auto update = [&] {
         scene.update(0);
         session.update(scene);
     };
     expect_input_error("does not reach slice", update);
+    expect_input_error("update the session", [&] { session.render(0, 1); });
     scene.set_property(shape + ".slice", "0.1");
     update();
     EXPECT_EQ(render(session), render_new(scene, settings));
