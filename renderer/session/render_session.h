@@ -90,7 +90,8 @@ class RenderSession {
 
     /// Empties the film and gives it another size in pixels. Kernels, BVH and scene are kept. If a
     /// pilot has chosen the number of light paths, their number per pixel is kept. Throws `Error`
-    /// (bad input) below 1 and above 2^30 pixels.
+    /// (bad input) below 1 and above 2^30 pixels, and (run failed) if the device has too little
+    /// memory; the size then stays.
     void resize(int width, int height);
 
     /// Returns the film so far.

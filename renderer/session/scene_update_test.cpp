@@ -308,6 +308,7 @@ TEST(Resize, RejectsEmptyAndHugeFilms) {
     RenderSession session(box(), small(), device());
     expect_input_error("0 x 4 pixels", [&] { session.resize(0, 4); });
     expect_input_error("2^30", [&] { session.resize(1 << 16, 1 << 16); });
+    expect_run_error("allocates at most", [&] { session.resize(1 << 15, 1 << 15); });
     EXPECT_EQ(render(session), render_new(box(), small()));
 }
 

@@ -179,12 +179,24 @@ bool RenderSession::State::update(const Scene &graph) {
 
 void RenderSession::State::resize(int width, int height) {
     require_film_size(width, height);
-    const double ratio = static_cast<double>(width) * height / static_cast<double>(pixels());
-    settings.width = width;
-    settings.height = height;
+    RenderSettings resized = settings;
+    resized.width = width;
+    resized.height = height;
     if (!pilot.trials.empty()) {
-        settings.light_paths = static_cast<uint32_t>(std::lround(settings.light_paths * ratio));
+        const double ratio = static_cast<double>(width) * height / static_cast<double>(pixels());
+        resized.light_paths = static_cast<uint32_t>(std::lround(settings.light_paths * ratio));
     }
+    const RenderSettings former = settings;
+    try {
+        begin_film(resized);
+    } catch (...) {
+        begin_film(former);  // the buffers of a film must have its size
+        throw;
+    }
+}
+
+void RenderSession::State::begin_film(const RenderSettings &sized) {
+    settings = sized;
     integrator.light_paths = light_paths_per_sample(settings);
     set_config();
     allocate_film();

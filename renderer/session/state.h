@@ -102,8 +102,12 @@ struct RenderSession::State {
     /// scene now requires other features or has another number of lights.
     bool update(const Scene &graph);
 
-    /// Changes the size of the film, which becomes empty.
+    /// Changes the size of the film, which becomes empty. If the device has too little memory, the
+    /// size stays.
     void resize(int width, int height);
+
+    /// Allocates an empty film. `sized` are the settings with its size and its light paths.
+    void begin_film(const RenderSettings &sized);
 
     void allocate_streams();
     void allocate_film();
