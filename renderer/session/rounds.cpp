@@ -48,6 +48,11 @@ class CounterReads {
   public:
     CounterReads(DeviceContext &device, const Buffer<StreamCounters> &counters)
         : device_(&device), counters_(&counters) {}
+    ~CounterReads() {
+        clFinish(device_->queue());  // after an error, a read may still be writing to `seen_`
+    }
+    CounterReads(const CounterReads &) = delete;
+    CounterReads &operator=(const CounterReads &) = delete;
 
     /// Enqueues a read and returns the result of the one before, if there was one. Throws `Error`
     /// (run failed) if a stream has overflowed.
