@@ -40,29 +40,29 @@ Eigen::Matrix3d normal_transform(const Eigen::Matrix3d &linear) {
     return transform;
 }
 
-/// Assigns a value, and sets `changed` if it differs from the old one.
+/// Assigns a value, and counts a change if it differs from the old one.
 template <typename T>
-void assign(T &to, const T &value, bool &changed) {
-    changed |= to != value;
+void assign(T &to, const T &value, uint64_t &changes) {
+    changes += to != value ? 1 : 0;
     to = value;
 }
 
 /// Sets a flag of a mesh and updates the number of meshes that have it.
-void set_flag(uint8_t &flag, bool value, size_t &count, bool &changed) {
+void set_flag(uint8_t &flag, bool value, size_t &count, uint64_t &changes) {
     count = count - flag + (value ? 1 : 0);
-    assign(flag, static_cast<uint8_t>(value ? 1 : 0), changed);
+    assign(flag, static_cast<uint8_t>(value ? 1 : 0), changes);
 }
 
 /// Writes one vector per vertex from `first` on: vector(i) for vertex i, or zero from the end of
 /// the source on.
 template <typename Iterator, typename Source, typename Vector>
 void write_vectors(Iterator first, size_t count, const Source &source, const Vector &vector,
-                   bool &changed) {
+                   uint64_t &changes) {
     for (size_t i = 0; i < count; ++i, ++first) {
         assign(
             *first,
             i < source.size() ? vector(source[i]) : std::decay_t<decltype(*first)>::Zero().eval(),
-            changed);
+            changes);
     }
 }
 
@@ -128,10 +128,9 @@ void MeshStore::append(const Node &node) {
 
 void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attributes) {
     const MeshCore &mesh = mesh_at(node);
-    bool moved = false, dressed = false;
     assign(arrays.material[slot], material_slot(materials_, attributes, "mesh", node.name()),
-           dressed);
-    assign(arrays.light[slot], lights_.area_light_slot(node, attributes), dressed);
+           surface_version_);
+    assign(arrays.light[slot], lights_.area_light_slot(node, attributes), surface_version_);
 
     const Eigen::Matrix4d &world_from_object =
         attributes.get<TransformAttribute>().world_from_object;
@@ -146,10 +145,10 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
                 "mesh '{}': vertex {}, [{}, {}, {}], is beyond the range of float in world space",
                 node.name(), i, v[0], v[1], v[2]));
         }
-        assign(arrays.position[first_vertex + i], baked, moved);
+        assign(arrays.position[first_vertex + i], baked, geometry_version_);
     }
 
-    set_flag(arrays.has_normals[slot], !mesh.normals().empty(), with_normals_, dressed);
+    set_flag(arrays.has_normals[slot], !mesh.normals().empty(), with_normals_, surface_version_);
     if (with_normals_ > 0) {
         arrays.normal.resize(arrays.position.size(), Eigen::Vector3f::Zero());
         const Eigen::Matrix3d transform = normal_transform(linear);
@@ -158,14 +157,15 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
             [&](const Eigen::Vector3d &normal) {
                 return Eigen::Vector3f((transform * normal).stableNormalized().cast<float>());
             },
-            dressed);
+            surface_version_);
     }
-    set_flag(arrays.has_uv[slot], !mesh.uvs().empty(), with_uv_, dressed);
+    set_flag(arrays.has_uv[slot], !mesh.uvs().empty(), with_uv_, surface_version_);
     if (with_uv_ > 0) {
         arrays.uv.resize(arrays.position.size(), Eigen::Vector2f::Zero());
         write_vectors(
             arrays.uv.begin() + first_vertex, arrays.vertex_count[slot], mesh.uvs(),
-            [](const Eigen::Vector2d &uv) { return Eigen::Vector2f(uv.cast<float>()); }, dressed);
+            [](const Eigen::Vector2d &uv) { return Eigen::Vector2f(uv.cast<float>()); },
+            surface_version_);
     }
 
     const bool mirrors = linear.determinant() < 0;
@@ -174,10 +174,8 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
         assign(arrays.triangle[arrays.first_triangle[slot] + i],
                {first_vertex + t[0], first_vertex + t[mirrors ? 2 : 1],
                 first_vertex + t[mirrors ? 1 : 2]},
-               moved);
+               geometry_version_);
     }
-    geometry_version_ += moved ? 1 : 0;
-    surface_version_ += dressed ? 1 : 0;
 }
 
 void MeshStore::drop_unused() {
