@@ -78,7 +78,7 @@ TEST(Pilot, ChoosesTheSameWhateverTheStreams) {
     }
 }
 
-TEST(Pilot, IsThrownAwayAndRecorded) {
+TEST(Pilot, IsDiscardedAndRecorded) {
     const RenderSettings automatic = settings_of(LIGHT_PATHS_AUTO);
     const Scene scene = load_scene(RTRAYS_SCENES "/cornell_mirrors/scene.json");
     const nlohmann::json report = RenderSession(scene, automatic, device()).report();

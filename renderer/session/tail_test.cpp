@@ -76,13 +76,13 @@ void expect_bits_of_rounds(const Scene &scene, const std::string &algorithm,
     }
 }
 
-TEST(LastPaths, HaveTheBitsOfRounds) {
+TEST(Tail, HasTheBitsOfRounds) {
     const Scene room = bright_room(0.999);
     expect_bits_of_rounds(room, "light_tracing", {"light"});
     expect_bits_of_rounds(room, "truncated_bdpt", {"camera", "light"});
 }
 
-TEST(LastPaths, HaveTheBitsOfRoundsInAnotherLayoutAndUnderControl) {
+TEST(Tail, HasTheBitsOfRoundsInAnotherLayoutAndUnderControl) {
     const Scene room = bright_room(0.998);
     expect_bits_of_rounds(
         room, "path_tracing", {"camera"},
@@ -92,7 +92,7 @@ TEST(LastPaths, HaveTheBitsOfRoundsInAnotherLayoutAndUnderControl) {
                            "integrator.convergence.interval=4"});
 }
 
-TEST(LastPaths, GoOnInRoundsWherePathsAreShortOrJoined) {
+TEST(Tail, IsTracedInRoundsWherePathsAreShortOrConnected) {
     EXPECT_TRUE(render(bright_room(0.5), "path_tracing", {}).launches.empty());
     EXPECT_TRUE(render(bright_room(0.998), "bdpt", {}).launches.empty());
 }

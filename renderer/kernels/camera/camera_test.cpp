@@ -12,7 +12,6 @@
 #include <Eigen/Dense>
 #include <array>
 #include <limits>
-#include <random>
 
 #include "renderer/base/angles.h"
 #include "renderer/compile/compile_scene.h"
@@ -141,7 +140,7 @@ struct RandomCamera {
 // tolerance covers rounding of float directions and points. Slopes have errors of about
 // u (slope + 1). Near the edge of a wide field, where cancellation dominates the forward component
 // of the ray, errors are u slope^2.
-TEST(Camera, JoinsARaysPointsWhereTheRayCameFrom) {
+TEST(Camera, ConnectsPointsOfARayToItsOrigin) {
     Random random(31);
     double worst = 0;
     int lost = 0, left_out = 0;
@@ -262,7 +261,7 @@ TEST(Camera, DensityIntegratesToTheNumberOfPixels) {
     EXPECT_NEAR(total_density(lens, 0.9f, 0.15f, std::hypot(2.0, 1.0) + 0.2), 800, 800 * 2e-3);
 }
 
-TEST(Camera, JoinsPointsInFocusToOnePlaceFromAllOfTheLens) {
+TEST(Camera, ConnectsPointsInFocusToOnePositionFromAllOfTheLens) {
     const double aperture = 0.25, focus = 3;
     const CameraRecord camera =
         compile_camera(one_camera(CameraArrays::FovAxis::x, aperture, focus), 0, 40, 20);
@@ -363,7 +362,7 @@ Film splat_plane(double aperture, double planted) {
 
 // Tests the importance, not only the geometry: light paths must add the mean radiance of each pixel
 // to the film. 96 tests share a family-wise level of 0.01, so each may be 3.9 standard errors off.
-TEST(Camera, JoinedPointsAddUpToTheRadianceOfEachPixel) {
+TEST(Camera, ConnectionsAddUpToTheRadianceOfEachPixel) {
     for (const double aperture : {0.0, 0.3}) {
         const Film film = splat_plane(aperture, 0);
         EXPECT_LT(film.worst, 3.9);

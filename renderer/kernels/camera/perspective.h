@@ -29,19 +29,19 @@ DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
 /// position meet in one point of the plane in focus. The ray through the centre of the lens, which
 /// is not refracted, determines this point.
 DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, float v) {
-    float3 way = make_float3(camera.corner[0] + x * camera.step_x[0] + y * camera.step_y[0],
-                             camera.corner[1] + x * camera.step_x[1] + y * camera.step_y[1],
-                             camera.corner[2] + x * camera.step_x[2] + y * camera.step_y[2]);
+    float3 towards = make_float3(camera.corner[0] + x * camera.step_x[0] + y * camera.step_y[0],
+                                 camera.corner[1] + x * camera.step_x[1] + y * camera.step_y[1],
+                                 camera.corner[2] + x * camera.step_x[2] + y * camera.step_y[2]);
     CameraRay ray;
     ray.origin = make_float3(camera.position[0], camera.position[1], camera.position[2]);
     if (FEATURE_lens) {
         const float3 on_lens = point_on_lens(camera, u, v);
         ray.origin += on_lens;
-        // Not 0: the component of `way` along the axis is 1 before scaling, that of the lens point
-        // is 0.
-        way = way * camera.focus_distance - on_lens;
+        // Not 0: the component of `towards` along the axis is 1 before scaling, that of the lens
+        // point is 0.
+        towards = towards * camera.focus_distance - on_lens;
     }
-    ray.direction = normalize(way);
+    ray.direction = normalize(towards);
     return ray;
 }
 
@@ -85,8 +85,8 @@ DEVICE CameraConnection camera_connection(CameraRecord camera, float3 point, flo
         on_lens = point_on_lens(camera, u, v);
         connection.lens_point += on_lens;
     }
-    const float3 way = point - connection.lens_point;
-    const float depth = dot(way, camera_forward(camera));
+    const float3 from_lens = point - connection.lens_point;
+    const float depth = dot(from_lens, camera_forward(camera));
     if (!(depth > 0.0f)) {
         return connection;
     }
@@ -94,7 +94,7 @@ DEVICE CameraConnection camera_connection(CameraRecord camera, float3 point, flo
     // the centre of the lens to the same point in focus. Comparisons are such that overflow and NaN
     // count as outside the film, and nothing is squared before them. Inside the film, |slope|^2 is
     // at most 1 / cos^2 of the field of view, plus that of the lens over the focus distance.
-    const float3 slope = way / depth;
+    const float3 slope = from_lens / depth;
     float3 seen = slope;
     if (FEATURE_lens) {
         seen += on_lens / camera.focus_distance;

@@ -72,10 +72,10 @@ DEVICE SurfacePoint shape_point(GLOBAL const ShapeRecord *shape, float3 object_p
     point.normal = scaled / scaled_length;
 
     // Flat shapes have p.z = 0, whether 1 is added or not.
-    const float3 way = shape->uv_kind == SHAPE_UV_DISC || shape->uv_kind == SHAPE_UV_PLANE
-                           ? fabs(object_point) + make_float3(1.0f, 1.0f, 0.0f)
-                           : fabs(object_point);
-    const float3 world_magnitude = magnitude_to_world(shape, way);
+    const float3 magnitude = shape->uv_kind == SHAPE_UV_DISC || shape->uv_kind == SHAPE_UV_PLANE
+                                 ? fabs(object_point) + make_float3(1.0f, 1.0f, 0.0f)
+                                 : fabs(object_point);
+    const float3 world_magnitude = magnitude_to_world(shape, magnitude);
     const float rounding = dot(fabs(g), magnitude_to_object(shape, world_magnitude));
     const float normal_error =
         (2.0f * residual + 36.0f * HALF_ULP * rounding) / (size * scaled_length);

@@ -51,9 +51,9 @@ DEVICE float3 sample_disc_origin(PRIVATE const SceneView *scene, float3 d, float
     for (uint i = 0; FEATURE_quadrics && i < scene->lighting.plane_end; ++i) {
         GLOBAL const ShapeRecord *shape = scene->shapes + i;
         if (shape->uv_kind == SHAPE_UV_PLANE) {
-            const float way = vector_to_object(shape, origin - shape_centre(shape)).z /
-                              vector_to_object(shape, d).z;
-            back = way < scene->lighting.far_distance ? max(back, way) : back;
+            const float distance = vector_to_object(shape, origin - shape_centre(shape)).z /
+                                   vector_to_object(shape, d).z;
+            back = distance < scene->lighting.far_distance ? max(back, distance) : back;
         }
     }
     // The ray moves back twice as far; otherwise rounding would decide on which side of the plane

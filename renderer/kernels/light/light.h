@@ -22,7 +22,7 @@ typedef struct LightSample {
     /// light the probability alone. 0: no light is received.
     float pdf_w;
     uint is_delta;  ///< point, spot and directional lights, which cannot be hit
-    // Densities of a light path that comes this way (EmissionSample), set with
+    // Densities of a light path along the same ray (EmissionSample), set with
     // FEATURE_light_strategy.
     /// Density of this sample's origin over that of a light path's origin: p_oe / p_o of MIS (12).
     float sampling_over_emission;
@@ -39,11 +39,11 @@ DEVICE float3 light_axis_z(LightRecord light) {
 }
 
 /// Returns d^2 / cos, by which densities per area are multiplied to give densities per solid angle
-/// (Veach 1997, equation 8.10). `way` leads to a point with normal `normal`. Returns 0 from behind,
-/// and if both points coincide.
-DEVICE float solid_angle_per_area(float3 way, float3 normal) {
-    const float squared = dot(way, way);
-    const float projected = -dot(normal, way);  // cosine times distance
+/// (Veach 1997, equation 8.10). `to_point` leads to a point with normal `normal`. Returns 0 from
+/// behind, and if both points coincide.
+DEVICE float solid_angle_per_area(float3 to_point, float3 normal) {
+    const float squared = dot(to_point, to_point);
+    const float projected = -dot(normal, to_point);  // cosine times distance
     return projected > 0.0f ? squared * (sqrt(squared) / projected) : 0.0f;
 }
 
@@ -56,9 +56,10 @@ DEVICE float disc_pdf_a_inside(LightingRecord lighting) {
 /// Returns the density per area of the origin of the light path from infinity that arrives at
 /// `point` from direction d (unit). It is 0 on the parts of planes outside the disc.
 DEVICE float disc_pdf_a(LightingRecord lighting, float3 point, float3 d) {
-    const float3 way = point - make_float3(lighting.scene_centre[0], lighting.scene_centre[1],
-                                           lighting.scene_centre[2]);
-    const float3 across = way - d * dot(way, d);
+    const float3 from_centre =
+        point -
+        make_float3(lighting.scene_centre[0], lighting.scene_centre[1], lighting.scene_centre[2]);
+    const float3 across = from_centre - d * dot(from_centre, d);
     // The radius has a margin for bounded surfaces that exceeds all rounding errors here.
     return dot(across, across) < lighting.scene_radius * lighting.scene_radius
                ? disc_pdf_a_inside(lighting)
@@ -108,27 +109,28 @@ DEVICE float infinite_pdf_w(PRIVATE const SceneView *scene, float3 d) {
 /// densities per area of light sampling and of emission, both given the light.
 DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a,
                           float uniform_pdf_a, PRIVATE LightSample *sample) {
-    const float3 way = point.position - from;
+    const float3 to_point = point.position - from;
     // From behind the density is 0. It is computed without a division by the distance, which may be
     // 0.
-    sample->pdf_w = pdf_a * solid_angle_per_area(way, point.normal);
-    sample->wi = way / sqrt(dot(way, way));
-    sample->target = offset_ray_origin(point, -way);
+    sample->pdf_w = pdf_a * solid_angle_per_area(to_point, point.normal);
+    sample->wi = to_point / sqrt(dot(to_point, to_point));
+    sample->target = offset_ray_origin(point, -to_point);
     sample->radiance = light_radiance(light);
     sample->is_delta = 0u;
     if (FEATURE_light_strategy) {
         sample->sampling_over_emission *= pdf_a / uniform_pdf_a;
-        sample->arrival_pdf_a = max(-dot(point.normal, sample->wi), 0.0f) * INV_PI / dot(way, way);
+        sample->arrival_pdf_a =
+            max(-dot(point.normal, sample->wi), 0.0f) * INV_PI / dot(to_point, to_point);
     }
 }
 
 /// Turns the position of a point or spot light into a light sample.
 DEVICE void look_at_position(float3 from, LightRecord light, PRIVATE LightSample *sample) {
     sample->target = make_float3(light.position[0], light.position[1], light.position[2]);
-    const float3 way = sample->target - from;
-    const float squared = dot(way, way);
+    const float3 to_light = sample->target - from;
+    const float squared = dot(to_light, to_light);
     float intensity = squared > 0.0f ? 1.0f / squared : 0.0f;
-    sample->wi = way / sqrt(squared);
+    sample->wi = to_light / sqrt(squared);
     if (FEATURE_light_strategy) {
         sample->arrival_pdf_a = 0.25f * INV_PI / squared;
     }

@@ -440,7 +440,7 @@ TEST(Emission, BringsTheIrradianceThatLightSamplesFind) {
 
 // (a) The emission density that a camera path computes where it hits a light is the density that
 // the light path along the same line had.
-TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
+TEST(Emission, HitsHaveTheDensityOfTheLineFromTheLight) {
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
         const CompiledScene scene = compile_light_scene(
             infinite, infinite == LightArrays::Kind::dome ? LightSelection::independent
@@ -452,11 +452,11 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
             const LightRecord &light = scene.lights[sample.light];
             const double emitted =
                 static_cast<double>(sample.pdf_origin) * static_cast<double>(sample.pdf_direction);
-            double told = 0, expected = emitted;
+            double computed = 0, expected = emitted;
             if (sample.at_infinity != 0u && sample.is_delta == 0u) {
                 const float3 met = sample.origin + sample.direction * scene.lighting.scene_radius;
-                told = static_cast<double>(infinite_line_pdf(&view, met, -sample.direction));
-                if (std::abs(told / expected - 1) > 1e-5) {
+                computed = static_cast<double>(infinite_line_pdf(&view, met, -sample.direction));
+                if (std::abs(computed / expected - 1) > 1e-5) {
                     ++other_cell;  // rounding of the direction selects another texel
                     continue;
                 }
@@ -472,14 +472,14 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
                                    : 1u;
                     primitive = scene.emitter_triangles[emitter].triangle;
                 }
-                told = static_cast<double>(emission_line_pdf(&view, light, primitive, emitter));
+                computed = static_cast<double>(emission_line_pdf(&view, light, primitive, emitter));
                 expected =
                     emitted / static_cast<double>(dot(sample.point.normal, sample.direction));
                 ASSERT_NEAR(static_cast<double>(emission_pdf_a(&view, light, primitive, emitter)),
                             static_cast<double>(sample.pdf_origin),
                             1e-6 * static_cast<double>(sample.pdf_origin));
                 // At grazing angles, rounding of the direction dominates the cosine.
-                ASSERT_NEAR(told, expected,
+                ASSERT_NEAR(computed, expected,
                             (1e-5 + 1e-6 / static_cast<double>(
                                                dot(sample.point.normal, sample.direction))) *
                                 expected);
@@ -487,7 +487,7 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
             } else {
                 continue;
             }
-            ASSERT_NEAR(told, expected, 1e-5 * expected) << light.kind;
+            ASSERT_NEAR(computed, expected, 1e-5 * expected) << light.kind;
         }
         EXPECT_LT(other_cell, 20);
     }
@@ -495,7 +495,7 @@ TEST(Emission, HitsAreToldTheDensityOfTheLineFromTheLight) {
 
 // (b) The ratio of densities that a light sample returns, combined with the density of the sample
 // and the geometry term, gives the density of light paths.
-TEST(Emission, LightSamplesAreToldTheDensityOfLightPaths) {
+TEST(Emission, LightSamplesHaveTheDensityOfLightPaths) {
     test::Random random(5);
     for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
         for (const LightSelection selection :

@@ -29,8 +29,8 @@ DEVICE bool is_shape_light(LightRecord light) {
 /// area is sampled instead: for other kinds of light, and from inside or within 1e-4 radii of the
 /// surface, where the sphere subtends almost a hemisphere or more.
 DEVICE float sphere_cone(LightRecord light, GLOBAL const ShapeRecord *sphere, float3 from) {
-    const float3 way = from - shape_centre(sphere);
-    const float distance2 = dot(way, way);
+    const float3 from_centre = from - shape_centre(sphere);
+    const float distance2 = dot(from_centre, from_centre);
     const float3 radius = vector_to_world(sphere, make_float3(1.0f, 0.0f, 0.0f));
     const float radius2 = dot(radius, radius);
     return light.kind == LIGHT_SPHERE && distance2 > 1.0002f * radius2 ? radius2 / distance2 : 0.0f;
@@ -44,12 +44,12 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
     if (light.kind == LIGHT_SPHERE) {
         const float sin2 = sphere_cone(light, shapes + light.first_triangle, from);
         if (sin2 > 0.0f) {
-            const float3 way = from - point.position;
-            const float projected = dot(point.normal, way);
+            const float3 to_receiver = from - point.position;
+            const float projected = dot(point.normal, to_receiver);
             if (!(projected > 0.0f)) {
                 return 0.0f;
             }
-            const float distance2 = dot(way, way);
+            const float distance2 = dot(to_receiver, to_receiver);
             // 1 / (2 pi (1 - cos)).
             const float pdf_w = 0.5f * INV_PI * (1.0f + sqrt(1.0f - sin2)) / sin2;
             return pdf_w * projected / (distance2 * sqrt(distance2));
@@ -103,8 +103,8 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
     // A shadow ray is the rounded difference of its ends. Over the distance D its end is off by u D
     // per axis, and the t at which it meets the light is off by a few u. The offset of that end
     // must exceed both. Otherwise lights would block themselves from 100 radii on.
-    const float3 way = fabs(from - sample.point.position);
-    const float rounding = 16.0f * HALF_ULP * max(way.x, max(way.y, way.z));
+    const float3 distance = fabs(from - sample.point.position);
+    const float rounding = 16.0f * HALF_ULP * max(distance.x, max(distance.y, distance.z));
     sample.point.error += make_float3(rounding, rounding, rounding);
     return sample;
 }

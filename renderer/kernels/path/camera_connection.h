@@ -31,8 +31,8 @@ DEVICE float first_inverse_arrival(Path path, PRIVATE const SceneView *scene, Su
             normalize(start.position - shape_centre(scene->shapes + light.first_triangle));
     }
     const float cosine = fabs(dot(hit.point.normal, get_ray_direction(path)));
-    const float3 way = hit.point.position - start.position;
-    const float squared = light.kind < LIGHT_DIRECTIONAL ? dot(way, way) : 1.0f;
+    const float3 to_hit = hit.point.position - start.position;
+    const float squared = light.kind < LIGHT_DIRECTIONAL ? dot(to_hit, to_hit) : 1.0f;
     return get_log_inverse_arrival(path) +
            log2_quotient(sampling_over_emission(scene, light, hit.point.position, start) * squared,
                          cosine);
@@ -44,9 +44,10 @@ DEVICE void set_light_path_arrival(Path path, PRIVATE const SceneView *scene, Su
     if (FEATURE_emission_density && get_depth(path) == 0u) {
         set_log_inverse_arrival(path, first_inverse_arrival(path, scene, hit));
     } else if (FEATURE_vertex_connections) {
-        const float3 from = hit.point.position - get_ray_origin(path);
+        const float3 to_hit = hit.point.position - get_ray_origin(path);
         const float cosine = fabs(dot(hit.point.normal, get_ray_direction(path)));
-        set_log_inverse_arrival(path, log_inverse_pdf_a(get_pdf_w(path), cosine, dot(from, from)));
+        set_log_inverse_arrival(path,
+                                log_inverse_pdf_a(get_pdf_w(path), cosine, dot(to_hit, to_hit)));
     }
 }
 
@@ -90,9 +91,9 @@ DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, Cam
     if (!(connection.pdf_w > 0.0f)) {
         return false;
     }
-    const float3 way = connection.lens_point - hit.point.position;
-    const float squared = dot(way, way);
-    const float3 wo = way / sqrt(squared);
+    const float3 to_lens = connection.lens_point - hit.point.position;
+    const float squared = dot(to_lens, to_lens);
+    const float3 wo = to_lens / sqrt(squared);
     const float3 wi = -get_ray_direction(path);
     const float cos_wo = fabs(dot(hit.point.normal, wo));
     const float cos_wi = fabs(dot(hit.point.normal, wi));
@@ -141,9 +142,9 @@ DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, C
     const uint4 words = path_sample(settings, index, sample, BLOCK_CAMERA);
     const CameraConnection connection = camera_connection(
         camera, start.point.position, uniform_float(words.x), uniform_float(words.y));
-    const float3 way = connection.lens_point - start.point.position;
-    const float squared = dot(way, way);
-    const float facing = dot(start.point.normal, way);  // cosine times distance
+    const float3 to_lens = connection.lens_point - start.point.position;
+    const float squared = dot(to_lens, to_lens);
+    const float facing = dot(start.point.normal, to_lens);  // cosine times distance
     if (!(connection.pdf_w > 0.0f && facing > 0.0f)) {
         return false;
     }

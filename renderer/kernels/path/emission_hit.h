@@ -90,11 +90,11 @@ DEVICE void set_camera_path_arrival(Path path, PRIVATE const SceneView *scene,
     float log_a = -INFINITY;
     if (primitive != NO_HIT) {
         const SurfacePoint hit = surface_hit(scene, primitive, get_hit_at(path)).point;
-        const float3 way = hit.position - get_ray_origin(path);
+        const float3 to_hit = hit.position - get_ray_origin(path);
         const float cosine = fabs(dot(hit.normal, get_ray_direction(path)));
         // R_0 = A_1 = n_L / P_1 with P_1 of MIS (6), and A_i = 1 / E_i.
         const float paths = first ? (float)settings.light_paths : 1.0f;
-        log_a = log_inverse_pdf_a(get_pdf_w(path), cosine, paths * dot(way, way));
+        log_a = log_inverse_pdf_a(get_pdf_w(path), cosine, paths * dot(to_hit, to_hit));
     }
     if (first) {
         set_log_running_ratio(path, log_a);

@@ -65,9 +65,9 @@ DEVICE bool connect_to_vertex(Path path, PRIVATE const SceneView *scene, GLOBAL 
     const LightVertex vertex = load_light_vertex(place);
     const float3 lit_at = make_float3(vertex.hit_u, vertex.hit_v, vertex.hit_w);
     const SurfaceHit lit = surface_hit(scene, vertex.hit_primitive, lit_at);
-    const float3 way = lit.point.position - hit.point.position;
-    const float squared = dot(way, way);
-    const float3 wi = way / sqrt(squared);
+    const float3 to_vertex = lit.point.position - hit.point.position;
+    const float squared = dot(to_vertex, to_vertex);
+    const float3 wi = to_vertex / sqrt(squared);
     const float3 wo = -get_ray_direction(path), from_light = -vertex.direction;
     const float cos_here = fabs(dot(hit.point.normal, wi)),
                 cos_there = fabs(dot(lit.point.normal, wi));

@@ -12,13 +12,13 @@
 /// offset that keeps the light's surface from blocking itself.
 #define SHADOW_END (1.0f - 0x1p-20f)
 
-/// Returns whether a surface is between `origin` and `origin + way`.
-DEVICE bool is_blocked(PRIVATE const SceneView *scene, float3 origin, float3 way) {
+/// Returns whether a surface is between `origin` and `origin + segment`.
+DEVICE bool is_blocked(PRIVATE const SceneView *scene, float3 origin, float3 segment) {
     // The few shape tests often avoid the traversal.
     if (FEATURE_shapes && any_shape(scene->shapes, scene->shape_bounds, scene->shape_count, origin,
-                                    way, SHADOW_END)) {
+                                    segment, SHADOW_END)) {
         return true;
     }
     return FEATURE_triangles &&
-           trace_any(scene->bvh_nodes, scene->bvh_triangles, origin, way, SHADOW_END);
+           trace_any(scene->bvh_nodes, scene->bvh_triangles, origin, segment, SHADOW_END);
 }
