@@ -9,6 +9,7 @@
 
 #include "compat.h"
 #include "declare.h"
+#include "hit_primitive.h"
 
 // X(feature, type, name): a field exists if its feature is on. Types are uint, float and float3
 // (three words). (hit_u, hit_v) are the barycentrics of a triangle; (hit_u, hit_v, hit_w) is the
@@ -36,9 +37,6 @@
     X(FEATURE_shadow_rays, float3, shadow_vector)          /* from ray_origin to the other end */ \
     X(FEATURE_shadow_rays, float3, shadow_radiance)        /* added unless the ray is blocked */  \
     X(FEATURE_from_light, uint, splat_pixel)               /* pixel to which it is added */
-
-/// Marks `hit_primitive` as a shape, not a triangle; NO_HIT has this bit set as well.
-#define SHAPE_BIT 0x80000000u
 
 #ifdef __OPENCL_VERSION__
 

@@ -7,7 +7,7 @@
 #include "renderer/kernels/geometry/quadric.h"
 #include "renderer/kernels/geometry/shape_bounds.h"
 #include "renderer/kernels/geometry/shape_space.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
+#include "renderer/shared/hit_primitive.h"
 
 /// The nearest hit of a ray with a shape.
 typedef struct ShapeHit {

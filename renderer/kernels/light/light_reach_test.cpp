@@ -3,6 +3,7 @@
 // planes that are lit from infinity.
 #include <gtest/gtest.h>
 
+#include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/testing/light_paths.h"
 #include "renderer/testing/shape_hits.h"
 

@@ -7,7 +7,6 @@
 // PATH_STATES_PRIVATE as 1.
 #pragma once
 
-#include "renderer/kernels/camera/perspective.h"
 #include "renderer/kernels/film/add_sample.h"
 #include "renderer/kernels/path/camera_connection.h"
 #include "renderer/kernels/path/emission_hit.h"

@@ -7,7 +7,6 @@
 #include "renderer/kernels/mis/bidirectional.h"
 #include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/scene_view.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 

@@ -12,7 +12,6 @@
 #include "renderer/kernels/path/shadow_ray.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/scene_view.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 

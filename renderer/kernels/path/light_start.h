@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The start of a light path.
+// The start of a light path. Two stages derive it from the path's random words.
 #pragma once
 
-#include "renderer/kernels/light/start.h"
+#include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/math/logarithm.h"
+#include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
+
+/// Returns the start of light path `index` of sample `sample`. It is the same on every call.
+DEVICE EmissionSample light_path_start(PRIVATE const SceneView *scene, IntegratorSettings settings,
+                                       uint index, ulong sample) {
+    return sample_emission(scene, path_sample(settings, index, sample, BLOCK_EMISSION(0u)),
+                           path_sample(settings, index, sample, BLOCK_EMISSION(1u)));
+}
 
 /// Starts light path `index` of sample `sample` of the batch.
 DEVICE void start_light_path(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,

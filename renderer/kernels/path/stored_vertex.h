@@ -5,7 +5,6 @@
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/scene_view.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"

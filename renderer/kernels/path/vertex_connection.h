@@ -9,7 +9,6 @@
 #include "renderer/kernels/path/shadow_ray.h"
 #include "renderer/kernels/path/stored_vertex.h"
 #include "renderer/kernels/scene_view.h"
-#include "renderer/kernels/traversal/intersect_triangle.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/light_vertex.h"
 #include "renderer/shared/path_state.h"

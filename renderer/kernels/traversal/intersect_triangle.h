@@ -4,6 +4,7 @@
 
 #include "renderer/kernels/traversal/traversal_ray.h"
 #include "renderer/shared/bvh_node.h"
+#include "renderer/shared/hit_primitive.h"
 #include "renderer/shared/triangle.h"
 
 /// Programs that define this as 1 count traversal work (trace_rays.cl). In all other programs the
@@ -31,8 +32,6 @@ typedef struct Hit {
 #define BEGIN_COUNTS(hit)
 #define COUNT(hit, what, number)
 #endif
-
-#define NO_HIT 0xffffffffu
 
 #ifdef __cplusplus
 static_assert(sizeof(Hit) == 20, "as in OpenCL C");
