@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Compiles materials and textures into records, and collects the features that they use.
-#include <algorithm>
 #include <array>
 #include <cstring>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/compile/scene_buffers.h"
 
-#include <algorithm>
 #include <cstring>
 
 namespace rtrays {

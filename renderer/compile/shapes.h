@@ -10,10 +10,9 @@
 
 namespace rtrays {
 
-/// Returns the records of the shapes, in their order. `light` is still the index into LightArrays
-/// (`no_index`, which equals NO_EMITTER, for shapes that do not emit). Throws `Error` (bad input)
-/// that names the shape if float cannot represent or invert its transform, or if a Julia set's
-/// surface is empty or too large for float.
+/// Returns the records of the shapes, in their order, without their lights: `light` is NO_EMITTER.
+/// Throws `Error` (bad input) that names the shape if float cannot represent or invert its
+/// transform, or if a Julia set's surface is empty or too large for float.
 std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes);
 
 /// Returns bounding spheres of the shapes, in groups of SHAPE_LANES

@@ -93,6 +93,7 @@ struct StageDescription {
     StageItems items;
     std::vector<StageInput> inputs;
 
+    /// Returns whether the stage has this input.
     bool reads(StageInput input) const;
 };
 

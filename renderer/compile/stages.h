@@ -50,6 +50,7 @@ class StageSet {
 
     /// Returns the programs by file.
     const std::map<std::string, Program> &programs() const { return programs_; }
+    /// Returns the time in which all programs were built or loaded.
     double build_seconds() const;
 
   private:

@@ -44,7 +44,7 @@ enum class Binaries {
     leave,
 };
 
-/// What a program has asked of a device so far.
+/// Commands that a program has enqueued on a device, and memory that it has allocated.
 struct DeviceTraffic {
     uint64_t launches = 0;       ///< kernels
     uint64_t bytes_written = 0;  ///< copied from the host to buffers

@@ -45,8 +45,9 @@ class ConvergenceControl {
     /// Returns the programs by file.
     const std::map<std::string, Program> &programs() const { return programs_; }
 
-    template <class Visitor>
-    void visit_buffers(const Visitor &visit) const {
+    /// Calls visit(buffer) for every buffer.
+    template <typename Visit>
+    void visit_buffers(const Visit &visit) const {
         visit(half_film_);
         visit(stopped_at_);
         visit(live_pixels_);

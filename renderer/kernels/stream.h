@@ -7,9 +7,9 @@
 #include "renderer/shared/stream_counters.h"
 
 // Indices of the queues in the buffer. Queues 0 and 1 are the active queues, used alternately. The
-// free queue and the shadow queue share an index because their lifetimes do not overlap: the free
-// queue is in use from extend_path to generate_camera_rays, the shadow queue from sample_light to
-// intersect_any.
+// free queue and the shadow queue share an index because their lifetimes do not overlap. The free
+// queue is in use from the stage that ends paths to the next one that starts paths. The shadow
+// queue is in use from a stage that connects paths to the stage that traces the shadow rays.
 #define QUEUE_FREE 2u
 #define QUEUE_SHADOW 2u
 

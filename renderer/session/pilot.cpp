@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/scene/scene.h"
 #include "renderer/session/render_session.h"
 
 namespace rtrays {

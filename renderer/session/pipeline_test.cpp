@@ -3,10 +3,7 @@
 // independence of the image's bits from all of them.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
 #include "renderer/base/angles.h"
 #include "renderer/bvh/bvh.h"

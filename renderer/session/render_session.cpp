@@ -7,7 +7,6 @@
 
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
-#include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/session/state.h"
 

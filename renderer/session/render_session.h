@@ -105,6 +105,7 @@ class RenderSession {
     /// not finite or out of the film's range.
     Image develop() const;
 
+    /// Returns the times and counts so far.
     RenderStats stats() const;
 
     /// Returns the document that `--stats` writes: device, features, programs, stages with seconds

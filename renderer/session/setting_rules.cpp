@@ -39,8 +39,9 @@ void require_consistent_light_paths(const RenderSettings &settings) {
     const Algorithm &algorithm = *settings.algorithm;
     if (algorithm.light_paths == LightPaths::one_per_camera_path &&
         settings.light_paths != LIGHT_PATHS_LIKE_PIXELS) {
-        throw input_error(
-            "integrator.light_paths: bdpt traces one light path per camera path; use pixels");
+        throw input_error(fmt::format(
+            "integrator.light_paths: {} traces one light path per camera path; use pixels",
+            algorithm.name));
     }
     if (settings.light_paths == LIGHT_PATHS_AUTO && algorithm.light_paths != LightPaths::any) {
         throw input_error(
@@ -49,14 +50,14 @@ void require_consistent_light_paths(const RenderSettings &settings) {
                         algorithm.name));
     }
     if (settings.light_paths == 0 && algorithm.light_paths == LightPaths::at_least_one) {
-        throw input_error(
-            "integrator.light_paths=0: light_tracing needs light paths; use pixels or a number "
-            "above 0");
+        throw input_error(fmt::format(
+            "integrator.light_paths=0: {} needs light paths; use pixels or a number above 0",
+            algorithm.name));
     }
     if (algorithm.light_paths == LightPaths::one_per_camera_path && settings.only_pass) {
         throw input_error(
-            fmt::format("passes={}: the passes of bdpt share their light paths; use all",
-                        to_string(*settings.only_pass)));
+            fmt::format("passes={}: the passes of {} share their light paths; use all",
+                        to_string(*settings.only_pass), algorithm.name));
     }
 }
 

@@ -6,12 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/base/notice.h"
 #include "renderer/import/mitsuba/ior.h"
 #include "renderer/import/mitsuba/plastic.h"
-#include "renderer/scene/cores/metals.h"
 #include "renderer/scene/graph.h"
 
 namespace rtrays::mitsuba {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sampling of emission: the rays with which light paths leave the lights, and their densities
 // (thesis, section 3.3.4; Veach 1997, section 8.2). The densities that MIS weights require for
-// other techniques are in light.h.
+// other strategies are in light.h.
 //
 // Surfaces emit from points uniform by area into directions in proportion to the cosine. The weight
 // is thus pi L over the density of the point. For light from infinity, the direction is sampled
@@ -9,7 +9,7 @@
 // scene's bounded surfaces. The weight is pi R^2 L over the density of the direction.
 //
 // Such paths light only the part of a plane that is in the shadow of that sphere. The rest is left
-// to other techniques (`disc_pdf_a`), and remains dark without them.
+// to other strategies (`disc_pdf_a`), and remains dark without them.
 #pragma once
 
 #include "renderer/kernels/light/light.h"

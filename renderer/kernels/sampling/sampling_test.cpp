@@ -12,9 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
-#include <limits>
 
 #include "renderer/compile/compile_scene.h"
 #include "renderer/testing/chi_square.h"

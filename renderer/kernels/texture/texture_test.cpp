@@ -2,8 +2,6 @@
 // Compares texture lookups with an implementation in double precision.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "renderer/testing/bsdf_cases.h"
 #include "renderer/testing/float_traps.h"
 
