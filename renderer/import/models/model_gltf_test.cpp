@@ -408,5 +408,70 @@ TEST(Fbx, LengthsAreInMetres) {
     EXPECT_NEAR(centimetres.scene.graph().bounds().diagonal().norm(), 0.01 * size, 1e-9 * size);
 }
 
+TEST(Fbx, LightsAndGeometryHaveOneUnit) {
+    // A square of 8 m in centimetres, and a spot light 2 m above it.
+    const TemporaryFolder folder;
+    const LoadedModel model(folder.write("spot.fbx", R"(; FBX 7.3.0 project file
+FBXHeaderExtension: {
+    FBXHeaderVersion: 1003
+    FBXVersion: 7300
+}
+GlobalSettings: {
+    Version: 1000
+    Properties70: {
+        P: "UnitScaleFactor", "double", "Number", "",1
+    }
+}
+Objects: {
+    Geometry: 1, "Geometry::Plane", "Mesh" {
+        Vertices: *12 {
+            a: -400,0,400,400,0,400,-400,0,-400,400,0,-400
+        }
+        PolygonVertexIndex: *4 {
+            a: 0,1,3,-3
+        }
+        GeometryVersion: 124
+    }
+    NodeAttribute: 2, "NodeAttribute::Spot", "Light" {
+        TypeFlags: "Light"
+        GeometryVersion: 124
+        Properties70: {
+            P: "LightType", "enum", "", "",2
+            P: "Color", "Color", "", "A",1,0.5,0.25
+            P: "Intensity", "Number", "", "A",10000
+            P: "DecayType", "enum", "", "",2
+            P: "InnerAngle", "Number", "", "A",30
+            P: "OuterAngle", "Number", "", "A",60
+        }
+    }
+    Model: 3, "Model::Plane", "Mesh" {
+        Version: 232
+    }
+    Model: 4, "Model::Spot", "Light" {
+        Version: 232
+        Properties70: {
+            P: "Lcl Translation", "Lcl Translation", "", "A",0,200,0
+        }
+    }
+}
+Connections: {
+    C: "OO",3,0
+    C: "OO",4,0
+    C: "OO",1,3
+    C: "OO",2,4
+}
+)"));
+    const Eigen::AlignedBox3d bounds = model.scene.graph().bounds();
+    EXPECT_LT((bounds.min() - Vector3d(-4, 0, -4)).norm(), 1e-6);
+    EXPECT_LT((bounds.max() - Vector3d(4, 0, 4)).norm(), 1e-6);
+    const LightArrays &lights = model.scene.lights();
+    ASSERT_EQ(lights.kind, std::vector<LightArrays::Kind>{LightArrays::Kind::spot});
+    EXPECT_LT((lights.world_from_light[0].col(3) - Eigen::Vector4d(0, 2, 0, 1)).norm(), 1e-6);
+    EXPECT_LT((lights.world_from_light[0].col(2) - Eigen::Vector4d(0, 1, 0, 0)).norm(), 1e-6);
+    EXPECT_LT((lights.radiance[0] - Vector3f(100, 50, 25)).norm(), 1e-3f);
+    EXPECT_NEAR(lights.outer_angle[0], 30 * degree, 1e-6);
+    EXPECT_NEAR(lights.inner_angle[0], 15 * degree, 1e-6);
+}
+
 }  // namespace
 }  // namespace rtrays
