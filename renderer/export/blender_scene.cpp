@@ -11,11 +11,11 @@
 #include "renderer/base/files.h"
 #include "renderer/export/data_folder.h"
 #include "renderer/export/ply_file.h"
-#include "renderer/export/tessellation.h"
 #include "renderer/import/images/texture_file.h"
 #include "renderer/scene/cores/composite.h"
 #include "renderer/scene/cores/texture.h"
 #include "renderer/scene/graph.h"
+#include "renderer/scene/stores/tessellation.h"
 
 namespace rtrays {
 

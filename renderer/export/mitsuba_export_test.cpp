@@ -8,10 +8,10 @@
 
 #include "renderer/base/files.h"
 #include "renderer/export/mitsuba_xml.h"
-#include "renderer/export/tessellation.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/scene/cores/texture.h"
+#include "renderer/scene/stores/tessellation.h"
 #include "renderer/testing/mitsuba_scenes.h"
 
 namespace rtrays {

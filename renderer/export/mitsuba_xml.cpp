@@ -10,13 +10,13 @@
 #include "renderer/export/mitsuba_bsdf.h"
 #include "renderer/export/mitsuba_writer.h"
 #include "renderer/export/ply_file.h"
-#include "renderer/export/tessellation.h"
 #include "renderer/import/images/texture_file.h"
 #include "renderer/import/mitsuba/envmap.h"
 #include "renderer/scene/cores/shape.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/graph.h"
 #include "renderer/scene/stores/pose.h"
+#include "renderer/scene/stores/tessellation.h"
 
 namespace rtrays {
 

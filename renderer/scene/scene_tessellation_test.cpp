@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests tessellation: the triangles are on the quadric that they replace, face its front, and have
 // its area and texture coordinates.
-#include "renderer/export/tessellation.h"
+#include "renderer/scene/stores/tessellation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/export/tessellation.h"
+#include "renderer/scene/stores/tessellation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

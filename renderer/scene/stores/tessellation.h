@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tessellation of quadrics to triangles, for renderers that lack these shapes.
+// Tessellation of quadrics to triangles, for renderers and lights that lack these shapes.
 #pragma once
 
 #include <cstdint>
