@@ -201,7 +201,7 @@ ExitCode run(int argc, char **argv) {
     }
     Options &options = *parsed;
     check_outputs(options);
-    Scene scene = load_scene(options.scene);
+    Scene scene = load_scene(options.scene, true, parse_defines(options.defines));
     if (options.settings.width == 0) {
         options.settings.width = scene.film_width();
         options.settings.height = scene.film_height();

@@ -78,6 +78,9 @@ std::optional<Options> parse_options(int argc, char **argv) {
                    "renderer: embree, mitsuba or cycles; exit code 77 if it is not installed")
         ->check(CLI::IsMember({"embree", "mitsuba", "cycles"}))
         ->capture_default_str();
+    app.add_option("--define", options.defines,
+                   "value of a <default> parameter of a Mitsuba scene: NAME=VALUE; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--size", size, "film size WIDTHxHEIGHT; default: the scene's");
     app.add_option("--strategies", strategies,
                    "estimators of direct light: implicit, explicit or mis")

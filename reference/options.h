@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reference/settings.h"
 
@@ -14,11 +15,12 @@ namespace rtrays::reference {
 struct Options {
     std::string scene;
     std::string output;
-    std::string state;              ///< default: OUTPUT.state
-    std::string stats;              ///< empty: not written
-    std::string manifest;           ///< empty: not updated
-    std::string engine = "embree";  ///< "embree", "mitsuba" or "cycles"
-    ReferenceSettings settings;     ///< width and height 0: the scene's film size
+    std::string state;                 ///< default: OUTPUT.state
+    std::string stats;                 ///< empty: not written
+    std::string manifest;              ///< empty: not updated
+    std::string engine = "embree";     ///< "embree", "mitsuba" or "cycles"
+    std::vector<std::string> defines;  ///< NAME=VALUE, parameters of a Mitsuba scene
+    ReferenceSettings settings;        ///< width and height 0: the scene's film size
     uint64_t begin = 0;
     uint64_t end = 0;
     double checkpoint_interval = 60.0;  ///< seconds

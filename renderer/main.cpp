@@ -39,6 +39,7 @@ struct Options {
     std::string state;
     std::string stats;
     std::vector<std::string> assignments;
+    std::vector<std::string> defines;
     std::vector<std::string> layers = {"variance", "samples"};
     bool resume = false;
     bool quiet = false;
@@ -278,7 +279,7 @@ RenderSession session_of(Scene &scene, const Options &options, DeviceContext &de
 
 ExitCode run(Options &options) {
     require_consistent(options);
-    Scene scene = load_scene(options.scene, options.quiet);
+    Scene scene = load_scene(options.scene, options.quiet, parse_defines(options.defines));
     apply_options(options, scene);
     scene.update(options.scene_time);
     if (options.print_scene) {
@@ -387,6 +388,9 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("--state", options.state, "film file to write, for --resume and merge");
     app.add_flag("--resume", options.resume, "continue from the film of --state if it exists");
     app.add_option("--set", options.assignments, "change a setting: NAME=VALUE; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--define", options.defines,
+                   "value of a <default> parameter of a Mitsuba scene: NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--stats", options.stats,
                    "write a .json with features, kernels, bytes, launches and seconds");

@@ -2,7 +2,9 @@
 #include "renderer/export/mitsuba_xml.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
+#include <type_traits>
 
 #include "renderer/base/angles.h"
 #include "renderer/base/error.h"
@@ -25,6 +27,56 @@ namespace {
 using namespace mitsuba;
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
+
+/// Returns whether the normals of a triangle are on its back.
+bool opposes_its_normals(const MeshArrays &meshes, const Triangle &t) {
+    const Eigen::Vector3f &a = meshes.position[t[0]];
+    const Eigen::Vector3f front = (meshes.position[t[1]] - a).cross(meshes.position[t[2]] - a);
+    return front.dot(meshes.normal[t[0]] + meshes.normal[t[1]] + meshes.normal[t[2]]) < 0;
+}
+
+/// Returns a mesh as the only one of its arrays, with the normals of each triangle on its front.
+/// The winding decides the side here, but the normals decide it in Mitsuba.
+MeshArrays with_normals_in_front(const MeshArrays &meshes, uint32_t mesh) {
+    const auto part = [&](const auto &values) {
+        using Values = std::decay_t<decltype(values)>;
+        const auto first = values.begin() + meshes.first_vertex[mesh];
+        return values.empty() ? Values() : Values(first, first + meshes.vertex_count[mesh]);
+    };
+    MeshArrays result;
+    result.position = part(meshes.position);
+    result.normal = part(meshes.normal);
+    result.uv = part(meshes.uv);
+    std::map<uint32_t, uint32_t> turned;  // vertices with the opposite normal
+    const auto first = meshes.triangle.begin() + meshes.first_triangle[mesh];
+    for (auto t = first; t != first + meshes.triangle_count[mesh]; ++t) {
+        const bool opposes = opposes_its_normals(meshes, *t);
+        Triangle &made = result.triangle.emplace_back();
+        for (size_t i = 0; i < 3; ++i) {
+            const uint32_t vertex = (*t)[i] - meshes.first_vertex[mesh];
+            made[i] = vertex;
+            if (opposes) {
+                const auto next = static_cast<uint32_t>(result.position.size());
+                const auto [copy, is_new] = turned.emplace(vertex, next);
+                made[i] = copy->second;
+                if (is_new) {
+                    result.position.push_back(meshes.position[(*t)[i]]);
+                    result.normal.push_back(-meshes.normal[(*t)[i]]);
+                    if (!result.uv.empty()) {
+                        result.uv.push_back(meshes.uv[(*t)[i]]);
+                    }
+                }
+            }
+        }
+    }
+    result.first_triangle = {0};
+    result.triangle_count = {meshes.triangle_count[mesh]};
+    result.first_vertex = {0};
+    result.vertex_count = {static_cast<uint32_t>(result.position.size())};
+    result.has_normals = {1};
+    result.has_uv = {meshes.has_uv[mesh]};
+    return result;
+}
 
 class SceneWriter {
   public:
@@ -137,7 +189,14 @@ class SceneWriter {
             add_shape("ply", meshes.name[mesh], meshes.material[mesh], meshes.light[mesh],
                       has_uv ? UvConvention::flipped : UvConvention::none);
         const std::filesystem::path file = folder_.new_file(meshes.name[mesh], ".ply");
-        write_ply(meshes, mesh, file);
+        const auto first = meshes.triangle.begin() + meshes.first_triangle[mesh];
+        if (meshes.has_normals[mesh] != 0 &&
+            std::any_of(first, first + meshes.triangle_count[mesh],
+                        [&](const Triangle &t) { return opposes_its_normals(meshes, t); })) {
+            write_ply(with_normals_in_front(meshes, mesh), 0, file);
+        } else {
+            write_ply(meshes, mesh, file);
+        }
         add_property(shape, "string", "filename", folder_.relative(file));
         add_boolean(shape, "face_normals", meshes.has_normals[mesh] == 0);
         if (has_uv) {
@@ -158,7 +217,12 @@ class SceneWriter {
         switch (shapes.kind[index]) {
             case ShapeArrays::Kind::sphere:
                 if (similarity_scale(world) > 0) {
-                    add_transform(add("sphere", UvConvention::flipped), world);
+                    const pugi::xml_node shape = add("sphere", UvConvention::flipped);
+                    // Mitsuba's spheres exchange their sides where the transform mirrors.
+                    if (world.topLeftCorner<3, 3>().determinant() < 0) {
+                        add_boolean(shape, "flip_normals", true);
+                    }
+                    add_transform(shape, world);
                     return;
                 }
                 break;

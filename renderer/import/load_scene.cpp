@@ -13,9 +13,14 @@
 
 namespace rtrays {
 
-Scene load_scene(const std::string &path, bool quiet) {
+Scene load_scene(const std::string &path, bool quiet,
+                 const std::map<std::string, std::string> &defines) {
     const std::filesystem::path file(path);
     const bool is_mitsuba = file.extension() == ".xml";
+    if (!is_mitsuba && !defines.empty()) {
+        throw input_error(fmt::format(
+            "{}: --define requires a Mitsuba scene (.xml); use --set for other formats", path));
+    }
     if (!is_mitsuba && is_model_file(file)) {
         return load_model(file, quiet);
     }
@@ -33,8 +38,20 @@ Scene load_scene(const std::string &path, bool quiet) {
         file.stem() == "scene" && std::filesystem::absolute(file).has_parent_path();
     const std::filesystem::path named =
         named_by_folder ? std::filesystem::absolute(file).parent_path().filename() : file.stem();
-    const auto parse = is_mitsuba ? parse_mitsuba_xml : parse_scene_json;
-    return parse(text, path, named.string(), file.parent_path());
+    return is_mitsuba ? parse_mitsuba_xml(text, path, named.string(), file.parent_path(), defines)
+                      : parse_scene_json(text, path, named.string(), file.parent_path());
+}
+
+std::map<std::string, std::string> parse_defines(const std::vector<std::string> &texts) {
+    std::map<std::string, std::string> defines;
+    for (const std::string &text : texts) {
+        const size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            throw input_error(fmt::format("--define {}: expected NAME=VALUE", text));
+        }
+        defines[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+    return defines;
 }
 
 }  // namespace rtrays

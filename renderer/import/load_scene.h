@@ -2,7 +2,9 @@
 // Loading of scene files of every supported format.
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "renderer/scene/scene.h"
 
@@ -11,6 +13,11 @@ namespace rtrays {
 /// Loads a scene, from JSON, from a Mitsuba file or from a model file (models/model_file.h), and
 /// updates it to time 0. Prints progress on stderr unless `quiet`. Throws `Error` (bad input)
 /// naming file, line and remedy.
-Scene load_scene(const std::string &path, bool quiet = true);
+/// `defines` are values of the parameters of a Mitsuba file. Other formats have none.
+Scene load_scene(const std::string &path, bool quiet = true,
+                 const std::map<std::string, std::string> &defines = {});
+
+/// Parses NAME=VALUE texts of the option --define. Throws `Error` (bad usage) for any other text.
+std::map<std::string, std::string> parse_defines(const std::vector<std::string> &texts);
 
 }  // namespace rtrays

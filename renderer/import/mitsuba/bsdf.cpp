@@ -8,8 +8,12 @@
 #include <algorithm>
 
 #include "renderer/base/notice.h"
+#include "renderer/import/mitsuba/blend.h"
 #include "renderer/import/mitsuba/ior.h"
+#include "renderer/import/mitsuba/measured.h"
 #include "renderer/import/mitsuba/plastic.h"
+#include "renderer/import/models/names.h"
+#include "renderer/scene/cores/transform.h"
 #include "renderer/scene/graph.h"
 
 namespace rtrays::mitsuba {
@@ -56,12 +60,47 @@ bool is_rough(const Object &object) {
     return object.type().rfind("rough", 0) == 0;
 }
 
-/// Mitsuba's names of our metal presets. Both names refer to the same measurements.
-struct MetalName {
-    const char *mitsuba;
-    const char *ours;
-};
-constexpr MetalName metal_names[] = {{"Ag", "silver"}, {"Au", "gold"}, {"Cu", "copper"}};
+/// Sets eta and k of the conductor that the property "material" names.
+void read_metal(Object &object, const std::string &name, ParameterValues &values) {
+    const auto *found = std::find_if(std::begin(measured_metals), std::end(measured_metals),
+                                     [&](const MeasuredMetal &row) { return name == row.name; });
+    if (found == std::end(measured_metals)) {
+        std::string names;
+        for (const MeasuredMetal &row : measured_metals) {
+            names += std::string(row.name) + ", ";
+        }
+        throw object.property("material")
+            .error(
+                fmt::format("unknown metal '{}'; give eta and k, or one of: {}none", name, names));
+    }
+    values["eta"] = Vector3d(found->eta[0], found->eta[1], found->eta[2]);
+    values["k"] = Vector3d(found->k[0], found->k[1], found->k[2]);
+}
+
+/// Returns uv_scale, uv_offset and the file's own filter settings of a texture whose image has its
+/// first row at the top.
+ParameterValues read_placement(Object &object, UvConvention uv) {
+    Eigen::Matrix4d to_uv = object.transform("to_uv");
+    if (object.element().is_old()) {
+        // Mitsuba 3 converts these properties so, offset before scale.
+        const Vector3d scale(object.number("uscale", 1), object.number("vscale", 1), 1);
+        const Vector3d offset(object.number("uoffset", 0), object.number("voffset", 0), 0);
+        to_uv = scaling(scale) * translation(offset) * to_uv;
+    }
+    if (to_uv(0, 1) != 0 || to_uv(1, 0) != 0) {
+        throw object.property("to_uv").error(
+            "textures can only be scaled and translated; remove the rotation");
+    }
+    const Vector2d scale(to_uv(0, 0), to_uv(1, 1));
+    // Mitsuba looks up row scale v + offset from the top. Let v' be our coordinate. If v = v', the
+    // row from the bottom is 1 - scale v' - offset. If v = 1 - v', it is
+    // scale v' + 1 - scale - offset.
+    const bool flipped = uv == UvConvention::flipped;
+    return {{"uv_scale", Vector2d(scale[0], flipped ? scale[1] : -scale[1])},
+            // The fourth column of the matrix translates.
+            {"uv_offset",
+             Vector2d(to_uv(0, 3), flipped ? 1 - scale[1] - to_uv(1, 3) : 1 - to_uv(1, 3))}};
+}
 
 }  // namespace
 
@@ -71,6 +110,7 @@ struct MaterialReader::Draft {
     std::shared_ptr<const MaterialType> type;
     ParameterValues values;
     ParameterTextures textures;
+    ErrorList *errors;
     bool depends_on_uv = false;
 
     void set_type(const char *name) {
@@ -98,6 +138,7 @@ const std::vector<MaterialReader::Type> &MaterialReader::types() {
         {"plastic", &MaterialReader::read_plastic},
         {"roughplastic", &MaterialReader::read_plastic},
         {"twosided", &MaterialReader::read_twosided},
+        {"blendbsdf", &MaterialReader::read_blend},
     };
     return all;
 }
@@ -110,7 +151,9 @@ std::shared_ptr<MaterialCore> MaterialReader::read(const Element &bsdf, UvConven
             return material.core;
         }
     }
-    const Draft draft = read_bsdf(bsdf, uv);
+    ErrorList errors;
+    const Draft draft = read_bsdf(bsdf, uv, errors);
+    errors.raise(bsdf.source_name());
     const bool has_id = bsdf.has("id");
     const std::string name = material_names_.unique(has_id ? bsdf.attribute("id") : default_name);
     const auto core = bsdf.located([&] {
@@ -134,14 +177,26 @@ std::shared_ptr<MaterialCore> MaterialReader::standard(bool emits) {
     return core;
 }
 
-MaterialReader::Draft MaterialReader::read_bsdf(const Element &bsdf, UvConvention uv) {
+MaterialReader::Draft MaterialReader::read_bsdf(const Element &bsdf, UvConvention uv,
+                                                ErrorList &errors) {
+    // Bounds the number of components, and BSDFs that refer to themselves.
+    constexpr int deepest = 4;
+    if (nesting_ == deepest) {
+        throw bsdf.error(fmt::format("BSDFs are nested deeper than {} levels", deepest));
+    }
     Object object(bsdf, document_);
     std::string names;
     for (const Type &type : types()) {
         if (object.type() == type.name) {
-            Draft draft{uv, nullptr, {{"two_sided", false}}, {}};
-            (this->*type.read)(object, draft);
-            object.finish();
+            Draft draft{uv, nullptr, {{"two_sided", false}}, {}, &errors};
+            ++nesting_;
+            const bool is_read = errors.collect([&] { (this->*type.read)(object, draft); });
+            --nesting_;
+            if (is_read) {
+                errors.collect([&] { object.finish(); });
+            } else {
+                errors.raise(bsdf.source_name());
+            }
             return draft;
         }
         names += (names.empty() ? "" : ", ") + std::string(type.name);
@@ -159,8 +214,41 @@ void MaterialReader::read_twosided(Object &object, Draft &draft) {
     if (type == "twosided" || type == "dielectric" || type == "roughdielectric") {
         throw inner[0].error("already two-sided; remove the enclosing twosided BSDF");
     }
-    draft = read_bsdf(inner[0], draft.uv);
+    draft = read_bsdf(inner[0], draft.uv, *draft.errors);
     draft.values["two_sided"] = true;
+}
+
+void MaterialReader::read_blend(Object &object, Draft &draft) {
+    const std::vector<Element> inner = object.objects("bsdf");
+    if (inner.size() != 2) {
+        throw object.element().error(fmt::format("has {} BSDFs; expected two", inner.size()));
+    }
+    const std::optional<double> weight = object.number("weight");
+    if (!weight.has_value() || !(*weight >= 0 && *weight <= 1)) {
+        throw object.element().error("expected a number from 0 to 1 as weight");
+    }
+    std::vector<MaterialComponent> components;
+    bool two_sided[2] = {};
+    for (const size_t i : {0, 1}) {
+        const Draft part = read_bsdf(inner[i], draft.uv, *draft.errors);
+        draft.depends_on_uv |= part.depends_on_uv;
+        const auto core = inner[i].located(
+            [&] { return MaterialCore("", part.type, part.values, part.textures).components(); });
+        two_sided[i] = std::get<bool>(part.values.at("two_sided"));
+        for (MaterialComponent component : core) {
+            component.bxdf.weight *= static_cast<float>(i == 0 ? 1 - *weight : *weight);
+            components.push_back(component);
+        }
+    }
+    if (two_sided[0] != two_sided[1]) {
+        throw object.element().error(
+            "only one of the BSDFs is two-sided; make both or none of them so");
+    }
+    Composite composite = composite_of(components);
+    draft.type = composite.type;
+    draft.values = std::move(composite.values);
+    draft.values["two_sided"] = two_sided[0];
+    draft.textures = std::move(composite.textures);
 }
 
 void MaterialReader::read_diffuse(Object &object, Draft &draft) {
@@ -183,8 +271,8 @@ void MaterialReader::read_dielectric(Object &object, Draft &draft) {
 void MaterialReader::read_conductor(Object &object, Draft &draft) {
     draft.set_type("metal");
     const std::string none = "none";
-    const std::optional<Vector3d> eta = object.colour("eta");
-    const std::optional<Vector3d> k = object.colour("k");
+    const std::optional<Vector3d> eta = object.colour("eta", SpectrumUse::index);
+    const std::optional<Vector3d> k = object.colour("k", SpectrumUse::index);
     const std::optional<std::string> material = object.text("material");
     if (eta.has_value() != k.has_value() || (eta.has_value() && material.has_value())) {
         throw object.element().error(
@@ -196,16 +284,7 @@ void MaterialReader::read_conductor(Object &object, Draft &draft) {
     } else if (!material.has_value() || *material == none) {
         draft.values["fresnel"] = std::string("ideal");
     } else {
-        const auto found =
-            std::find_if(std::begin(metal_names), std::end(metal_names),
-                         [&](const MetalName &row) { return *material == row.mitsuba; });
-        if (found == std::end(metal_names)) {
-            throw object.property("material")
-                .error(fmt::format("unknown metal '{}'; give eta and k as <rgb>, or one of: Ag, "
-                                   "Au, Cu, none",
-                                   *material));
-        }
-        draft.values["preset"] = std::string(found->ours);
+        read_metal(object, *material, draft.values);
     }
     read_colour(object, "specular_reflectance", "reflectance", 1, draft);
     if (is_rough(object)) {
@@ -272,7 +351,15 @@ void MaterialReader::read_roughness(Object &object, Draft &draft) {
 void MaterialReader::read_colour(Object &object, const char *property, const char *parameter,
                                  double initial, Draft &draft) {
     const std::vector<Element> textures = object.objects("texture", property);
-    if (textures.empty()) {
+    draft.values[parameter] = Vector3d(1, 1, 1);
+    draft.errors->collect([&] {
+        if (textures.size() > 1 || (!textures.empty() && object.has(property))) {
+            throw object.element().error(fmt::format("duplicate property '{}'", property));
+        }
+        if (!textures.empty()) {
+            draft.textures[parameter] = texture(textures[0], draft);
+            return;
+        }
         const Vector3d colour = object.colour(property).value_or(Vector3d::Constant(initial));
         // Checked here already, because the line is known here.
         if (colour.minCoeff() < 0 || colour.maxCoeff() > 1) {
@@ -280,13 +367,7 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
                 fmt::format("[{}, {}, {}] is not within [0, 1]", colour[0], colour[1], colour[2]));
         }
         draft.values[parameter] = colour;
-        return;
-    }
-    if (textures.size() > 1 || object.has(property)) {
-        throw object.element().error(fmt::format("duplicate property '{}'", property));
-    }
-    draft.values[parameter] = Vector3d(1, 1, 1);
-    draft.textures[parameter] = texture(textures[0], draft);
+    });
 }
 
 std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &draft) {
@@ -301,57 +382,62 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &
         return texture;
     }
     Object object(element, document_);
-    if (object.type() != "bitmap") {
-        throw element.error("unsupported texture type; supported types are: bitmap");
+    const bool is_bitmap = object.type() == "bitmap";
+    if (!is_bitmap && object.type() != "checkerboard") {
+        throw element.error("unsupported texture type; supported types are: bitmap, checkerboard");
     }
+    texture = element.located(
+        [&] { return is_bitmap ? bitmap(object, draft.uv) : checkerboard(object, draft.uv); });
+    if (element.has("id")) {
+        scene_.graph().share("textures." + texture->name(), texture);
+    }
+    return texture;
+}
+
+std::shared_ptr<Texture> MaterialReader::bitmap(Object &object, UvConvention uv) {
+    const Element &element = object.element();
     const std::optional<std::string> file = object.text("filename");
     if (!file.has_value()) {
         throw element.error("needs a filename");
     }
     const std::vector<std::string> filters = {"bilinear", "nearest"};
     const std::vector<std::string> wraps = {"repeat", "clamp"};
-    ParameterValues values{{"filter", filters[object.choice("filter_type", filters, 0)]},
-                           {"wrap", wraps[object.choice("wrap_mode", wraps, 0)]}};
+    ParameterValues values = read_placement(object, uv);
+    values["filter"] = filters[object.choice("filter_type", filters, 0)];
+    values["wrap"] = wraps[object.choice("wrap_mode", wraps, 0)];
     const bool raw = object.boolean("raw", false);
     object.ignore("format");  // of texels in Mitsuba's memory
     object.ignore("accel");
-
-    const Eigen::Matrix4d to_uv = object.transform("to_uv");
-    if (to_uv(0, 1) != 0 || to_uv(1, 0) != 0) {
-        throw object.property("to_uv").error(
-            "textures can only be scaled and translated; remove the rotation");
-    }
-    const Vector2d scale(to_uv(0, 0), to_uv(1, 1));
-    // Mitsuba looks up row scale v + offset from the top. Let v' be our coordinate. If v = v', the
-    // row from the bottom is 1 - scale v' - offset. If v = 1 - v', it is
-    // scale v' + 1 - scale - offset.
-    const bool flipped = draft.uv == UvConvention::flipped;
-    values["uv_scale"] = Vector2d(scale[0], flipped ? scale[1] : -scale[1]);
-    // The fourth column of the matrix translates.
-    values["uv_offset"] =
-        Vector2d(to_uv(0, 3), flipped ? 1 - scale[1] - to_uv(1, 3) : 1 - to_uv(1, 3));
     object.finish();
 
     const std::filesystem::path path = element.path(*file);
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(path);
     const bool holds_floats =
         extension == ".exr" || extension == ".hdr" || extension == ".rgbe" || extension == ".pfm";
-    element.located([&] {
-        const bool has_id = element.has("id");
-        const std::string name =
-            texture_names_.unique(has_id ? element.attribute("id") : path.stem().string());
-        texture = std::make_shared<Texture>(
-            name,
-            files_.load(path,
-                        raw || holds_floats ? TextureEncoding::linear : TextureEncoding::srgb),
-            values);
-        if (has_id) {
-            scene_.graph().share("textures." + name, texture);
+    const auto image =
+        files_.load(path, raw || holds_floats ? TextureEncoding::linear : TextureEncoding::srgb);
+    const std::string wanted = element.has("id") ? object.id() : path.stem().string();
+    return std::make_shared<Texture>(texture_names_.unique(wanted), image, values);
+}
+
+/// Returns an image of 2 x 2 texels without interpolation, which is the same pattern.
+std::shared_ptr<Texture> MaterialReader::checkerboard(Object &object, UvConvention uv) {
+    const Vector3d colours[] = {object.colour("color0").value_or(Vector3d::Constant(0.4)),
+                                object.colour("color1").value_or(Vector3d::Constant(0.2))};
+    ParameterValues values = read_placement(object, uv);
+    values["filter"] = std::string("nearest");
+    values["wrap"] = std::string("repeat");
+    object.finish();
+    auto image = std::make_shared<TextureImage>();
+    image->width = image->height = 2;
+    for (const size_t texel : {0, 1, 1, 0}) {
+        for (const double channel : colours[texel]) {
+            image->floats.push_back(static_cast<float>(channel));
         }
-    });
-    return texture;
+    }
+    const Element &element = object.element();
+    const std::string wanted = element.has("id") ? object.id() : "checkerboard";
+    return std::make_shared<Texture>(texture_names_.unique(wanted), image, values);
 }
 
 }  // namespace rtrays::mitsuba

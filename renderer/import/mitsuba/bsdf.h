@@ -41,7 +41,7 @@ class MaterialReader {
 
     /// Returns the material of a "bsdf" element on a geometry whose texture coordinates follow
     /// `uv`. The material is named `default_name` if the element has no id. Throws `LocatedError`
-    /// if the BSDF is unsupported.
+    /// that lists all errors of the BSDF.
     std::shared_ptr<MaterialCore> read(const Element &bsdf, UvConvention uv,
                                        const std::string &default_name);
 
@@ -64,17 +64,20 @@ class MaterialReader {
     };
     static const std::vector<Type> &types();
 
-    Draft read_bsdf(const Element &bsdf, UvConvention uv);
+    Draft read_bsdf(const Element &bsdf, UvConvention uv, ErrorList &errors);
     void read_diffuse(Object &object, Draft &draft);
     void read_dielectric(Object &object, Draft &draft);
     void read_conductor(Object &object, Draft &draft);
     void read_plastic(Object &object, Draft &draft);
     void read_twosided(Object &object, Draft &draft);
+    void read_blend(Object &object, Draft &draft);
 
     void read_colour(Object &object, const char *property, const char *parameter, double initial,
                      Draft &draft);
     void read_roughness(Object &object, Draft &draft);
     std::shared_ptr<Texture> texture(const Element &element, Draft &draft);
+    std::shared_ptr<Texture> bitmap(Object &object, UvConvention uv);
+    std::shared_ptr<Texture> checkerboard(Object &object, UvConvention uv);
 
     const Document &document_;
     Scene &scene_;
@@ -84,6 +87,7 @@ class MaterialReader {
     std::map<size_t, std::vector<Material>> materials_;  ///< by hash of the element
     std::map<std::pair<size_t, UvConvention>, std::shared_ptr<Texture>> textures_;
     std::shared_ptr<MaterialCore> standard_[2];
+    int nesting_ = 0;  ///< depth of the BSDF that is being read
 };
 
 }  // namespace rtrays::mitsuba

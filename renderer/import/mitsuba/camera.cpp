@@ -23,6 +23,18 @@ int pixels(Object &film, const char *name, int initial) {
     return static_cast<int>(value);
 }
 
+/// Throws unless the crop window is the full film.
+void check_crop(Object &film, int width, int height) {
+    const std::pair<const char *, int> full[] = {
+        {"crop_width", width}, {"crop_height", height}, {"crop_offset_x", 0}, {"crop_offset_y", 0}};
+    for (const auto &[name, value] : full) {
+        if (film.number(name, value) != value) {
+            throw film.property(name).error(
+                "film crops are unsupported; remove them and render the full film");
+        }
+    }
+}
+
 void read_film(Object &sensor, const Document &document, PlacedCamera &placed) {
     placed.width = 768;
     placed.height = 576;
@@ -33,14 +45,23 @@ void read_film(Object &sensor, const Document &document, PlacedCamera &placed) {
     std::string filter = "gaussian";
     if (!films.empty()) {
         Object film(films[0], document);
-        if (film.type() != "hdrfilm") {
+        const bool has_old_type = films[0].is_old() && film.type() == "ldrfilm";
+        if (film.type() != "hdrfilm" && !has_old_type) {
             throw films[0].error("unsupported film type; supported types are: hdrfilm");
+        }
+        if (has_old_type) {
+            placed.replaced.push_back("film 'ldrfilm' (its tone mapping by --exposure)");
+            for (const char *name : {"gamma", "exposure", "tonemap_method", "key", "burn"}) {
+                film.ignore(name);
+            }
         }
         placed.width = pixels(film, "width", placed.width);
         placed.height = pixels(film, "height", placed.height);
+        check_crop(film, placed.width, placed.height);
         // Settings of output files, and settings of filters wider than ours.
-        for (const char *name : {"file_format", "pixel_format", "component_format", "banner",
-                                 "compensate", "sample_border", "high_quality_edges"}) {
+        for (const char *name :
+             {"file_format", "pixel_format", "component_format", "banner", "attach_log",
+              "compensate", "sample_border", "high_quality_edges"}) {
             film.ignore(name);
         }
         for (const Element &element : film.objects("rfilter")) {
@@ -147,6 +168,8 @@ PlacedCamera read_camera(Object &sensor, const Document &document) {
                     "off-centre principal points are unsupported; set this property to 0");
             }
         }
+        sensor.ignore("shutter_open");  // nothing moves
+        sensor.ignore("shutter_close");
         read_pose(sensor, placed);
         read_clipping(sensor, placed);
         read_sampler(sensor, document, placed);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 #include "renderer/base/files.h"
@@ -30,7 +31,31 @@ bool is_name_character(char c) {
            c == '-';
 }
 
+bool is_lower(char c) {
+    return std::islower(static_cast<unsigned char>(c)) != 0;
+}
+
+bool is_upper(char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+
 }  // namespace
+
+std::string snake_case(const std::string &name) {
+    std::string result;
+    for (size_t i = 0; i < name.size(); ++i) {
+        if (i == 0 || !is_lower(name[i - 1]) || !is_upper(name[i])) {
+            result += name[i];
+            continue;
+        }
+        result += '_';
+        for (; i < name.size() && is_upper(name[i]); ++i) {  // "intIOR" is "int_ior"
+            result += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
+        }
+        --i;
+    }
+    return result;
+}
 
 std::string Element::attribute(const char *name) const {
     const std::string raw = raw_attribute(name);
@@ -87,6 +112,20 @@ void Element::check_attributes(const std::vector<std::string> &known) const {
     }
 }
 
+std::filesystem::path Element::found_in(const std::vector<std::filesystem::path> &folders,
+                                        const std::string &file) const {
+    std::string tried;
+    for (const std::filesystem::path &folder : folders) {
+        const std::filesystem::path path = folder / file;  // `file`, if that is absolute
+        std::error_code failure;
+        if (std::filesystem::exists(path, failure)) {
+            return path;
+        }
+        tried += (tried.empty() ? "'" : ", '") + (folder.empty() ? "." : folder.string()) + "'";
+    }
+    throw error(fmt::format("cannot find '{}'; searched folders: {}", file, tried));
+}
+
 LocatedError Element::error(const std::string &message) const {
     std::string shown = "<" + tag();
     for (const char *attribute : {"type", "name", "id"}) {
@@ -99,12 +138,31 @@ LocatedError Element::error(const std::string &message) const {
 }
 
 Document::Document(const std::string &text, const std::string &source_name,
-                   const std::filesystem::path &directory) {
+                   const std::filesystem::path &directory, const Parameters &defines)
+    : parameters_(defines) {
     SourceFile &file = files_.emplace_back();
     file.name = source_name;
     file.text = text;
-    file.directory = directory;
+    file.folders = {directory};
+    file.top = &file;
     add_file(file, 0);
+    errors_.collect([&] { check_defines(defines); });
+    errors_.raise(source_name);
+}
+
+void Document::check_defines(const Parameters &defines) const {
+    for (const auto &[name, value] : defines) {
+        const bool used =
+            std::any_of(files_.begin(), files_.end(), [&, &name = name](const SourceFile &file) {
+                return file.text.find('$' + name) != std::string::npos;
+            });
+        if (!used) {
+            throw LocatedError(
+                fmt::format("{}: parameter '{}' is defined, but the file does not "
+                            "use ${}",
+                            files_.front().name, name, name));
+        }
+    }
 }
 
 void Document::add_file(SourceFile &file, int depth) {
@@ -132,49 +190,86 @@ void Document::add_file(SourceFile &file, int depth) {
                    fmt::format("expected the root element <scene>, got <{}>", root.name()));
     }
     const Element scene(root, file, parameters_);
-    scene.check_attributes({"version"});
-    const std::string version = scene.attribute("version");
-    int major = 0;
-    std::from_chars(version.data(), version.data() + version.size(), major);
-    if (major != 2 && major != 3) {
-        throw scene.error(fmt::format(
-            "unsupported version '{}'; expected Mitsuba 2 or 3, convert older files with Mitsuba's "
-            "own tools",
-            version));
-    }
+    check_version(scene, file);
     for (const Element &element : scene.children()) {
-        add_element(element, depth);
+        if (depth == 0) {
+            errors_.collect([&] { add_element(element, file, depth); });
+        } else {  // one error per include, so that nested includes cannot repeat it without bound
+            add_element(element, file, depth);
+        }
     }
 }
 
-void Document::add_element(const Element &element, int depth) {
+void Document::check_version(const Element &scene, SourceFile &file) {
+    scene.check_attributes({"version"});
+    const std::string version = scene.attribute("version");
+    int major = -1;
+    std::from_chars(version.data(), version.data() + version.size(), major);
+    if (major < 0 || major > 3) {
+        throw scene.error(fmt::format(
+            "unsupported version '{}'; expected a version of Mitsuba from 0.4.0 to 3", version));
+    }
+    file.is_old = major < 2;
+}
+
+void Document::add_element(const Element &element, SourceFile &file, int depth) {
     const std::string tag = element.tag();
     if (tag == "default") {
-        element.check_attributes({"name", "value"});
-        const std::string name = element.attribute("name");
-        if (name.empty() || !element.has("value") ||
-            !std::all_of(name.begin(), name.end(), is_name_character)) {
-            throw element.error("needs a name (letters, digits, - and _) and a value");
-        }
-        parameters_.emplace(name, element.attribute("value"));  // the first definition wins
-        return;
+        add_default(element);
+    } else if (tag == "include") {
+        include(element, file, depth);
+    } else if (tag == "path") {
+        add_folder(element, file);
+    } else if (tag == "alias") {
+        add_alias(element);
+    } else {
+        register_ids(element);
+        elements_.push_back(element);
     }
-    if (tag == "include") {
-        element.check_attributes({"filename"});
-        if (depth == deepest_include) {
-            throw element.error(
-                fmt::format("includes are nested deeper than {} files", deepest_include));
-        }
-        const std::filesystem::path path = element.path(element.attribute("filename"));
-        SourceFile &file = files_.emplace_back();
-        file.name = path.string();
-        file.text = element.located([&] { return read_file(path); });
-        file.directory = path.parent_path();
-        add_file(file, depth + 1);
-        return;
+}
+
+void Document::add_default(const Element &element) {
+    element.check_attributes({"name", "value"});
+    const std::string name = element.attribute("name");
+    if (name.empty() || !element.has("value") ||
+        !std::all_of(name.begin(), name.end(), is_name_character)) {
+        throw element.error("needs a name (letters, digits, - and _) and a value");
     }
-    register_ids(element);
-    elements_.push_back(element);
+    parameters_.emplace(name, element.attribute("value"));  // the first definition wins
+}
+
+void Document::include(const Element &element, const SourceFile &file, int depth) {
+    element.check_attributes({"filename"});
+    if (depth == deepest_include) {
+        throw element.error(
+            fmt::format("includes are nested deeper than {} files", deepest_include));
+    }
+    const std::filesystem::path path = element.included_path(element.attribute("filename"));
+    SourceFile &included = files_.emplace_back();
+    included.name = path.string();
+    included.text = element.located([&] { return read_file(path); });
+    included.folders = file.folders;
+    included.folders.insert(included.folders.begin(), path.parent_path());
+    included.top = file.top;
+    add_file(included, depth + 1);
+}
+
+void Document::add_folder(const Element &element, SourceFile &file) {
+    element.check_attributes({"value"});
+    const std::filesystem::path folder = element.included_path(element.attribute("value"));
+    std::error_code failure;
+    if (!std::filesystem::is_directory(folder, failure)) {
+        throw element.error(fmt::format("'{}' is not a folder", folder.string()));
+    }
+    file.folders.insert(file.folders.begin(), folder);
+}
+
+void Document::add_alias(const Element &element) {
+    element.check_attributes({"id", "as"});
+    const std::string name = element.attribute("as");
+    if (!ids_.emplace(name, referenced(element)).second) {
+        throw element.error(fmt::format("duplicate id '{}'", name));
+    }
 }
 
 void Document::register_ids(const Element &element) {

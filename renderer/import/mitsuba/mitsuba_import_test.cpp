@@ -316,6 +316,34 @@ TEST(MitsubaBsdfs, PlasticsWeighTheirBaseAsMitsubaDoes) {
     EXPECT_NEAR(deep[1].weight[2], 1 / (eta * eta * (1 - internal)), 5e-6);
 }
 
+TEST(MitsubaBsdfs, BlendsWeighBothBsdfs) {
+    const std::string blend =
+        R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/>
+        <bsdf type="plastic"><rgb name="diffuse_reflectance" value="1"/></bsdf>
+        <bsdf type="roughconductor"><rgb name="eta" value="1,2,3"/><rgb name="k" value="4"/>
+        <string name="distribution" value="ggx"/><float name="alpha" value="0.2"/></bsdf></bsdf>)";
+    const auto parts = components_of(blend);
+    const auto plastic =
+        components_of(R"(<bsdf type="plastic"><rgb name="diffuse_reflectance" value="1"/></bsdf>)");
+    ASSERT_EQ(parts.size(), 3u);
+    for (size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(parts[i].kind, plastic[i].kind);
+        EXPECT_EQ(parts[i].fresnel, Fresnel::dielectric);
+        EXPECT_EQ(parts[i].complement, plastic[i].complement);
+        EXPECT_EQ(parts[i].eta[0], plastic[i].eta[0]);
+        EXPECT_EQ(parts[i].weight, Vector3f(0.75f * plastic[i].weight));
+    }
+    EXPECT_EQ(parts[2].kind, Kind::microfacet_reflection);
+    EXPECT_EQ(parts[2].fresnel, Fresnel::conductor);
+    EXPECT_EQ(parts[2].distribution, BxdfComponent::Distribution::ggx);
+    EXPECT_EQ(parts[2].alpha, Vector2d(0.2, 0.2));
+    EXPECT_EQ(parts[2].eta, Vector3d(1, 2, 3));
+    EXPECT_EQ(parts[2].k, Vector3d(4, 4, 4));
+    EXPECT_EQ(parts[2].weight, Vector3f(0.25f, 0.25f, 0.25f));
+    EXPECT_FALSE(two_sided(blend));
+    EXPECT_TRUE(two_sided("<bsdf type=\"twosided\">" + blend + "</bsdf>"));
+}
+
 TEST(MitsubaBsdfs, RoughPlasticSaysThatItDiffers) {
     const Notices notices;
     parse_mitsuba_xml(

@@ -5,6 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "renderer/base/notice.h"
 #include "renderer/import/mitsuba/bsdf.h"
@@ -30,19 +34,11 @@ class SceneReader {
 
     void read() {
         for (const Element &element : document_.elements()) {
-            const std::string tag = element.tag();
-            const auto found =
-                std::find_if(std::begin(handlers), std::end(handlers),
-                             [&](const Handler &handler) { return tag == handler.tag; });
-            if (found == std::end(handlers)) {
-                throw element.error("unsupported element");
-            }
-            (this->*found->read)(element);
+            errors_.collect([&] { read_element(element); });
         }
-        if (!replaced_.empty()) {
-            notice(fmt::format("{}: replaced by this renderer's own settings: {}", source_name_,
-                               fmt::join(replaced_, ", ")));
-        }
+        errors_.collect([&] { check_hidden_emitters(); });
+        errors_.raise(source_name_);
+        tell();
     }
 
     void finish() {
@@ -69,9 +65,14 @@ class SceneReader {
     };
     static const Handler handlers[8];
 
-    Node &add_node(const Element &element, const Eigen::Matrix4d &world_from_object) {
-        const std::string wanted = element.has("id") ? element.attribute("id") : element.tag();
-        const std::string name = node_names_.unique(wanted.empty() ? element.tag() : wanted);
+    /// Returns the id of an element, or its tag if it has none.
+    static std::string wanted_name(const Element &element) {
+        const std::string id = element.attribute("id");
+        return id.empty() ? element.tag() : id;
+    }
+
+    Node &add_node(const Element &element, const std::string &name,
+                   const Eigen::Matrix4d &world_from_object) {
         Node &node = scene_.graph().root().add_child(std::make_unique<Node>(name));
         element.located(
             [&] { node.set_core(std::make_shared<TransformCore>(name, world_from_object)); });
@@ -79,64 +80,144 @@ class SceneReader {
         return node;
     }
 
+    void read_element(const Element &element) {
+        const std::string tag = element.tag();
+        const auto found = std::find_if(std::begin(handlers), std::end(handlers),
+                                        [&](const Handler &handler) { return tag == handler.tag; });
+        if (found == std::end(handlers)) {
+            throw element.error("unsupported element");
+        }
+        (this->*found->read)(element);
+    }
+
+    /// Sends the notices about what was replaced or left out.
+    void tell() const {
+        if (!replaced_.empty()) {
+            notice(fmt::format("{}: replaced by this renderer's own settings: {}", source_name_,
+                               fmt::join(replaced_, ", ")));
+        }
+        if (!invisible_.empty()) {
+            notice(
+                fmt::format("{}: shapes with BSDF null do not interact with light and are left "
+                            "out: {}",
+                            source_name_, fmt::join(invisible_, ", ")));
+        }
+        for (const auto &[hash, element] : area_lights_) {
+            if (attached_.count(hash) == 0) {
+                notice(element.error("no shape refers to this emitter, so it is left out").what());
+            }
+        }
+    }
+
+    /// Throws if hide_emitters would change the image.
+    void check_hidden_emitters() const {
+        if (hides_emitters_ && (has_surroundings_ || !attached_.empty())) {
+            throw hides_emitters_->error(
+                "unsupported: emitters cannot be hidden from the camera here; set it to false");
+        }
+    }
+
     /// Ignores an element that is read where another element refers to it.
     void pass(const Element &) {}
 
     void read_shape(const Element &element) {
         Object object(element, document_);
-        const Shape shape = shapes_.read(object);
+        const std::optional<Shape> shape = errors_.collect([&] { return shapes_.read(object); });
         const std::vector<Element> emitters = object.objects("emitter");
         const std::vector<Element> bsdfs = object.objects("bsdf");
-        object.finish();
+        if (shape) {
+            object.finish();
+        }
         if (emitters.size() > 1 || bsdfs.size() > 1) {
             throw element.error("a shape takes at most one emitter and one BSDF");
         }
-        Node &node = add_node(element, shape.world_from_geometry);
-        const std::shared_ptr<MaterialCore> material =
-            bsdfs.empty() ? materials_.standard(!emitters.empty())
-                          : materials_.read(bsdfs[0], shape.uv, node.name());
-        if (shape.is_flipped) {
-            check_flipped(element, *material, !emitters.empty());
+        if (!bsdfs.empty() && bsdfs[0].attribute("type") == "null") {
+            read_null(element, bsdfs[0], !emitters.empty());
+            return;
         }
-        node.set_core(shape.geometry);
-        node.set_core(material);
-        if (!emitters.empty()) {
-            if (!shape.can_emit) {
-                throw element.error(
-                    "emitters are unsupported on this shape; use a rectangle, disk, sphere, cube, "
-                    "obj or ply");
-            }
-            Object emitter(emitters[0], document_);
-            node.set_core(read_area_light(emitter));
+        // Errors of the emitter and the BSDF are reported even if there is no geometry.
+        const auto name = node_names_.unique(wanted_name(element));
+        const auto material = errors_.collect([&] {
+            return bsdfs.empty()
+                       ? materials_.standard(!emitters.empty())
+                       : materials_.read(bsdfs[0], shape ? shape->uv : UvConvention::same, name);
+        });
+        const auto light = errors_.collect([&] { return read_shape_light(emitters); });
+        if (shape && material && light) {
+            add_shape(element, name, *shape, *material, *light);
         }
     }
 
-    /// Throws unless the flipped shape looks the same from both sides. The front of our spheres and
-    /// cylinders is always their outside.
-    static void check_flipped(const Element &element, const MaterialCore &material, bool emits) {
+    void add_shape(const Element &element, const std::string &name, const Shape &shape,
+                   const std::shared_ptr<MaterialCore> &material,
+                   const std::shared_ptr<LightCore> &light) {
+        const bool emits = light != nullptr;
+        const bool needs_mesh = (shape.is_flipped && !looks_the_same_flipped(*material, emits)) ||
+                                (emits && !shape.can_emit);
+        const Shape placed = needs_mesh ? tessellated(shape) : shape;
+        if (needs_mesh) {
+            notice(element
+                       .error(fmt::format(
+                           "replaced by a mesh of {} triangles, because this shape cannot {} here",
+                           static_cast<const MeshCore &>(*placed.geometry).triangles().size(),
+                           shape.is_flipped ? "be flipped" : "emit"))
+                       .what());
+        }
+        Node &node = add_node(element, name, placed.world_from_geometry);
+        node.set_core(placed.geometry);
+        node.set_core(material);
+        if (emits) {
+            node.set_core(light);
+        }
+    }
+
+    /// Returns the light of a shape, or nothing if it has no emitter.
+    std::shared_ptr<LightCore> read_shape_light(const std::vector<Element> &emitters) {
+        if (emitters.empty()) {
+            return nullptr;
+        }
+        attached_.insert(emitters[0].hash());
+        Object emitter(emitters[0], document_);
+        return read_area_light(emitter);
+    }
+
+    /// Leaves out a shape that light passes through.
+    void read_null(const Element &shape, const Element &bsdf, bool emits) {
+        Object(bsdf, document_).finish();
+        if (emits) {
+            throw bsdf.error("unsupported on a shape with an emitter");
+        }
+        invisible_.push_back(wanted_name(shape));
+    }
+
+    /// Returns whether both sides of a surface scatter light equally, and none emits.
+    static bool looks_the_same_flipped(const MaterialCore &material, bool emits) {
         const std::vector<MaterialComponent> components = material.components();
         const bool refracts =
             std::any_of(components.begin(), components.end(), [](const MaterialComponent &part) {
                 return part.bxdf.kind == BxdfComponent::Kind::ideal_refraction ||
                        part.bxdf.kind == BxdfComponent::Kind::microfacet_refraction;
             });
-        if (emits || refracts || !material.two_sided()) {
-            throw element.error(
-                "flip_normals: unsupported, the front of this shape is always its outside; use a "
-                "two-sided BSDF without an emitter, or a mesh");
-        }
+        return !emits && !refracts && material.two_sided();
     }
 
     void read_emitter(const Element &element) {
         Object object(element, document_);
+        if (object.type() == "area") {  // read with the shape that refers to it
+            area_lights_.emplace(element.hash(), element);
+            return;
+        }
+        has_surroundings_ |= object.type() == "constant" || object.type() == "envmap";
         const PlacedLight placed = read_light(object, materials_.files());
-        add_node(element, placed.world_from_light).set_core(placed.light);
+        add_node(element, node_names_.unique(wanted_name(element)), placed.world_from_light)
+            .set_core(placed.light);
     }
 
     void read_sensor(const Element &element) {
         Object object(element, document_);
         const PlacedCamera placed = read_camera(object, document_);
-        Node &node = add_node(element, placed.world_from_camera);
+        Node &node =
+            add_node(element, node_names_.unique(wanted_name(element)), placed.world_from_camera);
         node.set_core(placed.camera);
         if (cameras_.empty()) {
             scene_.set_film_size(placed.width, placed.height);
@@ -148,11 +229,16 @@ class SceneReader {
     void read_integrator(const Element &element) {
         std::vector<std::string> settings;
         for (const Element &child : element.children()) {
+            if (child.tag() == "integrator") {
+                read_integrator(child);
+            } else if (child.property_name() == "hide_emitters" && is_true(child)) {
+                hides_emitters_ = child;
+            }
             if (child.has("name") && child.has("value")) {
                 settings.push_back(
                     fmt::format("{} {}", child.raw_attribute("name"), child.attribute("value")));
             }
-            if (child.raw_attribute("name") == "max_depth") {
+            if (child.property_name() == "max_depth") {
                 // Mitsuba counts path edges, this renderer counts scattering events.
                 const std::vector<double> depth = parse_numbers(child, child.attribute("value"));
                 if (depth.size() == 1 && depth[0] >= 2) {
@@ -172,14 +258,25 @@ class SceneReader {
                         settings.empty() ? "" : fmt::format(" ({})", fmt::join(settings, ", "))));
     }
 
+    static bool is_true(const Element &element) {
+        const std::string value = element.attribute("value");
+        return value.size() == 4 && std::tolower(static_cast<unsigned char>(value[0])) == 't';
+    }
+
     const Document &document_;
     std::string source_name_;
     Scene &scene_;
     MaterialReader materials_;
     ShapeReader shapes_;
+    ErrorList errors_;
     NameList node_names_;
     std::vector<std::string> cameras_;
     std::vector<std::string> replaced_;
+    std::vector<std::string> invisible_;  ///< names of shapes with BSDF null
+    std::optional<Element> hides_emitters_;
+    bool has_surroundings_ = false;          ///< there is a light that surrounds the scene
+    std::map<size_t, Element> area_lights_;  ///< area emitters outside of shapes, by hash
+    std::set<size_t> attached_;              ///< hashes of the emitters of shapes
 };
 
 const SceneReader::Handler SceneReader::handlers[8] = {
@@ -192,8 +289,9 @@ const SceneReader::Handler SceneReader::handlers[8] = {
 }  // namespace
 
 Scene parse_mitsuba_xml(const std::string &text, const std::string &source_name,
-                        const std::string &default_name, const std::filesystem::path &directory) {
-    const Document document(text, source_name, directory);
+                        const std::string &default_name, const std::filesystem::path &directory,
+                        const std::map<std::string, std::string> &defines) {
+    const Document document(text, source_name, directory, defines);
     Scene scene;
     scene.set_name(default_name);
     SceneReader reader(document, source_name, scene);

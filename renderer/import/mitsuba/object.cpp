@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
+#include "renderer/base/files.h"
 #include "renderer/scene/cores/texture.h"
 
 namespace rtrays::mitsuba {
@@ -25,11 +27,6 @@ bool contains(const Table &table, const std::string &value) {
     return std::find(std::begin(table), std::end(table), value) != std::end(table);
 }
 
-/// Illuminant E (equal energy at all wavelengths, CIE XYZ = (1, 1, 1)) in linear Rec. 709
-/// (IEC 61966-2-1). It is the emission of a spectrum of constant value 1. As a reflectance that
-/// spectrum is (1, 1, 1), because reflectances are relative to white.
-const Vector3d illuminant_e(1.204794, 0.948292, 0.908916);
-
 double srgb_channel(const Element &element, double value) {
     if (value < 0 || value > 1) {
         throw element.error(
@@ -38,8 +35,8 @@ double srgb_channel(const Element &element, double value) {
     return srgb_decoded(value);
 }
 
-/// Parses "#rrggbb".
-Vector3d hexadecimal(const Element &element, const std::string &text) {
+/// Parses "#rrggbb". Decodes the channels by the sRGB curve if `is_srgb`.
+Vector3d hexadecimal(const Element &element, const std::string &text, bool is_srgb) {
     uint32_t value = 0;
     const char *end = text.data() + text.size();
     const auto [at, failure] = std::from_chars(text.data() + 1, end, value, 16);
@@ -48,9 +45,26 @@ Vector3d hexadecimal(const Element &element, const std::string &text) {
     }
     Vector3d colour;
     for (int i = 0; i < 3; ++i) {
-        colour[i] = srgb_decoded(((value >> (16 - 8 * i)) & 255u) / 255.0);
+        const double channel = ((value >> (16 - 8 * i)) & 255u) / 255.0;
+        colour[i] = is_srgb ? srgb_decoded(channel) : channel;
     }
     return colour;
+}
+
+/// Returns the numbers in a file of spectral data, one pair of wavelength and value per line.
+std::string spectrum_file(const Element &element) {
+    if (element.has("value")) {
+        throw element.error("has both 'value' and 'filename'; give one");
+    }
+    const std::filesystem::path path = element.included_path(element.attribute("filename"));
+    std::istringstream lines(element.located([&] { return read_file(path); }));
+    std::string numbers;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty() || line[0] != '#') {
+            numbers += line + '\n';
+        }
+    }
+    return numbers;
 }
 
 }  // namespace
@@ -69,8 +83,10 @@ std::vector<double> parse_numbers(const Element &element, const std::string &tex
         if (at == end) {
             return numbers;
         }
+        // std::from_chars does not accept a plus sign.
+        const bool has_plus = *at == '+' && at + 1 != end && at[1] != '-';
         double value = 0;
-        const auto [next, failure] = std::from_chars(at, end, value);
+        const auto [next, failure] = std::from_chars(has_plus ? at + 1 : at, end, value);
         if (failure != std::errc() || (next != end && !separates(*next)) || !std::isfinite(value)) {
             throw element.error(fmt::format("expected finite numbers, got '{}'", text));
         }
@@ -80,27 +96,34 @@ std::vector<double> parse_numbers(const Element &element, const std::string &tex
 }
 
 Object::Object(const Element &element, const Document &document)
-    : element_(element), type_(element.attribute("type")) {
+    : element_(element), document_(&document), type_(element.attribute("type")) {
     element.check_attributes({"type", "id", "name"});
     if (type_.empty()) {
         throw element.error("needs a type");
     }
+    const auto name_of = [&](const Element &child) {
+        const std::string name = child.property_name();
+        // Mitsuba renames this property of old files, too.
+        const bool renamed = child.is_old() && type_ == "diffuse" && name == "diffuse_reflectance";
+        return renamed ? "reflectance" : name;
+    };
     for (const Element &child : element.children()) {
         const std::string tag = child.tag();
         if (tag == "ref") {
             child.check_attributes({"id", "name"});
-            parts_.push_back({document.referenced(child), child.attribute("name"), child});
+            parts_.push_back({document.referenced(child), name_of(child), child});
         } else if (contains(object_tags, tag)) {
-            parts_.push_back({child, child.attribute("name"), child});
+            parts_.push_back({child, name_of(child), child});
         } else if (contains(property_tags, tag)) {
-            const std::string name = child.attribute("name");
+            const std::string name = name_of(child);
             if (name.empty()) {
                 throw child.error("needs a name");
             }
             if (!properties_.emplace(name, child).second) {
                 throw child.error(fmt::format("duplicate property '{}'", name));
             }
-            if (tag != "transform" && !child.children().empty()) {
+            const bool has_content = tag == "transform" || (tag == "spectrum" && child.has("type"));
+            if (!has_content && !child.children().empty()) {
                 throw child.error("this property must not contain elements");
             }
         } else {
@@ -128,11 +151,13 @@ const Element *Object::find(const std::string &name, const std::vector<const cha
         throw property.error(
             fmt::format("must be {}: <{} name=\"{}\" .../>", expected, tags.front(), name));
     }
-    property.check_attributes(property.tag() == "point" || property.tag() == "vector"
-                                  ? std::vector<std::string>{"name", "value", "x", "y", "z"}
-                              : property.tag() == "transform"
-                                  ? std::vector<std::string>{"name"}
-                                  : std::vector<std::string>{"name", "value"});
+    property.check_attributes(
+        property.tag() == "point" || property.tag() == "vector"
+            ? std::vector<std::string>{"name", "value", "x", "y", "z"}
+        : property.tag() == "transform" ? std::vector<std::string>{"name"}
+        : property.tag() == "spectrum"
+            ? std::vector<std::string>{"name", "value", "filename", "type", "id"}
+            : std::vector<std::string>{"name", "value"});
     return &property;
 }
 
@@ -167,9 +192,12 @@ bool Object::boolean(const std::string &name, bool initial) {
     if (found == nullptr) {
         return initial;
     }
-    const std::string value = found->attribute("value");
+    std::string value = found->attribute("value");
+    std::transform(value.begin(), value.end(), value.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (value != "true" && value != "false") {
-        throw found->error(fmt::format("expected true or false, got '{}'", value));
+        throw found->error(
+            fmt::format("expected true or false, got '{}'", found->attribute("value")));
     }
     return value == "true";
 }
@@ -201,10 +229,11 @@ std::optional<Vector3d> Object::vector(const std::string &name) {
     }
     if (found->has("value")) {
         const std::vector<double> numbers = parse_numbers(*found, found->attribute("value"));
-        if (numbers.size() != 3 || found->has("x") || found->has("y") || found->has("z")) {
+        const bool is_valid = numbers.size() == 3 || numbers.size() == 1;
+        if (!is_valid || found->has("x") || found->has("y") || found->has("z")) {
             throw found->error("expected three numbers");
         }
-        return Vector3d(numbers[0], numbers[1], numbers[2]);
+        return Vector3d(numbers.front(), numbers[numbers.size() / 2], numbers.back());
     }
     Vector3d result;
     constexpr const char *axes[] = {"x", "y", "z"};
@@ -218,23 +247,70 @@ std::optional<Vector3d> Object::vector(const std::string &name) {
     return result;
 }
 
-std::optional<Vector3d> Object::colour(const std::string &name) {
+Vector3d Object::typed_spectrum(const Element &element) const {
+    Object spectrum(element, *document_);
+    Vector3d value;
+    if (spectrum.type() == "d65") {  // white in Rec. 709
+        const Vector3d colour = spectrum.colour("color").value_or(Vector3d::Ones());
+        value = spectrum.number("scale", 1) * colour;
+    } else if (spectrum.type() == "srgb") {
+        value = spectrum.colour("color").value_or(Vector3d::Ones());
+    } else if (spectrum.type() == "uniform") {
+        value = Vector3d::Constant(spectrum.number("value", 1));
+    } else {
+        throw element.error("unsupported spectrum type; supported types are: d65, srgb, uniform");
+    }
+    spectrum.finish();
+    return value;
+}
+
+Vector3d Object::spectrum(const Element &element, SpectrumUse use) const {
+    if (element.has("type")) {
+        return typed_spectrum(element);
+    }
+    std::string text = element.attribute("value");
+    const auto pairs = std::count(text.begin(), text.end(), ':');
+    if (element.has("filename")) {
+        text = spectrum_file(element);
+    } else if (pairs == 0) {
+        const std::vector<double> numbers = parse_numbers(element, text);
+        if (numbers.size() != 1) {
+            throw element.error("expected one number, or pairs WAVELENGTH:VALUE");
+        }
+        return numbers[0] *
+               (use == SpectrumUse::emission ? illuminant_e() : Vector3d(Vector3d::Ones()));
+    }
+    std::replace(text.begin(), text.end(), ':', ' ');
+    const std::vector<double> numbers = parse_numbers(element, text);
+    if (numbers.size() % 2 != 0 ||
+        (pairs != 0 && numbers.size() != 2 * static_cast<size_t>(pairs))) {
+        throw element.error("expected pairs WAVELENGTH:VALUE");
+    }
+    Spectrum measured;
+    for (size_t i = 0; i < numbers.size(); i += 2) {
+        measured.wavelengths.push_back(numbers[i]);
+        measured.values.push_back(numbers[i + 1]);
+    }
+    return element.located([&] { return spectrum_colour(measured, use); });
+}
+
+std::optional<Vector3d> Object::colour(const std::string &name, SpectrumUse use) {
     const Element *found = find(name, {"rgb", "srgb", "spectrum", "float", "integer"}, "a colour");
     if (found == nullptr) {
         return std::nullopt;
     }
     const std::string tag = found->tag();
-    const std::string value = found->attribute("value");
-    if (tag == "srgb" && !value.empty() && value[0] == '#') {
-        return hexadecimal(*found, value);
+    if (tag == "spectrum") {
+        return spectrum(*found, use);
     }
-    if (tag == "spectrum" && value.find(':') != std::string::npos) {
-        throw found->error(
-            "spectra given by wavelength are unsupported, because this renderer has three "
-            "channels; give the colour as <rgb>");
+    const std::string value = found->attribute("value");
+    const bool is_colour = tag == "rgb" || tag == "srgb";
+    const bool has_hexadecimal = tag == "srgb" || (tag == "rgb" && found->is_old());
+    if (has_hexadecimal && !value.empty() && value[0] == '#') {
+        // Mitsuba 0.6 takes the digits of <rgb> as linear.
+        return hexadecimal(*found, value, tag == "srgb");
     }
     const std::vector<double> numbers = parse_numbers(*found, value);
-    const bool is_colour = tag == "rgb" || tag == "srgb";
     if (numbers.size() != 1 && !(is_colour && numbers.size() == 3)) {
         throw found->error(is_colour ? "expected three numbers, or one" : "expected one number");
     }
@@ -247,8 +323,7 @@ std::optional<Vector3d> Object::colour(const std::string &name) {
 }
 
 Vector3d Object::emission(const std::string &name, double initial) {
-    const Vector3d value = colour(name).value_or(Vector3d::Constant(initial));
-    return is(name, "spectrum") ? Vector3d(value.cwiseProduct(illuminant_e)) : value;
+    return colour(name, SpectrumUse::emission).value_or(Vector3d::Constant(initial));
 }
 
 Eigen::Matrix4d Object::transform(const std::string &name) {
@@ -269,21 +344,27 @@ std::vector<Element> Object::objects(const std::string &tag, const std::string &
 }
 
 void Object::finish() const {
+    ErrorList errors;
     for (const auto &[name, property] : properties_) {
         if (asked_.count(name) == 0) {
-            throw property.error(fmt::format(
-                "unknown property of {} type '{}'; properties are: {}", element_.tag(), type_,
-                asked_.empty() ? "none" : fmt::format("{}", fmt::join(asked_, ", "))));
+            errors.collect([&, &property = property]() -> void {
+                throw property.error(fmt::format(
+                    "unknown property of {} type '{}'; properties are: {}", element_.tag(), type_,
+                    asked_.empty() ? "none" : fmt::format("{}", fmt::join(asked_, ", "))));
+            });
         }
     }
     for (const Part &part : parts_) {
         const std::string tag = part.element.tag();
         if (asked_parts_.count({tag, ""}) == 0 && asked_parts_.count({tag, part.name}) == 0) {
-            throw part.place.error(fmt::format("{} type '{}' accepts no {}{}", element_.tag(),
-                                               type_, tag,
-                                               part.name.empty() ? "" : " as '" + part.name + "'"));
+            errors.collect([&]() -> void {
+                throw part.place.error(
+                    fmt::format("{} type '{}' accepts no {}{}", element_.tag(), type_, tag,
+                                part.name.empty() ? "" : " as '" + part.name + "'"));
+            });
         }
     }
+    errors.raise(element_.source_name());
 }
 
 }  // namespace rtrays::mitsuba

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "renderer/import/mitsuba/document.h"
+#include "renderer/import/mitsuba/spectrum.h"
 
 namespace rtrays::mitsuba {
 
@@ -39,9 +40,10 @@ class Object {
     /// Returns the index in `choices` of a string property's value.
     size_t choice(const std::string &name, const std::vector<std::string> &choices, size_t initial);
 
-    /// Returns a reflectance or another value per channel. The file gives a colour, or one number
-    /// for all channels.
-    std::optional<Eigen::Vector3d> colour(const std::string &name);
+    /// Returns a value per channel. The file gives a colour, one number for all channels, or a
+    /// spectrum, which is reduced to three channels as in Mitsuba's RGB variants (spectrum.h).
+    std::optional<Eigen::Vector3d> colour(const std::string &name,
+                                          SpectrumUse use = SpectrumUse::reflectance);
 
     /// Returns an emitted radiance or power per channel. Unlike in `colour`, a <spectrum> of one
     /// number is that multiple of illuminant E, which is not white in Rec. 709.
@@ -63,8 +65,8 @@ class Object {
     /// Accepts a property whose value has no effect.
     void ignore(const std::string &name) { asked_.insert(name); }
 
-    /// Throws `LocatedError` if a property or nested object was never requested. The message lists
-    /// the known properties.
+    /// Throws `LocatedError` if properties or nested objects were never requested. The message
+    /// lists the known properties.
     void finish() const;
 
   private:
@@ -76,8 +78,11 @@ class Object {
 
     const Element *find(const std::string &name, const std::vector<const char *> &tags,
                         const char *expected);
+    Eigen::Vector3d spectrum(const Element &element, SpectrumUse use) const;
+    Eigen::Vector3d typed_spectrum(const Element &element) const;
 
     Element element_;
+    const Document *document_;
     std::string type_;
     std::map<std::string, Element> properties_;
     std::vector<Part> parts_;
@@ -93,6 +98,10 @@ std::vector<double> parse_numbers(const Element &element, const std::string &tex
 /// Round shapes and rigid objects require similarities. Throws `Error` (bad input) naming `what` if
 /// the transform shears or stretches.
 Eigen::Matrix4d nearest_similarity(const Eigen::Matrix4d &transform, const std::string &what);
+
+/// Returns the frame (columns s, t, n) that Mitsuba builds around a unit vector (Duff et al. 2017,
+/// "Building an orthonormal basis, revisited").
+Eigen::Matrix3d frame_around(const Eigen::Vector3d &n);
 
 /// Parses a "transform" element. Its operations are applied in the order of the file.
 Eigen::Matrix4d parse_transform(const Element &element);

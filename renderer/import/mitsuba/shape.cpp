@@ -14,6 +14,7 @@
 #include "renderer/scene/cores/shape.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/stores/pose.h"
+#include "renderer/scene/stores/tessellation.h"
 
 namespace rtrays::mitsuba {
 
@@ -57,12 +58,17 @@ MeshCore::Geometry cube() {
     return geometry;
 }
 
-/// Returns the transform of a shape that must stay round. Throws if it does not. Mitsuba warns and
-/// continues with one of the radii.
-Matrix4d round_transform(Object &object) {
-    const Matrix4d to_world = object.transform();
-    return object.element().located(
-        [&] { return nearest_similarity(to_world, "a " + object.type()); });
+/// Returns the transform of a cylinder along z, whose radius must stay the same around the axis.
+/// The scale along the axis may differ.
+Matrix4d round_transform(const Object &object, const Matrix4d &world) {
+    const Eigen::Array3d scales = world.topLeftCorner<3, 3>().colwise().stableNorm();
+    Matrix4d similarity = world;
+    similarity.col(2) *= scales[0] / scales[2];
+    const bool is_round = std::abs(scales[1] / scales[0] - 1) < 1e-4;
+    Matrix4d result = object.element().located(
+        [&] { return nearest_similarity(is_round ? similarity : world, "a " + object.type()); });
+    result.col(2) *= scales[2] / scales[0];
+    return result;
 }
 
 double radius_of(Object &object) {
@@ -73,28 +79,60 @@ double radius_of(Object &object) {
     return radius;
 }
 
-/// Returns the frame (columns s, t, n) that Mitsuba builds around a unit vector (Duff et al. 2017,
-/// "Building an orthonormal basis, revisited"). It sets where the texture of a cylinder begins.
-Eigen::Matrix3d frame_around(const Vector3d &n) {
-    const double sign = std::copysign(1.0, n.z());
-    const double a = -1 / (sign + n.z());  // |sign + z| >= 1
-    const double b = n.x() * n.y() * a;
-    Eigen::Matrix3d frame;
-    frame.col(0) = Vector3d(sign * n.x() * n.x() * a + 1, sign * b, -sign * n.x());
-    frame.col(1) = Vector3d(b, n.y() * n.y() * a + sign, -n.y());
-    frame.col(2) = n;
-    return frame;
-}
-
 MeshCore::Geometry geometry_of(const std::filesystem::path &path, bool without_normals) {
     MeshFileOptions options;
     options.normals =
         without_normals ? MeshFileOptions::Normals::none : MeshFileOptions::Normals::stored;
     const std::shared_ptr<MeshCore> mesh = load_mesh_file(path, path.stem().string(), options);
-    return {mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()};
+    MeshCore::Geometry geometry{mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()};
+    turn_towards_normals(geometry);
+    return geometry;
 }
 
 }  // namespace
+
+void turn_towards_normals(MeshCore::Geometry &geometry) {
+    if (geometry.normals.empty()) {
+        return;
+    }
+    for (Triangle &t : geometry.triangles) {
+        const Vector3d &a = geometry.vertices[t[0]];
+        const Vector3d front = (geometry.vertices[t[1]] - a).cross(geometry.vertices[t[2]] - a);
+        const Vector3d stored =
+            geometry.normals[t[0]] + geometry.normals[t[1]] + geometry.normals[t[2]];
+        if (front.dot(stored) < 0) {
+            std::swap(t[1], t[2]);
+        }
+    }
+}
+
+Shape tessellated(const Shape &shape) {
+    const auto &core = static_cast<const ShapeCore &>(*shape.geometry);
+    ShapeArrays arrays;
+    arrays.name = {core.name()};
+    arrays.kind = {core.kind()};
+    arrays.world_from_object = {core.object_from_canonical()};
+    arrays.material = {0};
+    arrays.light = {no_index};
+    arrays.flare = {1};
+    // A chord is below its arc by 3e-4 of the radius of a sphere, and by 8e-5 of a cylinder's.
+    const bool is_cylinder = core.kind() == ShapeArrays::Kind::cylinder;
+    const MeshArrays mesh = rtrays::tessellated(
+        arrays, 0, is_cylinder ? TessellationGrid{1, 256} : TessellationGrid{64, 128});
+    MeshCore::Geometry geometry;
+    geometry.triangles = mesh.triangle;
+    for (size_t i = 0; i < mesh.position.size(); ++i) {
+        geometry.vertices.push_back(mesh.position[i].cast<double>());
+        geometry.normals.push_back(mesh.normal[i].cast<double>());
+        geometry.uvs.push_back(mesh.uv[i].cast<double>());
+    }
+    Shape result = shape;
+    result.geometry = std::make_shared<MeshCore>(
+        core.name(), shape.is_flipped ? turned(std::move(geometry)) : std::move(geometry));
+    result.can_emit = true;
+    result.is_flipped = false;
+    return result;
+}
 
 const std::vector<ShapeReader::Type> &ShapeReader::types() {
     static const std::vector<Type> all = {
@@ -144,12 +182,16 @@ Shape ShapeReader::read_sphere(Object &object) {
     if (core == nullptr) {
         core = std::make_shared<ShapeCore>("sphere", "sphere", ParameterValues{});
     }
-    const Matrix4d to_world = round_transform(object);
+    // Mitsuba warns of a stretched sphere and continues with one of its radii.
+    const Matrix4d to_world = object.element().located(
+        [&] { return nearest_similarity(object.transform(), "a sphere"); });
     const Vector3d center = object.vector("center").value_or(Vector3d::Zero());
     Shape shape{core,
                 to_world * translation(center) * scaling(Vector3d::Constant(radius_of(object))),
                 UvConvention::flipped};
-    shape.is_flipped = object.boolean("flip_normals", false);
+    // Mitsuba's spheres, and no other shapes, exchange their sides where the transform mirrors.
+    const bool mirrors = to_world.topLeftCorner<3, 3>().determinant() < 0;
+    shape.is_flipped = object.boolean("flip_normals", false) != mirrors;
     return shape;
 }
 
@@ -171,7 +213,7 @@ Shape ShapeReader::read_cylinder(Object &object) {
         core = std::make_shared<ShapeCore>("cylinder", "cylinder",
                                            ParameterValues{{"radius", 1.0}, {"height", 1.0}});
     }
-    const Matrix4d to_world = round_transform(object);
+    const Matrix4d to_world = object.transform();
     const Vector3d p0 = object.vector("p0").value_or(Vector3d::Zero());
     const Vector3d p1 = object.vector("p1").value_or(Vector3d::UnitZ());
     const double length = (p1 - p0).stableNorm();
@@ -181,8 +223,8 @@ Shape ShapeReader::read_cylinder(Object &object) {
     const double radius = radius_of(object);
     Matrix4d frame = Matrix4d::Identity();
     frame.topLeftCorner<3, 3>() = frame_around((p1 - p0) / length);
-    Shape shape{core, to_world * translation(p0) * frame * scaling({radius, radius, length}),
-                UvConvention::same};
+    const Matrix4d world = to_world * translation(p0) * frame * scaling({radius, radius, length});
+    Shape shape{core, round_transform(object, world), UvConvention::same};
     shape.can_emit = false;
     shape.is_flipped = object.boolean("flip_normals", false);
     return shape;

@@ -10,6 +10,7 @@
 #include "renderer/import/mitsuba/bsdf.h"
 #include "renderer/import/mitsuba/object.h"
 #include "renderer/scene/core.h"
+#include "renderer/scene/cores/mesh.h"
 
 namespace rtrays::mitsuba {
 
@@ -21,6 +22,14 @@ struct Shape {
     bool can_emit = true;
     bool is_flipped = false;  ///< front and back are exchanged, which our geometry cannot express
 };
+
+/// Returns a shape as a mesh, which can emit, and whose front is on the flipped side if the shape
+/// is flipped.
+Shape tessellated(const Shape &shape);
+
+/// Exchanges the vertices of each triangle whose front is not on the side of its stored normals.
+/// Those normals decide the side in Mitsuba.
+void turn_towards_normals(MeshCore::Geometry &geometry);
 
 /// Converts shapes to geometry. Equal geometry of several shapes is shared.
 class ShapeReader {

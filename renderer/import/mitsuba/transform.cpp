@@ -81,12 +81,17 @@ Matrix4d matrix(const Element &element) {
 }
 
 /// Parses a "lookat" element. Mitsuba's objects look along +z with +x to the left. Ours look along
-/// -z with +x to the right.
+/// -z with +x to the right. Without `up`, Mitsuba takes an axis of a frame around the direction.
 Matrix4d look_at_element(const Element &element) {
     element.check_attributes({"origin", "target", "up"});
-    const Vector3d up = element.has("up") ? three_numbers(element, "up") : Vector3d::UnitY();
-    return look_at(three_numbers(element, "origin"), three_numbers(element, "target"), up) *
-           scaling({-1, 1, -1});
+    const Vector3d origin = three_numbers(element, "origin");
+    const Vector3d target = three_numbers(element, "target");
+    Vector3d up =
+        element.attribute("up").empty() ? Vector3d(Vector3d::Zero()) : three_numbers(element, "up");
+    if (up.isZero(0) && (target - origin).stableNorm() > 0) {
+        up = frame_around((target - origin).stableNormalized()).col(0);
+    }
+    return look_at(origin, target, up) * scaling({-1, 1, -1});
 }
 
 Matrix4d operation(const Element &element) {
@@ -105,7 +110,7 @@ Matrix4d operation(const Element &element) {
     if (tag == "matrix") {
         return matrix(element);
     }
-    if (tag == "lookat") {
+    if (tag == "lookat" || (tag == "lookAt" && element.is_old())) {
         return look_at_element(element);
     }
     throw element.error(
@@ -113,6 +118,17 @@ Matrix4d operation(const Element &element) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d frame_around(const Vector3d &n) {
+    const double sign = std::copysign(1.0, n.z());
+    const double a = -1 / (sign + n.z());  // |sign + z| >= 1
+    const double b = n.x() * n.y() * a;
+    Eigen::Matrix3d frame;
+    frame.col(0) = Vector3d(sign * n.x() * n.x() * a + 1, sign * b, -sign * n.x());
+    frame.col(1) = Vector3d(b, n.y() * n.y() * a + sign, -n.y());
+    frame.col(2) = n;
+    return frame;
+}
 
 Matrix4d nearest_similarity(const Matrix4d &transform, const std::string &what) {
     constexpr double tolerance = 1e-4;

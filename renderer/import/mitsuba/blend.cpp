@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/mitsuba/blend.h"
+
+#include "renderer/scene/cores/composite.h"
+
+namespace rtrays::mitsuba {
+
+namespace {
+
+using Fresnel = BxdfComponent::Fresnel;
+using Kind = BxdfComponent::Kind;
+
+/// Adds the parameters of the Fresnel term of a component; `prefix` begins their names.
+void add_fresnel(const BxdfComponent &bxdf, const std::string &prefix, ParameterValues &values) {
+    if (bxdf.fresnel == Fresnel::ideal) {
+        return;
+    }
+    values[prefix + "complement"] = bxdf.complement;
+    const bool refracts =
+        bxdf.kind == Kind::ideal_refraction || bxdf.kind == Kind::microfacet_refraction;
+    if (bxdf.fresnel == Fresnel::dielectric && !refracts) {
+        values[prefix + "eta"] = bxdf.eta[0];
+    } else if (bxdf.fresnel == Fresnel::conductor) {
+        values[prefix + "eta"] = bxdf.eta;
+        values[prefix + "k"] = bxdf.k;
+    }
+}
+
+/// Adds the parameters of a component that a Mitsuba BSDF can have; `prefix` begins their names.
+void add_component(const MaterialComponent &component, const std::string &prefix,
+                   Composite &composite) {
+    const BxdfComponent &bxdf = component.bxdf;
+    ParameterValues &values = composite.values;
+    values[prefix + "weight"] = Eigen::Vector3d(bxdf.weight.cast<double>());
+    if (component.texture != nullptr) {
+        composite.textures[prefix + "weight"] = component.texture;
+    }
+    if (bxdf.kind == Kind::microfacet_reflection || bxdf.kind == Kind::microfacet_refraction) {
+        const bool is_ggx = bxdf.distribution == BxdfComponent::Distribution::ggx;
+        values[prefix + "alpha"] = bxdf.alpha;
+        values[prefix + "distribution"] = std::string(is_ggx ? "ggx" : "beckmann");
+    }
+    if (bxdf.kind == Kind::ideal_refraction || bxdf.kind == Kind::microfacet_refraction) {
+        values[prefix + "eta"] = bxdf.eta[0];
+    }
+    add_fresnel(bxdf, prefix + "fresnel_", values);
+}
+
+}  // namespace
+
+Composite composite_of(const std::vector<MaterialComponent> &components) {
+    Composite composite;
+    std::vector<CompositePart> parts;
+    for (const MaterialComponent &component : components) {
+        add_component(component, part_prefix(parts.size()), composite);
+        parts.push_back({bxdf_names()[static_cast<size_t>(component.bxdf.kind)],
+                         fresnel_names()[static_cast<size_t>(component.bxdf.fresnel)]});
+    }
+    const auto type = std::make_shared<MaterialType>(*composite_type(parts));
+    type->check = {};
+    composite.type = type;
+    return composite;
+}
+
+}  // namespace rtrays::mitsuba
