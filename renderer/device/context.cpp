@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstdlib>
 
 #include "renderer/base/error.h"
 
@@ -162,12 +161,6 @@ std::vector<DeviceInfo> list_devices() {
 
 DeviceContext::DeviceContext(const std::string &spec, Binaries binaries)
     : info_(select_device(spec)), binaries_(binaries) {
-    if (binaries == Binaries::keep) {
-        // PoCL compiles every kernel of a binary for any group size, and by default once more at
-        // the first launch, for its group size. The first version is as fast for groups of one,
-        // which all stages have on a CPU. The user's own choice is kept.
-        setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", /*overwrite=*/0);
-    }
     cl_int status = CL_SUCCESS;
     context_ = ClContext(clCreateContext(nullptr, 1, &info_.device, nullptr, nullptr, &status));
     check_cl(status, fmt::format("creating a context on '{}'", info_.name));
