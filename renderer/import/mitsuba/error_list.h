@@ -53,7 +53,7 @@ class ErrorList {
     bool empty() const { return messages_.empty(); }
 
     /// Throws the collected errors as one `LocatedError`, if there are any. The message of several
-    /// errors begins with their number and shows the first 100.
+    /// errors begins with their number and shows the first 100, with missing files last.
     void raise(const std::string &source_name) const;
 
   private:

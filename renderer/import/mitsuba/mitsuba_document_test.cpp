@@ -208,10 +208,10 @@ TEST(MitsubaErrorList, NamesAllFaultsOfAFile) {
     }
     EXPECT_EQ(starts, (std::vector<std::string>{
                           "in.xml: 7 errors", "in.xml:3: <bsdf type=\"mirror\" id=\"a\"",
-                          "in.xml:5: <shape type=\"torus\"",
-                          "in.xml:6: <texture type=\"bitmap\" name=\"diffuse_reflectance\"",
-                          "in.xml:5: <float name=\"sheen\"", "in.xml:7: <boolean name=\"flat\"",
-                          "in.xml:7: <boolean name=\"round\"", "in.xml:8: <volume"}))
+                          "in.xml:5: <shape type=\"torus\"", "in.xml:5: <float name=\"sheen\"",
+                          "in.xml:7: <boolean name=\"flat\"", "in.xml:7: <boolean name=\"round\"",
+                          "in.xml:8: <volume",
+                          "in.xml:6: <texture type=\"bitmap\" name=\"diffuse_reflectance\""}))
         << message;
 }
 
