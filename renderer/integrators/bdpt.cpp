@@ -17,15 +17,14 @@ namespace rtrays {
 namespace {
 
 /// Returns `pass` with its first stage, which starts paths, limited to the first round, and with
-/// `stages` inserted before extend_path. Its last paths use the normal round, because the stages
-/// for them connect no vertices.
+/// `stages` inserted before extend_path. The tail needs no such stage: it begins after the rounds
+/// that connect or store vertices.
 Pass with_stages(Pass pass, const std::vector<RoundStage> &stages) {
     pass.round.front().rounds = 1;
     const auto extend = std::find_if(pass.round.begin(), pass.round.end(), [](const RoundStage &s) {
         return s.stage == Stage::extend_path;
     });
     pass.round.insert(extend, stages.begin(), stages.end());
-    pass.tail.clear();
     return pass;
 }
 

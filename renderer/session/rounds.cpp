@@ -32,6 +32,16 @@ constexpr int checks_per_profile = 64;
 /// vertices per launch is worth its compilation.
 constexpr int tail_rounds_before_compilation = 512;
 
+/// Returns the number of rounds after which all stages of a pass are launched in every round or in
+/// none. Only then may the tail replace the round.
+int limited_rounds(const std::vector<RoundStage> &round) {
+    uint32_t rounds = 0;
+    for (const RoundStage &stage : round) {
+        rounds = std::max(rounds, stage.rounds);
+    }
+    return static_cast<int>(rounds);
+}
+
 /// Binds the index of the light or vertex that a stage connects to, if it has changed.
 void bind_index(CompiledPass &pass, const RoundStage &stage) {
     for (auto &[input, bound] : pass.indices) {
@@ -212,6 +222,7 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
     }
     enqueue(pass, Stage::reset_streams);
     uint64_t in_flight = layout.capacity;
+    const int first_tail_round = limited_rounds(pass.round);
     int tail_rounds = 0;
     CounterReads reads(device, counters);
     for (int check = 0;; ++check) {
@@ -221,7 +232,8 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
             !pass.has_tail_stages()) {
             add_tail_stages(pass, in_flight);
         }
-        const bool runs_tail = few && pass.has_tail_stages();
+        const bool runs_tail =
+            few && pass.has_tail_stages() && check * rounds_per_check >= first_tail_round;
         for (int i = 0; i < rounds_per_check; ++i) {
             // A camera path ends with one addition to its pixel, which run_batch counts. The splats
             // of all light paths may go to the same pixel.
