@@ -104,6 +104,20 @@ TEST_F(Images, ExrKeepsEveryBitOfChannelsAndAttributes) {
     EXPECT_EQ(file_count(), 1u);
 }
 
+TEST_F(Images, ExrKeepsTheDataWindow) {
+    Image image = test_image(7, 5);
+    image.move_to(-3, 40);
+    write_exr(image, path("crop.exr"));
+    const Image read = read_exr(path("crop.exr"));
+    EXPECT_EQ(read.width(), 7);
+    EXPECT_EQ(read.height(), 5);
+    EXPECT_EQ(read.left(), -3);
+    EXPECT_EQ(read.top(), 40);
+    EXPECT_EQ(std::memcmp(read.channel("G").data(), image.channel("G").data(),
+                          image.pixel_count() * sizeof(float)),
+              0);
+}
+
 TEST_F(Images, ChannelsAreFoundByNameOnly) {
     Image image = Image::rgb(2, 2);
     expect_input_error("unknown channel 'A'; channels are: R, G, B", [&] { image.channel("A"); });

@@ -32,10 +32,10 @@ constexpr int max_side = 1 << 16;
 template <typename T>
 using ImfAttribute = Imf::TypedAttribute<T>;
 
-Imf::Slice float_slice(float *values, const Image &image, int x0, int y0) {
+Imf::Slice float_slice(float *values, const Image &image) {
     const auto width = static_cast<ptrdiff_t>(image.width());
-    return {Imf::FLOAT, reinterpret_cast<char *>(values - x0 - y0 * width), sizeof(float),
-            sizeof(float) * static_cast<size_t>(width)};
+    return {Imf::FLOAT, reinterpret_cast<char *>(values - image.left() - image.top() * width),
+            sizeof(float), sizeof(float) * static_cast<size_t>(width)};
 }
 
 }  // namespace
@@ -101,6 +101,7 @@ Image read_exr(const std::filesystem::path &path) {
                             path.string(), width, height, max_side));
         }
         Image image(width, height);
+        image.move_to(window.min.x, window.min.y);
         // R, G, B first, then the file's (alphabetical) order.
         for (const std::string &name : rgb_names()) {
             if (header.channels().findChannel(name) != nullptr) {
@@ -114,8 +115,7 @@ Image read_exr(const std::filesystem::path &path) {
         }
         Imf::FrameBuffer frame;
         for (const Image::Channel &channel : image.channels()) {
-            frame.insert(channel.name, float_slice(image.channel(channel.name).data(), image,
-                                                   window.min.x, window.min.y));
+            frame.insert(channel.name, float_slice(image.channel(channel.name).data(), image));
         }
         file.setFrameBuffer(frame);
         file.readPixels(window.min.y, window.max.y);
@@ -154,7 +154,10 @@ void require_exr_output(const std::filesystem::path &path) {
 void write_exr(const Image &image, const std::filesystem::path &path) {
     try {
         write_atomically(path, [&](const std::filesystem::path &temporary) {
-            Imf::Header header(image.width(), image.height());
+            const Imath::V2i corner(image.left(), image.top());
+            const Imath::Box2i window(corner,
+                                      corner + Imath::V2i(image.width() - 1, image.height() - 1));
+            Imf::Header header(window, window);
             header.compression() = Imf::ZIP_COMPRESSION;
             Imf::addChromaticities(header, Imf::Chromaticities());  // its default is Rec. 709
             for (const auto &[name, attribute] : image.attributes()) {
@@ -169,7 +172,7 @@ void write_exr(const Image &image, const std::filesystem::path &path) {
                 header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
                 // OpenEXR's frame buffers are not const-correct; writing only reads.
                 frame.insert(channel.name,
-                             float_slice(const_cast<float *>(channel.values.data()), image, 0, 0));
+                             float_slice(const_cast<float *>(channel.values.data()), image));
             }
             Imf::OutputFile file(temporary.c_str(), header);
             file.setFrameBuffer(frame);

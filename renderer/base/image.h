@@ -34,6 +34,15 @@ class Image {
 
     int width() const { return width_; }
     int height() const { return height_; }
+
+    /// Position of pixel (0, 0) in the full picture: the corner of an EXR's data window. It is not
+    /// (0, 0) for a crop of a larger picture.
+    int left() const { return left_; }
+    int top() const { return top_; }
+    void move_to(int left, int top) {
+        left_ = left;
+        top_ = top;
+    }
     size_t pixel_count() const {
         return static_cast<size_t>(width_) * static_cast<size_t>(height_);
     }
@@ -56,6 +65,8 @@ class Image {
 
     int width_ = 0;
     int height_ = 0;
+    int left_ = 0;
+    int top_ = 0;
     std::vector<Channel> channels_;
     std::map<std::string, Attribute> attributes_;
 };
@@ -64,13 +75,13 @@ class Image {
 /// "variance.R", ...
 std::vector<std::string> rgb_names(const std::string &layer = "");
 
-/// Reads all channels, and the attributes of int, float, double and string type. Throws `Error`
-/// (bad input) naming the file when it is missing, truncated or not an EXR.
+/// Reads all channels of the data window, and the attributes of int, float, double and string type.
+/// Throws `Error` (bad input) naming the file when it is missing, truncated or not an EXR.
 Image read_exr(const std::filesystem::path &path);
 
 /// Writes the image atomically (to a temporary file beside it, which is then renamed), as
-/// ZIP-compressed float32 with the standard `chromaticities` of Rec. 709. Throws `Error` (run
-/// failed) naming the file.
+/// ZIP-compressed float32 with the standard `chromaticities` of Rec. 709. The display window is the
+/// data window. Throws `Error` (run failed) naming the file.
 void write_exr(const Image &image, const std::filesystem::path &path);
 
 /// Checks the name of an output file before the image exists. Throws `Error` (bad input) if

@@ -23,12 +23,32 @@ void set_mean(Image &image, const std::string &name, const std::vector<double> &
     }
 }
 
+/// Returns the data window of an image, as "(0, 0) to (7, 7)".
+std::string window_of(const Image &image) {
+    return fmt::format("({}, {}) to ({}, {})", image.left(), image.top(),
+                       image.left() + image.width() - 1, image.top() + image.height() - 1);
+}
+
+/// Returns a black image of the size and at the position of another, with its attributes.
+Image blank_like(const Image &other) {
+    Image image = Image::rgb(other.width(), other.height());
+    image.move_to(other.left(), other.top());
+    image.attributes() = other.attributes();
+    return image;
+}
+
 }  // namespace
 
 void require_same_size(const Image &a, const Image &b) {
     if (a.width() != b.width() || a.height() != b.height()) {
         throw input_error(fmt::format("images differ in size: {}x{} and {}x{}", a.width(),
                                       a.height(), b.width(), b.height()));
+    }
+    if (a.left() != b.left() || a.top() != b.top()) {
+        throw input_error(fmt::format(
+            "images differ in their data windows: {} and {}; pixels of equal index are not the "
+            "same place of the picture",
+            window_of(a), window_of(b)));
     }
     if (a.pixel_count() == 0) {
         throw input_error("images have no pixels");
@@ -82,8 +102,7 @@ Image average_images(const std::vector<Image> &images) {
         throw input_error("no images to average");
     }
     const Image &first = images.front();
-    Image result = Image::rgb(first.width(), first.height());
-    result.attributes() = first.attributes();
+    Image result = blank_like(first);
     for (const auto &[name, unused] : first.channels()) {
         std::vector<double> sum(first.pixel_count(), 0.0);
         for (const auto &image : images) {
@@ -104,8 +123,7 @@ Image average_runs(const std::vector<Image> &images) {
     }
     const Image &first = images.front();
     const auto count = static_cast<double>(images.size());
-    Image result = Image::rgb(first.width(), first.height());
-    result.attributes() = first.attributes();
+    Image result = blank_like(first);
     for (const std::string &name : rgb_names()) {
         auto &variance = result.add_channel("variance." + name);
         auto &mean = result.channel(name);
@@ -158,7 +176,12 @@ Image downsample(const Image &image, int factor) {
         throw input_error(fmt::format("image size {}x{} is not divisible by {}", image.width(),
                                       image.height(), factor));
     }
+    if (image.left() % factor != 0 || image.top() % factor != 0) {
+        throw input_error(fmt::format("the data window {} does not begin at a multiple of {}",
+                                      window_of(image), factor));
+    }
     Image result = Image::rgb(image.width() / factor, image.height() / factor);
+    result.move_to(image.left() / factor, image.top() / factor);
     result.attributes() = image.attributes();
     const auto width = static_cast<size_t>(image.width());
     const auto step = static_cast<size_t>(factor);

@@ -30,14 +30,14 @@ constexpr std::array<std::pair<const char *, double ErrorMetrics::*>, 5> metric_
     {"mse", &ErrorMetrics::mse},
 }};
 
-/// Throws `Error` (bad input) if the sizes differ or an image has no pixels.
+/// Throws `Error` (bad input) if sizes or data windows differ or an image has no pixels.
 void require_same_size(const Image &a, const Image &b);
 
 /// Returns whether an image has the layers variance.R, .G and .B.
 bool has_variance(const Image &image);
 
-/// Computes the metrics with sums in double precision. Throws `Error` (bad input) if the sizes
-/// differ, a colour channel is missing or a value is not finite.
+/// Computes the metrics with sums in double precision. Throws `Error` (bad input) if sizes or data
+/// windows differ, a colour channel is missing or a value is not finite.
 ErrorMetrics compute_metrics(const Image &image, const Image &reference);
 
 /// Reference image averaged from two halves with different seeds.
@@ -68,7 +68,7 @@ Image average_images(const std::vector<Image> &images);
 /// Averages independent renders that differ only in their seeds. "variance.*" is the variance of
 /// the mean, estimated from the scatter of the renders (image count - 1 degrees of freedom per
 /// pixel). Use it for renderers that write no variance. Throws `Error` (bad input) for fewer than
-/// two images and if sizes differ.
+/// two images and if sizes or data windows differ.
 Image average_runs(const std::vector<Image> &images);
 
 /// Returns R, G, B of the last of `count` batches of equal size. `all` is the mean of all batches,
@@ -82,7 +82,8 @@ Image shifted(const Image &base, const Image &image, const Image &other);
 
 /// Averages squares of `factor` x `factor` pixels. With a box filter of one pixel, the result is
 /// exactly the image that the camera gives on the smaller film. Variances are computed as those of
-/// independent pixels. Throws `Error` (bad input) if the size is not divisible by `factor`.
+/// independent pixels. Throws `Error` (bad input) if size and position are not divisible by
+/// `factor`.
 Image downsample(const Image &image, int factor);
 
 }  // namespace rtrays

@@ -11,6 +11,7 @@
 
 #include "experiments/harness/core/agreement.h"
 #include "renderer/base/error.h"
+#include "renderer/testing/errors.h"
 
 namespace rtrays {
 namespace {
@@ -69,6 +70,25 @@ TEST(Metrics, RejectsOtherSizesAndNonFiniteValues) {
     Image broken = constant(2, 2, 1);
     broken.channel("B")[3] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THROW(compute_metrics(broken, constant(2, 2, 1)), Error);
+}
+
+// Crops of one picture: pixels of equal index are different places.
+TEST(Metrics, RejectsOtherDataWindows) {
+    const Image a = constant(8, 8, 1);
+    Image b = constant(8, 8, 1);
+    b.move_to(4, 4);
+    const std::string message = "(0, 0) to (7, 7) and (4, 4) to (11, 11)";
+    expect_input_error(message, [&] { compute_metrics(a, b); });
+    expect_input_error(message, [&] { average_images({a, b}); });
+    expect_input_error(message, [&] { average_runs({a, b}); });
+    expect_input_error(message, [&] { combine_halves(a, b); });
+    EXPECT_EQ(compute_metrics(b, b).mse, 0);
+    for (const Image &mean : {average_images({b, b}), average_runs({b, b}), downsample(b, 1)}) {
+        EXPECT_EQ(mean.left(), 4);
+        EXPECT_EQ(mean.top(), 4);
+    }
+    EXPECT_EQ(downsample(b, 2).left(), 2);
+    expect_input_error("(4, 4) to (11, 11)", [&] { downsample(b, 8); });
 }
 
 TEST(Metrics, HalvesGiveTheNoiseOfTheirAverage) {
