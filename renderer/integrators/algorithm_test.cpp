@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -112,6 +114,108 @@ TEST(AlgorithmsPage, SaysWhatEveryAlgorithmSees) {
             expected[text] = name_in(visibilities, algorithm->sees.of(path));
         }
         EXPECT_EQ(columns.at(algorithm->name), expected) << algorithm->name;
+    }
+}
+
+/// A path without its ends: a letter S or D for each vertex.
+using Vertices = std::string;
+
+/// Returns all sequences of at most `length` vertices.
+std::vector<Vertices> all_vertices(size_t length) {
+    std::vector<Vertices> all = {""};
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (all[i].size() < length) {
+            all.push_back(all[i] + "S");
+            all.push_back(all[i] + "D");
+        }
+    }
+    return all;
+}
+
+enum class LightKind { area, infinite, delta };
+
+/// Returns whether a strategy of the algorithm samples the path. It hits the light, connects its
+/// last vertex to a point on the light, connects its first vertex to the camera, or connects two
+/// vertices. No connection ends at a vertex S.
+bool is_sampled(const Algorithm &algorithm, const Vertices &path, LightKind light) {
+    const bool hits = light != LightKind::delta, joins_light = !path.empty() && path.back() == 'D',
+               joins_camera = path.empty() ? light == LightKind::area : path.front() == 'D';
+    const std::string name = algorithm.name;
+    if (name == "ray_casting") {
+        return path.empty() || path == "D";
+    }
+    if (name == "whitted") {
+        const size_t ideal = path.find_first_not_of('S');
+        return ideal == Vertices::npos || (ideal + 1 == path.size() && joins_light);
+    }
+    return (algorithm.traces_camera_paths && (hits || joins_light)) ||
+           (algorithm.traces_light_paths() && joins_camera) ||
+           (name == "bdpt" && path.find("DD") != Vertices::npos);
+}
+
+/// Returns whether the path has the pattern of a class, as "E S ... D L".
+bool has_pattern(const Vertices &path, const std::string &text) {
+    std::string pattern;
+    for (const char letter : text.substr(0, text.find(':'))) {
+        pattern += letter == '.' && (pattern.empty() || pattern.back() != '*') ? "[SD]*"
+                   : letter == 'S' || letter == 'D' ? std::string(1, letter)
+                                                    : "";
+    }
+    return std::regex_match(path, std::regex(pattern));
+}
+
+/// Returns whether a class contains paths to such a light.
+bool has_light(PathClass path, LightKind light) {
+    switch (path) {
+        case PathClass::area_lights:
+            return light == LightKind::area;
+        case PathClass::infinite_lights:
+            return light == LightKind::infinite;
+        case PathClass::caustics:
+        case PathClass::mirrored_caustics:
+            return light != LightKind::delta;
+        case PathClass::delta_light_caustics:
+        case PathClass::mirrored_delta_light_caustics:
+        case PathClass::mirrored_light_of_delta_light_caustics:
+            return light == LightKind::delta;
+        case PathClass::infinite_light_outside:
+        case PathClass::nearly_specular:
+            return false;  // decided by more than the sequence of vertices
+        case PathClass::direct_light:
+        case PathClass::diffuse_reflection:
+        case PathClass::mirrors:
+            return true;
+    }
+    return false;
+}
+
+// The rows of the table follow from the strategies: every path of at most six vertices is in a
+// class, and an algorithm sees a class if it samples all of its paths.
+TEST(Algorithms, SeeWhatTheirStrategiesSample) {
+    for (const Algorithm *algorithm : all_algorithms()) {
+        std::map<PathClass, std::set<bool>> sampled;
+        for (const LightKind light : {LightKind::area, LightKind::infinite, LightKind::delta}) {
+            for (const Vertices &path : all_vertices(6)) {
+                if (light == LightKind::delta && path.find('D') == Vertices::npos) {
+                    continue;  // such a light is a point: neither the camera nor a mirror shows it
+                }
+                const auto last = std::find_if(std::rbegin(path_classes), std::rend(path_classes),
+                                               [&](const Named<PathClass> &row) {
+                                                   return has_light(row.value, light) &&
+                                                          has_pattern(path, row.name);
+                                               });
+                ASSERT_NE(last, std::rend(path_classes)) << path;
+                sampled[last->value].insert(is_sampled(*algorithm, path, light));
+            }
+        }
+        EXPECT_EQ(sampled.size(), std::size(path_classes) - 2) << "all but two rows are tested";
+        for (const auto &[path, seen] : sampled) {
+            const Visibility expected = seen.size() == 2 ? Visibility::in_part
+                                        : *seen.begin()  ? Visibility::yes
+                                                         : Visibility::no;
+            EXPECT_EQ(algorithm->sees.of(path), expected)
+                << algorithm->name << ", " << name_in(path_classes, path);
+        }
     }
 }
 

@@ -60,6 +60,7 @@ constexpr Algorithm algorithms::light_tracing = [] {
                  .without(PathClass::mirrors)
                  .without(PathClass::mirrored_caustics)
                  .without(PathClass::mirrored_delta_light_caustics)
+                 .without(PathClass::mirrored_light_of_delta_light_caustics)
                  .with(PathClass::nearly_specular, Visibility::in_practice_not);
     a.traces_camera_paths = false;
     a.light_paths = LightPaths::at_least_one;

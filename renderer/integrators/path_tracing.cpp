@@ -58,7 +58,8 @@ constexpr Algorithm algorithms::path_tracing = [] {
     a.computes = "all light that camera paths find";
     a.sees = Sight::everything()
                  .without(PathClass::delta_light_caustics)
-                 .without(PathClass::mirrored_delta_light_caustics);
+                 .without(PathClass::mirrored_delta_light_caustics)
+                 .without(PathClass::mirrored_light_of_delta_light_caustics);
     a.selects_strategies = true;
     a.stops_pixels = true;
     a.has_megakernel = true;

@@ -20,27 +20,31 @@ enum class PathClass {
     delta_light_caustics,
     mirrored_caustics,
     mirrored_delta_light_caustics,
+    mirrored_light_of_delta_light_caustics,
     nearly_specular,
 };
 
 /// Descriptions of the classes. Paths are written from the camera E to the light L. S is an ideal
 /// mirror or smooth glass, D is any other surface, G is a nearly specular one, and dots are any
-/// further vertices.
+/// number of further vertices S and D. A path belongs to the last class whose pattern and lights
+/// are its own.
 inline constexpr Named<PathClass> path_classes[] = {
     {PathClass::area_lights, "E L: area lights seen directly"},
     {PathClass::infinite_lights, "E L: lights at infinity seen directly (dome, environment)"},
     {PathClass::direct_light, "E D L: direct light"},
     {PathClass::infinite_light_outside,
      "E D L: light from infinity on a plane, outside the bounding sphere of all other surfaces"},
-    {PathClass::diffuse_reflection, "E D D ... L: light from diffuse surface to diffuse surface"},
+    {PathClass::diffuse_reflection, "E D ... D L: light from surface to surface"},
     {PathClass::mirrors, "E S ... L: what the camera sees in mirrors and smooth glass"},
-    {PathClass::caustics, "E D S ... L: caustics of lights that a path can hit"},
+    {PathClass::caustics, "E D ... S L: caustics of lights that a path can hit"},
     {PathClass::delta_light_caustics,
-     "E D S ... L: caustics of point, spot and directional lights"},
+     "E D ... S L: caustics of point, spot and directional lights"},
     {PathClass::mirrored_caustics,
-     "E S D S ... L: a mirror image of a caustic, of lights that a path can hit"},
+     "E S ... D ... S L: a mirror image of a caustic, of lights that a path can hit"},
     {PathClass::mirrored_delta_light_caustics,
-     "E S D S ... L: a mirror image of a caustic of point, spot and directional lights"},
+     "E S ... D ... S L: a mirror image of a caustic of point, spot and directional lights"},
+    {PathClass::mirrored_light_of_delta_light_caustics,
+     "E S ... D D ... S L: a mirror image of what a caustic of such lights illuminates"},
     {PathClass::nearly_specular, "E G ... L: what the camera sees in nearly specular surfaces"}};
 
 /// Whether an algorithm samples a class of paths. `in_practice_not`: it does, but with so large a

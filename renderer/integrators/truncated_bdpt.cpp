@@ -45,7 +45,9 @@ constexpr Algorithm algorithms::truncated_bdpt = [] {
     a.computes = "the sum of camera paths and light paths";
     // In the mirror image of a caustic, x1 and x(k-1) have delta events. Only implicit paths find
     // it, and none hits a point, spot or directional light.
-    a.sees = Sight::everything().without(PathClass::mirrored_delta_light_caustics);
+    a.sees = Sight::everything()
+                 .without(PathClass::mirrored_delta_light_caustics)
+                 .without(PathClass::mirrored_light_of_delta_light_caustics);
     a.light_paths = LightPaths::any;
     a.stops_pixels = true;
     a.passes = truncated_bdpt_passes;
