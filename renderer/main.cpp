@@ -16,11 +16,13 @@
 #include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
+#include "renderer/base/notice.h"
 #include "renderer/export/display_image.h"
 #include "renderer/export/export_scene.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/session/render_session.h"
 
+#include "renderer/integrators/unseen_light.h"
 namespace rtrays {
 
 namespace {
@@ -329,6 +331,97 @@ ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::st
             throw Error(error.exit_code(), fmt::format("{}: {}", inputs[i], error.what()));
         }
     }
+/// Prints notices of light that the algorithm does not see with its settings.
+void notice_unseen_light(const Scene &scene, const RenderSettings &settings) {
+    // Without light paths, such an algorithm is path tracing.
+    const Algorithm &algorithm =
+        settings.algorithm->traces_light_paths() && !has_light_pass(settings)
+            ? algorithms::path_tracing
+            : *settings.algorithm;
+    for (const std::string &sentence :
+         unseen_light(algorithm, scene.arrays(), settings.max_depth)) {
+        notice(sentence);
+    }
+}
+
+ExitCode run(Options &options) {
+    require_consistent(options);
+    Scene scene = load_scene(options.scene, options.quiet);
+    apply_options(options, scene);
+    scene.update(options.scene_time);
+    if (options.print_scene) {
+        fmt::print("{}", scene.describe());
+        return ExitCode::ok;
+    }
+    set_size(options, scene);
+    if (!options.exported.empty()) {
+        scene.set_film_size(options.settings.width, options.settings.height);
+        export_scene(scene, options.exported,
+                     {options.spp.value_or(64), options.settings.max_depth});
+        return ExitCode::ok;
+    }
+    SampleRange range = requested_samples(options);
+    DeviceContext device(options.device, Binaries::keep);
+    RenderSession session = session_of(scene, options, device);
+    if (options.dry_run) {
+        fmt::print("{}\n", session.report().dump(2));
+        return ExitCode::ok;
+    }
+    if (options.resume && std::filesystem::exists(options.state)) {
+        range = resume(session, options, range);
+    }
+    const bool complete = render(session, options, range);
+    if (!options.stats.empty()) {
+        write_file(options.stats, session.report().dump(2) + "\n");
+    }
+    if (!complete) {
+        fmt::print(stderr, "interrupted{}\n",
+                   options.state.empty() ? "; nothing was written (--state FILM keeps what is done)"
+                                         : "; continue with --resume --state " + options.state);
+        return ExitCode::run_failed;
+    }
+    write_images(select_layers(session.develop(), options.layers), options.outputs,
+                 options.exposure, options.quiet);
+    return ExitCode::ok;
+}
+
+ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::string> &outputs,
+               const std::string &state, double exposure) {
+    require_outputs(outputs, "merged");
+    FilmState film = load_film(inputs.front());
+    for (size_t i = 1; i < inputs.size(); ++i) {
+        try {
+            merge_film(film, load_film(inputs[i]));
+        } catch (const Error &error) {
+            throw Error(error.exit_code(), fmt::format("{}: {}", inputs[i], error.what()));
+        }
+    }
+/// Prints notices of light that the algorithm does not see with its settings.
+void notice_unseen_light(const Scene &scene, const RenderSettings &settings) {
+    // Without light paths, such an algorithm is path tracing.
+    const Algorithm &algorithm =
+        settings.algorithm->traces_light_paths() && !has_light_pass(settings)
+            ? algorithms::path_tracing
+            : *settings.algorithm;
+    for (const std::string &sentence :
+         unseen_light(algorithm, scene.arrays(), settings.max_depth)) {
+        notice(sentence);
+    }
+}
+
+/// Writes the images, if the render is complete, and the statistics.
+void write_results(const RenderSession &session, const Options &options, bool complete) {
+    if (complete) {
+        const Image image = select_layers(session.develop(), options.layers);
+        write_or_keep(session, options, [&] {
+            write_images(image, options.outputs, options.exposure, options.quiet);
+        });
+    }
+    if (!options.stats.empty()) {
+        write_file(options.stats, session.report().dump(2) + "\n");
+    }
+}
+
     require_valid(film);
     Image image = develop_film(film);
     describe_image(image, film);
@@ -348,6 +441,7 @@ ExitCode develop(const std::string &input, const std::vector<std::string> &outpu
 
 void add_output_options(CLI::App &app, std::vector<std::string> &outputs, double &exposure) {
     app.add_option("-o,--output", outputs,
+    notice_unseen_light(scene, options.settings);
                    "image to write: .exr (linear, with layers), .png or .jpg (for display); may be "
                    "repeated")
         ->allow_extra_args(false);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/integrators/unseen_light.h"
+#include "renderer/scene/scene.h"
 #include "renderer/session/render_session.h"
 
 namespace rtrays {
@@ -80,6 +82,9 @@ Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene
         pilot.trials.back().per_pixel = per_pixel;
     };
     for (const double per_pixel : {0.0, 0.25, 1.0, 4.0}) {
+    // Without light paths, caustics that only they find would be missing without any variance.
+    const bool needs_light_paths =
+        !unseen_light(algorithms::path_tracing, scene.arrays(), settings.max_depth).empty();
         add_trial(per_pixel);
     }
     const auto pays = [&] {

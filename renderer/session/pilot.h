@@ -35,8 +35,9 @@ struct Pilot {
 };
 
 /// Chooses the number of light paths for `settings`. Renders with 0, 1/4, 1 and 4 light paths per
-/// pixel, and continues with four times as many, up to 256, while that reduces the cost by a tenth.
-/// Each trial takes 16 samples of an image of at most 128 x 128 pixels.
+/// pixel, without 0 if only light paths see some light of the scene. Continues with four times as
+/// many, up to 256, while that reduces the cost by a tenth. Each trial takes 16 samples of an image
+/// of at most 128 x 128 pixels.
 ///
 /// The cost is variance times number of rays. Both are the same in every run on one device, and so
 /// is the choice. The pilot uses its own seed; its samples are discarded. All trials share their

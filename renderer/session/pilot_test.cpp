@@ -63,6 +63,14 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
 }
 
 TEST(Pilot, ChoosesTheSameWhateverTheStreams) {
+// Path tracing renders the caustic of a point light black, without any variance.
+TEST(Pilot, ChoosesLightPathsIfOnlyTheySeeALight) {
+    const Pilot pilot =
+        choose(load_scene(RTRAYS_SCENES "/analytic/caustic.json"), settings_of(LIGHT_PATHS_AUTO));
+    EXPECT_GT(pilot.trials.front().per_pixel, 0);
+    EXPECT_GT(pilot.light_paths, 0u);
+}
+
     RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
     const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
     const Pilot expected = choose(scene, settings);
