@@ -39,7 +39,7 @@ struct FilmState {
     std::string config;
     /// Ranges of samples in the film: sorted, disjoint, and with adjacent ranges merged.
     std::vector<SampleRange> ranges;
-    /// Device time of the stages and of the pilot, if there was one.
+    /// Device time and wall time of the stages and of the pilot, if there was one.
     double device_seconds = 0;
     double wall_seconds = 0;
     /// Samples that were not finite; they are not in the sums.

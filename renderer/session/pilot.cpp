@@ -20,9 +20,9 @@ constexpr double most_per_pixel = 256;
 constexpr double worth_going_on = 0.9;
 
 /// Renders one setting, sample by sample, and estimates its variance from the scatter of the
-/// samples. Adds the device time to `seconds`.
+/// samples. Adds the times to those of `pilot`.
 PilotTrial attempt(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
-                   const RenderSettings &settings, double &seconds) {
+                   const RenderSettings &settings, Pilot &pilot) {
     RenderSession session(shared, scene, settings);
     PilotTrial trial;
     std::vector<double> sums, squares;
@@ -30,7 +30,8 @@ PilotTrial attempt(const std::shared_ptr<DeviceScene> &shared, const Scene &scen
         session.restart(settings.seed);
         session.render(sample, sample + 1);
         trial.rays += static_cast<double>(session.stats().rays);
-        seconds += session.stats().device_seconds;
+        pilot.seconds += session.stats().device_seconds;
+        pilot.wall_seconds += session.stats().wall_seconds;
         const Image image = session.develop();
         sums.resize(3 * image.pixel_count());
         squares.resize(sums.size());
@@ -78,14 +79,16 @@ Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene
     };
     const auto add_trial = [&](double per_pixel) {
         small.light_paths = paths_of(per_pixel, small_pixels);
-        pilot.trials.push_back(attempt(shared, scene, small, pilot.seconds));
+        pilot.trials.push_back(attempt(shared, scene, small, pilot));
         pilot.trials.back().per_pixel = per_pixel;
     };
-    for (const double per_pixel : {0.0, 0.25, 1.0, 4.0}) {
     // Without light paths, caustics that only they find would be missing without any variance.
     const bool needs_light_paths =
         !unseen_light(algorithms::path_tracing, scene.arrays(), settings.max_depth).empty();
-        add_trial(per_pixel);
+    for (const double per_pixel : {0.0, 0.25, 1.0, 4.0}) {
+        if (per_pixel > 0 || !needs_light_paths) {
+            add_trial(per_pixel);
+        }
     }
     const auto pays = [&] {
         const auto last = pilot.trials.rbegin();

@@ -31,7 +31,8 @@ struct Pilot {
     std::vector<PilotTrial> trials;
     /// Light paths per sample of the image with the least variance times rays, possibly 0.
     uint32_t light_paths = 0;
-    double seconds = 0;  ///< device time
+    double seconds = 0;       ///< device time
+    double wall_seconds = 0;  ///< wall time, without compilation
 };
 
 /// Chooses the number of light paths for `settings`. Renders with 0, 1/4, 1 and 4 light paths per

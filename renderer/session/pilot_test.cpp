@@ -54,6 +54,7 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
         }
         EXPECT_EQ(pilot.light_paths, static_cast<uint32_t>(best->per_pixel * 32 * 32)) << scene;
         EXPECT_GT(pilot.seconds, 0);
+        EXPECT_GT(pilot.wall_seconds, 0);
         return pilot.light_paths;
     };
     // Light paths are efficient for caustics of mirrors, but not for diffuse surfaces under a point
@@ -62,7 +63,6 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
     EXPECT_EQ(chosen("/features/point_light.json"), 0u);
 }
 
-TEST(Pilot, ChoosesTheSameWhateverTheStreams) {
 // Path tracing renders the caustic of a point light black, without any variance.
 TEST(Pilot, ChoosesLightPathsIfOnlyTheySeeALight) {
     const Pilot pilot =
@@ -71,6 +71,7 @@ TEST(Pilot, ChoosesLightPathsIfOnlyTheySeeALight) {
     EXPECT_GT(pilot.light_paths, 0u);
 }
 
+TEST(Pilot, ChoosesTheSameWhateverTheStreams) {
     RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
     const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
     const Pilot expected = choose(scene, settings);
@@ -89,8 +90,13 @@ TEST(Pilot, ChoosesLightPathsIfOnlyTheySeeALight) {
 TEST(Pilot, IsDiscardedAndRecorded) {
     const RenderSettings automatic = settings_of(LIGHT_PATHS_AUTO);
     const Scene scene = load_scene(RTRAYS_SCENES "/cornell_mirrors/scene.json");
-    const nlohmann::json report = RenderSession(scene, automatic, device()).report();
+    const RenderSession session(scene, automatic, device());
+    const nlohmann::json report = session.report();
     const auto chosen = report.at("pilot").at("light_paths").get<uint32_t>();
+    // Nothing is rendered yet: the times are those of the pilot.
+    EXPECT_EQ(report.at("seconds").at("device"), report.at("pilot").at("seconds"));
+    EXPECT_EQ(report.at("seconds").at("wall"), report.at("pilot").at("seconds_wall"));
+    EXPECT_EQ(session.film().wall_seconds, session.stats().wall_seconds);
     EXPECT_EQ(report.at("settings").at("integrator.light_paths"), std::to_string(chosen));
     EXPECT_EQ(render_words("/cornell_mirrors/scene.json", automatic),
               render_words("/cornell_mirrors/scene.json", settings_of(chosen)));

@@ -93,7 +93,7 @@ FilmState RenderSession::film() const {
     film.non_finite += counters.non_finite;
     film.out_of_range += counters.out_of_range;
     film.device_seconds += state_->device_seconds();
-    film.wall_seconds += state_->wall_seconds;
+    film.wall_seconds += state_->wall_seconds + state_->pilot.wall_seconds;
     if (state_->convergence != nullptr) {
         film.convergence = state_->convergence->state();
     }
@@ -145,7 +145,7 @@ RenderStats RenderSession::stats() const {
     stats.compile_seconds = state_->compile_seconds;
     stats.bvh_seconds = state_->scene->bvh().report().seconds_device;
     stats.device_seconds = state_->device_seconds();
-    stats.wall_seconds = state_->wall_seconds;
+    stats.wall_seconds = state_->wall_seconds + state_->pilot.wall_seconds;
     stats.samples = state_->samples;
     const StreamCounters counters = state_->counters.read().front();
     stats.rays = counters.nearest_rays + counters.shadow_rays;

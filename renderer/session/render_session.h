@@ -28,7 +28,8 @@ struct RenderStats {
     double bvh_seconds = 0;
     /// Device time of all stages of `render` so far, and of the pilot, if there was one.
     double device_seconds = 0;
-    /// Wall time of `render` so far, without compilation, BVH build and pilot.
+    /// Wall time of `render` so far and of the pilot, if there was one, without compilation and BVH
+    /// build.
     double wall_seconds = 0;
     /// Number of pixel samples: one per pixel and sample of the image, without those of pixels that
     /// convergence control has stopped.

@@ -17,7 +17,9 @@ Json device_report(const DeviceInfo &info) {
 }
 
 Json pilot_report(const Pilot &pilot) {
-    Json report = {{"light_paths", pilot.light_paths}, {"seconds", pilot.seconds}};
+    Json report = {{"light_paths", pilot.light_paths},
+                   {"seconds", pilot.seconds},
+                   {"seconds_wall", pilot.wall_seconds}};
     for (const PilotTrial &trial : pilot.trials) {
         report["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
                                     {"variance", trial.variance},

@@ -65,14 +65,20 @@ def pilot_seconds(curve):
     return value(curve, "render_report.pilot.seconds") if has_pilot else 0.0
 
 
+def lacks_wall_time_of_pilot(curve):
+    """Whether the curve's wall times exclude the pilot, as those of version 0.1.0 do."""
+    return "seconds_wall" not in value(curve, "render_report").get("pilot", {"seconds_wall": 0.0})
+
+
 def seconds(curve, entry, clock):
     """Returns the seconds of a point or repetition by `clock`, "device" or "wall"; they include the
     pilot.
 
-    In run.json the device's seconds include the pilot, those on the wall do not. The pilot's device
-    time is added to the wall time.
+    Documents of version 0.1.0 have no wall time of the pilot, neither its own nor in the seconds of
+    points. There the pilot's device time is added.
     """
-    return value(entry, f"seconds_{clock}") + (pilot_seconds(curve) if clock == "wall" else 0.0)
+    missing = clock == "wall" and lacks_wall_time_of_pilot(curve)
+    return value(entry, f"seconds_{clock}") + (pilot_seconds(curve) if missing else 0.0)
 
 
 def usable_points(curve):

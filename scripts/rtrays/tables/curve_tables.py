@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tables of a run of curves."""
 
-from rtrays.documents.curves import label, seconds
+from rtrays.documents.curves import label, lacks_wall_time_of_pilot, seconds
 from rtrays.documents.document import value, write_text
 from rtrays.documents.undecided import factor_of_agreement, with_advice
 from rtrays.tables.cells import interval, number
@@ -14,15 +14,19 @@ from rtrays.tables.efficiency_tables import (
 from rtrays.tables.table import Table
 
 POINT_METRICS = ("l2", "rmse", "mae", "relmse", "mse", "mse_unbiased")
-PILOT_NOTE = (
+PILOT_NOTE = "Both times include the pilot that chooses the number of light paths."
+PILOT_NOTE_WITHOUT_WALL_TIME = (
     "Both times include the pilot that chooses the number of light paths; run.json has no wall time"
     " of it, so that its device time is added to the wall time."
 )
 
 
-def has_pilot(run):
-    """Whether any curve has a pilot."""
-    return any("pilot" in value(curve, "render_report") for curve in run.curves)
+def pilot_note(run):
+    """Returns the note on times of curves with a pilot; empty without one."""
+    if any(lacks_wall_time_of_pilot(curve) for curve in run.curves):
+        return PILOT_NOTE_WITHOUT_WALL_TIME
+    has_pilot = any("pilot" in value(curve, "render_report") for curve in run.curves)
+    return PILOT_NOTE if has_pilot else ""
 
 
 def errors_table(run):
@@ -53,7 +57,7 @@ def errors_table(run):
         "Errors and times, medians over seeds",
         columns,
         rows,
-        [PILOT_NOTE if has_pilot(run) else ""],
+        [pilot_note(run)],
     )
 
 

@@ -51,7 +51,18 @@ class CurveTables(RunFolder):
         self.assertEqual(table.rows[0][table.columns.index("wall time, s")], "3.2")
         self.assertEqual(table.rows[0][table.columns.index("device time, s")], "0.1")
         self.assertEqual(float(raw.rows[0][raw.columns.index("seconds_wall")]), 3.2)
-        self.assertIn("include the pilot", table.notes[0])
+        self.assertIn("its device time is added", table.notes[0])
+
+    def test_wall_times_that_contain_the_pilot_stay(self):
+        curve = self.document["curves"][0]
+        curve["render_report"]["pilot"] = {"seconds": 3.0, "seconds_wall": 4.0}
+        run = self.run_object()
+        table, raw = errors_table(run), repetitions_table(run)
+        self.assertEqual(table.rows[0][table.columns.index("wall time, s")], "0.2")
+        self.assertEqual(float(raw.rows[0][raw.columns.index("seconds_wall")]), 0.2)
+        self.assertEqual(
+            table.notes[0], "Both times include the pilot that chooses the number of light paths."
+        )
 
     def test_script_writes_all_forms(self):
         self.run_object()
