@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // rtrays-render: renders a scene on an OpenCL device.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -14,15 +16,15 @@
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/notice.h"
 #include "renderer/base/progress.h"
 #include "renderer/device/context.h"
-#include "renderer/base/notice.h"
 #include "renderer/export/display_image.h"
 #include "renderer/export/export_scene.h"
 #include "renderer/import/load_scene.h"
+#include "renderer/integrators/unseen_light.h"
 #include "renderer/session/render_session.h"
 
-#include "renderer/integrators/unseen_light.h"
 namespace rtrays {
 
 namespace {
@@ -44,6 +46,7 @@ struct Options {
     std::vector<std::string> defines;
     std::vector<std::string> layers = {"variance", "samples"};
     bool resume = false;
+    bool overwrite = false;
     bool quiet = false;
     bool dry_run = false;
     bool print_scene = false;
@@ -123,17 +126,59 @@ void write_images(const Image &image, const std::vector<std::string> &outputs, d
     }
 }
 
+/// Throws `Error` (bad usage) if a film would be replaced without --overwrite.
+void require_new_film(const std::string &path, bool overwrite, const char *alternatives) {
+    if (!path.empty() && !overwrite && std::filesystem::exists(path)) {
+        throw input_error(fmt::format("--state {}: the file exists; {}", path, alternatives));
+    }
+}
+
 /// Name for an image of a scene: the folder of a scene.json, else the file's name.
 std::string image_name(const std::filesystem::path &scene) {
     const std::string folder = scene.parent_path().filename().string();
     return scene.filename() == "scene.json" && !folder.empty() ? folder : scene.stem().string();
 }
 
+/// Saves the film of a render whose results cannot be written, in the file of --state or else in
+/// the folder for temporary files. Returns a sentence that names the file.
+std::string keep_film(const RenderSession &session, const Options &options) {
+    const std::string name = fmt::format("rtrays-{}-{}.film", image_name(options.scene), getpid());
+    std::error_code none;
+    const std::filesystem::path temporary = std::filesystem::temp_directory_path(none) / name;
+    std::string reasons;
+    for (const std::string &path : {options.state, temporary.string()}) {
+        if (path.empty()) {
+            continue;
+        }
+        try {
+            save_film(session.film(), path);
+            return fmt::format(
+                "the samples are kept in {0}; write the image with: rtrays-render merge {0} -o "
+                "FILE",
+                path);
+        } catch (const Error &error) {
+            reasons += std::string(" ") + error.what();
+        }
+    }
+    return "the samples are lost:" + reasons;
+}
+
+/// Writes results of a render. If that fails, keeps the samples in a file that the error names.
+void write_or_keep(const RenderSession &session, const Options &options,
+                   const std::function<void()> &write) {
+    try {
+        write();
+    } catch (const Error &error) {
+        throw Error(error.exit_code(),
+                    fmt::format("{}\n{}", error.what(), keep_film(session, options)));
+    }
+}
+
 /// Renders until the options are satisfied; returns false if interrupted before.
 bool render(RenderSession &session, const Options &options, SampleRange range) {
     const auto save = [&] {
         if (!options.state.empty()) {
-            save_film(session.film(), options.state);
+            write_or_keep(session, options, [&] { save_film(session.film(), options.state); });
         }
     };
     const auto start = SteadyClock::now();
@@ -180,6 +225,13 @@ bool render(RenderSession &session, const Options &options, SampleRange range) {
 void require_consistent(const Options &options) {
     if (options.state.empty() && options.resume) {
         throw input_error("--resume needs --state FILM, the file to resume from");
+    }
+    if (options.resume && options.overwrite) {
+        throw input_error("--resume excludes --overwrite");
+    }
+    if (!options.resume) {
+        require_new_film(options.state, options.overwrite,
+                         "--resume continues it, --overwrite replaces it");
     }
     if (options.seconds && (options.spp || !options.samples.empty())) {
         throw input_error("--time excludes --spp and --samples");
@@ -279,123 +331,6 @@ RenderSession session_of(Scene &scene, const Options &options, DeviceContext &de
     return session;
 }
 
-ExitCode run(Options &options) {
-    require_consistent(options);
-    Scene scene = load_scene(options.scene, options.quiet, parse_defines(options.defines));
-    apply_options(options, scene);
-    scene.update(options.scene_time);
-    if (options.print_scene) {
-        fmt::print("{}", scene.describe());
-        return ExitCode::ok;
-    }
-    set_size(options, scene);
-    if (!options.exported.empty()) {
-        scene.set_film_size(options.settings.width, options.settings.height);
-        export_scene(scene, options.exported,
-                     {options.spp.value_or(64), options.settings.max_depth});
-        return ExitCode::ok;
-    }
-    SampleRange range = requested_samples(options);
-    DeviceContext device(options.device, Binaries::keep);
-    RenderSession session = session_of(scene, options, device);
-    if (options.dry_run) {
-        fmt::print("{}\n", session.report().dump(2));
-        return ExitCode::ok;
-    }
-    if (options.resume && std::filesystem::exists(options.state)) {
-        range = resume(session, options, range);
-    }
-    const bool complete = render(session, options, range);
-    if (!options.stats.empty()) {
-        write_file(options.stats, session.report().dump(2) + "\n");
-    }
-    if (!complete) {
-        fmt::print(stderr, "interrupted{}\n",
-                   options.state.empty() ? "; nothing was written (--state FILM keeps what is done)"
-                                         : "; continue with --resume --state " + options.state);
-        return ExitCode::run_failed;
-    }
-    write_images(select_layers(session.develop(), options.layers), options.outputs,
-                 options.exposure, options.quiet);
-    return ExitCode::ok;
-}
-
-ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::string> &outputs,
-               const std::string &state, double exposure) {
-    require_outputs(outputs, "merged");
-    FilmState film = load_film(inputs.front());
-    for (size_t i = 1; i < inputs.size(); ++i) {
-        try {
-            merge_film(film, load_film(inputs[i]));
-        } catch (const Error &error) {
-            throw Error(error.exit_code(), fmt::format("{}: {}", inputs[i], error.what()));
-        }
-    }
-/// Prints notices of light that the algorithm does not see with its settings.
-void notice_unseen_light(const Scene &scene, const RenderSettings &settings) {
-    // Without light paths, such an algorithm is path tracing.
-    const Algorithm &algorithm =
-        settings.algorithm->traces_light_paths() && !has_light_pass(settings)
-            ? algorithms::path_tracing
-            : *settings.algorithm;
-    for (const std::string &sentence :
-         unseen_light(algorithm, scene.arrays(), settings.max_depth)) {
-        notice(sentence);
-    }
-}
-
-ExitCode run(Options &options) {
-    require_consistent(options);
-    Scene scene = load_scene(options.scene, options.quiet);
-    apply_options(options, scene);
-    scene.update(options.scene_time);
-    if (options.print_scene) {
-        fmt::print("{}", scene.describe());
-        return ExitCode::ok;
-    }
-    set_size(options, scene);
-    if (!options.exported.empty()) {
-        scene.set_film_size(options.settings.width, options.settings.height);
-        export_scene(scene, options.exported,
-                     {options.spp.value_or(64), options.settings.max_depth});
-        return ExitCode::ok;
-    }
-    SampleRange range = requested_samples(options);
-    DeviceContext device(options.device, Binaries::keep);
-    RenderSession session = session_of(scene, options, device);
-    if (options.dry_run) {
-        fmt::print("{}\n", session.report().dump(2));
-        return ExitCode::ok;
-    }
-    if (options.resume && std::filesystem::exists(options.state)) {
-        range = resume(session, options, range);
-    }
-    const bool complete = render(session, options, range);
-    if (!options.stats.empty()) {
-        write_file(options.stats, session.report().dump(2) + "\n");
-    }
-    if (!complete) {
-        fmt::print(stderr, "interrupted{}\n",
-                   options.state.empty() ? "; nothing was written (--state FILM keeps what is done)"
-                                         : "; continue with --resume --state " + options.state);
-        return ExitCode::run_failed;
-    }
-    write_images(select_layers(session.develop(), options.layers), options.outputs,
-                 options.exposure, options.quiet);
-    return ExitCode::ok;
-}
-
-ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::string> &outputs,
-               const std::string &state, double exposure) {
-    require_outputs(outputs, "merged");
-    FilmState film = load_film(inputs.front());
-    for (size_t i = 1; i < inputs.size(); ++i) {
-        try {
-            merge_film(film, load_film(inputs[i]));
-        } catch (const Error &error) {
-            throw Error(error.exit_code(), fmt::format("{}: {}", inputs[i], error.what()));
-        }
-    }
 /// Prints notices of light that the algorithm does not see with its settings.
 void notice_unseen_light(const Scene &scene, const RenderSettings &settings) {
     // Without light paths, such an algorithm is path tracing.
@@ -422,6 +357,56 @@ void write_results(const RenderSession &session, const Options &options, bool co
     }
 }
 
+ExitCode run(Options &options) {
+    require_consistent(options);
+    Scene scene = load_scene(options.scene, options.quiet, parse_defines(options.defines));
+    apply_options(options, scene);
+    scene.update(options.scene_time);
+    if (options.print_scene) {
+        fmt::print("{}", scene.describe());
+        return ExitCode::ok;
+    }
+    set_size(options, scene);
+    if (!options.exported.empty()) {
+        scene.set_film_size(options.settings.width, options.settings.height);
+        export_scene(scene, options.exported,
+                     {options.spp.value_or(64), options.settings.max_depth});
+        return ExitCode::ok;
+    }
+    SampleRange range = requested_samples(options);
+    DeviceContext device(options.device, Binaries::keep);
+    RenderSession session = session_of(scene, options, device);
+    notice_unseen_light(scene, options.settings);
+    if (options.dry_run) {
+        fmt::print("{}\n", session.report().dump(2));
+        return ExitCode::ok;
+    }
+    if (options.resume && std::filesystem::exists(options.state)) {
+        range = resume(session, options, range);
+    }
+    const bool complete = render(session, options, range);
+    write_results(session, options, complete);
+    if (!complete) {
+        fmt::print(stderr, "interrupted{}\n",
+                   options.state.empty() ? "; nothing was written (--state FILM keeps what is done)"
+                                         : "; continue with --resume --state " + options.state);
+        return ExitCode::run_failed;
+    }
+    return ExitCode::ok;
+}
+
+ExitCode merge(const std::vector<std::string> &inputs, const std::vector<std::string> &outputs,
+               const std::string &state, bool overwrite, double exposure) {
+    require_outputs(outputs, "merged");
+    require_new_film(state, overwrite, "--overwrite replaces it");
+    FilmState film = load_film(inputs.front());
+    for (size_t i = 1; i < inputs.size(); ++i) {
+        try {
+            merge_film(film, load_film(inputs[i]));
+        } catch (const Error &error) {
+            throw Error(error.exit_code(), fmt::format("{}: {}", inputs[i], error.what()));
+        }
+    }
     require_valid(film);
     Image image = develop_film(film);
     describe_image(image, film);
@@ -441,7 +426,6 @@ ExitCode develop(const std::string &input, const std::vector<std::string> &outpu
 
 void add_output_options(CLI::App &app, std::vector<std::string> &outputs, double &exposure) {
     app.add_option("-o,--output", outputs,
-    notice_unseen_light(scene, options.settings);
                    "image to write: .exr (linear, with layers), .png or .jpg (for display); may be "
                    "repeated")
         ->allow_extra_args(false);
@@ -481,6 +465,7 @@ void add_options(CLI::App &app, Options &options) {
                    "gpu, cpu, PLATFORM:DEVICE or part of a name (default: a GPU, else a CPU)");
     app.add_option("--state", options.state, "film file to write, for --resume and merge");
     app.add_flag("--resume", options.resume, "continue from the film of --state if it exists");
+    app.add_flag("--overwrite", options.overwrite, "replace the film of --state if it exists");
     app.add_option("--set", options.assignments, "change a setting: NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--define", options.defines,
@@ -515,12 +500,14 @@ ExitCode parse_and_merge(int argc, char **argv) {
         "rtrays-render merge");
     std::vector<std::string> films, outputs;
     std::string state;
+    bool overwrite = false;
     double exposure = 0;
     app.add_option("FILM", films, "film files")->required();
     add_output_options(app, outputs, exposure);
     app.add_option("--state", state, "merged film file to write");
+    app.add_flag("--overwrite", overwrite, "replace the film of --state if it exists");
     const std::optional<ExitCode> ended = parse(app, argc, argv);
-    return ended ? *ended : merge(films, outputs, state, exposure);
+    return ended ? *ended : merge(films, outputs, state, overwrite, exposure);
 }
 
 ExitCode parse_and_develop(int argc, char **argv) {

@@ -118,6 +118,31 @@ class Program(unittest.TestCase):
         self.expect_error(1, ["out.exr", "cannot be written"], CORNELL, "-o", self.output(),
                           "--spp", 1, "-q", *SMALL, preexec_fn=limit)
 
+    def test_full_disk_under_standard_output(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            for arguments in (["--list-algorithms"], [CORNELL, "--print-scene"]):
+                result = subprocess.run([PROGRAM, *map(str, arguments)], stdout=full,
+                                        stderr=subprocess.PIPE, text=True, timeout=300)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertIn("No space left on device", result.stderr)
+
+    def test_a_lost_output_folder_keeps_the_samples(self):
+        gone, temporary = self.path / "gone", self.path / "temporary"
+        gone.mkdir()
+        temporary.mkdir()
+        command = [PROGRAM, CORNELL, "-o", gone / "out.exr", "--time", "4", *SMALL]
+        process = subprocess.Popen([*map(str, command)], stderr=subprocess.PIPE, text=True,
+                                   env=dict(os.environ, TMPDIR=str(temporary)))
+        time.sleep(2)  # the program checks its outputs at the start
+        gone.rmdir()
+        _, errors = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 1, errors)
+        (kept,) = temporary.iterdir()
+        self.assertIn(f"the samples are kept in {kept}", errors)
+        result = self.run_program("merge", kept, "-o", self.output())
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(self.output().exists())
+
     def test_no_device(self):
         environment = dict(os.environ, OCL_ICD_VENDORS=str(self.path))
         self.expect_error(2, ["pocl-opencl-icd"], CORNELL, "-o", self.output(), *SMALL,
@@ -272,6 +297,20 @@ class Program(unittest.TestCase):
         state.write_bytes(content)
         self.expect_error(2, ["film", "damaged"], CORNELL, "-o", self.output(), "--resume",
                           "--state", state, *SMALL)
+    def test_an_existing_film_is_not_replaced_unless_asked(self):
+        state = self.film("film", "--spp", "2")
+        before = state.read_bytes()
+        for arguments in ((CORNELL, "-o", self.output(), "--spp", 1, *SMALL),
+                          ("merge", state, "-o", self.output())):
+            self.expect_error(2, ["the file exists", "--overwrite"], *arguments, "--state", state)
+        self.expect_error(2, ["--resume continues it"], CORNELL, "-o", self.output(), "--spp", 1,
+                          "--state", state, *SMALL)
+        self.expect_error(2, ["--resume excludes --overwrite"], CORNELL, "-o", self.output(),
+                          "--state", state, "--resume", "--overwrite", *SMALL)
+        self.assertEqual(state.read_bytes(), before)
+        self.film("film", "--spp", "1", "--overwrite")
+        self.assertNotEqual(self.words(state), before.split(b"\n", 2)[2])
+
 
     def test_an_interrupted_render_can_be_resumed(self):
         state = self.path / "state"
