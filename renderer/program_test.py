@@ -148,6 +148,31 @@ class Program(unittest.TestCase):
         self.expect_error(2, ["pocl-opencl-icd"], CORNELL, "-o", self.output(), *SMALL,
                           env=environment)
 
+    def test_cache_that_the_driver_cannot_write(self):
+        environment = {name: value for name, value in os.environ.items()
+                       if name not in ("POCL_CACHE_DIR", "XDG_CACHE_HOME")}
+        self.expect_error(2, ["no OpenCL device", "/dev/null/.cache/pocl/kcache", "POCL_CACHE_DIR"],
+                          CORNELL, "-o", self.output(), *SMALL,
+                          env=dict(environment, HOME="/dev/null"))
+
+    def test_damage_in_the_cache_of_the_driver_names_its_folder(self):
+        cache = self.path / "cache"
+        cache.mkdir()
+        environment = dict(os.environ, POCL_CACHE_DIR=str(cache), RTRAYS_CACHE_DIR=str(cache))
+        arguments = [SCENES / "analytic" / "furnace_050.json", "-o", self.output(), "--spp", "1",
+                     "--algorithm", "ray_casting", *SMALL]
+        result = self.run_program(*arguments, env=environment)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        kernels = list(cache.rglob("*.so"))
+        if not kernels:
+            self.skipTest("the driver does not cache kernels as PoCL does")
+        for kernel in kernels:
+            kernel.write_bytes(b"damaged")
+        result = self.run_program(*arguments, env=environment)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("the OpenCL driver has crashed", result.stderr)
+        self.assertIn(str(cache), result.stderr)
+
     def test_unknown_device(self):
         self.expect_error(2, ["'toaster'", "0:0"],
                           CORNELL, "-o", self.output(), "--device", "toaster", *SMALL)
@@ -290,13 +315,6 @@ class Program(unittest.TestCase):
         self.assertNotEqual(self.words(camera), self.words(whole))
         self.assertEqual(self.words(merged), self.words(whole))
 
-    def test_a_damaged_film_is_refused(self):
-        state = self.film("film", "--spp", "1")
-        content = bytearray(state.read_bytes())
-        content[-1] ^= 1
-        state.write_bytes(content)
-        self.expect_error(2, ["film", "damaged"], CORNELL, "-o", self.output(), "--resume",
-                          "--state", state, *SMALL)
     def test_an_existing_film_is_not_replaced_unless_asked(self):
         state = self.film("film", "--spp", "2")
         before = state.read_bytes()
@@ -311,6 +329,13 @@ class Program(unittest.TestCase):
         self.film("film", "--spp", "1", "--overwrite")
         self.assertNotEqual(self.words(state), before.split(b"\n", 2)[2])
 
+    def test_a_damaged_film_is_refused(self):
+        state = self.film("film", "--spp", "1")
+        content = bytearray(state.read_bytes())
+        content[-1] ^= 1
+        state.write_bytes(content)
+        self.expect_error(2, ["film", "damaged"], CORNELL, "-o", self.output(), "--resume",
+                          "--state", state, *SMALL)
 
     def test_an_interrupted_render_can_be_resumed(self):
         state = self.path / "state"

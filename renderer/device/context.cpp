@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "renderer/base/error.h"
+#include "renderer/device/pocl_cache.h"
 
 namespace rtrays {
 
@@ -64,9 +65,17 @@ std::string lower(std::string text) {
 DeviceInfo select_device(const std::string &spec) {
     const std::vector<DeviceInfo> devices = list_devices();
     if (devices.empty()) {
+        const std::string fault = pocl_cache_fault();
         throw input_error(
-            "no OpenCL device found; for the CPU, install Debian's package pocl-opencl-icd "
-            "(scripts/install does this); for a GPU, install its driver");
+            (fault.empty()
+                 ? "no OpenCL device found; "
+                 : fmt::format("no OpenCL device found; if PoCL is installed, it has none "
+                               "because its cache cannot be written ({}): make that folder "
+                               "writable, or set POCL_CACHE_DIR to another one; otherwise, ",
+                               fault)) +
+            "for the CPU, install Debian's package pocl-opencl-icd (scripts/install does this); "
+            "for "
+            "a GPU, install its driver");
     }
     std::string listing;
     std::vector<std::string> index(devices.size());
@@ -161,6 +170,9 @@ std::vector<DeviceInfo> list_devices() {
 
 DeviceContext::DeviceContext(const std::string &spec, Binaries binaries)
     : info_(select_device(spec)), binaries_(binaries) {
+    if (info_.platform_name.find("Portable Computing Language") != std::string::npos) {
+        explain_pocl_crashes();
+    }
     cl_int status = CL_SUCCESS;
     context_ = ClContext(clCreateContext(nullptr, 1, &info_.device, nullptr, nullptr, &status));
     check_cl(status, fmt::format("creating a context on '{}'", info_.name));
