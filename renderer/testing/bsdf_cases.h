@@ -37,6 +37,11 @@ struct TestMaterial {
         const SceneView view = view_of(material);
         return bsdf_sample(&view, 0, frame, select, u, v);
     }
+    float light_path_pdf_w(const SurfaceFrame &frame, float3 w) const {
+        const MaterialRecord material = record();
+        const SceneView view = view_of(material);
+        return ::light_path_pdf_w(&view, 0, frame, w);
+    }
 
   private:
     /// Returns the view of a scene that has this material alone.

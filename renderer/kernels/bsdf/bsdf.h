@@ -129,6 +129,51 @@ DEVICE BsdfValue bsdf_evaluate(PRIVATE const SceneView *scene, uint material, Su
     return bsdf_evaluate_local(scene, record, frame, local_wo, local_wi);
 }
 
+/// Directions between the horizons of the geometric and the shading normal, on the side of either.
+///
+/// A frame follows the shading normal unless wo is in such a direction (surface_frame.h). On a
+/// camera path, light from such a direction is black, because the sides of the normals disagree. A
+/// camera path that ARRIVES from such a direction w scatters in the frame of the geometric normal,
+/// however. Light paths must therefore continue in it, although their own frame gives w a density
+/// of 0.
+///
+/// Exchanging both normals by a reflection maps the directions between the horizons to themselves.
+/// A light path that samples one of them continues in its mirror image. Other paths do not change.
+///
+/// Returns whether `w` is such a direction, and sets its mirror image.
+DEVICE bool mirror_between_horizons(SurfaceFrame frame, float3 w, PRIVATE float3 *image) {
+    if (!FEATURE_smooth_normals) {
+        return false;
+    }
+    const float3 axis = frame.ns - frame.ng;
+    const float axis2 = dot(axis, axis);
+    // Below 1e-4 radians, rounding hides the axis. A share of 2.5e-9 of all directions is lost.
+    if (!(axis2 > 1e-8f) || !(dot(frame.ns, w) * dot(frame.ng, w) < 0.0f)) {
+        return false;
+    }
+    const float3 mirrored = normalize(w - axis * (2.0f * dot(axis, w) / axis2));
+    *image = mirrored;
+    return dot(frame.ns, mirrored) * dot(frame.ng, mirrored) < 0.0f;
+}
+
+/// Returns the density per solid angle with which a light path that arrives from frame.wo continues
+/// in direction `w`. It is that of bsdf_sample in a pass of light paths.
+DEVICE float light_path_pdf_w(PRIVATE const SceneView *scene, uint material, SurfaceFrame frame,
+                              float3 w) {
+    float3 image;
+    if (!mirror_between_horizons(frame, w, &image)) {
+        return bsdf_evaluate(scene, material, frame, w).pdf_w;
+    }
+    const MaterialRecord record = scene->materials[material];
+    const float3 local_wo = to_local(frame, frame.wo);
+    const float3 local_image = to_local(frame, image);
+    if (!side_scatters(record, frame, local_wo.z) || fabs(local_image.z) < MIN_COSINE ||
+        is_delta_material(record)) {
+        return 0.0f;
+    }
+    return bsdf_evaluate_local(scene, record, frame, local_wo, local_image).pdf_w;
+}
+
 /// Selects a component in proportion to its share. `probability` is the share over the sum of all
 /// shares. Returns false if all shares are 0.
 DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord material,
@@ -176,6 +221,25 @@ DEVICE BsdfSample no_sample(SurfaceFrame frame) {
     return sample;
 }
 
+/// Completes the sample of a light path whose direction sample.wi, `wi` in local coordinates, is
+/// between the horizons of the normals. The weight remains 0, because it is that of camera paths.
+DEVICE BsdfSample sample_between_horizons(PRIVATE const SceneView *scene, MaterialRecord record,
+                                          SurfaceFrame frame, float3 wo, float3 wi,
+                                          BsdfSample sample) {
+    GLOBAL const BxdfRecord *component = scene->components + sample.component;
+    float3 image;
+    if (fabs(wi.z) < MIN_COSINE || is_delta(component->kind) ||
+        !mirror_between_horizons(frame, sample.wi, &image)) {
+        return sample;
+    }
+    sample.wi = image;
+    sample.scale = is_refracting(component->kind)
+                       ? refraction_scale(component_eta(component, record.flags, frame.front))
+                       : 1.0f;
+    sample.pdf_w = bsdf_evaluate_local(scene, record, frame, wo, wi).pdf_w;
+    return sample;
+}
+
 /// Completes `sample`, whose component and probability are set, by a direction of that component,
 /// from u and v in [0, 1). `wo` is frame.wo in local coordinates, and its side scatters.
 DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecord record,
@@ -190,8 +254,12 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
     sample.wi = length2 > 0.0f ? world / sqrt(length2) : frame.ns;
     // A direction on the wrong side of the component is rejected. It must not be taken for a
     // direction of another component, whose density does not include it.
-    if (!sides_agree(frame, sample.wi, wi.z) || (wi.z < 0.0f) != is_refracting(component->kind)) {
+    if ((wi.z < 0.0f) != is_refracting(component->kind)) {
         return sample;
+    }
+    if (!sides_agree(frame, sample.wi, wi.z)) {
+        return FEATURE_from_light ? sample_between_horizons(scene, record, frame, wo, wi, sample)
+                                  : sample;
     }
     sample.scale = is_refracting(component->kind) ? refraction_scale(eta) : 1.0f;
     if (is_delta(component->kind)) {

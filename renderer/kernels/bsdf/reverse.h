@@ -22,7 +22,7 @@ typedef struct ScatterEvent {
     /// reverse event is impossible. For a delta event both are probabilities of the event.
     float log_reverse_ratio;
     /// Weight of a light path along these directions: f |cos(ng, wi)| / p_w(wi), where f is that of
-    /// radiance from wo to wi.
+    /// radiance from wo to wi. Not set on a camera path unless the event is a delta event.
     float3 importance;
 } ScatterEvent;
 
@@ -96,9 +96,15 @@ DEVICE ScatterEvent scatter_event(PRIVATE const SceneView *scene, SurfaceHit hit
         }
         return event;
     }
-    const BsdfValue value = bsdf_evaluate(scene, hit.material, back, frame.wo);
     event.log_forward = log2_quotient(sample.pdf_w, cos_wi);
-    event.log_reverse_ratio = log2_quotient(value.pdf_w, cos_wo) - event.log_forward;
-    event.importance = value.f_cos * (cos_wi / cos_wo / sample.pdf_w);
+    if (FEATURE_from_light) {
+        const BsdfValue value = bsdf_evaluate(scene, hit.material, back, frame.wo);
+        event.log_reverse_ratio = log2_quotient(value.pdf_w, cos_wo) - event.log_forward;
+        event.importance = value.f_cos * (cos_wi / cos_wo / sample.pdf_w);
+    } else {
+        event.log_reverse_ratio =
+            log2_quotient(light_path_pdf_w(scene, hit.material, back, frame.wo), cos_wo) -
+            event.log_forward;
+    }
     return event;
 }

@@ -35,7 +35,7 @@ DEVICE float light_over_explicit(Path path, PRIVATE const SceneView *scene, Surf
     }
     const SurfaceFrame back = shading_frame(scene, hit, light.wi);
     // log2 of b_{k-1}, per projected solid angle.
-    const float log_b = log2_quotient(bsdf_evaluate(scene, hit.material, back, wo).pdf_w, cos_wo);
+    const float log_b = log2_quotient(light_path_pdf_w(scene, hit.material, back, wo), cos_wo);
     if (all) {
         // The bracket of MIS (21) at x_{k-1}.
         return log_arrival + strategies_before(get_log_strategies(path),

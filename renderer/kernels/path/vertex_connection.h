@@ -30,15 +30,17 @@ typedef struct ConnectionEnd {
 DEVICE ConnectionEnd connection_end(PRIVATE const SceneView *scene, SurfaceHit hit, float3 before,
                                     float3 other, bool from_camera, float log_s, float log_a,
                                     float beta) {
-    const BsdfValue onwards =
-        bsdf_evaluate(scene, hit.material, shading_frame(scene, hit, before), other);
-    const BsdfValue back =
-        bsdf_evaluate(scene, hit.material, shading_frame(scene, hit, other), before);
+    const float3 to_camera = from_camera ? before : other, to_light = from_camera ? other : before;
+    const BsdfValue value =
+        bsdf_evaluate(scene, hit.material, shading_frame(scene, hit, to_camera), to_light);
+    const float pdf_to_camera =
+        light_path_pdf_w(scene, hit.material, shading_frame(scene, hit, to_light), to_camera);
     ConnectionEnd end;
-    end.f_cos = from_camera ? onwards.f_cos : back.f_cos;
-    end.pdf_w = onwards.pdf_w;
+    end.f_cos = value.f_cos;
+    end.pdf_w = from_camera ? value.pdf_w : pdf_to_camera;
     // b_m on a camera path, f_{m+1} on a light path, per projected solid angle.
-    const float log_reverse = log2_quotient(back.pdf_w, fabs(dot(hit.point.normal, before)));
+    const float log_reverse = log2_quotient(from_camera ? pdf_to_camera : value.pdf_w,
+                                            fabs(dot(hit.point.normal, before)));
     end.log_strategies_before = strategies_before(log_s, log_a, log_reverse, beta);
     return end;
 }
