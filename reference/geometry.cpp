@@ -123,7 +123,20 @@ void Geometry::attach_triangles(const MeshArrays &meshes, const std::vector<Tria
     rtcReleaseGeometry(geometry);
 }
 
-bool Geometry::intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit) const {
+Ray Geometry::from_nearby(const Ray &ray) const {
+    if (bounds_.isEmpty() || !unbounded_.empty()) {
+        return ray;
+    }
+    const double radius = 0.5 * bounds_.diagonal().norm();
+    const double distance = (ray.origin - bounds_.center()).norm() - 2.0 * radius;
+    if (!(distance > 1000.0 * radius)) {
+        return ray;
+    }
+    return {ray.origin + distance / ray.direction.norm() * ray.direction, ray.direction};
+}
+
+bool Geometry::intersect(const Ray &from_anywhere, Coherence coherence, SurfacePoint &hit) const {
+    const Ray ray = from_nearby(from_anywhere);
     ShapeQuery query(ray, coherence == Coherence::coherent);
     RTCRayHit result;
     fill(result.ray, ray, infinity);

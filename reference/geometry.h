@@ -115,6 +115,9 @@ class Geometry {
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
     };
     void attach_triangles(const MeshArrays &meshes, const std::vector<Triangle> &indices);
+    /// Returns the part of a ray that may hit a surface, if it begins at more than a thousand radii
+    /// from all surfaces. Embree rounds its origin to float, which has too few digits there.
+    Ray from_nearby(const Ray &ray) const;
     /// Returns whether the ray hits a surface at t in (0, t_max). The direction of the ray need not
     /// have unit length.
     bool blocked(const Ray &ray, double t_max) const;

@@ -109,6 +109,32 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     return camera;
 }
 
+float camera_start_distance(const float (&position)[3], const SceneExtent &extent) {
+    const double distance =
+        (Eigen::Vector3f(position).cast<double>() - extent.centre).norm() - extent.radius;
+    const bool is_far =
+        extent.radius > 0 && extent.bounded && extent.encloses && distance > 1000 * extent.radius;
+    // The margin covers the rounding of the position.
+    return is_far ? static_cast<float>(distance * (1.0 - 0x1p-22)) : 0.0f;
+}
+
+void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExtent &extent,
+                      CameraRecord &camera) {
+    camera.start_distance = camera_start_distance(camera.position, extent);
+    if (camera.start_distance == 0.0f) {
+        return;
+    }
+    const Eigen::Matrix4d &world = cameras.world_from_camera[index];
+    const Eigen::Vector3d forward = -world.block<3, 1>(0, 2);
+    copy3(Eigen::Vector3d(world.block<3, 1>(0, 3) +
+                          static_cast<double>(camera.start_distance) * forward),
+          camera.start);
+    const double pixel = std::sqrt(static_cast<double>(camera.pixel_area));
+    copy3(Eigen::Vector3d(-0.5 * pixel * camera.width * world.block<3, 1>(0, 0) +
+                          0.5 * pixel * camera.height * world.block<3, 1>(0, 1)),
+          camera.start_corner);
+}
+
 void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene &compiled) {
     const MeshArrays &meshes = scene.meshes;
     compiled.surface_triangles.reserve(meshes.triangle.size());
@@ -206,9 +232,11 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
     } else {
         compile_distances(compiled);
     }
-    compiled.features = FeatureMask().with(Feature::lens, camera.aperture_radius > 0.0f) |
-                        compiled.material_features | compiled.triangle_features |
-                        shape_features(scene.shapes) | compiled.light_features;
+    const bool lens =
+        camera.aperture_radius > 0.0f || compiled.lighting.camera_start_distance > 0.0f;
+    compiled.features = FeatureMask().with(Feature::lens, lens) | compiled.material_features |
+                        compiled.triangle_features | shape_features(scene.shapes) |
+                        compiled.light_features;
     return former;
 }
 

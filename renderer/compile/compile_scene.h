@@ -59,7 +59,8 @@ struct SceneParts {
 struct SceneExtent {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = 0;
-    bool bounded = true;  ///< false: the scene has only planes; the sphere is around the camera
+    bool bounded = true;   ///< false: the scene has only planes; the sphere is around the camera
+    bool encloses = true;  ///< false: the scene has planes, which the sphere does not enclose
 };
 
 /// A scene in the form that the device reads. Arrays have the names of shared/scene_buffers.h.
@@ -107,6 +108,16 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
 
 /// Returns the record of camera `index` for a film of the given size in pixels.
 CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width, int height);
+
+/// Returns the distance from a camera to the scene, rounded down, if it exceeds 1000 radii of the
+/// scene. Returns 0 otherwise, and if planes may be nearer. Rays of such a camera begin at that
+/// distance: float resolves a distance of 1000 radii to 6e-5 radii, a few hundredths of a pixel
+/// that shows 1/512 of the scene.
+float camera_start_distance(const float (&position)[3], const SceneExtent &extent);
+
+/// Moves the start of the rays of a camera that is far from the scene.
+void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExtent &extent,
+                      CameraRecord &camera);
 
 // Steps of `recompile`, which empties the arrays of a part before.
 

@@ -59,7 +59,9 @@ class DeviceScene {
 
     /// Returns the camera for a film of the given size in pixels.
     CameraRecord camera(int width, int height) const {
-        return compile_camera(cameras_, active_camera_, width, height);
+        CameraRecord record = compile_camera(cameras_, active_camera_, width, height);
+        set_camera_start(cameras_, active_camera_, compiled_.extent, record);
+        return record;
     }
 
     /// Returns the inputs of stages that read the scene. `features` must have been required.

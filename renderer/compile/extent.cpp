@@ -32,6 +32,7 @@ SceneExtent tight_extent(const SceneArrays &scene, const CompiledScene &compiled
             shapes.push_back(extent_of_shape(scene.shapes.kind[i], compiled.shapes[i]));
         }
     }
+    const bool encloses = shapes.size() == scene.shapes.kind.size();
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3f &position : scene.meshes.position) {
         box.extend(position.cast<double>());
@@ -42,9 +43,9 @@ SceneExtent tight_extent(const SceneArrays &scene, const CompiledScene &compiled
     }
     if (box.isEmpty()) {
         // Light paths from infinity are traced towards the surroundings of the camera.
-        return {Eigen::Vector3f(compiled.camera.position).cast<double>(), 1.0, false};
+        return {Eigen::Vector3f(compiled.camera.position).cast<double>(), 1.0, false, encloses};
     }
-    SceneExtent extent = {box.center(), 0};
+    SceneExtent extent = {box.center(), 0, true, encloses};
     for (const Eigen::Vector3f &position : scene.meshes.position) {
         extent.radius = std::max(extent.radius, (position.cast<double>() - extent.centre).norm());
     }
@@ -72,6 +73,8 @@ void compile_distances(CompiledScene &compiled) {
     const double camera =
         (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     compiled.lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
+    compiled.lighting.camera_start_distance =
+        camera_start_distance(compiled.camera.position, extent);
 }
 
 }  // namespace rtrays

@@ -74,7 +74,7 @@
     X(dome, "uniform radiance from infinity")                                                 \
     X(environment, "radiance from infinity by an image")                                      \
     /* camera and film */                                                                     \
-    X(lens, "the camera has an aperture")                                                     \
+    X(lens, "the camera has an aperture, or is far from the scene")                           \
     X(convergence, "converged pixels receive no further camera paths (biased)")               \
     X(variance, "the film holds second moments")                                              \
     X(int64_atomics, "the device has 64-bit integer atomics")

@@ -21,7 +21,14 @@ typedef struct CameraRecord {
     float axis_x[3];        ///< unit, to the right
     float focus_distance;   ///< distance of the plane in focus, along the axis
     float axis_y[3];        ///< unit, up
-    float padding;
+    /// Distance from the lens at which camera rays begin; 0 unless the camera is far from the scene
+    /// (compile_scene.h). Nothing is nearer to the lens. Float could not resolve the scene in
+    /// coordinates of the lens.
+    float start_distance;
+    float start[3];  ///< position + start_distance * forward, rounded after the sum
+    float padding0;
+    float start_corner[3];  ///< `corner` without its component along the axis
+    float padding1;
 } CameraRecord;
 
 /// Triangle data for shading, in the scene's triangle order.
@@ -202,9 +209,10 @@ typedef struct LightingRecord {
     uint environment_height;
     /// Radius of a sphere around all bounded surfaces, with a margin; positive.
     float scene_radius;
-    float scene_centre[3];  ///< centre of that sphere
-    uint plane_end;         ///< no shape from this index on is a plane
-    uint padding[2];
+    float scene_centre[3];        ///< centre of that sphere
+    uint plane_end;               ///< no shape from this index on is a plane
+    float camera_start_distance;  ///< CameraRecord::start_distance
+    uint padding;
 } LightingRecord;
 
 /// Value of `light_index` by which stage sample_light selects a light at random.
@@ -219,7 +227,7 @@ typedef struct EmitterTriangle {
 } EmitterTriangle;
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(CameraRecord) == 96, "layout shared with the device");
+static_assert(sizeof(CameraRecord) == 128, "layout shared with the device");
 static_assert(sizeof(SurfaceTriangle) == 64, "layout shared with the device");
 static_assert(sizeof(MaterialRecord) == 16, "layout shared with the device");
 static_assert(sizeof(BxdfRecord) == 64, "layout shared with the device");

@@ -136,6 +136,58 @@ struct RandomCamera {
     }
 };
 
+// From far away, float resolves neither the position of the lens nor the directions of rays. Points
+// of the rays at the scene must nevertheless be those of exact arithmetic, and be connected to the
+// film position that they came from.
+TEST(Camera, ResolvesASceneThatIsFarAway) {
+    Random random(77);
+    const SceneExtent extent = {{0.3, -0.2, 0.1}, 1.5};
+    for (int i = 0; i < 20'000; ++i) {
+        const double distance = log_uniform(random, 3.5, 7);
+        const Eigen::Vector3d back = test::uniform_direction(random);
+        CameraArrays cameras =
+            one_camera(CameraArrays::FovAxis::x, i % 2 == 0 ? 0.0 : 0.5, distance);
+        cameras.fov[0] = 2 * std::atan(1.5 / distance);
+        Eigen::Matrix4d &world = cameras.world_from_camera[0];
+        world.block<3, 1>(0, 2) = back;
+        world.block<3, 1>(0, 0) = back.unitOrthogonal();
+        world.block<3, 1>(0, 1) = back.cross(back.unitOrthogonal());
+        world.block<3, 1>(0, 3) = extent.centre + distance * back;
+        CameraRecord camera = compile_camera(cameras, 0, 512, 512);
+        set_camera_start(cameras, 0, extent, camera);
+        ASSERT_GT(camera.start_distance, 0.99 * distance - 2);
+
+        const auto x = static_cast<float>(uniform(random, 0, 512)),
+                   y = static_cast<float>(uniform(random, 0, 512));
+        const float u = uniform_float(words(static_cast<uint32_t>(i), 9).x), v = 0.25f;
+        const CameraRay ray = camera_ray(camera, x, y, u, v);
+        const double pixel = 2 * std::tan(0.5 * cameras.fov[0]) / 512;
+        const Eigen::Vector3d on_lens = to_double(point_on_lens(camera, u, v)),
+                              film = world.topLeftCorner<3, 3>() *
+                                     Eigen::Vector3d(pixel * (static_cast<double>(x) - 256),
+                                                     pixel * (256 - static_cast<double>(y)), -1),
+                              origin = world.block<3, 1>(0, 3) + on_lens,
+                              way = (film * distance - on_lens).normalized();
+        const Eigen::Vector3d point = to_double(ray.origin) + 2 * to_double(ray.direction);
+        const Eigen::Vector3d error = (point - origin) - way * way.dot(point - origin);
+        EXPECT_LT(error.norm(), 5e-6) << distance;  // a thousandth of a pixel
+        EXPECT_GT(to_double(ray.origin).norm() + 0.5, extent.radius) << "outside the scene";
+
+        const CameraConnection connection = camera_connection(camera, to_float3(point), u, v);
+        ASSERT_GT(connection.pdf_w, 0.0f) << distance << " " << x << " " << y;
+        EXPECT_NEAR(connection.raster.x, x, 2e-3) << distance;
+        EXPECT_NEAR(connection.raster.y, y, 2e-3) << distance;
+    }
+}
+
+TEST(Camera, BeginsOnTheLensUnlessItIsFarAndNoPlaneIsNear) {
+    const float position[3] = {0, 0, 5000};
+    EXPECT_GT(camera_start_distance(position, {{0, 0, 0}, 1}), 4990.0f);
+    EXPECT_LT(camera_start_distance(position, {{0, 0, 0}, 1}), 4999.0f);
+    EXPECT_EQ(camera_start_distance(position, {{0, 0, 0}, 10}), 0.0f);
+    EXPECT_EQ(camera_start_distance(position, {{0, 0, 0}, 1, true, false}), 0.0f);
+}
+
 // Connecting a point of a camera ray to the lens must give the raster position of the ray. The
 // tolerance covers rounding of float directions and points. Slopes have errors of about
 // u (slope + 1). Near the edge of a wide field, where cancellation dominates the forward component

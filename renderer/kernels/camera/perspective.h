@@ -8,7 +8,7 @@
 
 /// A camera ray.
 typedef struct CameraRay {
-    float3 origin;     ///< on the lens
+    float3 origin;
     float3 direction;  ///< unit
 } CameraRay;
 
@@ -20,8 +20,33 @@ DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
            camera.aperture_radius;
 }
 
+/// Returns the unit viewing direction. The scene rejects cameras that mirror, so up x right points
+/// forward.
+DEVICE float3 camera_forward(CameraRecord camera) {
+    return cross(make_float3(camera.axis_y[0], camera.axis_y[1], camera.axis_y[2]),
+                 make_float3(camera.axis_x[0], camera.axis_x[1], camera.axis_x[2]));
+}
+
+/// Returns the point of a ray of `camera_ray` at camera.start_distance from the lens.
+///
+/// With `lateral`, the ray's direction across the axis where its component along the axis is 1, and
+/// n the length of both, the direction is (lateral + forward) / n. Only its difference from forward
+/// is multiplied by the large distance: (lateral - forward |lateral|^2 / (1 + n)) / n.
+DEVICE float3 start_near_scene(CameraRecord camera, float x, float y, float3 on_lens) {
+    const float3 film =
+        make_float3(camera.start_corner[0] + x * camera.step_x[0] + y * camera.step_y[0],
+                    camera.start_corner[1] + x * camera.step_x[1] + y * camera.step_y[1],
+                    camera.start_corner[2] + x * camera.step_x[2] + y * camera.step_y[2]);
+    const float3 lateral = film - on_lens / camera.focus_distance;
+    const float square = dot(lateral, lateral);
+    const float n = sqrt(1.0f + square);
+    const float3 start = make_float3(camera.start[0], camera.start[1], camera.start[2]);
+    return start + on_lens +
+           (lateral - camera_forward(camera) * (square / (1.0f + n))) * (camera.start_distance / n);
+}
+
 /// Returns the ray through film position (x, y), in pixels from the top left corner, and the point
-/// of the lens that (u, v) samples.
+/// of the lens that (u, v) samples. It begins on the lens, or camera.start_distance behind it.
 ///
 /// A uniform position in a pixel has density p_v = 1 / pixel_area per area at unit distance. A
 /// uniform point of the lens has density p_l = 1 / (pi r^2) per area (thesis (2.46)). With the box
@@ -40,16 +65,12 @@ DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, floa
         // Not 0: the component of `towards` along the axis is 1 before scaling, that of the lens
         // point is 0.
         towards = towards * camera.focus_distance - on_lens;
+        if (camera.start_distance > 0.0f) {
+            ray.origin = start_near_scene(camera, x, y, on_lens);
+        }
     }
     ray.direction = normalize(towards);
     return ray;
-}
-
-/// Returns the unit viewing direction. The scene rejects cameras that mirror, so up x right points
-/// forward.
-DEVICE float3 camera_forward(CameraRecord camera) {
-    return cross(make_float3(camera.axis_y[0], camera.axis_y[1], camera.axis_y[2]),
-                 make_float3(camera.axis_x[0], camera.axis_x[1], camera.axis_x[2]));
 }
 
 /// Returns the density per solid angle at the lens point of this ray of `camera_ray`, for one
@@ -85,8 +106,15 @@ DEVICE CameraConnection camera_connection(CameraRecord camera, float3 point, flo
         on_lens = point_on_lens(camera, u, v);
         connection.lens_point += on_lens;
     }
-    const float3 from_lens = point - connection.lens_point;
-    const float depth = dot(from_lens, camera_forward(camera));
+    float3 from_lens = point - connection.lens_point;
+    float depth = dot(from_lens, camera_forward(camera));
+    float3 across = from_lens;  // `from_lens`, up to a multiple of the axis
+    if (FEATURE_lens && camera.start_distance > 0.0f) {
+        const float3 forward = camera_forward(camera);
+        across = point - make_float3(camera.start[0], camera.start[1], camera.start[2]) - on_lens;
+        depth = camera.start_distance + dot(across, forward);
+        from_lens = across + forward * camera.start_distance;
+    }
     if (!(depth > 0.0f)) {
         return connection;
     }
@@ -97,6 +125,8 @@ DEVICE CameraConnection camera_connection(CameraRecord camera, float3 point, flo
     const float3 slope = from_lens / depth;
     float3 seen = slope;
     if (FEATURE_lens) {
+        // The axis is perpendicular to the steps only up to rounding, which a far camera magnifies.
+        seen = across / depth;
         seen += on_lens / camera.focus_distance;
     }
     const float3 step_x = make_float3(camera.step_x[0], camera.step_x[1], camera.step_x[2]);

@@ -90,10 +90,15 @@ DEVICE void set_camera_path_arrival(Path path, PRIVATE const SceneView *scene,
     if (primitive != NO_HIT) {
         const SurfacePoint hit = surface_hit(scene, primitive, get_hit_at(path)).point;
         const float3 to_hit = hit.position - get_ray_origin(path);
+        float squared = dot(to_hit, to_hit);
+        if (FEATURE_lens && first && scene->lighting.camera_start_distance > 0.0f) {
+            const float distance = scene->lighting.camera_start_distance + sqrt(squared);
+            squared = distance * distance;
+        }
         const float cosine = fabs(dot(hit.normal, get_ray_direction(path)));
         // R_0 = A_1 = n_L / P_1 with P_1 of MIS (6), and A_i = 1 / E_i.
         const float paths = first ? (float)settings.light_paths : 1.0f;
-        log_a = log_inverse_pdf_a(get_pdf_w(path), cosine, paths * dot(to_hit, to_hit));
+        log_a = log_inverse_pdf_a(get_pdf_w(path), cosine, paths * squared);
     }
     if (first) {
         set_log_running_ratio(path, log_a);
