@@ -2,6 +2,7 @@
 // Tests ray casting and Whitted ray tracing against closed forms in every pixel, and against path
 // tracing for scenes in which both see the same paths. Neither algorithm uses random numbers, so
 // only the error of path tracing is statistical.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -218,6 +219,34 @@ TEST(Whitted, FollowsEveryOrderOfReflectionInASlab) {
     EXPECT_EQ(report["settings"]["integrator.max_depth"], "8");
     EXPECT_EQ(report["branch_bytes_per_path"], 8 * 48)
         << "hit, direction, throughput, depth, component";
+}
+
+// The limit that docs/scene-format.md gives for the gap between surfaces. A ray that leaves a
+// window must hit the lamp behind the gap.
+TEST(Whitted, SeesASurfaceBehindANarrowGap) {
+    for (const auto &[x, gap] : {std::pair(0.0, 1e-5), std::pair(1000.0, 1e-3)}) {
+        const auto centre_at = [&, at = x](double distance) {
+            const auto square = [&](const char *name, double square_x, double z) {
+                return fmt::format(
+                    R"(, {{"name": "{}", "geometry": {{"type": "rectangle"}}, "transform": [{{"translate": [{}, 0, {}]}}], )",
+                    name, square_x, z);
+            };
+            const std::string black =
+                R"("material": {"type": "lambert", "reflectance": [0, 0, 0], "emission": )";
+            const Scene scene = parse_scene_json(
+                fmt::format(R"({{"version": 1, "film": {{"width": 16, "height": 16}}, "nodes": [
+                    {{"name": "camera", "transform": [{{"translate": [{}, 0, 5]}}],
+                      "camera": {{"type": "pinhole", "fov": 60, "fov_axis": "x"}}}})",
+                            at) +
+                    square("lamp", at, 0) + black + "[1, 1, 1]}}" + square("window", at, distance) +
+                    R"("material": {"type": "refraction", "eta": 1.5, "transmittance": [1, 1, 1]}})" +
+                    square("other", -at, -1) + black + "[0, 0, 0]}}]}",
+                "test", "test");
+            return render(scene, settings_of("whitted")).channel("G")[8 * size + 8];
+        };
+        EXPECT_EQ(centre_at(gap), centre_at(100 * gap)) << x;
+        EXPECT_GT(centre_at(gap), 0) << x;
+    }
 }
 
 TEST(Whitted, CutsBranchesBelowAThreshold) {
