@@ -119,7 +119,7 @@ FeatureMask FeatureMask::closed() const {
         }
     };
     // Repeats until nothing changes; each repetition drops at least one of finitely many features.
-    for (FeatureMask before = FeatureMask::all(); before.bits() != mask.bits();) {
+    for (FeatureMask before = FeatureMask::all(); before != mask;) {
         before = mask;
         drop();
     }

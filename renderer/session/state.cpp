@@ -161,7 +161,7 @@ void RenderSession::State::set_config() {
 
 bool RenderSession::State::update(const Scene &graph) {
     scene->update(graph);
-    if (scene->compiled().features.bits() != scene_features.bits() ||
+    if (scene->compiled().features != scene_features ||
         scene->compiled().lighting.light_count != light_count) {
         return false;
     }

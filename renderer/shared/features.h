@@ -81,6 +81,7 @@
 
 #ifndef __OPENCL_VERSION__
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -94,31 +95,45 @@ enum class Feature : uint32_t {
 #undef RTRAYS_FEATURE
         count
 };
-static_assert(static_cast<uint32_t>(Feature::count) < 64, "a mask has 64 bits");
 
-/// A set of features, as bits of a 64-bit mask.
+/// A set of features.
 class FeatureMask {
   public:
     constexpr FeatureMask() = default;
 
     static constexpr FeatureMask all() {
-        return FeatureMask((uint64_t{1} << static_cast<uint32_t>(Feature::count)) - 1u);
+        FeatureMask mask;
+        for (uint32_t i = 0; i < static_cast<uint32_t>(Feature::count); ++i) {
+            mask = mask.with(static_cast<Feature>(i));
+        }
+        return mask;
     }
 
     constexpr bool has(Feature feature) const {
-        return (bits_ >> static_cast<uint32_t>(feature) & 1u) != 0;
+        return (words_[word(feature)] & bit(feature)) != 0;
     }
     constexpr FeatureMask with(Feature feature, bool on = true) const {
-        const uint64_t bit = uint64_t{1} << static_cast<uint32_t>(feature);
-        return FeatureMask(on ? bits_ | bit : bits_ & ~bit);
+        FeatureMask mask = *this;
+        uint64_t &changed = mask.words_[word(feature)];
+        changed = on ? changed | bit(feature) : changed & ~bit(feature);
+        return mask;
     }
     constexpr FeatureMask without(FeatureMask others) const {
-        return FeatureMask(bits_ & ~others.bits_);
+        FeatureMask mask = *this;
+        for (uint32_t i = 0; i < words; ++i) {
+            mask.words_[i] &= ~others.words_[i];
+        }
+        return mask;
     }
     constexpr FeatureMask operator|(FeatureMask other) const {
-        return FeatureMask(bits_ | other.bits_);
+        FeatureMask mask = *this;
+        for (uint32_t i = 0; i < words; ++i) {
+            mask.words_[i] |= other.words_[i];
+        }
+        return mask;
     }
-    constexpr uint64_t bits() const { return bits_; }
+    bool operator==(FeatureMask other) const { return words_ == other.words_; }
+    bool operator!=(FeatureMask other) const { return words_ != other.words_; }
 
     /// Returns the set without the features whose requirements are missing. For example,
     /// explicit_light requires lights and scattering.
@@ -131,9 +146,14 @@ class FeatureMask {
     std::map<std::string, std::string> defines() const;
 
   private:
-    constexpr explicit FeatureMask(uint64_t bits) : bits_(bits) {}
+    static constexpr uint32_t words = (static_cast<uint32_t>(Feature::count) + 63) / 64;
 
-    uint64_t bits_ = 0;
+    static constexpr uint32_t word(Feature feature) { return static_cast<uint32_t>(feature) / 64; }
+    static constexpr uint64_t bit(Feature feature) {
+        return uint64_t{1} << static_cast<uint32_t>(feature) % 64;
+    }
+
+    std::array<uint64_t, words> words_{};
 };
 
 }  // namespace rtrays
