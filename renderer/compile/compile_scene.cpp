@@ -194,8 +194,12 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         parts.textures |=
             has_textures != had_textures || !are_equal(compiled.texture_sources, scene.textures);
         parts.triangles |= reads_uv(compiled) != read_uv;
+        parts.opacity |= !are_equal(compiled.texture_sources, scene.textures) ||
+                         compiled.opacity_sources != scene.materials.opacity;
         compiled.texture_sources = scene.textures;
+        compiled.opacity_sources = scene.materials.opacity;
     }
+    parts.shapes |= parts.opacity && !scene.shapes.kind.empty();  // they hold their opacity
     if (parts.textures) {
         former.textures = std::exchange(compiled.textures, {});
         former.texels = std::exchange(compiled.texels, {});
@@ -219,6 +223,14 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         former.shapes = std::exchange(compiled.shapes, compile_shapes(scene.shapes));
         former.shape_bounds = std::exchange(compiled.shape_bounds, bound_shapes(compiled.shapes));
     }
+    parts.opacity |= moved || parts.shapes;
+    if (parts.opacity) {
+        former.triangle_masks = std::exchange(compiled.triangle_masks, {});
+        former.masked_triangles = std::exchange(compiled.masked_triangles, {});
+        former.opacities = std::exchange(compiled.opacities, {});
+        former.opacity_texels = std::exchange(compiled.opacity_texels, {});
+        compile_opacity(scene, settings.every_array, compiled);
+    }
     if (parts.lights) {
         former.lights = std::exchange(compiled.lights, {});
         former.emitter_triangles = std::exchange(compiled.emitter_triangles, {});
@@ -236,7 +248,7 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         camera.aperture_radius > 0.0f || compiled.lighting.camera_start_distance > 0.0f;
     compiled.features = FeatureMask().with(Feature::lens, lens) | compiled.material_features |
                         compiled.triangle_features | shape_features(scene.shapes) |
-                        compiled.light_features;
+                        compiled.light_features | compiled.opacity_features;
     return former;
 }
 

@@ -51,8 +51,10 @@ struct SceneParts {
     bool shapes = false;       ///< `shapes`, `shape_bounds`
     bool lights = false;       ///< `lights`, `emitter_triangles`, `lighting`
     bool environment = false;  ///< `environment_texels`, `environment_ends`
+    /// `triangle_masks`, `masked_triangles`, `opacities`, `opacity_texels`
+    bool opacity = false;
 
-    static SceneParts all() { return {true, true, true, true, true, true}; }
+    static SceneParts all() { return {true, true, true, true, true, true, true}; }
 };
 
 /// Sphere around all bounded surfaces of a scene.
@@ -75,6 +77,10 @@ struct CompiledScene {
     std::vector<BxdfRecord> components;
     std::vector<TextureRecord> textures;
     std::vector<uint32_t> texels;
+    std::vector<uint32_t> triangle_masks;
+    std::vector<MaskedTriangle> masked_triangles;
+    std::vector<OpacityRecord> opacities;
+    std::vector<float> opacity_texels;
     std::vector<LightRecord> lights;
     std::vector<EmitterTriangle> emitter_triangles;
     std::vector<float> environment_texels;
@@ -83,9 +89,10 @@ struct CompiledScene {
     FeatureMask features;  ///< features of the scene, without those of the integrator
 
     // Inputs of later compilations of single parts.
-    FeatureMask material_features, triangle_features, light_features;
+    FeatureMask material_features, triangle_features, light_features, opacity_features;
     SceneExtent extent;
     TextureArrays texture_sources;
+    std::vector<MaterialOpacity> opacity_sources;
     bool has_headlight = false;
     std::shared_ptr<const TextureImage> environment_image;  ///< source of the environment's arrays
     double environment_integral = 0;                        ///< `compile_environment` of that image
@@ -129,6 +136,13 @@ void compile_textures(const TextureArrays &textures, CompiledScene &compiled);
 
 /// Compiles triangles without their emitters. Reads `material_features`, sets `triangle_features`.
 void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene &compiled);
+
+/// Compiles the opacities of materials, and of the triangles and shapes that have them. Sets
+/// `opacity_features`.
+void compile_opacity(const SceneArrays &scene, bool every_array, CompiledScene &compiled);
+
+/// Returns the record of texture `index` without the place of its texels.
+TextureRecord texture_record(const TextureArrays &textures, size_t index);
 
 /// Compiles lights, and the emitters of triangles and shapes. Reads `extent` and `camera`, sets
 /// `light_features`.

@@ -71,6 +71,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
 /// Features that only serve others. Each is off unless one of the features that it serves is on.
 constexpr std::pair<Feature, std::array<Feature, 2>> supporting_features[] = {
     {Feature::scattering, {Feature::triangles, Feature::shapes}},
+    {Feature::opacity, {Feature::triangles, Feature::shapes}},
     {Feature::shapes, {Feature::quadrics, Feature::julia}},
     {Feature::infinite_lights, {Feature::dome, Feature::environment}},
     {Feature::delta, {Feature::ideal_reflection, Feature::ideal_refraction}},

@@ -92,18 +92,8 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
 
 void compile_texture(const TextureArrays &textures, size_t index, CompiledScene &compiled) {
     const TextureImage &image = *textures.image[index];
-    TextureRecord record{};
+    TextureRecord record = texture_record(textures, index);
     record.first_word = static_cast<uint32_t>(compiled.texels.size());
-    record.width = static_cast<uint32_t>(image.width);
-    record.height = static_cast<uint32_t>(image.height);
-    record.flags =
-        (image.bytes.empty() ? TEXTURE_FLOAT : 0u) | (image.srgb ? TEXTURE_SRGB : 0u) |
-        (textures.filter[index] == TextureArrays::Filter::bilinear ? TEXTURE_BILINEAR : 0u) |
-        (textures.wrap[index] == TextureArrays::Wrap::clamp ? TEXTURE_CLAMP : 0u);
-    for (int i = 0; i < 2; ++i) {
-        record.uv_scale[i] = static_cast<float>(textures.uv_scale[index][i]);
-        record.uv_offset[i] = static_cast<float>(textures.uv_offset[index][i]);
-    }
     compiled.textures.push_back(record);
     for (size_t i = 0; i + 2 < image.bytes.size(); i += 3) {
         compiled.texels.push_back(static_cast<uint32_t>(image.bytes[i]) |
@@ -117,6 +107,22 @@ void compile_texture(const TextureArrays &textures, size_t index, CompiledScene 
 }
 
 }  // namespace
+
+TextureRecord texture_record(const TextureArrays &textures, size_t index) {
+    const TextureImage &image = *textures.image[index];
+    TextureRecord record{};
+    record.width = static_cast<uint32_t>(image.width);
+    record.height = static_cast<uint32_t>(image.height);
+    record.flags =
+        (image.bytes.empty() ? TEXTURE_FLOAT : 0u) | (image.srgb ? TEXTURE_SRGB : 0u) |
+        (textures.filter[index] == TextureArrays::Filter::bilinear ? TEXTURE_BILINEAR : 0u) |
+        (textures.wrap[index] == TextureArrays::Wrap::clamp ? TEXTURE_CLAMP : 0u);
+    for (int i = 0; i < 2; ++i) {
+        record.uv_scale[i] = static_cast<float>(textures.uv_scale[index][i]);
+        record.uv_offset[i] = static_cast<float>(textures.uv_offset[index][i]);
+    }
+    return record;
+}
 
 void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
     const MaterialArrays &materials = scene.materials;

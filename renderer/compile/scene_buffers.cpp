@@ -22,6 +22,10 @@ constexpr auto materials = &SceneParts::materials;
 constexpr auto components = &SceneParts::materials;
 constexpr auto textures = &SceneParts::textures;
 constexpr auto texels = &SceneParts::textures;
+constexpr auto triangle_masks = &SceneParts::opacity;
+constexpr auto masked_triangles = &SceneParts::opacity;
+constexpr auto opacities = &SceneParts::opacity;
+constexpr auto opacity_texels = &SceneParts::opacity;
 constexpr auto lights = &SceneParts::lights;
 constexpr auto emitter_triangles = &SceneParts::lights;
 constexpr auto environment_texels = &SceneParts::environment;
@@ -65,6 +69,7 @@ void SceneBuffers::require(DeviceContext &device, const CompiledScene &compiled,
     if (feature && !exists(name##_)) {                        \
         name##_ = Buffer<type>(device, #name, compiled.name); \
     }
+    OPACITY_BUFFERS(ROW)
     SHAPE_BUFFERS(ROW)
     SHADING_BUFFERS(ROW)
 #undef ROW
@@ -76,6 +81,7 @@ void SceneBuffers::update(DeviceContext &device, const CompiledScene &former,
     if (parts.*part_of::name && exists(name##_)) {                  \
         write_changes(device, former.name, compiled.name, name##_); \
     }
+    OPACITY_BUFFERS(ROW)
     SHAPE_BUFFERS(ROW)
     SHADING_BUFFERS(ROW)
 #undef ROW
@@ -86,21 +92,24 @@ StageArguments SceneBuffers::arguments(const CompiledScene &compiled, const Bvh 
                                        FeatureMask features) const {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
     using Arguments = std::vector<KernelArgument>;
-    Arguments hierarchy, shapes, shading;
+    Arguments hierarchy, opacity, shapes, shading;
 #define ROW(list, feature, name)    \
     if (feature) {                  \
         list.emplace_back(name##_); \
     }
 #define HIERARCHY_ROW(feature, type, name) ROW(hierarchy, feature, name)
+#define OPACITY_ROW(feature, type, name) ROW(opacity, feature, name)
 #define SHAPE_ROW(feature, type, name) ROW(shapes, feature, name)
 #define SHADING_ROW(feature, type, name) ROW(shading, feature, name)
     bvh.visit([&](const auto &bvh_nodes_, const auto &bvh_triangles_) {
         HIERARCHY_BUFFERS(HIERARCHY_ROW)
     });
+    OPACITY_BUFFERS(OPACITY_ROW)
     SHAPE_BUFFERS(SHAPE_ROW)
     SHADING_BUFFERS(SHADING_ROW)
 #undef SHADING_ROW
 #undef SHAPE_ROW
+#undef OPACITY_ROW
 #undef HIERARCHY_ROW
 #undef ROW
     const auto joined = [](std::initializer_list<Arguments> lists) {
@@ -113,9 +122,9 @@ StageArguments SceneBuffers::arguments(const CompiledScene &compiled, const Bvh 
     const auto shape_count = static_cast<uint32_t>(compiled.shapes.size());
     const Arguments count = {shape_count};
     const Arguments values = {shape_count, compiled.lighting};
-    return {{StageInput::tracing, joined({hierarchy, shapes, count})},
+    return {{StageInput::tracing, joined({hierarchy, opacity, shapes, count})},
             {StageInput::shading, joined({shapes, shading, values})},
-            {StageInput::scene, joined({hierarchy, shapes, shading, values})}};
+            {StageInput::scene, joined({hierarchy, opacity, shapes, shading, values})}};
 }
 
 }  // namespace rtrays

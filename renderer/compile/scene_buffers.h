@@ -31,6 +31,7 @@ class SceneBuffers {
     template <typename Visit>
     void visit(const Visit &visit_buffer) const {
 #define ROW(feature, type, name) visit_buffer(name##_);
+        OPACITY_BUFFERS(ROW)
         SHAPE_BUFFERS(ROW)
         SHADING_BUFFERS(ROW)
 #undef ROW
@@ -38,6 +39,7 @@ class SceneBuffers {
 
   private:
 #define ROW(feature, type, name) Buffer<type> name##_;
+    OPACITY_BUFFERS(ROW)
     SHAPE_BUFFERS(ROW)
     SHADING_BUFFERS(ROW)
 #undef ROW

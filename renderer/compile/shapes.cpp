@@ -118,6 +118,7 @@ std::vector<ShapeRecord> compile_shapes(const ShapeArrays &shapes) {
         record.kind = kind == Kind::julia ? SHAPE_JULIA : SHAPE_QUADRIC;
         record.material = shapes.material[i];
         record.light = NO_EMITTER;  // compile_lights sets it for shapes that emit
+        record.opacity = OPAQUE;    // compile_opacity sets it for shapes that are not
         try {
             Eigen::Matrix4d world_from_object = shapes.world_from_object[i];
             if (kind == Kind::julia) {

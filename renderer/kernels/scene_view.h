@@ -19,6 +19,7 @@
 typedef struct SceneView {
 #define X(feature, type, name) GLOBAL const type *name;
     HIERARCHY_BUFFERS(X)
+    OPACITY_BUFFERS(X)
     SHAPE_BUFFERS(X)
     SHADING_BUFFERS(X)
 #undef X
@@ -30,13 +31,15 @@ typedef struct SceneView {
 
 #define BUFFER_PARAMETER(type, name) GLOBAL const type *name,
 #define X_PARAMETER(feature, type, name) WHEN(feature)(BUFFER_PARAMETER(type, name))
-#define TRACING_PARAMETERS \
-    HIERARCHY_BUFFERS(X_PARAMETER) SHAPE_BUFFERS(X_PARAMETER) uint shape_count
+#define TRACING_PARAMETERS         \
+    HIERARCHY_BUFFERS(X_PARAMETER) \
+    OPACITY_BUFFERS(X_PARAMETER) SHAPE_BUFFERS(X_PARAMETER) uint shape_count
 #define SHADING_PARAMETERS     \
     SHAPE_BUFFERS(X_PARAMETER) \
     SHADING_BUFFERS(X_PARAMETER) uint shape_count, LightingRecord lighting
 #define SCENE_PARAMETERS           \
     HIERARCHY_BUFFERS(X_PARAMETER) \
+    OPACITY_BUFFERS(X_PARAMETER)   \
     SHADING_PARAMETERS
 
 #define BUFFER_INITIALISER(type, name) .name = name,
@@ -44,11 +47,12 @@ typedef struct SceneView {
 #define SHADING_MEMBERS          \
     SHAPE_BUFFERS(X_INITIALISER) \
     SHADING_BUFFERS(X_INITIALISER).shape_count = shape_count, .lighting = lighting
+#define TRACING_MEMBERS HIERARCHY_BUFFERS(X_INITIALISER) OPACITY_BUFFERS(X_INITIALISER)
 // clang-format off
 #define TRACING_VIEW \
-    { HIERARCHY_BUFFERS(X_INITIALISER) SHAPE_BUFFERS(X_INITIALISER) .shape_count = shape_count }
+    { TRACING_MEMBERS SHAPE_BUFFERS(X_INITIALISER) .shape_count = shape_count }
 #define SHADING_VIEW { SHADING_MEMBERS }
-#define SCENE_VIEW { HIERARCHY_BUFFERS(X_INITIALISER) SHADING_MEMBERS }
+#define SCENE_VIEW { TRACING_MEMBERS SHADING_MEMBERS }
 // clang-format on
 
 #endif

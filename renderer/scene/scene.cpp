@@ -105,6 +105,16 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
         collector.add(textures.uv_scale);
         collector.add(textures.uv_offset);
     }
+    const std::vector<MaterialOpacity> &opacities = arrays.materials.opacity;
+    if (!std::all_of(opacities.begin(), opacities.end(),
+                     [](const MaterialOpacity &opacity) { return opacity.is_opaque(); })) {
+        collector.begin("opacity");
+        for (const MaterialOpacity &opacity : opacities) {
+            collector.add(opacity.value);
+            collector.add(opacity.texture);
+            collector.add(opacity.cutoff);
+        }
+    }
     const ShapeArrays &shapes = arrays.shapes;
     if (!shapes.kind.empty()) {
         collector.begin("shapes");

@@ -43,8 +43,8 @@ TEST(SceneErrors, Materials) {
              "in.json:2: /nodes/1/material: missing key 'reflectance' of the lambert: albedo"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "sigma": 0})",
              "/nodes/1/material/sigma: unknown key 'sigma' of the lambert; allowed: emission, "
-             "reflectance, "
-             "reflectance_texture, two_sided"},
+             "opacity, opacity_cutoff, opacity_texture, reflectance, reflectance_texture, "
+             "two_sided"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "specular_texture": {"file": "a", "encoding": "srgb"}})",
              "unknown key 'specular_texture' of the lambert"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1.5]})",
@@ -96,7 +96,8 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite"})", "missing key 'components' of the composite"},
             {R"({"type": "composite", "components": []})", "/nodes/1/material/components"},
             {R"({"type": "composite", "eta": 1, "components": [{"bxdf": "lambert", "weight": [1, 1, 1]}]})",
-             "unknown key 'eta' of the composite; allowed: components, emission, two_sided"},
+             "unknown key 'eta' of the composite; allowed: components, emission, opacity, "
+             "opacity_cutoff, opacity_texture, two_sided"},
             {R"({"type": "composite", "components": [{"weight": [1, 1, 1]}]})",
              "/nodes/1/material/components/0 (in 'a'): missing key 'bxdf'"},
             {R"({"type": "composite", "components": [{"bxdf": "lambert"}]})",
@@ -181,6 +182,22 @@ TEST_F(TexturedMaterials, EnergyIsCheckedWithThemAndOnEdits) {
     expect_input_error("'a.reflectance': the material returns more light than arrives",
                        [&] { scene.set_property("a.reflectance", "1,1,0.6"); });
     EXPECT_EQ(scene.materials().component[0].weight, Rgb(1, 1, 0.5f));
+}
+
+TEST_F(TexturedMaterials, OpacityIsAtMostOne) {
+    std::ofstream(testing::TempDir() + "bright.pfm", std::ios::binary)
+        << "PF\n1 1\n-1.0\n"
+        << std::string("\0\0\0\x40\0\0\0\x40\0\0\0\x40", 12);  // 2, 2, 2
+    const auto textured = [](const char *opacity) {
+        return std::string(
+                   R"({"name": "a", "geometry": {"type": "sphere"}, "material": {"type": "mirror", "reflectance": [1, 1, 1], "opacity": )") +
+               opacity + R"(, "opacity_texture": {"file": "bright.pfm", "encoding": "linear"}}})";
+    };
+    expect_input_error("exceeds 1", [&] { parse(textured("0.6")); });
+    Scene scene = parse(textured("0.5"));
+    expect_input_error("opacity: 0.75 times the brightest texel of its texture, 2, exceeds 1",
+                       [&] { scene.set_property("a.opacity", "0.75"); });
+    expect_input_error("opacity", [&] { parse(textured("1.5")); });
 }
 
 TEST(SceneErrors, Geometry) {

@@ -207,6 +207,7 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
         set("lamp.fov", "1"));
     expect_input_error(
         "'box.size': 'box' has no property 'size'; properties are: emission, fov, fov_axis, "
+        "opacity, opacity_cutoff, "
         "reflectance, ",
         set("box.size", "1"));
     expect_input_error("expected NODE.PROPERTY", set("fov", "1"));

@@ -512,6 +512,45 @@ TEST_F(Textures, AreSharedByMaterialsAndFilesByTextures) {
     EXPECT_EQ(textures.name, (std::vector<std::string>{"wood"}));
 }
 
+TEST(Materials, HaveAnOpacity) {
+    Scene scene = parse(
+        R"({"name": "a", "geometry": {"type": "sphere"}, "material": {"type": "mirror", "reflectance": [1, 1, 1]}},
+           {"name": "b", "geometry": {"type": "sphere"}, "material": {"type": "composite", "opacity": 0.25,
+            "opacity_cutoff": 0.125, "components": [{"bxdf": "lambert", "weight": [0.5, 0.5, 0.5]}]}})");
+    const std::vector<MaterialOpacity> &opacities = scene.materials().opacity;
+    ASSERT_EQ(opacities.size(), 2u);
+    EXPECT_TRUE(opacities[0] == MaterialOpacity());
+    EXPECT_EQ(opacities[1].value, 0.25);
+    EXPECT_EQ(opacities[1].cutoff, 0.125);
+    EXPECT_TRUE(opacities[1].is_opaque()) << "above the cutoff";
+    const std::string hash = scene.hash();
+    scene.set_property("b.opacity_cutoff", "0.5");
+    scene.update(0);
+    EXPECT_FALSE(opacities[1].is_opaque());
+    EXPECT_NE(scene.hash(), hash);
+    scene.set_property("b.opacity", "1");
+    scene.update(0);
+    EXPECT_EQ(scene.hash(), hash) << "opaque scenes have the hash that they had without opacity";
+}
+
+TEST_F(Textures, OfOpacitiesAreKeptWhileTheyAreUsed) {
+    write_text("two.ppm", std::string("P6 2 1 255\n") + "\x10\x20\x30\x40\x50\x60");
+    Scene scene = parse(
+        R"({"name": "a", "geometry": {"type": "sphere"}, "material": {"type": "lambert", "reflectance": [1, 1, 1],
+            "reflectance_texture": {"file": "two.ppm", "encoding": "srgb"}}},
+           {"name": "b", "geometry": {"type": "sphere"}, "material": {"type": "lambert", "reflectance": [1, 1, 1],
+            "opacity_texture": {"file": "two.ppm", "encoding": "linear"}}})");
+    const std::vector<MaterialOpacity> &opacities = scene.materials().opacity;
+    EXPECT_EQ(opacities[0].texture, no_index);
+    EXPECT_EQ(opacities[1].texture, 1u);
+    EXPECT_FALSE(opacities[1].is_opaque());
+    scene.graph().find("a")->set_core(grey("plain"));
+    scene.update(0);
+    expect_consistent(scene.graph());
+    EXPECT_EQ(scene.arrays().textures.name, (std::vector<std::string>{"b.opacity_texture"}));
+    EXPECT_EQ(opacities[1].texture + opacities[0].texture, 0u + no_index) << "one has texture 0";
+}
+
 TEST_F(Textures, EnvironmentsAreImagesOfFloats) {
     Image image = Image::rgb(2, 1);
     image.channel("R") = {1, 2};

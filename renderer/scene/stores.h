@@ -113,12 +113,31 @@ struct BxdfComponent {
     Distribution distribution = Distribution::ggx;
 };
 
+/// The opacity of a material: the share of light that its surface stops. The rest passes straight
+/// through, and neither changes the light nor counts as a scattering event.
+struct MaterialOpacity {
+    double value = 1;             ///< [0, 1], factor of the texture
+    uint32_t texture = no_index;  ///< index into TextureArrays; the luminance of its colours counts
+    /// If positive, an opacity from here on counts as 1 and a lower one as 0.
+    double cutoff = 0;
+
+    /// Returns whether the surface stops all light, whatever the texture.
+    bool is_opaque() const {
+        return texture == no_index && (cutoff > 0 ? value >= cutoff : value >= 1);
+    }
+};
+
+inline bool operator==(const MaterialOpacity &a, const MaterialOpacity &b) {
+    return a.value == b.value && a.texture == b.texture && a.cutoff == b.cutoff;
+}
+
 /// Materials: weighted sums of atomic BxDFs (thesis 3.3.6).
 struct MaterialArrays {
     std::vector<std::string> name;
     std::vector<uint32_t> first_component;
     std::vector<uint32_t> component_count;
-    std::vector<uint8_t> two_sided;  ///< 0: black from behind, unless a component refracts
+    std::vector<uint8_t> two_sided;        ///< 0: black from behind, unless a component refracts
+    std::vector<MaterialOpacity> opacity;  ///< a material without an entry is opaque
     // per component, all materials concatenated
     std::vector<BxdfComponent> component;
 };

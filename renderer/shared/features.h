@@ -57,6 +57,7 @@
     X(fresnel_conductor_approximate, "approximate conductor of the thesis")                   \
     X(fresnel_schlick, "Schlick's approximation")                                             \
     X(textures, "a weight has a texture")                                                     \
+    X(opacity, "rays may pass a surface: hits are accepted with its opacity")                 \
     /* lights */                                                                              \
     X(lights, "the scene has emitters")                                                       \
     X(direction_density, "paths store the density of their direction")                        \

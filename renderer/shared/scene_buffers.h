@@ -19,6 +19,14 @@
     X(FEATURE_shapes, ShapeRecord, shapes) \
     X(FEATURE_shapes, ShapeBounds, shape_bounds)
 
+/// What decides whether a ray passes a surface that is not opaque (kernels/traversal/opacity.h).
+/// `triangle_masks` has an index into `masked_triangles`, or OPAQUE, for each triangle.
+#define OPACITY_BUFFERS(X)                               \
+    X(FEATURE_opacity, uint, triangle_masks)             \
+    X(FEATURE_opacity, MaskedTriangle, masked_triangles) \
+    X(FEATURE_opacity, OpacityRecord, opacities)         \
+    X(FEATURE_opacity, float, opacity_texels)
+
 /// The triangles for shading, the materials and the lights.
 #define SHADING_BUFFERS(X)                                       \
     X(FEATURE_triangles, SurfaceTriangle, surface_triangles)     \

@@ -112,6 +112,27 @@ typedef struct TextureRecord {
 #define TEXTURE_BILINEAR 4u  ///< bilinear lookup, otherwise nearest
 #define TEXTURE_CLAMP 8u     ///< clamped coordinates, otherwise repeated
 
+/// The opacity of a material (kernels/traversal/opacity.h).
+typedef struct OpacityRecord {
+    /// Its texels are floats, one word each, in `opacity_texels`. Its width is 0 if the opacity has
+    /// no texture.
+    TextureRecord texture;
+    float opacity;  ///< factor of the texture
+    /// Opacities from here on count as 1 and lower ones as 0. If 0, the opacity is the share of
+    /// rays that are stopped.
+    float cutoff;
+    uint padding[2];
+} OpacityRecord;
+
+#define OPAQUE 0xffffffffu
+
+/// A triangle whose material is not opaque.
+typedef struct MaskedTriangle {
+    float uv[3][2];  ///< texture coordinates of the corners
+    uint opacity;    ///< index of its OpacityRecord
+    uint padding;
+} MaskedTriangle;
+
 /// Shading normals and texture coordinates of a triangle's corners. Each has its own buffer, which
 /// exists only if a feature reads it.
 typedef struct TriangleNormals {
@@ -141,7 +162,8 @@ typedef struct ShapeRecord {
     uint uv_kind;  ///< SHAPE_UV_*
     /// (16 u k)^2 with k = |A|_F |M|_F, A = object_from_world and M its inverse (shape_space.h).
     float error2;
-    float padding[2];
+    uint opacity;  ///< index of its OpacityRecord, or OPAQUE
+    float padding;
 } ShapeRecord;
 
 #define SHAPE_QUADRIC 0u
@@ -232,6 +254,8 @@ static_assert(sizeof(SurfaceTriangle) == 64, "layout shared with the device");
 static_assert(sizeof(MaterialRecord) == 16, "layout shared with the device");
 static_assert(sizeof(BxdfRecord) == 64, "layout shared with the device");
 static_assert(sizeof(TextureRecord) == 32, "layout shared with the device");
+static_assert(sizeof(OpacityRecord) == 48, "layout shared with the device");
+static_assert(sizeof(MaskedTriangle) == 32, "layout shared with the device");
 static_assert(sizeof(TriangleNormals) == 48, "layout shared with the device");
 static_assert(sizeof(TriangleUv) == 24, "layout shared with the device");
 static_assert(sizeof(ShapeRecord) == 144, "layout shared with the device");

@@ -54,12 +54,13 @@ struct HostBvh {
     Hit nearest(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction,
                 float t_max = INFINITY) const {
         return visit([&](const auto *n, const auto *t) {
-            return trace_nearest(n, t, to_float3(origin), to_float3(direction), t_max);
+            return trace_nearest(n, t, to_float3(origin), to_float3(direction), t_max,
+                                 all_opaque());
         });
     }
     bool any(const Eigen::Vector3f &origin, const Eigen::Vector3f &direction, float t_max) const {
         return visit([&](const auto *n, const auto *t) {
-            return trace_any(n, t, to_float3(origin), to_float3(direction), t_max);
+            return trace_any(n, t, to_float3(origin), to_float3(direction), t_max, all_opaque());
         });
     }
 

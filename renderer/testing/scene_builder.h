@@ -151,11 +151,18 @@ inline void expect_consistent(const SceneGraph &graph) {
     }
     ASSERT_EQ(arrays.materials.component.size(), components);
     std::vector<bool> used(arrays.textures.name.size());
-    for (const BxdfComponent &component : arrays.materials.component) {
-        if (component.texture != no_index) {
-            ASSERT_LT(component.texture, used.size());
-            used[component.texture] = true;
+    const auto mark = [&](uint32_t texture) {
+        if (texture != no_index) {
+            ASSERT_LT(texture, used.size());
+            used[texture] = true;
         }
+    };
+    for (const BxdfComponent &component : arrays.materials.component) {
+        mark(component.texture);
+    }
+    ASSERT_EQ(arrays.materials.opacity.size(), arrays.materials.name.size());
+    for (const MaterialOpacity &opacity : arrays.materials.opacity) {
+        mark(opacity.texture);
     }
     ASSERT_EQ(std::count(used.begin(), used.end(), false), 0) << "textures that no material uses";
 }

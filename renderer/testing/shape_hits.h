@@ -31,16 +31,18 @@ inline ShapeRecord compile(const Shape &shape, uint32_t light = no_index) {
 
 DEVICE ShapeHit nearest_shape(const ShapeRecord *shapes, uint count, float3 origin,
                               float3 direction, float t_max) {
+    const OpacityTest opaque = all_opaque();
     ShapeHit expected{t_max, NO_HIT, {0, 0, 0}};
     for (uint i = 0; i < count; ++i) {
         float t;
         float3 object_point;
-        if (intersect_shape(shapes + i, origin, direction, expected.t, &t, &object_point)) {
+        if (intersect_shape(shapes, i, origin, direction, expected.t, &opaque, &t, &object_point)) {
             expected = {t, i, object_point};
         }
     }
     const std::vector<ShapeBounds> bounds = bound_shapes({shapes, shapes + count});
-    const ShapeHit hit = ::nearest_shape(shapes, bounds.data(), count, origin, direction, t_max);
+    const ShapeHit hit =
+        ::nearest_shape(shapes, bounds.data(), count, origin, direction, t_max, opaque);
     EXPECT_EQ(hit.shape, expected.shape);
     EXPECT_EQ(hit.t, expected.t);
     return hit;
@@ -49,7 +51,7 @@ DEVICE ShapeHit nearest_shape(const ShapeRecord *shapes, uint count, float3 orig
 DEVICE bool any_shape(const ShapeRecord *shapes, uint count, float3 origin, float3 direction,
                       float t_max) {
     const std::vector<ShapeBounds> bounds = bound_shapes({shapes, shapes + count});
-    return ::any_shape(shapes, bounds.data(), count, origin, direction, t_max);
+    return ::any_shape(shapes, bounds.data(), count, origin, direction, t_max, all_opaque());
 }
 
 }  // namespace rtrays::test

@@ -37,7 +37,14 @@ std::string in_one_line(std::string message) {
 }
 
 /// Returns the indices of the channels to use as red, green and blue.
-std::vector<int> colour_channels(const OIIO::ImageSpec &spec, const std::filesystem::path &path) {
+std::vector<int> used_channels(const OIIO::ImageSpec &spec, ImageChannels channels,
+                               const std::filesystem::path &path) {
+    if (channels == ImageChannels::alpha) {
+        if (spec.alpha_channel < 0) {
+            throw file_error(path, "the image has no alpha channel");
+        }
+        return std::vector<int>(3, spec.alpha_channel);
+    }
     const auto find = [&](const char *name) {
         const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
         return static_cast<int>(found - spec.channelnames.begin());
@@ -75,10 +82,10 @@ void check_header(const OIIO::ImageSpec &spec, const std::filesystem::path &path
     }
 }
 
-/// Reads the colour channels of all texels as `T`.
+/// Reads the given channels of all texels as `T`.
 template <typename T>
 std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
-                           const std::vector<int> &colours, OIIO::TypeDesc format,
+                           const std::vector<int> &used, OIIO::TypeDesc format,
                            const std::filesystem::path &path) {
     const auto texels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
     const auto channels = static_cast<size_t>(spec.nchannels);
@@ -90,30 +97,35 @@ std::vector<T> read_texels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec,
     std::vector<T> rgb(texels * 3);
     for (size_t i = 0; i < texels; ++i) {
         for (size_t c = 0; c < 3; ++c) {
-            rgb[3 * i + c] = all[channels * i + static_cast<size_t>(colours[c])];
+            rgb[3 * i + c] = all[channels * i + static_cast<size_t>(used[c])];
         }
     }
     return rgb;
 }
 
-void read_image(const std::filesystem::path &path, RawImage &image) {
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path &path) {
     OIIO::ImageSpec config;
-    // Alpha is dropped, so colours must not be multiplied by it.
+    // Colours are used without alpha, so they must not be multiplied by it.
     config["oiio:UnassociatedAlpha"] = 1;
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &config);
     if (input == nullptr) {
         throw file_error(path, "cannot read as an image: " + in_one_line(OIIO::geterror()));
     }
+    return input;
+}
+
+void read_image(const std::filesystem::path &path, ImageChannels channels, RawImage &image) {
+    const std::unique_ptr<OIIO::ImageInput> input = open_image(path);
     const OIIO::ImageSpec spec = input->spec();
     check_header(spec, path);
-    const std::vector<int> colours = colour_channels(spec, path);
+    const std::vector<int> used = used_channels(spec, channels, path);
     image.width = spec.width;
     image.height = spec.height;
     image.is_floating = spec.format.is_floating_point();
     if (spec.format == OIIO::TypeDesc::UINT8) {
-        image.bytes = read_texels<uint8_t>(*input, spec, colours, OIIO::TypeDesc::UINT8, path);
+        image.bytes = read_texels<uint8_t>(*input, spec, used, OIIO::TypeDesc::UINT8, path);
     } else {
-        image.floats = read_texels<float>(*input, spec, colours, OIIO::TypeDesc::FLOAT, path);
+        image.floats = read_texels<float>(*input, spec, used, OIIO::TypeDesc::FLOAT, path);
     }
 }
 
@@ -133,10 +145,15 @@ void write_image(const std::filesystem::path &path, const char *format, int widt
 
 }  // namespace rtrays
 
-// Exported symbols of the module, of types `rtrays::ReadImageFile` and `rtrays::WriteImageFile`.
-extern "C" void rtrays_read_image_file(const std::filesystem::path &path, rtrays::RawImage &image) {
+// Exported symbols of the module, of the types in image_module.h.
+extern "C" bool rtrays_has_alpha_channel(const std::filesystem::path &path) {
+    return rtrays::open_image(path)->spec().alpha_channel >= 0;
+}
+
+extern "C" void rtrays_read_image_file(const std::filesystem::path &path,
+                                       rtrays::ImageChannels channels, rtrays::RawImage &image) {
     try {
-        rtrays::read_image(path, image);
+        rtrays::read_image(path, channels, image);
     } catch (const rtrays::Error &) {
         throw;
     } catch (const std::exception &error) {

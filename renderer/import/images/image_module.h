@@ -10,7 +10,11 @@
 
 namespace rtrays {
 
-/// The colour channels of an image file as stored: three channels per texel, top row first.
+/// The channels of an image file that a texture uses.
+enum class ImageChannels { colours, alpha };
+
+/// Channels of an image file as stored: three per texel, top row first. Alpha is stored three
+/// times.
 struct RawImage {
     int width = 0;
     int height = 0;
@@ -21,11 +25,14 @@ struct RawImage {
 
 /// Signatures of the functions that the module exports. `load_texture_file` and
 /// `write_texture_file` document the errors they throw.
-using ReadImageFile = void(const std::filesystem::path &path, RawImage &image);
+using ReadImageFile = void(const std::filesystem::path &path, ImageChannels channels,
+                           RawImage &image);
+using HasAlphaChannel = bool(const std::filesystem::path &path);
 using WriteImageFile = void(const std::filesystem::path &path, const char *format, int width,
                             int height, const uint8_t *rgb);
 constexpr const char *image_module_name = "librtrays_images.so";
 constexpr const char *read_image_file_name = "rtrays_read_image_file";
+constexpr const char *has_alpha_channel_name = "rtrays_has_alpha_channel";
 constexpr const char *write_image_file_name = "rtrays_write_image_file";
 
 }  // namespace rtrays

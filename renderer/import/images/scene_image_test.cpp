@@ -83,6 +83,24 @@ TEST_F(ImageFiles, EightBitsStayBytes) {
     EXPECT_EQ(with_alpha->height, 1);
 }
 
+TEST_F(ImageFiles, AlphaBecomesAGreyImage) {
+    const std::filesystem::path with_alpha = file("a.png", png_with_alpha());
+    const auto alpha = load(with_alpha, TextureEncoding::alpha);
+    EXPECT_EQ(alpha->bytes, (Bytes{0, 0, 0, 255, 255, 255}));
+    EXPECT_FALSE(alpha->srgb);
+    EXPECT_TRUE(has_alpha_channel(with_alpha));
+    const std::filesystem::path without =
+        file("c.ppm", "P6 2 1 255\n" + std::string("\x01\x02\x03\xfd\xfe\xff"));
+    EXPECT_FALSE(has_alpha_channel(without));
+    expect_input_error("c.ppm: the image has no alpha channel",
+                       [&] { load(without, TextureEncoding::alpha); });
+    expect_input_error("cannot read as an image",
+                       [] { has_alpha_channel(file("broken.png", "no image")); });
+    TextureFiles files;
+    EXPECT_NE(files.load(with_alpha, TextureEncoding::alpha),
+              files.load(with_alpha, TextureEncoding::linear));
+}
+
 TEST_F(ImageFiles, EverythingElseBecomesLinearFloats) {
     EXPECT_EQ(load(file("f.pfm", pfm({0, 0.5f, 7e4f})))->floats, (Floats{0, 0.5f, 7e4f}));
     // 2 x 1 texels of one grey channel of 16 bits, 32768 and 65535.

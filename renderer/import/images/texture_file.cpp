@@ -60,7 +60,9 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
         throw file_error(path, "no such file");
     }
     RawImage raw;
-    image_function<ReadImageFile>(read_image_file_name, path)(path, raw);
+    const ImageChannels channels =
+        encoding == TextureEncoding::alpha ? ImageChannels::alpha : ImageChannels::colours;
+    image_function<ReadImageFile>(read_image_file_name, path)(path, channels, raw);
     const bool is_srgb = encoding == TextureEncoding::srgb;
     if (is_srgb && raw.is_floating) {
         throw file_error(path, "floating-point images are linear; set \"encoding\" to \"linear\"");
@@ -78,6 +80,13 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
         }
     }
     return image;
+}
+
+bool has_alpha_channel(const std::filesystem::path &path) {
+    if (!std::filesystem::is_regular_file(path)) {
+        throw file_error(path, "no such file");
+    }
+    return image_function<HasAlphaChannel>(has_alpha_channel_name, path)(path);
 }
 
 void require_image_module(const std::filesystem::path &path) {

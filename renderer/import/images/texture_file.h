@@ -11,16 +11,21 @@
 
 namespace rtrays {
 
-/// Encoding of the values of an image file. sRGB values are decoded to linear ones.
-enum class TextureEncoding { srgb, linear };
+/// Encoding of the values of an image file. sRGB values are decoded to linear ones. `alpha` is the
+/// alpha channel as a grey image; it is linear.
+enum class TextureEncoding { srgb, linear, alpha };
 
 /// Reads an image in any format of OpenImageIO (PNG, JPEG, TIFF, EXR, HDR, ...). Uses the channels
-/// R, G and B, or one grey channel for all three. Alpha is dropped. 8-bit images keep 8 bits, all
-/// others become linear floats. Throws `Error` (bad input) naming the file if it is missing,
+/// R, G and B, or one grey channel for all three, or the alpha channel. 8-bit images keep 8 bits,
+/// all others become linear floats. Throws `Error` (bad input) naming the file if it is missing,
 /// damaged or empty, or has other channels. Also throws if a value is negative or not finite, or if
 /// a floating-point image is declared as sRGB.
 std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::path &path,
                                                       TextureEncoding encoding);
+
+/// Returns whether an image has an alpha channel. Throws `Error` (bad input) naming the file if it
+/// cannot be read.
+bool has_alpha_channel(const std::filesystem::path &path);
 
 /// Loads the image module. Throws `Error` (bad input) naming `path` if this build has none.
 void require_image_module(const std::filesystem::path &path);

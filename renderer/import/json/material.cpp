@@ -55,7 +55,13 @@ void add_with_prefix(const ParameterValues &from, const std::string &prefix, Par
 std::shared_ptr<MaterialCore> read_composite(const Json &value, const std::string &name,
                                              const SceneSource &source, const std::string &path,
                                              const TextureLookup &lookup) {
-    check_keys(value, "composite", {"components"}, {"two_sided", "emission"});
+    const ParameterTable &common = common_material_parameters();
+    std::vector<std::string> others = {"components"};
+    ParameterTextures textures = read_textures(value, common, "", name, path, lookup, others);
+    ParameterValues values = parameter_values(value, "composite", common, others, source, path);
+    if (!value.contains("components")) {
+        throw input_error("missing key 'components' of the composite");
+    }
     const Json &components = value.at("components");
     std::vector<CompositePart> parts;
     for (const Json &component : components) {
@@ -66,17 +72,14 @@ std::shared_ptr<MaterialCore> read_composite(const Json &value, const std::strin
         parts.push_back(part);
     }
     const std::shared_ptr<const MaterialType> type = composite_type(parts);
-    ParameterValues values = parameter_values(value, "composite", common_material_parameters(),
-                                              {"components"}, source, path);
-    ParameterTextures textures;
     for (size_t i = 0; i < parts.size(); ++i) {
         const std::string at = fmt::format("{}/components/{}", path, i);
         const std::string prefix = part_prefix(i);
         const std::string fresnel_prefix = prefix + "fresnel_";
         const Json &component = components[i];
-        std::vector<std::string> others = {"bxdf", "fresnel"};
+        std::vector<std::string> other_keys = {"bxdf", "fresnel"};
         textures.merge(
-            read_textures(component, type->parameters, prefix, name, at, lookup, others));
+            read_textures(component, type->parameters, prefix, name, at, lookup, other_keys));
 
         ParameterTable rows;
         for (Parameter &row : without_prefix(type->parameters, prefix)) {
@@ -84,7 +87,7 @@ std::shared_ptr<MaterialCore> read_composite(const Json &value, const std::strin
                 rows.push_back(std::move(row));
             }
         }
-        add_with_prefix(parameter_values(component, parts[i].bxdf, rows, others, source, at),
+        add_with_prefix(parameter_values(component, parts[i].bxdf, rows, other_keys, source, at),
                         prefix, values);
         if (component.contains("fresnel")) {
             add_with_prefix(
@@ -105,8 +108,10 @@ std::shared_ptr<Texture> read_texture(const Json &value, const std::string &name
     const ParameterValues values = parameter_values(value, "texture", Texture::parameter_table(),
                                                     {"file", "encoding"}, source, path);
     return source.located(path + "/file", [&] {
-        const TextureEncoding encoding =
-            value.at("encoding") == "srgb" ? TextureEncoding::srgb : TextureEncoding::linear;
+        const std::string &encoding_name = value.at("encoding").get_ref<const std::string &>();
+        const TextureEncoding encoding = encoding_name == "srgb"    ? TextureEncoding::srgb
+                                         : encoding_name == "alpha" ? TextureEncoding::alpha
+                                                                    : TextureEncoding::linear;
         return std::make_shared<Texture>(name, files.load(source.file(value.at("file")), encoding),
                                          values);
     });

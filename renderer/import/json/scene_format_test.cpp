@@ -107,9 +107,15 @@ Names names_of(const Table &table, Names names = {}) {
 class SceneFormat : public WithImages {};
 
 TEST_F(SceneFormat, EveryExampleIsReadAndSerialized) {
-    std::ofstream(testing::TempDir() + "wood.png", std::ios::binary) << "P6 1 1 255\nabc";
-    std::filesystem::copy_file(RTRAYS_CORPUS "/square.ply", testing::TempDir() + "bunny.ply",
-                               std::filesystem::copy_options::overwrite_existing);
+    for (const char *name : {"wood.png", "fence.png"}) {
+        std::ofstream(testing::TempDir() + name, std::ios::binary) << "P6 1 1 255\nabc";
+    }
+    for (const auto &[from, to] :
+         {std::pair(RTRAYS_CORPUS "/square.ply", "bunny.ply"),
+          std::pair(RTRAYS_SCENES "/features/assets/leaf.png", "leaf.png")}) {
+        std::filesystem::copy_file(from, testing::TempDir() + to,
+                                   std::filesystem::copy_options::overwrite_existing);
+    }
     for (const char *name : {"grid.exr", "sky.exr"}) {
         Image image = Image::rgb(1, 1);
         write_exr(image, testing::TempDir() + name);

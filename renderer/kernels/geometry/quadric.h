@@ -32,13 +32,13 @@ DEVICE float quadric_half_slope(GLOBAL const ShapeRecord *q, float3 p, float3 d)
     return q->a * (p.x * d.x + p.y * d.y) + q->b * (p.z * d.z) + 0.5f * q->c * d.z;
 }
 
-/// Returns whether the ray hits the surface at shift + s with 0 < t < t_max; the ray's origin is
-/// the point at `shift`. A Newton step moves the point onto the surface and squares its error
+/// Returns whether the ray hits the surface at shift + s with t_min < t < t_max; the ray's origin
+/// is the point at `shift`. A Newton step moves the point onto the surface and squares its error
 /// across it; then the point is clipped. Comparisons are such that NaN is a miss.
 DEVICE bool quadric_hit(GLOBAL const ShapeRecord *q, ShapeRay ray, float shift, float s,
-                        float t_max, PRIVATE float *t, PRIVATE float3 *p) {
+                        float t_min, float t_max, PRIVATE float *t, PRIVATE float3 *p) {
     *t = ray.t_origin + (shift + s) * ray.t_scale;
-    if (!(*t > 0.0f && *t < t_max)) {
+    if (!(*t > t_min && *t < t_max)) {
         return false;
     }
     float3 point = ray.origin + ray.direction * s;
@@ -53,7 +53,8 @@ DEVICE bool quadric_hit(GLOBAL const ShapeRecord *q, ShapeRay ray, float shift, 
     return point.z >= q->z_lower && point.z <= q->z_upper && dot(point, point) <= q->bound2;
 }
 
-/// Finds the first hit at 0 < t < t_max. Let A s^2 + 2 B s + C be the quadric along the ray.
+/// Finds the first hit at t_min < t < t_max, where t_min is at least 0. Let A s^2 + 2 B s + C be
+/// the quadric along the ray.
 /// - The signs of A, B and C at the ray's origin tell on which side of it the roots are. The root
 ///   of smaller modulus is C / w and the other w / A, with w = -(B + sign(B) sqrt(B^2 - A C))
 ///   (Press et al.). If C > 0, B >= 0 and A >= 0, as for a ray that leaves a convex surface from
@@ -65,7 +66,7 @@ DEVICE bool quadric_hit(GLOBAL const ShapeRecord *q, ShapeRay ray, float shift, 
 ///   cancel, worst near the apex of a cone, where both roots coincide. A plane has no size, and its
 ///   discriminant has no second term; its roots are computed about the ray's own origin.
 /// - A = 0 leaves one root: for a plane, or for an axis-parallel ray and a paraboloid.
-DEVICE bool intersect_quadric(GLOBAL const ShapeRecord *q, ShapeRay ray, float t_max,
+DEVICE bool intersect_quadric(GLOBAL const ShapeRecord *q, ShapeRay ray, float t_min, float t_max,
                               PRIVATE float *t, PRIVATE float3 *p) {
     const float3 d = ray.direction;
     const float3 o = ray.origin;
@@ -95,6 +96,6 @@ DEVICE bool intersect_quadric(GLOBAL const ShapeRecord *q, ShapeRay ray, float t
     const float s0 = c / w;
     const float s1 = a == 0.0f ? s0 : w / a;
     ray.origin = near;
-    return (both && quadric_hit(q, ray, shift, s0 < s1 ? s0 : s1, t_max, t, p)) ||
-           quadric_hit(q, ray, shift, s0 < s1 ? s1 : s0, t_max, t, p);
+    return (both && quadric_hit(q, ray, shift, s0 < s1 ? s0 : s1, t_min, t_max, t, p)) ||
+           quadric_hit(q, ray, shift, s0 < s1 ? s1 : s0, t_min, t_max, t, p);
 }

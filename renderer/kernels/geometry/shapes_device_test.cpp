@@ -37,17 +37,20 @@ __kernel void trace(__global const ShapeRecord *shapes, __global const ShapeBoun
     const float3 origin = make_float3(r[0], r[1], r[2]);
     const float3 direction = make_float3(r[3], r[4], r[5]);
     const float3 away = make_float3(r[6], r[7], r[8]);
-    const ShapeHit hit = nearest_shape(shapes, bounds, shape_count, origin, direction, INFINITY);
+    const ShapeHit hit = nearest_shape(shapes, bounds, shape_count, origin, direction, INFINITY,
+                                       all_opaque());
     out[0] = hit.t;
     out[1] = hit.shape == NO_HIT ? -1.0f : (float)hit.shape;
-    out[2] = any_shape(shapes, bounds, shape_count, origin, direction, INFINITY) ? 1.0f : 0.0f;
+    out[2] = any_shape(shapes, bounds, shape_count, origin, direction, INFINITY, all_opaque())
+                 ? 1.0f : 0.0f;
     out[3] = 0.0f;
     out[4] = 0.0f;
     out[5] = -1.0f;
     if (hit.shape != NO_HIT) {
         const SurfacePoint point = shape_point(shapes + hit.shape, hit.object_point);
         const ShapeHit next = nearest_shape(shapes + hit.shape, single_bounds + hit.shape, 1u,
-                                            offset_ray_origin(point, away), away, INFINITY);
+                                            offset_ray_origin(point, away), away, INFINITY,
+                                            all_opaque());
         out[3] = dot(point.normal, away) < 0.0f ? 0.0f : 1.0f;
         out[4] = next.t;
         out[5] = next.shape == NO_HIT ? -1.0f : 1.0f;

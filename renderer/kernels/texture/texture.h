@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Texture lookups. (0, 0) is the lower left corner of the image and (1, 1) its upper right corner.
-// Rows are stored from the top. Texel centres are at half-integer texel coordinates.
+// Lookups of colours in textures.
 #pragma once
 
 #include "renderer/kernels/texture/srgb_table.h"
-#include "renderer/shared/compat.h"
-#include "renderer/shared/scene_records.h"
+#include "renderer/kernels/texture/texel_position.h"
 
 /// Returns the linear colour of texel `index`, counted row by row.
 DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
@@ -20,44 +18,6 @@ DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const ui
         return make_float3(srgb_to_linear[r], srgb_to_linear[g], srgb_to_linear[b]);
     }
     return make_float3((float)r, (float)g, (float)b) / 255.0f;
-}
-
-/// Returns the coordinate in [0, 1] for a lookup at x. For repeated textures, a coordinate whose
-/// fraction rounds to 1 gives 0. So does one beyond the range of float, whose fraction is NaN.
-DEVICE float texture_wrap(float x, uint clamped) {
-    if (clamped != 0u) {
-        return x > 0.0f ? min(x, 1.0f) : 0.0f;
-    }
-    const float fraction = x - floor(x);
-    return fraction >= 0.0f && fraction < 1.0f ? fraction : 0.0f;
-}
-
-/// Neighbouring texels along one axis, and the position `t` of the lookup between them.
-typedef struct TexelPair {
-    uint first, second;
-    float t;
-} TexelPair;
-
-/// Returns the texels around `x` in [0, 1].
-DEVICE TexelPair texel_pair(float x, uint size, uint clamped) {
-    const float position = x * (float)size - 0.5f;  // at least -1/2, at most size - 1/2
-    const float below = floor(position);
-    const int i = (int)below;
-    const int last = (int)size - 1;
-    TexelPair pair;
-    pair.t = position - below;
-    pair.first = (uint)(i >= 0 ? i : clamped != 0u ? 0 : last);
-    pair.second = (uint)(i < last ? i + 1 : clamped != 0u ? last : 0);
-    return pair;
-}
-
-/// Returns the position of `uv` in the image, where (0, 0) is the upper left corner and (1, 1) the
-/// lower right corner.
-DEVICE float2 texture_position(GLOBAL const TextureRecord *texture, float2 uv) {
-    const uint clamped = texture->flags & TEXTURE_CLAMP;
-    return make_float2(
-        texture_wrap(texture->uv_scale[0] * uv.x + texture->uv_offset[0], clamped),
-        1.0f - texture_wrap(texture->uv_scale[1] * uv.y + texture->uv_offset[1], clamped));
 }
 
 /// Returns the linear colour at `uv`.

@@ -7,17 +7,17 @@
 #include "renderer/kernels/traversal/traverse_wide.h"
 #include "renderer/shared/bvh_layout.h"
 
-// trace_nearest returns the nearest hit at 0 < t < t_max, where t_max may be INFINITY. Rays that
-// are not finite hit nothing. trace_any returns whether anything is hit at 0 < t < t_max. It is
-// true exactly if `trace_nearest` finds a hit.
-#define BVH_QUERIES(NODE, TRIANGLES, traverse)                                            \
-    DEVICE Hit trace_nearest(GLOBAL const NODE *nodes, GLOBAL const TRIANGLES *triangles, \
-                             float3 origin, float3 direction, float t_max) {              \
-        return traverse(nodes, triangles, origin, direction, t_max, false);               \
-    }                                                                                     \
-    DEVICE bool trace_any(GLOBAL const NODE *nodes, GLOBAL const TRIANGLES *triangles,    \
-                          float3 origin, float3 direction, float t_max) {                 \
-        return traverse(nodes, triangles, origin, direction, t_max, true).slot != NO_HIT; \
+// trace_nearest returns the nearest hit at 0 < t < t_max, where t_max may be INFINITY, that stops
+// the ray. Rays that are not finite hit nothing. trace_any returns whether anything stops the ray
+// at 0 < t < t_max. It is true exactly if `trace_nearest` finds a hit.
+#define BVH_QUERIES(NODE, TRIANGLES, traverse)                                                     \
+    DEVICE Hit trace_nearest(GLOBAL const NODE *nodes, GLOBAL const TRIANGLES *triangles,          \
+                             float3 origin, float3 direction, float t_max, OpacityTest opacity) {  \
+        return traverse(nodes, triangles, origin, direction, t_max, false, opacity);               \
+    }                                                                                              \
+    DEVICE bool trace_any(GLOBAL const NODE *nodes, GLOBAL const TRIANGLES *triangles,             \
+                          float3 origin, float3 direction, float t_max, OpacityTest opacity) {     \
+        return traverse(nodes, triangles, origin, direction, t_max, true, opacity).slot != NO_HIT; \
     }
 
 #ifdef __cplusplus

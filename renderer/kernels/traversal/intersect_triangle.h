@@ -2,6 +2,7 @@
 // The nearest hit of a ray, and the intersection test of one triangle (watertight.h).
 #pragma once
 
+#include "renderer/kernels/traversal/opacity.h"
 #include "renderer/kernels/traversal/traversal_ray.h"
 #include "renderer/shared/bvh_node.h"
 #include "renderer/shared/hit_primitive.h"
@@ -82,12 +83,16 @@ DEVICE bool intersect_triangle(GLOBAL const LeafTriangle *triangle, PRIVATE cons
 /// Updates `hit` with the nearest hit at 0 < t < hit->t among the triangles of a leaf (bvh_node.h),
 /// if there is one.
 DEVICE void intersect_leaf(GLOBAL const LeafTriangle *triangles, uint link,
-                           PRIVATE const TraversalRay *ray, PRIVATE Hit *hit) {
+                           PRIVATE const TraversalRay *ray, PRIVATE const OpacityTest *opacity,
+                           PRIVATE Hit *hit) {
     const uint first = bvh_leaf_first(link);
     const uint end = first + bvh_leaf_count(link);
     COUNT(*hit, triangles, end - first);
     for (uint slot = first; slot < end; ++slot) {
-        if (intersect_triangle(triangles + slot, ray, hit->t, hit)) {
+        Hit nearer = *hit;
+        if (intersect_triangle(triangles + slot, ray, hit->t, &nearer) &&
+            triangle_stops(opacity, triangles[slot].id, nearer.u, nearer.v)) {
+            *hit = nearer;
             hit->slot = slot;
         }
     }

@@ -15,8 +15,8 @@ __kernel void trace_nearest_rays(GLOBAL const BVH_NODE *nodes,
         return;
     }
     const RayRecord ray = rays[i];
-    hits[i] =
-        trace_nearest(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max);
+    hits[i] = trace_nearest(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction),
+                            ray.t_max, all_opaque());
 }
 
 __kernel void trace_any_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIANGLES *triangles,
@@ -26,8 +26,8 @@ __kernel void trace_any_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIA
         return;
     }
     const RayRecord ray = rays[i];
-    const bool hit =
-        trace_any(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction), ray.t_max);
+    const bool hit = trace_any(nodes, triangles, vload3(0, ray.origin), vload3(0, ray.direction),
+                               ray.t_max, all_opaque());
     occluded[i] = hit ? 1u : 0u;
 }
 
@@ -40,7 +40,7 @@ __kernel void count_nearest_rays(GLOBAL const BVH_NODE *nodes,
     if (i < ray_count) {
         const RayRecord ray = rays[i];
         const Hit hit = TRAVERSE_BVH(nodes, triangles, vload3(0, ray.origin),
-                                     vload3(0, ray.direction), ray.t_max, false);
+                                     vload3(0, ray.direction), ray.t_max, false, all_opaque());
         work[i].nodes = hit.nodes;
         work[i].triangles = hit.triangles;
     }
@@ -52,7 +52,7 @@ __kernel void count_any_rays(GLOBAL const BVH_NODE *nodes, GLOBAL const BVH_TRIA
     if (i < ray_count) {
         const RayRecord ray = rays[i];
         const Hit hit = TRAVERSE_BVH(nodes, triangles, vload3(0, ray.origin),
-                                     vload3(0, ray.direction), ray.t_max, true);
+                                     vload3(0, ray.direction), ray.t_max, true, all_opaque());
         work[i].nodes = hit.nodes;
         work[i].triangles = hit.triangles;
     }

@@ -83,6 +83,78 @@ TEST_P(TraversalHits, AnyHitIsNearestHitBelowTheLimit) {
     }
 }
 
+/// Opacities of the triangles of a mesh: opaque, half, none and textured ones in turn.
+struct Opacities {
+    std::vector<uint32_t> masks;
+    std::vector<MaskedTriangle> masked;
+    std::vector<OpacityRecord> records = std::vector<OpacityRecord>(3);
+    std::vector<float> texels = {0, 1, 0.5f, 0.25f};
+
+    explicit Opacities(const Mesh &mesh) {
+        records[0].opacity = 0.5f;
+        records[2].opacity = 1;
+        records[2].texture = {0, 2, 2, 0, {1, 1}, {0, 0}};
+        for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+            masks.push_back(i % 4 == 3 ? OPAQUE : static_cast<uint32_t>(masked.size()));
+            if (i % 4 != 3) {
+                masked.push_back({{{0, 0}, {1, 0}, {0, 1}}, i % 4, 0});
+            }
+        }
+    }
+
+    OpacityTest test(const RayRecord &ray) const {
+        return {masks.data(), masked.data(), records.data(), texels.data(),
+                hash_of_ray(to_float3(ray_origin(ray)), to_float3(ray_direction(ray)))};
+    }
+};
+
+/// Returns the nearest hit that stops the ray, found by testing every triangle.
+Hit nearest_of_all(const HostBvh &bvh2, const Mesh &mesh, const RayRecord &ray,
+                   const OpacityTest &opacity) {
+    Hit hit = no_hit(INFINITY);
+    const Eigen::AlignedBox3f box = mesh.box();
+    TraversalRay prepared;
+    if (!make_traversal_ray(to_float3(ray_origin(ray)), to_float3(ray_direction(ray)),
+                            to_float3(box.min()), to_float3(box.max()), &prepared)) {
+        return hit;
+    }
+    for (const LeafTriangle &triangle : bvh2.triangles) {
+        Hit found = hit;
+        if (intersect_triangle(&triangle, &prepared, hit.t, &found) &&
+            triangle_stops(&opacity, triangle.id, found.u, found.v)) {
+            hit = found;
+            hit.triangle = triangle.id;
+        }
+    }
+    return hit;
+}
+
+TEST_P(TraversalHits, RaysPassTrianglesThatDoNotStopThem) {
+    const Mesh mesh = soup(300, 8);
+    const Opacities opacities(mesh);
+    const HostBvh bvh = build_bvh(mesh, GetParam()), bvh2 = build_bvh(mesh);
+    int passed = 0, hits = 0;
+    for (const RayRecord &ray : fuzzed_rays(mesh, 30000, 9)) {
+        const OpacityTest opacity = opacities.test(ray);
+        const Hit expected = nearest_of_all(bvh2, mesh, ray, opacity);
+        bvh.visit([&](const auto *nodes, const auto *triangles) {
+            const float3 origin = to_float3(ray_origin(ray));
+            const float3 direction = to_float3(ray_direction(ray));
+            const Hit hit = trace_nearest(nodes, triangles, origin, direction, INFINITY, opacity);
+            EXPECT_EQ(hit.t, expected.t);
+            EXPECT_EQ(hit.triangle == NO_HIT, expected.triangle == NO_HIT);
+            for (const float t_max : {hit.t, std::nextafter(hit.t, INFINITY)}) {
+                EXPECT_EQ(trace_any(nodes, triangles, origin, direction, t_max, opacity),
+                          t_max > hit.t);
+            }
+        });
+        passed += expected.t != bvh.nearest(ray_origin(ray), ray_direction(ray)).t ? 1 : 0;
+        hits += expected.triangle != NO_HIT ? 1 : 0;
+    }
+    EXPECT_GT(passed, 3000);
+    EXPECT_GT(hits, 3000);
+}
+
 TEST_P(TraversalHits, BarycentricsGiveTheHitPoint) {
     const Mesh mesh = soup(5000, 8);
     const HostBvh bvh = build_bvh(mesh, GetParam());

@@ -14,7 +14,8 @@
 /// Traverses the hierarchy for both queries. `any` is a constant at every call and ends traversal
 /// at the first hit.
 DEVICE Hit traverse_bvh2(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle *triangles,
-                         float3 origin, float3 direction, float t_max, bool any) {
+                         float3 origin, float3 direction, float t_max, bool any,
+                         OpacityTest opacity) {
     Hit hit = no_hit(t_max);
     const float3 scene_lower = make_float3(min(nodes->bounds[0][0][0], nodes->bounds[1][0][0]),
                                            min(nodes->bounds[0][0][1], nodes->bounds[1][0][1]),
@@ -49,7 +50,7 @@ DEVICE Hit traverse_bvh2(GLOBAL const BvhNode *nodes, GLOBAL const LeafTriangle 
                 continue;
             }
         } else {
-            intersect_leaf(triangles, link, &ray, &hit);
+            intersect_leaf(triangles, link, &ray, &opacity, &hit);
             if (any && hit.slot != NO_HIT) {
                 return hit;
             }

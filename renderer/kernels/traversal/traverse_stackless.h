@@ -14,7 +14,7 @@
 /// at the first hit.
 DEVICE Hit traverse_stackless(GLOBAL const StacklessNode *nodes,
                               GLOBAL const LeafTriangle *triangles, float3 origin, float3 direction,
-                              float t_max, bool any) {
+                              float t_max, bool any, OpacityTest opacity) {
     Hit hit = no_hit(t_max);
     TraversalRay ray;
     if (!make_traversal_ray(origin, direction, vload3(0, nodes->bounds[0]),
@@ -32,7 +32,7 @@ DEVICE Hit traverse_stackless(GLOBAL const StacklessNode *nodes,
             index = node->link + (node->right_first >> octant & 1u);
         } else {
             index = node->escape[octant];
-            intersect_leaf(triangles, node->link, &ray, &hit);
+            intersect_leaf(triangles, node->link, &ray, &opacity, &hit);
             if (any && hit.slot != NO_HIT) {
                 return hit;
             }

@@ -39,7 +39,8 @@ DEVICE uint intersect_wide_boxes(GLOBAL const WideNode *node, PRIVATE const Trav
 
 /// Updates `hit` with the nearest hit in a block at 0 < t < hit->t, if there is one.
 DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block,
-                            PRIVATE const TraversalRay *ray, PRIVATE Hit *hit) {
+                            PRIVATE const TraversalRay *ray, PRIVATE const OpacityTest *opacity,
+                            PRIVATE Hit *hit) {
     GLOBAL const float(*xs)[WIDE_LANES] = blocks[block].coordinate[ray->kx];
     GLOBAL const float(*ys)[WIDE_LANES] = blocks[block].coordinate[ray->ky];
     GLOBAL const float(*zs)[WIDE_LANES] = blocks[block].coordinate[ray->kz];
@@ -61,7 +62,8 @@ DEVICE void intersect_block(GLOBAL const TriangleBlock *blocks, uint block,
     vstore8(v, 0, vs);
     for (; lanes != 0u; lanes &= lanes - 1u) {
         const uint lane = lowest_bit(lanes);
-        if (ts[lane] < hit->t) {
+        if (ts[lane] < hit->t &&
+            triangle_stops(opacity, blocks[block].id[lane], us[lane], vs[lane])) {
             hit->t = ts[lane];
             hit->u = us[lane];
             hit->v = vs[lane];
@@ -86,7 +88,8 @@ DEVICE void prefetch_link(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlo
 /// Traverses the hierarchy for both queries. `any` is a constant at every call and ends traversal
 /// at the first hit.
 DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBlock *blocks,
-                         float3 origin, float3 direction, float t_max, bool any) {
+                         float3 origin, float3 direction, float t_max, bool any,
+                         OpacityTest opacity) {
     Hit hit = no_hit(t_max);
     TraversalRay ray;
     if (!make_traversal_ray(
@@ -136,7 +139,7 @@ DEVICE Hit traverse_wide(GLOBAL const WideNode *nodes, GLOBAL const TriangleBloc
             }
         } else {
             COUNT(hit, triangles, wide_leaf_count(link));
-            intersect_block(blocks, wide_leaf_block(link), &ray, &hit);
+            intersect_block(blocks, wide_leaf_block(link), &ray, &opacity, &hit);
             if (any && hit.slot != NO_HIT) {
                 return hit;
             }

@@ -39,7 +39,7 @@ struct MaterialType : CoreType {
 const std::vector<MaterialType> &material_types();
 
 /// The scattering and emission of a surface: a sum of atomic BxDFs (thesis 3.3.6). All types share
-/// the parameters two_sided and emission.
+/// the parameters two_sided, emission, opacity and opacity_cutoff.
 class MaterialCore : public ParameterCore {
   public:
     /// Throws `Error` (bad input) like `ParameterCore`, and for an unknown type, listing the types.
@@ -56,6 +56,10 @@ class MaterialCore : public ParameterCore {
     bool two_sided() const { return parameters().get<bool>("two_sided"); }
     const Eigen::Vector3d &emission() const { return parameters().vector3("emission"); }
     bool emits() const { return emission().maxCoeff() > 0; }
+    /// Returns the opacity without the index of its texture, which is `opacity_texture`.
+    MaterialOpacity opacity() const;
+    std::shared_ptr<Texture> opacity_texture() const { return parameters().texture("opacity"); }
+    bool is_opaque() const { return opacity_texture() == nullptr && opacity().is_opaque(); }
 
     /// Called by the textures of the material when they change.
     void texture_changed() { changed(Dirty::object); }
@@ -69,5 +73,8 @@ class MaterialCore : public ParameterCore {
 
 /// Returns the parameters that every material has.
 const ParameterTable &common_material_parameters();
+
+/// Throws `Error` (bad input) if the opacity of a material exceeds 1 at a texel.
+void check_opacity(const ParameterSet &parameters);
 
 }  // namespace rtrays

@@ -223,6 +223,7 @@ MaterialType material(const char *name, ParameterTable parameters,
         if (check != nullptr) {
             check(p);
         }
+        check_opacity(p);
         check_energy(expand(p));
     };
     return type;

@@ -77,6 +77,14 @@ void LightStore::write(uint32_t slot, const Node &node, const AttributeSet &attr
             "give the light a node of its own",
             node.name(), emission->name()));
     }
+    const MaterialCore *material = attributes.get<MaterialAttribute>().material;
+    if ((light == nullptr || light->kind() == Kind::diffuse_area) && material != nullptr &&
+        !material->is_opaque()) {
+        throw input_error(fmt::format(
+            "light '{}': its surface has the opacity of material '{}', but an area light must be "
+            "opaque; remove the opacity or the light",
+            node.name(), material->name()));
+    }
     const Eigen::Matrix4d &world = attributes.get<TransformAttribute>().world_from_object;
     arrays.kind[slot] = light != nullptr ? light->kind() : Kind::diffuse_area;
     arrays.radiance[slot] =

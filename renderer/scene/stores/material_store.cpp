@@ -33,13 +33,21 @@ uint32_t TextureStore::record(const std::shared_ptr<Texture> &texture) {
     return slot;
 }
 
-void TextureStore::keep_used(std::vector<BxdfComponent> &components) {
+void TextureStore::keep_used(MaterialArrays &materials) {
     std::vector<uint32_t> new_index(owners_.size(), no_index);
-    for (const BxdfComponent &component : components) {
-        if (component.texture != no_index) {
-            new_index[component.texture] = 0;
+    const auto for_each_use = [&](const auto &visit) {
+        for (BxdfComponent &component : materials.component) {
+            visit(component.texture);
         }
-    }
+        for (MaterialOpacity &opacity : materials.opacity) {
+            visit(opacity.texture);
+        }
+    };
+    for_each_use([&](uint32_t texture) {
+        if (texture != no_index) {
+            new_index[texture] = 0;
+        }
+    });
     std::vector<uint32_t> kept;
     for (uint32_t old = 0; old < new_index.size(); ++old) {
         if (new_index[old] != no_index) {
@@ -50,9 +58,8 @@ void TextureStore::keep_used(std::vector<BxdfComponent> &components) {
             slots_.erase(owners_[old].get());
         }
     }
-    for (BxdfComponent &component : components) {
-        component.texture = component.texture == no_index ? no_index : new_index[component.texture];
-    }
+    for_each_use(
+        [&](uint32_t &texture) { texture = texture == no_index ? no_index : new_index[texture]; });
     keep_elements(owners_, kept);
     keep_elements(version_, kept);
     keep_elements(arrays.name, kept);
@@ -79,6 +86,7 @@ void MaterialStore::append(const Node &node) {
     arrays.component_count.push_back(count);
     arrays.component.resize(arrays.component.size() + count);
     arrays.two_sided.push_back(1);
+    arrays.opacity.emplace_back();
     version_.push_back(0);
 }
 
@@ -92,6 +100,8 @@ void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &)
         ++at;
     }
     arrays.two_sided[slot] = material.two_sided() ? 1 : 0;
+    arrays.opacity[slot] = material.opacity();
+    arrays.opacity[slot].texture = textures_.record(material.opacity_texture());
     version_[slot] = material.version();
 }
 
@@ -103,7 +113,8 @@ void MaterialStore::keep(const std::vector<uint32_t> &slots) {
         components.insert(components.end(), first, first + arrays.component_count[slot]);
     }
     arrays.component = std::move(components);
-    textures_.keep_used(arrays.component);
+    keep_elements(arrays.opacity, slots);
+    textures_.keep_used(arrays);
     keep_elements(arrays.name, slots);
     keep_elements(arrays.first_component, slots);
     keep_elements(arrays.component_count, slots);

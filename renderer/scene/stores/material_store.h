@@ -22,8 +22,9 @@ class TextureStore {
     /// it is new or the texture has changed.
     uint32_t record(const std::shared_ptr<Texture> &texture);
 
-    /// Removes the records that no component refers to, and updates the indices in the components.
-    void keep_used(std::vector<BxdfComponent> &components);
+    /// Removes the records that neither a component nor an opacity refers to, and updates the
+    /// indices in both.
+    void keep_used(MaterialArrays &materials);
 
     TextureArrays &arrays;
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "renderer/base/error.h"
+#include "renderer/scene/cores/material.h"
 #include "renderer/scene/cores/shape.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/cores/visibility.h"
@@ -41,6 +42,12 @@ void ShapeStore::write(uint32_t slot, const Node &node, const AttributeSet &attr
     arrays.material[slot] = material_slot(materials_, attributes, shape.type_name(), node.name());
     arrays.light[slot] = lights_.area_light_slot(node, attributes);
     arrays.kind[slot] = shape.kind();
+    const MaterialCore &material = *attributes.get<MaterialAttribute>().material;
+    if (shape.kind() == ShapeArrays::Kind::julia && !material.is_opaque()) {
+        throw input_error(
+            fmt::format("{} '{}': material '{}' has an opacity, but a Julia set must be opaque",
+                        shape.type_name(), node.name(), material.name()));
+    }
 
     Eigen::Matrix4d world =
         attributes.get<TransformAttribute>().world_from_object * shape.object_from_canonical();
