@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include "reference/embree_shapes.h"
 #include "renderer/base/error.h"
@@ -40,7 +41,9 @@ void fill(RTCRay &query, const Ray &ray, float t_max) {
 
 }  // namespace
 
-Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes) {
+Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes,
+                   std::vector<Opacity> opacities)
+    : opacities_(std::move(opacities)) {
     const auto start = std::chrono::steady_clock::now();
     device_.reset(rtcNewDevice(nullptr));
     if (!device_) {
@@ -118,6 +121,9 @@ void Geometry::attach_triangles(const MeshArrays &meshes, const std::vector<Tria
     for (size_t i = 0; i < indices.size(); ++i) {
         std::copy_n(indices[i].data(), 3, faces + 3 * i);
     }
+    if (!is_opaque()) {
+        attach_opacity(geometry);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene_.get(), geometry, triangles_id);
     rtcReleaseGeometry(geometry);
@@ -135,9 +141,23 @@ Ray Geometry::from_nearby(const Ray &ray) const {
     return {ray.origin + distance / ray.direction.norm() * ray.direction, ray.direction};
 }
 
-bool Geometry::intersect(const Ray &from_anywhere, Coherence coherence, SurfacePoint &hit) const {
+SurfacePoint Geometry::triangle_point(const Ray &ray, uint32_t triangle,
+                                      const Eigen::Vector2d &barycentric) const {
+    const TriangleRecord &record = triangles_[triangle];
+    const Eigen::Vector2d at = record.intersect_plane(ray, barycentric);
+    return {record.point(at), {at.x(), at.y(), 0.0}, triangle};
+}
+
+bool Geometry::stops(const SurfacePoint &hit, uint64_t key, uint32_t earlier_hits) const {
+    const Opacity &opacity = opacities_[material(hit)];
+    return opacity.is_opaque() ||
+           is_stopped(opacity.at(parametrize(hit).uv), key, hit.primitive, earlier_hits);
+}
+
+bool Geometry::intersect(const Ray &from_anywhere, Coherence coherence, SurfacePoint &hit,
+                         uint64_t key) const {
     const Ray ray = from_nearby(from_anywhere);
-    ShapeQuery query(ray, coherence == Coherence::coherent);
+    SceneQuery query(*this, ray, key, coherence == Coherence::coherent);
     RTCRayHit result;
     fill(result.ray, ray, infinity);
     result.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -146,7 +166,7 @@ bool Geometry::intersect(const Ray &from_anywhere, Coherence coherence, SurfaceP
     for (const uint32_t i : unbounded_) {
         double t = 0.0;
         Vec3 object;
-        if (shapes_[i].intersect(ray, static_cast<double>(result.ray.tfar), t, object)) {
+        if (query.meets_shape(i, static_cast<double>(result.ray.tfar), t, object)) {
             query.object = object;
             result.ray.tfar = static_cast<float>(t);
             result.hit.geomID = shapes_id;
@@ -154,12 +174,7 @@ bool Geometry::intersect(const Ray &from_anywhere, Coherence coherence, SurfaceP
         }
     }
     if (result.hit.geomID == triangles_id) {
-        hit.primitive = result.hit.primID;
-        const TriangleRecord &record = triangles_[hit.primitive];
-        const Eigen::Vector2d barycentric =
-            record.intersect_plane(ray, {result.hit.u, result.hit.v});
-        hit.local = {barycentric.x(), barycentric.y(), 0.0};
-        hit.position = record.point(barycentric);
+        hit = triangle_point(ray, result.hit.primID, {result.hit.u, result.hit.v});
         return true;
     }
     if (result.hit.geomID == shapes_id) {
@@ -171,8 +186,8 @@ bool Geometry::intersect(const Ray &from_anywhere, Coherence coherence, SurfaceP
     return false;
 }
 
-bool Geometry::blocked(const Ray &ray, double t_max) const {
-    ShapeQuery query(ray, false);
+bool Geometry::blocked(const Ray &ray, double t_max, uint64_t key) const {
+    SceneQuery query(*this, ray, key, false);
     RTCRay result;
     fill(result, ray, static_cast<float>(t_max));
     rtcOccluded1(scene_.get(), &query, &result);
@@ -182,12 +197,12 @@ bool Geometry::blocked(const Ray &ray, double t_max) const {
     return std::any_of(unbounded_.begin(), unbounded_.end(), [&](uint32_t i) {
         double t = 0.0;
         Vec3 object;
-        return shapes_[i].intersect(ray, t_max, t, object);
+        return query.meets_shape(i, t_max, t, object);
     });
 }
 
-bool Geometry::occluded(const Ray &ray) const {
-    return blocked(ray, std::numeric_limits<double>::infinity());
+bool Geometry::occluded(const Ray &ray, uint64_t key) const {
+    return blocked(ray, std::numeric_limits<double>::infinity(), key);
 }
 
 Parametrization Geometry::parametrize(const SurfacePoint &point) const {

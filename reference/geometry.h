@@ -15,6 +15,7 @@
 
 #include "reference/camera.h"
 #include "reference/math.h"
+#include "reference/opacity.h"
 #include "reference/shape.h"
 #include "reference/triangle.h"
 #include "renderer/scene/stores.h"
@@ -53,7 +54,9 @@ class Geometry {
   public:
     /// Builds the Embree scene. Throws `Error` (bad input) for vertex positions that are not finite
     /// and for shapes out of range. Throws `Error` (run failed) if Embree reports an error.
-    Geometry(const MeshArrays &meshes, const ShapeArrays &shapes);
+    /// `opacities` are those of the materials, or empty if all surfaces are opaque.
+    Geometry(const MeshArrays &meshes, const ShapeArrays &shapes,
+             std::vector<Opacity> opacities = {});
     Geometry(const Geometry &) = delete;
     Geometry &operator=(const Geometry &) = delete;
 
@@ -72,6 +75,11 @@ class Geometry {
         return shapes_[point.primitive - first_shape_];
     }
 
+    /// Returns the point of a triangle where the ray meets its plane, moved onto the triangle.
+    /// `barycentric` is the hit that Embree found.
+    SurfacePoint triangle_point(const Ray &ray, uint32_t triangle,
+                                const Eigen::Vector2d &barycentric) const;
+
     Vec3 normal(const SurfacePoint &point) const {
         return is_triangle(point) ? triangle(point).normal : shape(point).normal(point.local);
     }
@@ -89,17 +97,25 @@ class Geometry {
     /// its texture coordinates. If these are missing or degenerate, it is the first edge.
     Parametrization parametrize(const SurfacePoint &point) const;
 
-    /// Finds the nearest hit of a ray. Returns false if there is none.
-    bool intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit) const;
+    /// Returns whether no surface lets a ray pass.
+    bool is_opaque() const { return opacities_.empty(); }
+
+    /// Returns whether the point of primitive `hit.primitive` stops the ray with this key.
+    /// `earlier_hits` counts the points of the primitive that the ray has passed.
+    bool stops(const SurfacePoint &hit, uint64_t key, uint32_t earlier_hits) const;
+
+    /// Finds the nearest hit of a ray. Returns false if there is none. `key` is a random number of
+    /// the ray, which decides whether surfaces that are not opaque stop it.
+    bool intersect(const Ray &ray, Coherence coherence, SurfacePoint &hit, uint64_t key = 0) const;
 
     /// Returns whether a surface is strictly between two points. Both points must already be off
     /// their surfaces (`spawn_point`).
-    bool occluded(const Vec3 &from, const Vec3 &to) const {
-        return blocked({from, to - from}, 1.0);
+    bool occluded(const Vec3 &from, const Vec3 &to, uint64_t key = 0) const {
+        return blocked({from, to - from}, 1.0, key);
     }
 
     /// Returns whether the ray hits a surface at any distance.
-    bool occluded(const Ray &ray) const;
+    bool occluded(const Ray &ray, uint64_t key = 0) const;
 
     /// Returns the origin of a ray that leaves `point` to the side of `direction`. It is offset so
     /// that the ray never hits its own surface again (see `TriangleRecord` and `Shape`).
@@ -120,8 +136,9 @@ class Geometry {
     Ray from_nearby(const Ray &ray) const;
     /// Returns whether the ray hits a surface at t in (0, t_max). The direction of the ray need not
     /// have unit length.
-    bool blocked(const Ray &ray, double t_max) const;
+    bool blocked(const Ray &ray, double t_max, uint64_t key) const;
 
+    std::vector<Opacity> opacities_;  ///< indexed by material; empty if all surfaces are opaque
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
     std::vector<TriangleRecord> triangles_;

@@ -82,8 +82,9 @@ class PathIntegrator {
 
         for (uint32_t depth = 0;; ++depth) {
             SurfacePoint hit;
-            if (!world_.geometry.intersect(
-                    ray, depth == 0 ? Coherence::coherent : Coherence::incoherent, hit)) {
+            if (!world_.geometry.intersect(ray,
+                                           depth == 0 ? Coherence::coherent : Coherence::incoherent,
+                                           hit, key_of_ray(rng))) {
                 if (world_.lights.reach_to_infinity() && !(joinable_only_ && depth == 0)) {
                     result += throughput * escaped_radiance(previous, ray.direction,
                                                             light_sampled_too, pdf_of_direction);
@@ -161,6 +162,12 @@ class PathIntegrator {
         return counts_hits_ ? power_heuristic(pdf_of_direction, pdf_of_light) : 0.0;
     }
 
+    /// Returns the random number of a ray, which decides whether surfaces let it pass. Scenes whose
+    /// surfaces are all opaque draw none.
+    uint64_t key_of_ray(Rng &rng) const {
+        return world_.geometry.is_opaque() ? 0 : rng.next_bits();
+    }
+
     /// Returns the weighted radiance from infinity as seen from a vertex. It is not inlined,
     /// because the fast case is a path that hits surfaces.
     [[gnu::noinline]] Spectrum escaped_radiance(const Vec3 &from, const Vec3 &direction,
@@ -195,8 +202,9 @@ class PathIntegrator {
         }
         ++counts.shadow;
         const Vec3 from = world_.geometry.spawn_point(point, light->wi);
-        if (light->infinite ? world_.geometry.occluded({from, light->wi})
-                            : world_.geometry.occluded(from, light->target)) {
+        const uint64_t key = key_of_ray(rng);
+        if (light->infinite ? world_.geometry.occluded({from, light->wi}, key)
+                            : world_.geometry.occluded(from, light->target, key)) {
             return Spectrum::Zero();
         }
         const double weight =

@@ -76,7 +76,7 @@ struct ReferenceRenderer::State {
     State(const SceneArrays &scene, const ReferenceSettings &wanted)
         : settings(wanted),
           camera(scene.cameras, wanted.camera, wanted.width, wanted.height),
-          geometry(scene.meshes, scene.shapes),
+          geometry(scene.meshes, scene.shapes, make_opacities(scene.materials, scene.textures)),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
           integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth,
