@@ -50,6 +50,7 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"ggx", "no Fresnel term"},
         {"julia",
          "'object': Cycles supports only triangles, which cannot represent this Julia set"},
+        {"opacity", "the export to Cycles does not support an opacity"},
         {"oren_nayar_079", "its Oren-Nayar model differs"},
         {"plane",
          "'ground': Cycles supports only triangles, which cannot represent this unbounded plane"},

@@ -157,6 +157,11 @@ class SceneWriter {
         const MaterialArrays &materials = arrays_.materials;
         Json list = Json::array();
         for (uint32_t i = 0; i < materials.name.size(); ++i) {
+            if (!materials.opacity[i].is_opaque()) {
+                throw input_error(
+                    fmt::format("{}material '{}': the export to Cycles does not support an opacity",
+                                user_of(i), materials.name[i]));
+            }
             Json components = Json::array();
             for (uint32_t c = 0; c < materials.component_count[i]; ++c) {
                 const BxdfComponent &part = materials.component[materials.first_component[i] + c];

@@ -89,10 +89,13 @@ const BsdfWriter::Recipe &BsdfWriter::recipe(uint32_t material) const {
 std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
     const MaterialArrays &materials = arrays_.materials;
     const BxdfComponent *parts = &materials.component[materials.first_component[material]];
-    const bool depends_on_uv = std::any_of(
-        parts, parts + materials.component_count[material], [](const BxdfComponent &part) {
-            return part.texture != no_index || (is_rough(part) && part.alpha[0] != part.alpha[1]);
-        });
+    const bool depends_on_uv =
+        materials.opacity[material].texture != no_index ||
+        std::any_of(parts, parts + materials.component_count[material],
+                    [](const BxdfComponent &part) {
+                        return part.texture != no_index ||
+                               (is_rough(part) && part.alpha[0] != part.alpha[1]);
+                    });
     if (depends_on_uv && uv == UvConvention::none) {
         throw input_error(fmt::format(
             "material '{}': its texture or anisotropic roughness needs texture coordinates that "
@@ -105,8 +108,12 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
         id = ids_.unique(materials.name[material]);
         const std::string plugin = (is_rough(parts[0]) ? "rough" : "") + std::string(row.plugin);
         const bool twosided = !row.transmits && materials.two_sided[material] != 0;
-        const pugi::xml_node outer = add_object(scene_, "bsdf", twosided ? "twosided" : plugin, id);
         try {
+            const bool is_opaque = materials.opacity[material].is_opaque();
+            const pugi::xml_node parent =
+                is_opaque ? scene_ : write_mask(materials.opacity[material], id, uv);
+            const pugi::xml_node outer = add_object(parent, "bsdf", twosided ? "twosided" : plugin,
+                                                    is_opaque ? id : std::string());
             (this->*row.write)(twosided ? add_object(outer, "bsdf", plugin) : outer, parts, uv);
         } catch (const Error &error) {
             throw Error(error.exit_code(),
@@ -114,6 +121,23 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
         }
     }
     return id;
+}
+
+pugi::xml_node BsdfWriter::write_mask(const MaterialOpacity &opacity, const std::string &id,
+                                      UvConvention uv) {
+    if (opacity.cutoff > 0 && opacity.texture != no_index) {
+        throw input_error(
+            "Mitsuba has no cutoff of an opacity texture; set opacity_cutoff to 0, or use an image "
+            "of zeros and ones");
+    }
+    const double value = opacity.cutoff > 0 ? 0 : opacity.value;  // below the cutoff
+    pugi::xml_node mask = add_object(scene_, "bsdf", "mask", id);
+    if (opacity.texture == no_index) {
+        add_number(mask, "opacity", value);
+    } else {
+        write_weight(mask, "opacity", Vector3d::Constant(value), opacity.texture, uv);
+    }
+    return mask;
 }
 
 void BsdfWriter::write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {

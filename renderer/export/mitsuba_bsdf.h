@@ -38,6 +38,9 @@ class BsdfWriter {
     static const std::vector<Recipe> &recipes();
     const Recipe &recipe(uint32_t material) const;
 
+    /// Returns the BSDF that lets light pass. The BSDF of the surface becomes its child.
+    pugi::xml_node write_mask(const MaterialOpacity &opacity, const std::string &id,
+                              UvConvention uv);
     void write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);

@@ -165,6 +165,7 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"conductor_approximate", "no BSDF for ideal_reflection * conductor_approximate;"},
         {"julia", "no julia"},
         {"lambert_blinn", "no BSDF for lambert + blinn;"},
+        {"opacity", "material 'cut_out': Mitsuba has no cutoff of an opacity texture"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},
         {"plane", "'ground': Mitsuba has no plane, and it cannot be tessellated"},
         {"refraction_13", "no BSDF for ideal_refraction;"},

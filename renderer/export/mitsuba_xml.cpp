@@ -94,7 +94,13 @@ class SceneWriter {
         add_default("max_depth", settings.max_depth == 0
                                      ? "-1"
                                      : fmt::format("{}", uint64_t{settings.max_depth} + 1));
-        add_property(add_object(root_, "integrator", "path"), "integer", "max_depth", "$max_depth");
+        // Shadow rays of `path` are blocked by masks, those of `volpath` pass.
+        const std::vector<MaterialOpacity> &opacities = arrays_.materials.opacity;
+        const bool is_opaque =
+            std::all_of(opacities.begin(), opacities.end(),
+                        [](const MaterialOpacity &opacity) { return opacity.is_opaque(); });
+        add_property(add_object(root_, "integrator", is_opaque ? "path" : "volpath"), "integer",
+                     "max_depth", "$max_depth");
         reserve_names();
         write_camera();
         for (uint32_t mesh = 0; mesh < arrays_.meshes.name.size(); ++mesh) {
