@@ -24,17 +24,32 @@ struct LoadedModel {
 
     bool says(const std::string &text) const { return told.find(text) != std::string::npos; }
 
+    /// Returns the index of the material with that name.
+    size_t material_index(const std::string &name) const {
+        const std::vector<std::string> &names = scene.materials().name;
+        const auto found = std::find(names.begin(), names.end(), name);
+        EXPECT_NE(found, names.end()) << "unknown material " << name;
+        return found == names.end() ? 0 : static_cast<size_t>(found - names.begin());
+    }
+
     /// Returns the components of the material with that name.
     std::vector<BxdfComponent> material(const std::string &name) const {
         const MaterialArrays &m = scene.materials();
-        const auto found = std::find(m.name.begin(), m.name.end(), name);
-        if (found == m.name.end()) {
-            ADD_FAILURE() << "unknown material " << name;
-            return {};
-        }
-        const auto at = static_cast<size_t>(found - m.name.begin());
+        const size_t at = material_index(name);
         const auto first = m.component.begin() + m.first_component[at];
         return {first, first + m.component_count[at]};
+    }
+
+    /// Returns the opacity of the material with that name.
+    MaterialOpacity opacity(const std::string &name) const {
+        return scene.materials().opacity[material_index(name)];
+    }
+
+    /// Returns the texels of the image of that material's opacity, or nothing.
+    std::vector<uint8_t> opacity_texels(const std::string &name) const {
+        const uint32_t texture = opacity(name).texture;
+        return texture == no_index ? std::vector<uint8_t>()
+                                   : scene.arrays().textures.image[texture]->bytes;
     }
 
     /// Returns the index of the light whose node has that name.

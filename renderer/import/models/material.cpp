@@ -31,7 +31,6 @@ constexpr UnusedMap unused_maps[] = {
     {aiTextureType_NORMALS, "bump and normal maps are ignored"},
     {aiTextureType_NORMAL_CAMERA, "bump and normal maps are ignored"},
     {aiTextureType_DISPLACEMENT, "displacement maps are ignored"},
-    {aiTextureType_OPACITY, "opacity masks are ignored; masked parts are visible"},
     {aiTextureType_SHININESS, "shininess maps are ignored"},
     {aiTextureType_AMBIENT, "ambient and occlusion maps are ignored"},
     {aiTextureType_LIGHTMAP, "ambient and occlusion maps are ignored"},
@@ -168,13 +167,17 @@ GltfTextureTransform ModelMaterials::uv_transform(unsigned index) const {
                                                              : GltfTextureTransform{};
 }
 
-std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file, bool is_colour) {
+std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file,
+                                                         TextureEncoding encoding) {
     const aiTexture *inside = model_->GetEmbeddedTexture(file.c_str());
+    const bool is_alpha = encoding == TextureEncoding::alpha;
     if (inside == nullptr) {
-        return textures_.load(file, {directory_}, is_colour);
+        return is_alpha ? textures_.load_alpha(file, {directory_})
+                        : textures_.load(file, {directory_}, encoding == TextureEncoding::srgb);
     }
-    std::shared_ptr<const TextureImage> &image = embedded_[file + (is_colour ? " srgb" : "")];
-    if (image != nullptr) {
+    const auto [found, is_new] = embedded_.try_emplace({file, encoding});
+    std::shared_ptr<const TextureImage> &image = found->second;
+    if (!is_new) {
         return image;
     }
     if (inside->mHeight == 0) {  // an image file of `mWidth` bytes
@@ -182,8 +185,11 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
         const TemporaryFile copy(inside->pcData, inside->mWidth,
                                  format.empty() ? "" : "." + format);
         try {
-            image = load_texture_file(copy.path(),
-                                      is_colour ? TextureEncoding::srgb : TextureEncoding::linear);
+            if (!is_alpha) {
+                image = load_texture_file(copy.path(), encoding);
+            } else if (has_alpha_channel(copy.path())) {
+                image = unless_opaque(load_texture_file(copy.path(), encoding));
+            }
         } catch (const Error &error) {
             throw Error(error.exit_code(),
                         fmt::format("embedded image '{}': {}", file, error.what()));
@@ -193,12 +199,16 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
     auto texels = std::make_shared<TextureImage>();
     texels->width = static_cast<int>(inside->mWidth);
     texels->height = static_cast<int>(inside->mHeight);
-    texels->srgb = is_colour;
+    texels->srgb = encoding == TextureEncoding::srgb;
     for (size_t i = 0; i < static_cast<size_t>(inside->mWidth) * inside->mHeight; ++i) {
         const aiTexel &texel = inside->pcData[i];
-        texels->bytes.insert(texels->bytes.end(), {texel.r, texel.g, texel.b});
+        if (is_alpha) {
+            texels->bytes.insert(texels->bytes.end(), 3, texel.a);
+        } else {
+            texels->bytes.insert(texels->bytes.end(), {texel.r, texel.g, texel.b});
+        }
     }
-    image = texels;
+    image = is_alpha ? unless_opaque(texels) : texels;
     return image;
 }
 
@@ -207,12 +217,14 @@ Vector3d ModelMaterials::mean_of_map(const aiMaterial &source, int type, bool is
     if (source.GetTexture(static_cast<aiTextureType>(type), 0, &file) != aiReturn_SUCCESS) {
         return Vector3d::Ones();
     }
-    return mean_of(*load(file.C_Str(), is_colour));
+    return mean_of(
+        *load(file.C_Str(), is_colour ? TextureEncoding::srgb : TextureEncoding::linear));
 }
 
 std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int type_number,
                                                  const GltfTextureTransform *transform,
-                                                 const std::string &name) {
+                                                 const std::string &name,
+                                                 TextureEncoding encoding) {
     const auto type = static_cast<aiTextureType>(type_number);
     aiString file;
     aiTextureMapping mapping = aiTextureMapping_UV;
@@ -257,7 +269,9 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
         placement.scale = transform->linear.diagonal();
         placement.offset = transform->offset;
     }
-    return textures_.texture(load(file.C_Str(), true), file.C_Str(), placement);
+    const std::shared_ptr<const TextureImage> image = load(file.C_Str(), encoding);
+    const std::string suffix = encoding == TextureEncoding::alpha ? "_alpha" : "";
+    return image != nullptr ? textures_.texture(image, file.C_Str() + suffix, placement) : nullptr;
 }
 
 void ModelMaterials::read_physical(const aiMaterial &source, const GltfMaterial &extended,
@@ -307,6 +321,39 @@ void ModelMaterials::read_physical(const aiMaterial &source, const GltfMaterial 
     surface.refracts = surface.transmission >= 1 && surface.metalness <= 0;
 }
 
+void ModelMaterials::read_opacity(const aiMaterial &source, const GltfMaterial *gltf,
+                                  const std::string &name, ModelSurface &surface) {
+    surface.opacity = number(source, "$mat.opacity", 1);
+    const std::string alpha_mode = text(source, "$mat.gltf.alphaMode");
+    if (alpha_mode == "OPAQUE") {
+        surface.opacity = 1;
+        return;
+    }
+    if (alpha_mode.empty()) {  // another format
+        if (has_map(source, aiTextureType_OPACITY)) {
+            const int type = aiTextureType_OPACITY;
+            surface.opacity_texture = texture(source, type, nullptr, name, TextureEncoding::alpha);
+            if (surface.opacity_texture == nullptr) {
+                surface.opacity_texture =
+                    texture(source, type, nullptr, name, TextureEncoding::linear);
+            }
+        }
+        return;
+    }
+    surface.opacity_texture =
+        texture(source, colour_map(source), gltf != nullptr ? &gltf->base_transform : nullptr, name,
+                TextureEncoding::alpha);
+    if (alpha_mode == "MASK") {
+        surface.opacity_cutoff = number(source, "$mat.gltf.alphaCutoff", 0.5);
+        if (!(surface.opacity_cutoff > 0 && surface.opacity_cutoff <= 1)) {
+            // Every alpha reaches the cutoff, or none does.
+            surface.opacity = surface.opacity_cutoff > 1 ? 0 : 1;
+            surface.opacity_cutoff = 0;
+            surface.opacity_texture = nullptr;
+        }
+    }
+}
+
 ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     const aiMaterial &source = *model_->mMaterials[index];
     const GltfMaterial *const gltf = extended(index);
@@ -315,18 +362,11 @@ ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     surface.specular =
         colour(source, "$clr.specular", Vector3d::Zero()) * number(source, "$mat.shinpercent", 1);
     surface.exponent = number(source, "$mat.shininess", 0);
-    surface.opacity = number(source, "$mat.opacity", 1);
     surface.eta = number(source, "$mat.refracti", 1);
     if (has_number(source, metalness_key) && has_number(source, roughness_key)) {
         read_physical(source, gltf != nullptr ? *gltf : without_extensions(source), name, surface);
     }
-    const std::string alpha_mode = text(source, "$mat.gltf.alphaMode");
-    if (alpha_mode == "MASK") {
-        notes_.add("opacity masks are ignored; masked parts are visible", name);
-    }
-    if (alpha_mode == "MASK" || alpha_mode == "OPAQUE") {
-        surface.opacity = 1;
-    }
+    read_opacity(source, gltf, name, surface);
     surface.diffuse_texture = texture(source, colour_map(source),
                                       gltf != nullptr ? &gltf->base_transform : nullptr, name);
     surface.specular_texture =

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/import/models/gltf.h"
@@ -47,13 +48,16 @@ class ModelMaterials {
 
   private:
     const GltfMaterial *extended(unsigned index) const;
-    std::shared_ptr<const TextureImage> load(const std::string &file, bool is_colour);
+    /// Returns an image, or null for an alpha channel that is missing or opaque everywhere.
+    std::shared_ptr<const TextureImage> load(const std::string &file, TextureEncoding encoding);
     Eigen::Vector3d mean_of_map(const aiMaterial &source, int type, bool is_colour);
     /// Returns the texture of a map, or null. `transform` is that of a glTF file. Without it, the
     /// material has the placement.
     std::shared_ptr<Texture> texture(const aiMaterial &source, int type,
-                                     const GltfTextureTransform *transform,
-                                     const std::string &name);
+                                     const GltfTextureTransform *transform, const std::string &name,
+                                     TextureEncoding encoding = TextureEncoding::srgb);
+    void read_opacity(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
+                      ModelSurface &surface);
     void read_physical(const aiMaterial &source, const GltfMaterial &extended,
                        const std::string &name, ModelSurface &surface);
     ModelSurface read(unsigned index, const std::string &name);
@@ -63,7 +67,8 @@ class ModelMaterials {
     std::vector<GltfMaterial> extended_;
     ModelNotes &notes_;
     ModelTextures textures_;
-    std::map<std::string, std::shared_ptr<const TextureImage>> embedded_;
+    std::map<std::pair<std::string, TextureEncoding>, std::shared_ptr<const TextureImage>>
+        embedded_;
 };
 
 }  // namespace rtrays

@@ -202,11 +202,9 @@ TEST(Mtl, MapsTheMaterialsOfMtl) {
     EXPECT_LT((metal[0].eta - Vector3d(0.9, 0.6, 0.3)).norm(), 1e-6);
 
     const auto veil = model.material("veil");  // opacity 1/4
-    ASSERT_EQ(veil.size(), 2u);
-    EXPECT_EQ(veil[0].weight, Vector3f::Constant(0.125f));
-    EXPECT_EQ(veil[1].kind, Kind::ideal_refraction);
-    EXPECT_EQ(veil[1].weight, Vector3f::Constant(0.75f));
-    EXPECT_EQ(veil[1].eta[0], 1);
+    ASSERT_EQ(veil.size(), 1u);
+    EXPECT_EQ(veil[0].weight, Vector3f::Constant(0.5f));
+    EXPECT_EQ(model.opacity("veil").value, 0.25);
 
     const LightArrays &lights = model.scene.lights();
     ASSERT_EQ(lights.name.size(), 1u);
@@ -323,8 +321,37 @@ TEST(Mtl, NamesInvisibleMaterialsAndContradictions) {
     EXPECT_FALSE(opaque.says(invisible));
     EXPECT_TRUE(opaque.says("'Tr' is ignored where it contradicts 'd' (1: m)")) << opaque.told;
     EXPECT_EQ(opaque.material("m").size(), 1u);
-    EXPECT_EQ(with_material("Kd 0.5\nTr 0.75\n").material("m")[1].weight,
-              Vector3f::Constant(0.75f));
+    EXPECT_EQ(with_material("Kd 0.5\nTr 0.75\n").opacity("m").value, 0.25);
+}
+
+TEST(Mtl, ReadsMapsOfTheOpacity) {
+    // 2 x 1 texels: (10, 20, 30, 0) and (200, 100, 50, 255).
+    std::string png;
+    for (const char *at =
+             "89504e470d0a1a0a0000000d4948445200000002000000010806000000f4227f8a000000114944"
+             "4154789c63e4129163d81720f21f0006b1025f15db4efc0000000049454e44ae426082";
+         *at != 0; at += 2) {
+        png.push_back(static_cast<char>(std::stoi(std::string(at, 2), nullptr, 16)));
+    }
+    const auto load = [&](const std::string &statements) {
+        const TemporaryFolder folder;
+        folder.write("leaf.png", png);
+        folder.write("mask.pgm", "P5 2 1 255\n\x07\x09");
+        folder.write("a.mtl", "newmtl m\nKd 1\n" + statements);
+        return LoadedModel(folder.write("m.obj", square("mtllib a.mtl\n")));
+    };
+    const std::vector<uint8_t> alpha = {0, 0, 0, 255, 255, 255};
+    const LoadedModel stated = load("map_Kd leaf.png\nd 0.5\nmap_d -s 2 2 mask.pgm\n");
+    EXPECT_EQ(stated.opacity("m").value, 0.5);
+    EXPECT_EQ(stated.opacity_texels("m"), (std::vector<uint8_t>{7, 7, 7, 9, 9, 9}));
+    EXPECT_EQ(stated.scene.arrays().textures.uv_scale[stated.opacity("m").texture], Vector2d(2, 2));
+    EXPECT_EQ(load("map_d leaf.png\n").opacity_texels("m"), alpha)
+        << "alpha counts if there is one";
+    const LoadedModel implied = load("map_Kd leaf.png\n");
+    EXPECT_EQ(implied.opacity_texels("m"), alpha);
+    EXPECT_TRUE(implied.says("the alpha channel of map_Kd is the opacity (1: m)")) << implied.told;
+    EXPECT_TRUE(load("map_Kd mask.pgm\n").opacity("m").is_opaque());
+    EXPECT_TRUE(load("map_Tr mask.pgm\n").says("maps of Tr are ignored"));
 }
 
 TEST(Mtl, NamesWhatItIgnores) {

@@ -27,8 +27,7 @@ struct Ignored {
 constexpr const char *bump_note = "bump and normal maps are ignored";
 constexpr Ignored ignored[] = {
     {"map_ka", "ambient and occlusion maps are ignored"},
-    {"map_d", "opacity masks are ignored; masked parts are visible"},
-    {"map_tr", "opacity masks are ignored; masked parts are visible"},
+    {"map_tr", "maps of Tr are ignored; give the opacity as map_d"},
     {"map_ns", "shininess maps are ignored"},
     {"map_bump", bump_note},
     {"bump", bump_note},
@@ -116,6 +115,8 @@ class MtlReader {
             current_->material.diffuse_map = map(statement);
         } else if (keyword == "map_ks") {
             current_->material.specular_map = map(statement);
+        } else if (keyword == "map_d") {
+            current_->material.opacity_map = map(statement);
         } else if (keyword == "map_ke") {
             current_->material.emission_map = map(statement);
         } else if (keyword == "ka") {
@@ -322,6 +323,25 @@ class MtlReader {
     std::vector<MtlMaterial> made_;
 };
 
+/// Returns the texture of the opacity, or nullptr: map_d, or else the alpha channel of map_Kd. The
+/// alpha channel of map_d counts if there is one, and otherwise its colours.
+std::shared_ptr<Texture> opacity_texture(const MtlMaterial &material, const std::string &name,
+                                         const std::vector<std::filesystem::path> &folders,
+                                         ModelTextures &textures, ModelNotes &notes) {
+    const bool is_stated = !material.opacity_map.file.empty();
+    const MtlMap &map = is_stated ? material.opacity_map : material.diffuse_map;
+    if (map.file.empty()) {
+        return nullptr;
+    }
+    std::shared_ptr<const TextureImage> image = textures.load_alpha(map.file, folders);
+    if (image == nullptr && is_stated) {
+        image = textures.load(map.file, folders, false);
+    } else if (image != nullptr && !is_stated) {
+        notes.add("the alpha channel of map_Kd is the opacity", name);
+    }
+    return image != nullptr ? textures.texture(image, map.file + "_alpha", map.placement) : nullptr;
+}
+
 }  // namespace
 
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path &path, ModelNotes &notes) {
@@ -352,6 +372,7 @@ std::shared_ptr<MaterialCore> make_mtl_material(const MtlMaterial &material,
         };
         surface.diffuse_texture = texture(material.diffuse_map);
         surface.specular_texture = surface.is_physical ? nullptr : texture(material.specular_map);
+        surface.opacity_texture = opacity_texture(material, name, folders, textures, notes);
         if (!material.emission_map.file.empty() && !surface.emission.isZero()) {
             notes.add("emission maps are replaced by their mean", name);
             surface.emission = surface.emission.cwiseProduct(

@@ -26,6 +26,7 @@ struct MtlMaterial {
     MtlMap diffuse_map;
     MtlMap specular_map;
     MtlMap emission_map;
+    MtlMap opacity_map;
 };
 
 /// Reads the materials of an MTL file in its order. Illumination models 4, 6, 7 and 9 are glass of

@@ -26,7 +26,7 @@ class CompositeBuilder {
         parts_.push_back({bxdf, fresnel});
         values[prefix + "weight"] = weight;
         if (texture != nullptr) {
-            textures_[prefix + "weight"] = texture;
+            textures[prefix + "weight"] = texture;
         }
         return prefix;
     }
@@ -43,18 +43,31 @@ class CompositeBuilder {
     }
 
     std::shared_ptr<MaterialCore> build(const std::string &name) const {
-        return std::make_shared<MaterialCore>(name, composite_type(parts_), values, textures_);
+        return std::make_shared<MaterialCore>(name, composite_type(parts_), values, textures);
     }
 
     ParameterValues values;
+    ParameterTextures textures;
 
   private:
     std::vector<CompositePart> parts_;
-    ParameterTextures textures_;
 };
 
-ParameterTextures textured(const char *parameter, const std::shared_ptr<Texture> &texture) {
-    return texture != nullptr ? ParameterTextures{{parameter, texture}} : ParameterTextures{};
+/// Sets the parameters that all types of materials have.
+void set_common(const ModelSurface &s, ParameterValues &values, ParameterTextures &textures) {
+    values["emission"] = s.emission;
+    values["opacity"] = std::min(std::max(s.opacity, 0.0), 1.0);
+    values["opacity_cutoff"] = s.opacity_cutoff;
+    if (s.opacity_texture != nullptr) {
+        textures["opacity"] = s.opacity_texture;
+    }
+}
+
+void set_texture(const char *parameter, const std::shared_ptr<Texture> &texture,
+                 ParameterTextures &textures) {
+    if (texture != nullptr) {
+        textures[parameter] = texture;
+    }
 }
 
 /// Scales the colours so that no channel sums to more than one. Returns whether they were scaled.
@@ -71,25 +84,28 @@ bool conserve_energy(ModelSurface &s) {
 
 std::shared_ptr<MaterialCore> make_glass(const ModelSurface &s, const std::string &name) {
     const double alpha = s.is_physical && s.alpha >= smooth_alpha && s.eta != 1 ? s.alpha : 0;
-    return std::make_shared<MaterialCore>(
-        name, "glass",
-        ParameterValues{{"emission", s.emission},
-                        {"eta", s.eta > 0 ? s.eta : ModelSurface::glass_eta},
-                        {"transmittance",
-                         s.is_physical ? s.diffuse.cwiseProduct(s.transmittance) : s.transmittance},
-                        {"roughness", Vector2d(alpha, alpha)}},
-        textured("transmittance", s.is_physical ? s.diffuse_texture : nullptr));
+    ParameterValues values = {
+        {"eta", s.eta > 0 ? s.eta : ModelSurface::glass_eta},
+        {"transmittance",
+         s.is_physical ? s.diffuse.cwiseProduct(s.transmittance) : s.transmittance},
+        {"roughness", Vector2d(alpha, alpha)}};
+    ParameterTextures textures;
+    set_common(s, values, textures);
+    set_texture("transmittance", s.is_physical ? s.diffuse_texture : nullptr, textures);
+    return std::make_shared<MaterialCore>(name, "glass", values, textures);
 }
 
 std::shared_ptr<MaterialCore> make_plain(const ModelSurface &s, const std::string &name) {
-    ParameterValues values = {{"emission", s.emission}, {"reflectance", s.diffuse}};
-    ParameterTextures textures = textured("reflectance", s.diffuse_texture);
+    ParameterValues values = {{"reflectance", s.diffuse}};
+    ParameterTextures textures;
+    set_common(s, values, textures);
+    set_texture("reflectance", s.diffuse_texture, textures);
     if (!s.has_highlight()) {
         return std::make_shared<MaterialCore>(name, "lambert", values, textures);
     }
     values["specular"] = s.specular;
     values["exponent"] = s.exponent;
-    textures.merge(textured("specular", s.specular_texture));
+    set_texture("specular", s.specular_texture, textures);
     return std::make_shared<MaterialCore>(name, "lambert_blinn", values, textures);
 }
 
@@ -116,15 +132,15 @@ void add_base(const ModelSurface &s, double share, CompositeBuilder &composite) 
 }
 
 /// Adds a mixture by metalness of a metal and a coated base.
-void add_physical(const ModelSurface &s, double share, CompositeBuilder &composite) {
+void add_physical(const ModelSurface &s, CompositeBuilder &composite) {
     const double metal = std::min(std::max(s.metalness, 0.0), 1.0);
     if (metal > 0) {
         const std::string part = composite.add_reflection(
-            s.alpha, "schlick", Vector3d::Constant(share * metal), s.diffuse_texture);
+            s.alpha, "schlick", Vector3d::Constant(metal), s.diffuse_texture);
         composite.values[part + "fresnel_reflectance"] = s.diffuse;
     }
     if (metal < 1) {
-        share *= 1 - metal;
+        const double share = 1 - metal;
         if (s.eta != 1) {
             const std::string coat =
                 composite.add_reflection(s.alpha, "dielectric", Vector3d::Constant(share));
@@ -136,27 +152,14 @@ void add_physical(const ModelSurface &s, double share, CompositeBuilder &composi
 
 std::shared_ptr<MaterialCore> make_composite(const ModelSurface &s, const std::string &name) {
     CompositeBuilder composite;
-    composite.values["emission"] = s.emission;
-    const double share = std::min(std::max(s.opacity, 0.0), 1.0);
+    set_common(s, composite.values, composite.textures);
     if (s.is_physical) {
-        add_physical(s, share, composite);
-    } else if (s.only_reflects) {
-        // An exponent of zero means a mirror. The material requests reflections, not a highlight.
-        const std::string part = composite.add_reflection(
-            s.exponent > 0 ? s.alpha : 0, "schlick", Vector3d::Constant(share), s.specular_texture);
-        composite.values[part + "fresnel_reflectance"] = s.specular;
+        add_physical(s, composite);
     } else {
-        composite.add("lambert", "ideal", share * s.diffuse, s.diffuse_texture);
-        if (s.has_highlight()) {
-            const std::string part =
-                composite.add("blinn", "ideal", share * s.specular, s.specular_texture);
-            composite.values[part + "exponent"] = s.exponent;
-        }
-    }
-    if (share < 1) {
-        const std::string part =
-            composite.add("ideal_refraction", "ideal", Vector3d::Constant(1 - share));
-        composite.values[part + "eta"] = 1.0;
+        // An exponent of zero means a mirror. The material requests reflections, not a highlight.
+        const std::string part = composite.add_reflection(s.exponent > 0 ? s.alpha : 0, "schlick",
+                                                          Vector3d::Ones(), s.specular_texture);
+        composite.values[part + "fresnel_reflectance"] = s.specular;
     }
     return composite.build(name);
 }
@@ -171,14 +174,16 @@ std::shared_ptr<MaterialCore> make_model_material(ModelSurface surface, const st
     if (!surface.refracts && conserve_energy(surface)) {
         notes.add("colours that would reflect more light than they receive are scaled down", name);
     }
+    const bool is_opaque = surface.opacity >= 1 && surface.opacity_texture == nullptr;
+    if (!is_opaque && surface.emission.maxCoeff() > 0) {
+        notes.add("materials that emit are opaque; their opacity is ignored", name);
+        surface.opacity = 1;
+        surface.opacity_texture = nullptr;
+    }
     if (surface.refracts) {
-        if (surface.opacity < 1) {
-            notes.add("the opacity of glass is ignored", name);
-        }
         return make_glass(surface, name);
     }
-    return surface.is_plain() && surface.opacity >= 1 ? make_plain(surface, name)
-                                                      : make_composite(surface, name);
+    return surface.is_plain() ? make_plain(surface, name) : make_composite(surface, name);
 }
 
 }  // namespace rtrays

@@ -23,8 +23,10 @@ struct ModelSurface {
     Eigen::Vector3d transmittance = Eigen::Vector3d::Ones();
     std::shared_ptr<Texture> diffuse_texture;
     std::shared_ptr<Texture> specular_texture;
+    std::shared_ptr<Texture> opacity_texture;
     double exponent = 0;
     double opacity = 1;
+    double opacity_cutoff = 0;  ///< as of `MaterialCore`
     double eta = 1;
     double metalness = 0;
     double alpha = 0;
@@ -48,8 +50,8 @@ struct ModelSurface {
 ///   5. Otherwise: lambert.
 ///
 /// Colours are scaled down where a material would reflect more light than it receives, with a note.
-/// With an opacity below one, that fraction of the light is scattered, and the rest passes straight
-/// through. Emission is radiance. Throws `Error` (bad input) naming the parameter at fault.
+/// Opacities are those of the material, except where it emits: it is opaque then, with a note.
+/// Emission is radiance. Throws `Error` (bad input) naming the parameter at fault.
 std::shared_ptr<MaterialCore> make_model_material(ModelSurface surface, const std::string &name,
                                                   ModelNotes &notes);
 

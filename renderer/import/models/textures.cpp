@@ -88,6 +88,21 @@ std::shared_ptr<const TextureImage> ModelTextures::load(const std::string &state
     return files_.load(find_model_file(stated, folders, notes_), encoding);
 }
 
+std::shared_ptr<const TextureImage> unless_opaque(std::shared_ptr<const TextureImage> alpha) {
+    const auto all = [](const auto &values, auto one) {
+        return std::all_of(values.begin(), values.end(), [&](auto value) { return value == one; });
+    };
+    const bool is_opaque = all(alpha->bytes, uint8_t{255}) && all(alpha->floats, 1.0f);
+    return is_opaque ? nullptr : alpha;
+}
+
+std::shared_ptr<const TextureImage> ModelTextures::load_alpha(
+    const std::string &stated, const std::vector<fs::path> &folders) {
+    const fs::path path = find_model_file(stated, folders, notes_);
+    return has_alpha_channel(path) ? unless_opaque(files_.load(path, TextureEncoding::alpha))
+                                   : nullptr;
+}
+
 std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const TextureImage> &image,
                                                 const std::string &file,
                                                 const TexturePlacement &placement) {

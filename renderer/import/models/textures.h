@@ -32,6 +32,9 @@ std::filesystem::path find_model_file(const std::string &stated,
                                       const std::vector<std::filesystem::path> &folders,
                                       ModelNotes &notes);
 
+/// Returns the image, or nullptr if all of its texels are 1.
+std::shared_ptr<const TextureImage> unless_opaque(std::shared_ptr<const TextureImage> alpha);
+
 /// Returns the mean of the decoded texels.
 Eigen::Vector3d mean_of(const TextureImage &image);
 
@@ -46,6 +49,12 @@ class ModelTextures {
     std::shared_ptr<const TextureImage> load(const std::string &stated,
                                              const std::vector<std::filesystem::path> &folders,
                                              bool is_colour);
+
+    /// Returns the alpha channel of an image file, found by `find_model_file`, as a grey image.
+    /// Returns nullptr if it has none or is opaque everywhere. Throws `Error` (bad input) naming
+    /// the file.
+    std::shared_ptr<const TextureImage> load_alpha(
+        const std::string &stated, const std::vector<std::filesystem::path> &folders);
 
     /// Returns the texture of an image at a placement. `file` is its name in the model file.
     std::shared_ptr<Texture> texture(const std::shared_ptr<const TextureImage> &image,
