@@ -64,6 +64,13 @@ void expect_same_texture(const TextureArrays &a, uint32_t i, const TextureArrays
 
 void expect_same_material(const SceneArrays &a, uint32_t i, const SceneArrays &b, uint32_t j) {
     ASSERT_EQ(a.materials.component_count[i], b.materials.component_count[j]);
+    const MaterialOpacity &before = a.materials.opacity[i], &after = b.materials.opacity[j];
+    EXPECT_EQ(before.value, after.value);
+    EXPECT_EQ(before.cutoff, after.cutoff);
+    ASSERT_EQ(before.texture == no_index, after.texture == no_index);
+    if (before.texture != no_index) {
+        expect_same_texture(a.textures, before.texture, b.textures, after.texture);
+    }
     bool refracts = false;
     for (uint32_t c = 0; c < a.materials.component_count[i]; ++c) {
         const BxdfComponent &p = a.materials.component[a.materials.first_component[i] + c];
@@ -255,6 +262,20 @@ TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
         EXPECT_NEAR(after.weight[channel] * floats.floats[i],
                     before.weight[channel] * srgb_decoded(bytes.bytes[i] / 255.0), 1e-6);
     }
+}
+
+TEST_F(MitsubaExport, OpacitiesComeBackAsMasks) {
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "veil", "geometry": {"type": "rectangle"}, "material":
+         {"type": "lambert", "reflectance": [1, 1, 1], "opacity": 0.25}},
+        {"name": "leaf", "geometry": {"type": "rectangle"}, "material":
+         {"type": "lambert", "reflectance": [1, 1, 1], "opacity_texture": {"file": "assets/leaf.png", "encoding": "alpha"}}}]})",
+                         "in.json", "in", scenes + "/features");
+    expect_same_scene(scene, through_mitsuba(scene));
+    // Shadow rays of Mitsuba's integrator "path" do not pass masks.
+    EXPECT_NE(read_file(folder_ / "out.xml").find("\"volpath\""), std::string::npos);
 }
 
 TEST_F(MitsubaExport, FarScenesStayWhereTheyAre) {

@@ -113,6 +113,8 @@ struct MaterialReader::Draft {
     ErrorList *errors;
     bool depends_on_uv = false;
 
+    bool has_opacity() const { return values.count("opacity") + textures.count("opacity") > 0; }
+
     void set_type(const char *name) {
         type = static_type(find_type(material_types(), name, "material"));
     }
@@ -139,6 +141,7 @@ const std::vector<MaterialReader::Type> &MaterialReader::types() {
         {"roughplastic", &MaterialReader::read_plastic},
         {"twosided", &MaterialReader::read_twosided},
         {"blendbsdf", &MaterialReader::read_blend},
+        {"mask", &MaterialReader::read_mask},
     };
     return all;
 }
@@ -214,6 +217,9 @@ void MaterialReader::read_twosided(Object &object, Draft &draft) {
     if (type == "twosided" || type == "dielectric" || type == "roughdielectric") {
         throw inner[0].error("already two-sided; remove the enclosing twosided BSDF");
     }
+    if (type == "mask") {
+        throw inner[0].error("light passes it, so it cannot be two-sided; put twosided inside");
+    }
     draft = read_bsdf(inner[0], draft.uv, *draft.errors);
     draft.values["two_sided"] = true;
 }
@@ -232,6 +238,9 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
     for (const size_t i : {0, 1}) {
         const Draft part = read_bsdf(inner[i], draft.uv, *draft.errors);
         draft.depends_on_uv |= part.depends_on_uv;
+        if (part.has_opacity()) {
+            throw inner[i].error("a blend of masks is unsupported; mask the blend instead");
+        }
         const auto core = inner[i].located(
             [&] { return MaterialCore("", part.type, part.values, part.textures).components(); });
         two_sided[i] = std::get<bool>(part.values.at("two_sided"));
@@ -249,6 +258,33 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
     draft.values = std::move(composite.values);
     draft.values["two_sided"] = two_sided[0];
     draft.textures = std::move(composite.textures);
+}
+
+void MaterialReader::read_mask(Object &object, Draft &draft) {
+    const std::vector<Element> inner = object.objects("bsdf");
+    if (inner.size() != 1) {
+        throw object.element().error(fmt::format("has {} BSDFs; expected one", inner.size()));
+    }
+    draft = read_bsdf(inner[0], draft.uv, *draft.errors);
+    if (draft.has_opacity()) {
+        throw inner[0].error("a mask in a mask is unsupported; multiply their opacities");
+    }
+    const std::vector<Element> textures = object.objects("texture", "opacity");
+    if (textures.size() > 1 || (!textures.empty() && object.has("opacity"))) {
+        throw object.element().error("duplicate property 'opacity'");
+    }
+    if (!textures.empty()) {
+        draft.textures["opacity"] = texture(textures[0], draft);
+        return;
+    }
+    // Mitsuba uses the luminance of a colour.
+    const Vector3d colour = object.colour("opacity").value_or(Vector3d::Constant(0.5));
+    const double opacity =
+        colour[1] + 0.2126 * (colour[0] - colour[1]) + 0.0722 * (colour[2] - colour[1]);
+    if (!(opacity >= 0 && opacity <= 1)) {
+        throw object.property("opacity").error(fmt::format("{} is not within [0, 1]", opacity));
+    }
+    draft.values["opacity"] = opacity;
 }
 
 void MaterialReader::read_diffuse(Object &object, Draft &draft) {

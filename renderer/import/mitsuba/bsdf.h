@@ -71,6 +71,7 @@ class MaterialReader {
     void read_plastic(Object &object, Draft &draft);
     void read_twosided(Object &object, Draft &draft);
     void read_blend(Object &object, Draft &draft);
+    void read_mask(Object &object, Draft &draft);
 
     void read_colour(Object &object, const char *property, const char *parameter, double initial,
                      Draft &draft);

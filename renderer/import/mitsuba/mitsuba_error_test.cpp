@@ -232,6 +232,17 @@ INSTANTIATE_TEST_SUITE_P(
                         "<float name=\"weight\" value=\"0.5\"/><bsdf type=\"diffuse\"/><bsdf "
                         "type=\"dielectric\"/>"),
                    "only one of the BSDFs is two-sided"},
+        BadElement{bsdf("mask"), "has 0 BSDFs; expected one"},
+        BadElement{bsdf("mask", "<float name=\"opacity\" value=\"2\"/><bsdf type=\"diffuse\"/>"),
+                   "2 is not within [0, 1]"},
+        BadElement{bsdf("mask", "<bsdf type=\"mask\"><bsdf type=\"diffuse\"/></bsdf>"),
+                   "a mask in a mask is unsupported"},
+        BadElement{bsdf("twosided", "<bsdf type=\"mask\"><bsdf type=\"diffuse\"/></bsdf>"),
+                   "light passes it, so it cannot be two-sided"},
+        BadElement{bsdf("blendbsdf",
+                        "<float name=\"weight\" value=\"0.5\"/><bsdf type=\"diffuse\"/><bsdf "
+                        "type=\"mask\"><bsdf type=\"diffuse\"/></bsdf>"),
+                   "a blend of masks is unsupported"},
         BadElement{bsdf("dielectric", "<string name=\"int_ior\" value=\"butter\"/>"),
                    "in.xml:5: <string name=\"int_ior\">: unknown index of refraction 'butter'; "
                    "give a number or one of: vacuum, helium,"},

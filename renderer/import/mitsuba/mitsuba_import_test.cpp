@@ -344,6 +344,22 @@ TEST(MitsubaBsdfs, BlendsWeighBothBsdfs) {
     EXPECT_TRUE(two_sided("<bsdf type=\"twosided\">" + blend + "</bsdf>"));
 }
 
+TEST(MitsubaBsdfs, MasksHaveAnOpacity) {
+    const auto opacity = [](const std::string &property) {
+        return parse_elements(
+                   R"(<shape type="rectangle"><bsdf type="mask">)" + property +
+                   R"(<bsdf type="twosided"><bsdf type="diffuse"/></bsdf></bsdf></shape>)")
+            .materials();
+    };
+    const MaterialArrays materials = opacity(R"(<float name="opacity" value="0.25"/>)");
+    EXPECT_EQ(materials.opacity[0].value, 0.25);
+    EXPECT_EQ(materials.component[0].kind, Kind::lambert);
+    EXPECT_EQ(materials.two_sided[0], 1);
+    EXPECT_EQ(opacity("").opacity[0].value, 0.5);
+    EXPECT_NEAR(opacity(R"(<rgb name="opacity" value="1, 0.5, 0"/>)").opacity[0].value,
+                0.2126 + 0.5 * 0.7152, 1e-12);
+}
+
 TEST(MitsubaBsdfs, RoughPlasticSaysThatItDiffers) {
     const Notices notices;
     parse_mitsuba_xml(
