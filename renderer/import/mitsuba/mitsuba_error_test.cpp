@@ -75,7 +75,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadElement{"<default name=\"a\"/>", "and a value"},
         BadElement{"<include filename=\"none.xml\"/>", "in.xml:3: <include>: "},
         BadElement{shape(shape("")),
-                   "in.xml:4: <shape type=\"rectangle\">: unexpected element in <shape>"}));
+                   "in.xml:4: <shape type=\"rectangle\">: shape type 'rectangle' accepts no shape"},
+        BadElement{shape("", "instance"),
+                   "in.xml:3: <shape type=\"instance\">: needs a reference to one shapegroup"},
+        BadElement{shape(shape("", "cube"), "instance"), "needs a reference to one shapegroup"},
+        BadElement{shape(shape(shape("", "instance"), "shapegroup"), "instance"),
+                   "in.xml:5: <shape type=\"instance\">: unsupported shape type"},
+        BadElement{shape(shape(shape("<emitter type=\"area\"/>"), "shapegroup"), "instance"),
+                   "in.xml:6: <emitter type=\"area\">: unsupported in a shapegroup"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BadElements,

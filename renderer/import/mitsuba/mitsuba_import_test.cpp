@@ -10,6 +10,7 @@
 #include "renderer/import/images/texture_file.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/import/mitsuba/plastic.h"
+#include "renderer/scene/cores/transform.h"
 #include "renderer/testing/mitsuba_scenes.h"
 
 namespace rtrays {
@@ -163,6 +164,22 @@ TEST(MitsubaShapes, RoundOnesAreShapes) {
     expected << 0.5, 0, 0, 1, 0, 0.158114, 3, 0, 0, -0.474342, 1, 0, 0, 0, 0, 1;
     EXPECT_LT((shapes.world_from_object[2] - expected).cwiseAbs().maxCoeff(), 1e-6)
         << shapes.world_from_object[2];
+}
+
+TEST(MitsubaShapes, InstancesAreCopiesOfAGroup) {
+    const Scene scene = parse_elements(R"(<bsdf type="diffuse" id="paint"/>
+        <shape type="instance"><ref id="g"/><transform name="to_world"><translate x="10"/></transform></shape>
+        <shape type="shapegroup" id="g">
+            <shape type="sphere" id="ball"><float name="radius" value="2"/><ref id="paint"/></shape>
+            <shape type="cube" id="box"><transform name="to_world"><translate y="5"/></transform></shape></shape>
+        <shape type="instance"><ref id="g"/><transform name="to_world"><scale x="3"/></transform></shape>)");
+    const ShapeArrays &shapes = scene.arrays().shapes;
+    EXPECT_EQ(shapes.name, (std::vector<std::string>{"ball", "ball_2"}));
+    EXPECT_TRUE(
+        shapes.world_from_object[0].isApprox(translation({10, 0, 0}) * scaling({2, 2, 2}), 1e-15));
+    EXPECT_TRUE(shapes.world_from_object[1].isApprox(scaling({6, 2, 2}), 1e-15));
+    EXPECT_EQ(scene.meshes().name, (std::vector<std::string>{"box", "box_2"}));
+    EXPECT_EQ(scene.materials().name.size(), 2u);  // paint, and grey of the boxes
 }
 
 TEST(MitsubaShapes, ShareWhatIsTheSame) {

@@ -121,6 +121,33 @@ class SceneReader {
     void pass(const Element &) {}
 
     void read_shape(const Element &element) {
+        const std::string type = element.attribute("type");
+        if (type == "instance") {
+            read_instance(element);
+        } else if (type != "shapegroup") {  // read where an instance refers to it
+            read_shape_in(element, Eigen::Matrix4d::Identity(), false);
+        }
+    }
+
+    /// Adds copies of the shapes of a group.
+    void read_instance(const Element &element) {
+        Object instance(element, document_);
+        const std::vector<Element> groups = instance.objects("shape");
+        const Eigen::Matrix4d to_world = instance.transform();
+        instance.finish();
+        if (groups.size() != 1 || groups[0].attribute("type") != "shapegroup") {
+            throw element.error("needs a reference to one shapegroup");
+        }
+        Object group(groups[0], document_);
+        const std::vector<Element> shapes = group.objects("shape");
+        group.finish();
+        for (const Element &shape : shapes) {
+            errors_.collect([&] { read_shape_in(shape, to_world, true); });
+        }
+    }
+
+    /// Reads a shape, whose coordinates `parent` transforms to the world.
+    void read_shape_in(const Element &element, const Eigen::Matrix4d &parent, bool is_instanced) {
         Object object(element, document_);
         const std::optional<Shape> shape = errors_.collect([&] { return shapes_.read(object); });
         const std::vector<Element> emitters = object.objects("emitter");
@@ -130,6 +157,9 @@ class SceneReader {
         }
         if (emitters.size() > 1 || bsdfs.size() > 1) {
             throw element.error("a shape takes at most one emitter and one BSDF");
+        }
+        if (is_instanced && !emitters.empty()) {
+            throw emitters[0].error("unsupported in a shapegroup; Mitsuba has no such emitters");
         }
         if (!bsdfs.empty() && bsdfs[0].attribute("type") == "null") {
             read_null(element, bsdfs[0], !emitters.empty());
@@ -144,7 +174,9 @@ class SceneReader {
         });
         const auto light = errors_.collect([&] { return read_shape_light(emitters); });
         if (shape && material && light) {
-            add_shape(element, name, *shape, *material, *light);
+            Shape placed = *shape;
+            placed.world_from_geometry = parent * placed.world_from_geometry;
+            add_shape(element, name, placed, *material, *light);
         }
     }
 

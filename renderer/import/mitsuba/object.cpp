@@ -20,7 +20,8 @@ using Eigen::Vector3d;
 
 constexpr const char *property_tags[] = {"float",  "integer", "boolean", "string",   "point",
                                          "vector", "rgb",     "srgb",    "spectrum", "transform"};
-constexpr const char *object_tags[] = {"bsdf", "texture", "emitter", "film", "sampler", "rfilter"};
+constexpr const char *object_tags[] = {"bsdf",    "texture", "emitter", "film",
+                                       "sampler", "rfilter", "shape"};
 
 template <typename Table>
 bool contains(const Table &table, const std::string &value) {
