@@ -7,6 +7,14 @@
 #include "renderer/testing/float_traps.h"
 #include "renderer/testing/temporary_folder.h"
 
+#ifdef __SANITIZE_ADDRESS__
+/// Options of the address sanitizer. Its leak check guesses where a library opened by dlopen, such
+/// as the image module, has its thread-local memory, and may read at a wrong address.
+extern "C" const char *__asan_default_options() {
+    return "intercept_tls_get_addr=0";
+}
+#endif
+
 int main(int argc, char **argv) {
     testing::InitGoogleTest(&argc, argv);
     const rtrays::TemporaryFolder folder;
