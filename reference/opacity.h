@@ -19,7 +19,6 @@ namespace rtrays::reference {
 /// The opacity of one material.
 class Opacity {
   public:
-    Opacity() = default;  ///< opaque
     /// Throws `Error` (bad input) like `Texture`.
     Opacity(const MaterialOpacity &opacity, const TextureArrays &textures);
 

@@ -346,6 +346,8 @@ void notice_unseen_light(const Scene &scene, const RenderSettings &settings) {
 
 /// Writes the images, if the render is complete, and the statistics.
 void write_results(const RenderSession &session, const Options &options, bool complete) {
+    // Before the development of the image, which is no part of the render's times.
+    const std::string report = options.stats.empty() ? "" : session.report().dump(2) + "\n";
     if (complete) {
         const Image image = select_layers(session.develop(), options.layers);
         write_or_keep(session, options, [&] {
@@ -353,7 +355,7 @@ void write_results(const RenderSession &session, const Options &options, bool co
         });
     }
     if (!options.stats.empty()) {
-        write_file(options.stats, session.report().dump(2) + "\n");
+        write_file(options.stats, report);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -114,6 +115,25 @@ void require_writable(const fs::path &path) {
     }
     std::error_code ignored;
     fs::remove(temporary, ignored);
+}
+
+std::string cache_directory(const char *own, const std::string &name) {
+    const auto variable = [](const char *of) {
+        const char *value = std::getenv(of);
+        return std::string(value == nullptr ? "" : value);
+    };
+    if (const std::string value = variable(own); !value.empty()) {
+        return value;
+    }
+    if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) {
+        return xdg + "/" + name;
+    }
+    if (const std::string home = variable("HOME"); !home.empty()) {
+        return home + "/.cache/" + name;
+    }
+    std::error_code error;
+    const std::filesystem::path temporary = std::filesystem::temp_directory_path(error);
+    return (error ? "/tmp" : temporary.string()) + "/" + name;
 }
 
 std::string content_hash(const std::string &bytes) {

@@ -25,6 +25,11 @@ void write_file(const std::filesystem::path &path, const std::string &content);
 /// Throws `Error` (bad usage) if no file can be created at `path`. Called before a long run.
 void require_writable(const std::filesystem::path &path);
 
+/// Returns the folder of a cache: the value of the environment variable `own`, otherwise
+/// $XDG_CACHE_HOME/NAME, otherwise ~/.cache/NAME. Without HOME, it is in the folder of temporary
+/// files.
+std::string cache_directory(const char *own, const std::string &name);
+
 constexpr size_t hash_digits = 32;
 
 /// Returns the XXH3 hash (128 bits) of bytes as `hash_digits` hexadecimal digits. It identifies

@@ -109,9 +109,11 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     return camera;
 }
 
-float camera_start_distance(const float (&position)[3], const SceneExtent &extent) {
+float camera_start_distance(const CameraRecord &camera, const SceneExtent &extent) {
+    // From the nearest point that the lens may have, in whatever direction it looks.
     const double distance =
-        (Eigen::Vector3f(position).cast<double>() - extent.centre).norm() - extent.radius;
+        (Eigen::Vector3f(camera.position).cast<double>() - extent.centre).norm() - extent.radius -
+        static_cast<double>(camera.aperture_radius);
     const bool is_far =
         extent.radius > 0 && extent.bounded && extent.encloses && distance > 1000 * extent.radius;
     // The margin covers the rounding of the position.
@@ -120,7 +122,7 @@ float camera_start_distance(const float (&position)[3], const SceneExtent &exten
 
 void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExtent &extent,
                       CameraRecord &camera) {
-    camera.start_distance = camera_start_distance(camera.position, extent);
+    camera.start_distance = camera_start_distance(camera, extent);
     if (camera.start_distance == 0.0f) {
         return;
     }
@@ -194,8 +196,9 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         parts.textures |=
             has_textures != had_textures || !are_equal(compiled.texture_sources, scene.textures);
         parts.triangles |= reads_uv(compiled) != read_uv;
-        parts.opacity |= !are_equal(compiled.texture_sources, scene.textures) ||
-                         compiled.opacity_sources != scene.materials.opacity;
+        parts.opacity |=
+            compiled.opacity_sources != scene.materials.opacity ||
+            (!compiled.opacities.empty() && !are_equal(compiled.texture_sources, scene.textures));
         compiled.texture_sources = scene.textures;
         compiled.opacity_sources = scene.materials.opacity;
     }
@@ -223,7 +226,7 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         former.shapes = std::exchange(compiled.shapes, compile_shapes(scene.shapes));
         former.shape_bounds = std::exchange(compiled.shape_bounds, bound_shapes(compiled.shapes));
     }
-    parts.opacity |= moved || parts.shapes;
+    parts.opacity |= parts.triangles || parts.shapes;
     if (parts.opacity) {
         former.triangle_masks = std::exchange(compiled.triangle_masks, {});
         former.masked_triangles = std::exchange(compiled.masked_triangles, {});

@@ -116,11 +116,11 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
 /// Returns the record of camera `index` for a film of the given size in pixels.
 CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width, int height);
 
-/// Returns the distance from a camera to the scene, rounded down, if it exceeds 1000 radii of the
+/// Returns the distance from the lens to the scene, rounded down, if it exceeds 1000 radii of the
 /// scene. Returns 0 otherwise, and if planes may be nearer. Rays of such a camera begin at that
 /// distance: float resolves a distance of 1000 radii to 6e-5 radii, a few hundredths of a pixel
 /// that shows 1/512 of the scene.
-float camera_start_distance(const float (&position)[3], const SceneExtent &extent);
+float camera_start_distance(const CameraRecord &camera, const SceneExtent &extent);
 
 /// Moves the start of the rays of a camera that is far from the scene.
 void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExtent &extent,

@@ -73,8 +73,7 @@ void compile_distances(CompiledScene &compiled) {
     const double camera =
         (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     compiled.lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
-    compiled.lighting.camera_start_distance =
-        camera_start_distance(compiled.camera.position, extent);
+    compiled.lighting.camera_start_distance = camera_start_distance(compiled.camera, extent);
 }
 
 }  // namespace rtrays

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiles the opacities of materials for the opacity test of rays (kernels/traversal/opacity.h).
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "renderer/compile/compile_scene.h"
@@ -12,10 +11,10 @@ namespace rtrays {
 namespace {
 
 /// Returns channel values of a texel, decoded.
-std::array<double, 3> texel(const TextureImage &image, size_t index) {
-    std::array<double, 3> values{};
-    for (size_t c = 0; c < 3; ++c) {
-        const size_t at = 3 * index + c;
+Eigen::Vector3d texel(const TextureImage &image, size_t index) {
+    Eigen::Vector3d values;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        const size_t at = 3 * index + static_cast<size_t>(c);
         if (image.bytes.empty()) {
             values[c] = static_cast<double>(image.floats[at]);
         } else {
@@ -24,11 +23,6 @@ std::array<double, 3> texel(const TextureImage &image, size_t index) {
         }
     }
     return values;
-}
-
-/// Returns the Rec. 709 luminance of a colour. Of a grey it is exactly the value of its channels.
-double luminance(const std::array<double, 3> &rgb) {
-    return rgb[1] + 0.2126 * (rgb[0] - rgb[1]) + 0.0722 * (rgb[2] - rgb[1]);
 }
 
 /// Appends the texels of an image, and returns the index of the first.

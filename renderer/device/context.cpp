@@ -66,16 +66,16 @@ DeviceInfo select_device(const std::string &spec) {
     const std::vector<DeviceInfo> devices = list_devices();
     if (devices.empty()) {
         const std::string fault = pocl_cache_fault();
-        throw input_error(
-            (fault.empty()
-                 ? "no OpenCL device found; "
-                 : fmt::format("no OpenCL device found; if PoCL is installed, it has none "
-                               "because its cache cannot be written ({}): make that folder "
-                               "writable, or set POCL_CACHE_DIR to another one; otherwise, ",
-                               fault)) +
-            "for the CPU, install Debian's package pocl-opencl-icd (scripts/install does this); "
-            "for "
-            "a GPU, install its driver");
+        const std::string opening =
+            fault.empty() ? "no OpenCL device found; "
+                          : fmt::format(
+                                "no OpenCL device found; if PoCL is installed, it has none because "
+                                "its cache cannot be written ({}): make that folder writable, or "
+                                "set POCL_CACHE_DIR to another one; otherwise, ",
+                                fault);
+        throw input_error(opening +
+                          "for the CPU, install Debian's package pocl-opencl-icd (scripts/install "
+                          "does this); for a GPU, install its driver");
     }
     std::string listing;
     std::vector<std::string> index(devices.size());

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
@@ -28,7 +27,8 @@ struct CrashReport {
 };
 
 CrashReport &crash_report() {
-    static CrashReport report;
+    // Never destroyed, because a driver may crash while the program exits.
+    static CrashReport &report = *new CrashReport;
     return report;
 }
 
@@ -48,18 +48,7 @@ extern "C" void report_crash(int signal) {
 }  // namespace
 
 std::string pocl_cache_directory() {
-    const auto variable = [](const char *name) {
-        const char *value = std::getenv(name);
-        return std::string(value == nullptr ? "" : value);
-    };
-    if (const std::string own = variable("POCL_CACHE_DIR"); !own.empty()) {
-        return own;
-    }
-    if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) {
-        return xdg + "/pocl/kcache";
-    }
-    const std::string home = variable("HOME");
-    return (home.empty() ? fs::temp_directory_path().string() : home + "/.cache") + "/pocl/kcache";
+    return cache_directory("POCL_CACHE_DIR", "pocl/kcache");
 }
 
 std::string pocl_cache_fault() {

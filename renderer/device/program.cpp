@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <regex>
 
@@ -91,18 +90,7 @@ std::string program_options(const DeviceInfo &device) {
 }
 
 std::string program_cache_directory() {
-    const auto variable = [](const char *name) {
-        const char *value = std::getenv(name);
-        return std::string(value == nullptr ? "" : value);
-    };
-    if (const std::string own = variable("RTRAYS_CACHE_DIR"); !own.empty()) {
-        return own;
-    }
-    if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) {
-        return xdg + "/rtrays";
-    }
-    const std::string home = variable("HOME");
-    return (home.empty() ? fs::temp_directory_path().string() : home + "/.cache") + "/rtrays";
+    return cache_directory("RTRAYS_CACHE_DIR", "rtrays");
 }
 
 Program::Program(DeviceContext &device, const std::string &path, const Defines &defines,

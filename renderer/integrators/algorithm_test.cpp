@@ -138,18 +138,19 @@ enum class LightKind { area, infinite, delta };
 /// last vertex to a point on the light, connects its first vertex to the camera, or connects two
 /// vertices. No connection ends at a vertex S.
 bool is_sampled(const Algorithm &algorithm, const Vertices &path, LightKind light) {
-    const bool hits = light != LightKind::delta, joins_light = !path.empty() && path.back() == 'D',
-               joins_camera = path.empty() ? light == LightKind::area : path.front() == 'D';
+    const bool hits = light != LightKind::delta,
+               connects_light = !path.empty() && path.back() == 'D',
+               connects_camera = path.empty() ? light == LightKind::area : path.front() == 'D';
     const std::string name = algorithm.name;
     if (name == "ray_casting") {
         return path.empty() || path == "D";
     }
     if (name == "whitted") {
         const size_t ideal = path.find_first_not_of('S');
-        return ideal == Vertices::npos || (ideal + 1 == path.size() && joins_light);
+        return ideal == Vertices::npos || (ideal + 1 == path.size() && connects_light);
     }
-    return (algorithm.traces_camera_paths && (hits || joins_light)) ||
-           (algorithm.traces_light_paths() && joins_camera) ||
+    return (algorithm.traces_camera_paths && (hits || connects_light)) ||
+           (algorithm.traces_light_paths() && connects_camera) ||
            (name == "bdpt" && path.find("DD") != Vertices::npos);
 }
 

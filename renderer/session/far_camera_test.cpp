@@ -55,18 +55,16 @@ double difference(const Image &a, const Image &b) {
 
 // All random numbers are the same, and so is the perspective up to a millionth.
 TEST(FarCamera, RendersTheImageOfANearerOne) {
-    for (const Algorithm *algorithm :
-         {&algorithms::path_tracing, &algorithms::light_tracing, &algorithms::truncated_bdpt}) {
+    for (const Algorithm *algorithm : {&algorithms::path_tracing, &algorithms::light_tracing,
+                                       &algorithms::truncated_bdpt, &algorithms::bdpt}) {
         const Image near = render(3e4, *algorithm);
         for (const double distance : {3e5, 3e6}) {
             EXPECT_LT(difference(near, render(distance, *algorithm)), 1e-3)
                 << algorithm->name << " at " << distance;
         }
+        // Below the limit of distance, rays begin on the lens.
+        EXPECT_LT(difference(render(1e3, *algorithm), near), 0.02) << algorithm->name;
     }
-    // Below the limit of distance, rays begin on the lens.
-    EXPECT_LT(
-        difference(render(1e3, algorithms::path_tracing), render(3e5, algorithms::path_tracing)),
-        0.02);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/compile/device_scene.h"
 #include "renderer/integrators/unseen_light.h"
 #include "renderer/scene/scene.h"
 #include "renderer/session/render_session.h"
@@ -84,6 +85,7 @@ Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene
     };
     // Without light paths, caustics that only they find would be missing without any variance.
     const bool needs_light_paths =
+        shared->compiled().lighting.light_count > 0 &&
         !unseen_light(algorithms::path_tracing, scene.arrays(), settings.max_depth).empty();
     for (const double per_pixel : {0.0, 0.25, 1.0, 4.0}) {
         if (per_pixel > 0 || !needs_light_paths) {

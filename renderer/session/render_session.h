@@ -20,7 +20,7 @@ struct DeviceSceneSettings;
 struct DeviceInfo;
 
 /// Times and counts of one session. Whatever empties or replaces the film resets them, except those
-/// of compilation and BVH.
+/// of compilation, BVH and pilot.
 struct RenderStats {
     /// Building or loading programs, and the first enqueue of every kernel.
     double compile_seconds = 0;

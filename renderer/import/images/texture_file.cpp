@@ -4,6 +4,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 
@@ -80,6 +82,14 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
         }
     }
     return image;
+}
+
+bool holds_floats(const std::filesystem::path &path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".exr" || extension == ".hdr" || extension == ".rgbe" ||
+           extension == ".pfm";
 }
 
 bool has_alpha_channel(const std::filesystem::path &path) {

@@ -23,6 +23,9 @@ enum class TextureEncoding { srgb, linear, alpha };
 std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::path &path,
                                                       TextureEncoding encoding);
 
+/// Returns whether images of this name's extension store linear floats.
+bool holds_floats(const std::filesystem::path &path);
+
 /// Returns whether an image has an alpha channel. Throws `Error` (bad input) naming the file if it
 /// cannot be read.
 bool has_alpha_channel(const std::filesystem::path &path);

@@ -279,8 +279,7 @@ void MaterialReader::read_mask(Object &object, Draft &draft) {
     }
     // Mitsuba uses the luminance of a colour.
     const Vector3d colour = object.colour("opacity").value_or(Vector3d::Constant(0.5));
-    const double opacity =
-        colour[1] + 0.2126 * (colour[0] - colour[1]) + 0.0722 * (colour[2] - colour[1]);
+    const double opacity = luminance(colour);
     if (!(opacity >= 0 && opacity <= 1)) {
         throw object.property("opacity").error(fmt::format("{} is not within [0, 1]", opacity));
     }
@@ -447,11 +446,8 @@ std::shared_ptr<Texture> MaterialReader::bitmap(Object &object, UvConvention uv)
     object.finish();
 
     const std::filesystem::path path = element.path(*file);
-    const std::string extension = lower_extension(path);
-    const bool holds_floats =
-        extension == ".exr" || extension == ".hdr" || extension == ".rgbe" || extension == ".pfm";
-    const auto image =
-        files_.load(path, raw || holds_floats ? TextureEncoding::linear : TextureEncoding::srgb);
+    const auto image = files_.load(
+        path, raw || holds_floats(path) ? TextureEncoding::linear : TextureEncoding::srgb);
     const std::string wanted = element.has("id") ? object.id() : path.stem().string();
     return std::make_shared<Texture>(texture_names_.unique(wanted), image, values);
 }

@@ -17,7 +17,6 @@
 
 namespace rtrays {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {

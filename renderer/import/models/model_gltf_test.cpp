@@ -254,6 +254,15 @@ TEST(Gltf, HonoursTheFilterOfTheSampler) {
         model["samplers"] = {{{"magFilter", stated}}};
         EXPECT_EQ(loaded(model).scene.arrays().textures.filter, std::vector<Filter>{filter});
     }
+    // Textures that differ in the filter alone are not shared.
+    model["samplers"] = {{{"magFilter", 9728}}, {{"magFilter", 9729}}};
+    model["textures"].push_back({{"source", 0}, {"sampler", 1}});
+    model["materials"].push_back(model["materials"][0]);
+    model["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 1}};
+    model["meshes"][0]["primitives"].push_back(model["meshes"][0]["primitives"][0]);
+    model["meshes"][0]["primitives"][1]["material"] = 1;
+    EXPECT_EQ(loaded(model).scene.arrays().textures.filter,
+              (std::vector<Filter>{Filter::nearest, Filter::bilinear}));
 }
 
 TEST(Gltf, NamesWhatIsDropped) {

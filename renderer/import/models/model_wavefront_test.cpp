@@ -310,6 +310,9 @@ TEST(Mtl, ReadsSeveralFilesAndNamesInAnyCase) {
         << model.told;
     const LoadedModel both(folder.write("m.obj", square("mtllib a.mtl b.mtl\n") + more));
     EXPECT_EQ(both.material("m")[0].weight, Vector3f::Constant(0.75f));
+    // Exporters repeat the statement for every object.
+    const LoadedModel repeated(folder.write("m.obj", square("mtllib b.mtl\nmtllib b.mtl\n")));
+    EXPECT_FALSE(repeated.says("several materials")) << repeated.told;
 }
 
 TEST(Mtl, NamesInvisibleMaterialsAndContradictions) {

@@ -36,11 +36,6 @@ fs::path find_in_any_case(const fs::path &folder, const fs::path &path) {
     return found;
 }
 
-bool holds_floats(const fs::path &file) {
-    const std::string extension = lower_extension(file);
-    return extension == ".hdr" || extension == ".exr" || extension == ".pfm";
-}
-
 }  // namespace
 
 fs::path find_model_file(const std::string &stated, const std::vector<fs::path> &folders,
@@ -108,8 +103,9 @@ std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const Text
                                                 const TexturePlacement &placement) {
     const Eigen::Vector2d &scale = placement.scale;
     const Eigen::Vector2d &offset = placement.offset;
-    const std::string key = fmt::format("{} {} {} {} {} {}", static_cast<const void *>(image.get()),
-                                        placement.clamps, scale[0], scale[1], offset[0], offset[1]);
+    const std::string key = fmt::format(
+        "{} {} {} {} {} {} {}", static_cast<const void *>(image.get()), placement.clamps,
+        placement.is_nearest, scale[0], scale[1], offset[0], offset[1]);
     std::shared_ptr<Texture> &made = textures_[key];
     if (made == nullptr) {
         std::string path = file;

@@ -30,8 +30,12 @@ class MtlLibrary {
     MtlLibrary(fs::path model_folder, Scene &scene, ModelNotes &notes)
         : model_folder_(std::move(model_folder)), scene_(scene), notes_(notes), textures_(notes) {}
 
-    /// Adds the materials of an MTL file. The first material of a name is used.
+    /// Adds the materials of an MTL file, unless they have been added before. The first material of
+    /// a name is used.
     void add(const fs::path &file) {
+        if (!added_.insert(file).second) {
+            return;
+        }
         for (MtlMaterial &material : read_mtl(file, notes_)) {
             if (!by_name_.emplace(material.name, materials_.size()).second) {
                 repeated_.insert(material.name);
@@ -86,6 +90,7 @@ class MtlLibrary {
     ModelNotes &notes_;
     ModelTextures textures_;
     ModelNames names_;
+    std::set<fs::path> added_;
     std::vector<MtlMaterial> materials_;
     std::vector<std::shared_ptr<MaterialCore>> made_;
     std::map<std::string, size_t> by_name_;

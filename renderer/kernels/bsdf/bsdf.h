@@ -233,9 +233,6 @@ DEVICE BsdfSample sample_between_horizons(PRIVATE const SceneView *scene, Materi
         return sample;
     }
     sample.wi = image;
-    sample.scale = is_refracting(component->kind)
-                       ? refraction_scale(component_eta(component, record.flags, frame.front))
-                       : 1.0f;
     sample.pdf_w = bsdf_evaluate_local(scene, record, frame, wo, wi).pdf_w;
     return sample;
 }

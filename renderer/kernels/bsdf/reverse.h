@@ -22,7 +22,7 @@ typedef struct ScatterEvent {
     /// reverse event is impossible. For a delta event both are probabilities of the event.
     float log_reverse_ratio;
     /// Weight of a light path along these directions: f |cos(ng, wi)| / p_w(wi), where f is that of
-    /// radiance from wo to wi. Not set on a camera path unless the event is a delta event.
+    /// radiance from wo to wi. 0 on a camera path unless the event is a delta event.
     float3 importance;
 } ScatterEvent;
 

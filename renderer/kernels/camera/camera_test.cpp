@@ -181,11 +181,16 @@ TEST(Camera, ResolvesASceneThatIsFarAway) {
 }
 
 TEST(Camera, BeginsOnTheLensUnlessItIsFarAndNoPlaneIsNear) {
-    const float position[3] = {0, 0, 5000};
-    EXPECT_GT(camera_start_distance(position, {{0, 0, 0}, 1}), 4990.0f);
-    EXPECT_LT(camera_start_distance(position, {{0, 0, 0}, 1}), 4999.0f);
-    EXPECT_EQ(camera_start_distance(position, {{0, 0, 0}, 10}), 0.0f);
-    EXPECT_EQ(camera_start_distance(position, {{0, 0, 0}, 1, true, false}), 0.0f);
+    CameraRecord camera{};
+    camera.position[2] = 5000;
+    EXPECT_GT(camera_start_distance(camera, {{0, 0, 0}, 1}), 4990.0f);
+    EXPECT_LT(camera_start_distance(camera, {{0, 0, 0}, 1}), 4999.0f);
+    EXPECT_EQ(camera_start_distance(camera, {{0, 0, 0}, 10}), 0.0f);
+    EXPECT_EQ(camera_start_distance(camera, {{0, 0, 0}, 1, true, false}), 0.0f);
+    // A point of the lens may be nearer than its centre.
+    camera.aperture_radius = 100;
+    EXPECT_LT(camera_start_distance(camera, {{0, 0, 0}, 1}), 4899.0f);
+    EXPECT_GT(camera_start_distance(camera, {{0, 0, 0}, 1}), 4890.0f);
 }
 
 // Connecting a point of a camera ray to the lens must give the raster position of the ray. The

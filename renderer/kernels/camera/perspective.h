@@ -46,7 +46,7 @@ DEVICE float3 start_near_scene(CameraRecord camera, float x, float y, float3 on_
 }
 
 /// Returns the ray through film position (x, y), in pixels from the top left corner, and the point
-/// of the lens that (u, v) samples. It begins on the lens, or camera.start_distance behind it.
+/// of the lens that (u, v) samples. It begins on the lens, or at camera.start_distance from it.
 ///
 /// A uniform position in a pixel has density p_v = 1 / pixel_area per area at unit distance. A
 /// uniform point of the lens has density p_l = 1 / (pi r^2) per area (thesis (2.46)). With the box

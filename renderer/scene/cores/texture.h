@@ -51,6 +51,9 @@ class Texture : public PropertyHolder {
 /// Decodes a value in [0, 1] by the sRGB curve (IEC 61966-2-1) to a linear value.
 double srgb_decoded(double value);
 
+/// Returns the Rec. 709 luminance of a linear colour. For a grey, this is exactly its value.
+double luminance(const Eigen::Vector3d &rgb);
+
 /// Encodes a linear value in [0, 1] by the inverse of the sRGB curve.
 double srgb_encoded(double value);
 

@@ -10,8 +10,6 @@
 
 namespace rtrays {
 
-namespace {}
-
 void CameraStore::append(const Node &node) {
     arrays.name.push_back(node.name());
     arrays.world_from_camera.emplace_back();
