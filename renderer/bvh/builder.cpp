@@ -45,6 +45,17 @@ struct Capacities {
     }
 };
 
+Defines numbering(const BvhBuildParameters &parameters) {
+    return {{"ONE_GROUP", fmt::format("{}u", parameters.one_group)}};
+}
+
+Defines binning(const BvhBuildParameters &parameters) {
+    Defines defines = numbering(parameters);
+    defines["BVH_BINS"] = fmt::format("{}u", parameters.bins);
+    defines["BVH_BINNED_AXES"] = fmt::format("{}u", parameters.axes);
+    return defines;
+}
+
 }  // namespace
 
 BvhBuildParameters BvhBuildParameters::for_device(const DeviceInfo &device) {
@@ -115,6 +126,18 @@ struct BvhBuilder::Workspace {
     Buffer<BvhNode> scratch_nodes;
 };
 
+BvhBuilder::LevelKernels::LevelKernels(DeviceContext &device,
+                                       const BvhBuildParameters &parameters) {
+    const Program program(device, "kernels/bvh/split_level.cl", binning(parameters));
+    const uint32_t group = parameters.group_size;
+    bin_primitives = Kernel(program, "bin_primitives", group);
+    merge_bins = Kernel(program, "merge_bins", group);
+    choose_splits = Kernel(program, "choose_splits", group);
+    partition_primitives = Kernel(program, "partition_primitives", group);
+    merge_children = Kernel(program, "merge_children", group);
+    emit_children = Kernel(program, "emit_children", parameters.one_group);
+}
+
 BvhBuilder::BvhBuilder(DeviceContext &device)
     : BvhBuilder(device, BvhBuildParameters::for_device(device.info())) {}
 
@@ -139,24 +162,13 @@ BvhBuilder::BvhBuilder(DeviceContext &device, const BvhBuildParameters &paramete
             fmt::format("BVH build parameters: bins {} must be 2 to 64, axes {} must be 1 or 3",
                         parameters.bins, parameters.axes));
     }
-    const Defines numbering = {{"ONE_GROUP", fmt::format("{}u", parameters.one_group)}};
-    Defines binning = numbering;
-    binning["BVH_BINS"] = fmt::format("{}u", parameters.bins);
-    binning["BVH_BINNED_AXES"] = fmt::format("{}u", parameters.axes);
-    const Program gather(device, "kernels/bvh/gather_primitives.cl", numbering);
+    const Program gather(device, "kernels/bvh/gather_primitives.cl", numbering(parameters));
     check_triangles_ = Kernel(gather, "check_triangles", group);
     begin_build_ = Kernel(gather, "begin_build", parameters.one_group);
     gather_primitives_ = Kernel(gather, "gather_primitives", group);
-    const Program split(device, "kernels/bvh/split_level.cl", binning);
-    bin_primitives_ = Kernel(split, "bin_primitives", group);
-    merge_bins_ = Kernel(split, "merge_bins", group);
-    choose_splits_ = Kernel(split, "choose_splits", group);
-    partition_primitives_ = Kernel(split, "partition_primitives", group);
-    merge_children_ = Kernel(split, "merge_children", group);
-    emit_children_ = Kernel(split, "emit_children", parameters.one_group);
-    const Program subtrees(device, "kernels/bvh/build_subtrees.cl", binning);
+    const Program subtrees(device, "kernels/bvh/build_subtrees.cl", binning(parameters));
     build_subtrees_ = Kernel(subtrees, "build_subtrees", group);
-    const Program place(device, "kernels/bvh/place_subtrees.cl", numbering);
+    const Program place(device, "kernels/bvh/place_subtrees.cl", numbering(parameters));
     place_subtrees_ = Kernel(place, "place_subtrees", parameters.one_group);
     copy_top_nodes_ = Kernel(place, "copy_top_nodes", group);
     copy_subtrees_ = Kernel(place, "copy_subtrees", group);
@@ -218,26 +230,31 @@ BuildState BvhBuilder::gather(Gathered &gathered, uint32_t subtree_size,
 
 void BvhBuilder::split_levels(Workspace &work) {
     BuildState state = work.read_state();
+    if (state.task_count > 0 && !levels_) {
+        levels_.emplace(*device_, parameters_);
+    }
     for (uint32_t level = 0; state.task_count > 0; ++level) {
         const uint32_t now = level % 2;
         const uint32_t next = 1 - now;
-        bin_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count,
-                              work.primitives[now], work.chunk_bins});
-        bin_primitives_.enqueue(state.chunk_count);
-        merge_bins_.bind({work.tasks[now], state.task_count, parameters_.parts, work.chunk_bins,
-                          work.task_bins});
-        merge_bins_.enqueue(uint64_t{state.task_count} * parameters_.parts);
-        choose_splits_.bind({work.tasks[now], state.task_count, work.task_bins});
-        choose_splits_.enqueue(state.task_count);
-        partition_primitives_.bind({work.tasks[now], work.chunks[now], state.chunk_count,
-                                    work.chunk_bins, work.primitives[now], work.primitives[next]});
-        partition_primitives_.enqueue(state.chunk_count);
-        merge_children_.bind({work.tasks[now], state.task_count, work.chunks[now]});
-        merge_children_.enqueue(2 * uint64_t{state.task_count});
-        emit_children_.bind({work.state, work.tasks[now], state.task_count, parameters_.chunk_size,
-                             parameters_.subtree_size, next, work.top_nodes, work.tasks[next],
-                             work.chunks[next], work.subtrees});
-        emit_children_.enqueue(parameters_.one_group);
+        levels_->bin_primitives.bind({work.tasks[now], work.chunks[now], state.chunk_count,
+                                      work.primitives[now], work.chunk_bins});
+        levels_->bin_primitives.enqueue(state.chunk_count);
+        levels_->merge_bins.bind({work.tasks[now], state.task_count, parameters_.parts,
+                                  work.chunk_bins, work.task_bins});
+        levels_->merge_bins.enqueue(uint64_t{state.task_count} * parameters_.parts);
+        levels_->choose_splits.bind({work.tasks[now], state.task_count, work.task_bins});
+        levels_->choose_splits.enqueue(state.task_count);
+        levels_->partition_primitives.bind({work.tasks[now], work.chunks[now], state.chunk_count,
+                                            work.chunk_bins, work.primitives[now],
+                                            work.primitives[next]});
+        levels_->partition_primitives.enqueue(state.chunk_count);
+        levels_->merge_children.bind({work.tasks[now], state.task_count, work.chunks[now]});
+        levels_->merge_children.enqueue(2 * uint64_t{state.task_count});
+        levels_->emit_children.bind({work.state, work.tasks[now], state.task_count,
+                                     parameters_.chunk_size, parameters_.subtree_size, next,
+                                     work.top_nodes, work.tasks[next], work.chunks[next],
+                                     work.subtrees});
+        levels_->emit_children.enqueue(parameters_.one_group);
         state = work.read_state();
     }
 }

@@ -89,6 +89,13 @@ class BvhBuilder {
   private:
     struct Gathered;
     struct Workspace;
+    /// Kernels of the large phase.
+    struct LevelKernels {
+        LevelKernels(DeviceContext &device, const BvhBuildParameters &parameters);
+
+        Kernel bin_primitives, merge_bins, choose_splits, partition_primitives, merge_children,
+            emit_children;
+    };
 
     Bvh build_bvh2(const Buffer<float> &positions, const Buffer<uint32_t> &indices);
     std::optional<Bvh> build_by_clustering(const Buffer<float> &positions,
@@ -101,8 +108,7 @@ class BvhBuilder {
     DeviceContext *device_;
     BvhBuildParameters parameters_;
     Kernel check_triangles_, begin_build_, gather_primitives_;
-    Kernel bin_primitives_, merge_bins_, choose_splits_, partition_primitives_, merge_children_,
-        emit_children_;
+    std::optional<LevelKernels> levels_;  ///< compiled by the first build that has a large phase
     Kernel build_subtrees_;
     Kernel place_subtrees_, copy_top_nodes_, copy_subtrees_;
     std::optional<HplocBuilder> hploc_;
