@@ -43,13 +43,8 @@ void carry_pixel(std::vector<int64_t> &words) {
 
 FilmState film_of(const std::vector<float> &samples) {
     FilmState film = empty_film();
-    uint32_t additions = 0;
     for (const float x : samples) {
         EXPECT_EQ(film_add_sample(film.words.data(), make_float3(x, -x, 0.5f * x)), 0u);
-        if (++additions == FILM_ADDITIONS_BETWEEN_CARRIES) {
-            carry_pixel(film.words);
-            additions = 0;
-        }
     }
     carry_pixel(film.words);
     film.add_range({0, samples.size()});
@@ -75,6 +70,13 @@ TEST(Film, TwoHundredThousandEqualSamplesAverageToTheSample) {
     // A plain float sum would be off by 0.2 % here.
     EXPECT_EQ(mean_of(std::vector<float>(200000, 0.1f)), 0.1f);
     EXPECT_EQ(mean_of(std::vector<float>(200000, 1.0f / 3.0f)), 1.0f / 3.0f);
+}
+
+TEST(Film, MovesWhatFillsAWordToTheNext) {
+    // Just below the limits of words, where 2^19 additions overflow.
+    for (const float x : {0x1.fffffep-41f, 0x1.fffffep-1f, 0x1.fffffep19f}) {
+        EXPECT_EQ(mean_of(std::vector<float>(3 << 20, x)), x);
+    }
 }
 
 TEST(Film, KeepsSmallSamplesBesideAFirefly) {
@@ -238,7 +240,8 @@ TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
 
 // Many concurrent work-items add the same bits, with 64-bit atomics and with the 32-bit fallback.
 TEST(Film, DeviceAddsTheSameBitsWithAndWithout64BitAtomics) {
-    const std::vector<float> samples = heavy_tailed(20000, 5);
+    std::vector<float> samples = heavy_tailed(20000, 5);
+    samples.resize(1 << 20, 0x1.fffffep-1f);  // fills a word many times
     const std::vector<int64_t> expected = film_of(samples).words;
     const SourceOverlays source = {{"kernels/test.cl", R"(
 #include "kernels/film/film.h"

@@ -98,8 +98,7 @@ class CounterReads {
 uint64_t RenderSession::State::batch_size(uint64_t begin, uint64_t end) const {
     const uint64_t batch =
         batch_paths(device.info()) / std::max<uint64_t>(1, live_paths_per_sample());
-    uint64_t count =
-        std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_BETWEEN_CARRIES), end - begin);
+    uint64_t count = std::min(std::clamp<uint64_t>(batch, 1, FILM_ADDITIONS_AT_ONCE), end - begin);
     if (convergence != nullptr && convergence->live_count() > 0) {
         count = std::min(count, convergence->rule().next_check(begin) - begin);
     }
@@ -134,11 +133,10 @@ void RenderSession::State::enqueue(CompiledPass &pass, Stage stage, uint64_t pat
 }
 
 void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
-    for (CompiledPass &pass : passes) {
-        if (count == 0) {
-            carry_film(pass);  // the first enqueue compiles the kernel
+    if (count == 0) {
+        for (CompiledPass &pass : passes) {
+            enqueue(pass, Stage::carry_film);  // the first enqueue compiles the kernel
         }
-        make_room(pass, count);
     }
     if (features.has(Feature::vertex_connections)) {
         // Each pass traces one path per pixel, chunk by chunk, so that both passes use the same
@@ -160,7 +158,7 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
     for (CompiledPass &pass : passes) {
         if (pass.features.has(Feature::convergence) &&
             (count == 0 || convergence->rule().is_check(first + count))) {
-            carry_film(pass);
+            enqueue(pass, Stage::carry_film);
             convergence->check(pass.film, first + count);
             pass.stages.bind(convergence->arguments());
         }
@@ -168,23 +166,9 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
     }
 }
 
-void RenderSession::State::carry_film(CompiledPass &pass) {
-    enqueue(pass, Stage::carry_film);
-    pass.additions = 0;
-}
-
-void RenderSession::State::make_room(CompiledPass &pass, uint64_t additions) {
-    if (pass.additions + additions > FILM_ADDITIONS_BETWEEN_CARRIES) {
-        carry_film(pass);
-    }
-    pass.additions += additions;
-}
-
 std::vector<int64_t> RenderSession::State::read_film(CompiledPass &pass) {
-    if (pass.additions > 0) {
-        carry_film(pass);
-        collect_profile(pass);
-    }
+    enqueue(pass, Stage::carry_film);
+    collect_profile(pass);
     return pass.film.read();
 }
 
@@ -196,9 +180,8 @@ void RenderSession::State::collect_profile(CompiledPass &pass) {
     }
 }
 
-void RenderSession::State::add_tail_stages(CompiledPass &pass, uint64_t in_flight) {
+void RenderSession::State::add_tail_stages(CompiledPass &pass) {
     collect_profile(pass);
-    make_room(pass, pass.splats * in_flight * TAIL_EVENTS);
     const auto start = SteadyClock::now();
     for (const RoundStage &stage : pass.tail) {
         if (!pass.stages.has(stage.stage)) {
@@ -230,14 +213,11 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
         tail_rounds += few ? rounds_per_check : 0;
         if (tail_rounds > tail_rounds_before_compilation && !pass.tail.empty() &&
             !pass.has_tail_stages()) {
-            add_tail_stages(pass, in_flight);
+            add_tail_stages(pass);
         }
         const bool runs_tail =
             few && pass.has_tail_stages() && check * rounds_per_check >= first_tail_round;
         for (int i = 0; i < rounds_per_check; ++i) {
-            // A camera path ends with one addition to its pixel, which run_batch counts. The splats
-            // of all light paths may go to the same pixel.
-            make_room(pass, pass.splats * in_flight * (runs_tail ? TAIL_EVENTS : 1));
             for (const RoundStage &stage : runs_tail ? pass.tail : pass.round) {
                 if (stage.rounds > 0 &&
                     static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {

@@ -125,10 +125,10 @@ const std::vector<Setting> &image_setting_table() {
          "of its samples differs from its mean over all by less than this relative error (biased; "
          "thesis 3.3.7 uses 0.01 to 0.03), 0: no pixel stops"},
         {"integrator.convergence.interval",
-         CountSetting{&S::convergence_interval, FILM_ADDITIONS_BETWEEN_CARRIES},
+         CountSetting{&S::convergence_interval, FILM_ADDITIONS_AT_ONCE},
          "samples between two convergence checks, an even number"},
         {"integrator.convergence.start",
-         CountSetting{&S::convergence_start, FILM_ADDITIONS_BETWEEN_CARRIES},
+         CountSetting{&S::convergence_start, FILM_ADDITIONS_AT_ONCE},
          "samples before the first convergence check, an even number"},
     };
     return table;

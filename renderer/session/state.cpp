@@ -30,7 +30,7 @@ StreamLayout stream_layout(const RenderSettings &settings, const DeviceInfo &inf
     layout.capacity = settings.stream_capacity > 0 ? settings.stream_capacity : layout.capacity;
     if (has_light_pass(settings)) {
         // In a round each light path may splat twice, and all splats may go to the same pixel.
-        layout.capacity = std::min(layout.capacity, FILM_ADDITIONS_BETWEEN_CARRIES / 2);
+        layout.capacity = std::min(layout.capacity, FILM_ADDITIONS_AT_ONCE / 2);
     }
     layout.chunk = settings.stream_chunk > 0 ? settings.stream_chunk : layout.chunk;
     if (settings.path_layout) {

@@ -2,7 +2,6 @@
 // The state of a RenderSession: the compiled passes of its algorithm and the buffers they share.
 #pragma once
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -30,11 +29,7 @@ namespace rtrays {
 struct CompiledPass : Pass {
     CompiledPass(const Pass &pass, DeviceContext &device, const StreamLayout &layout,
                  const RenderSettings &settings)
-        : Pass(pass),
-          splats(static_cast<uint64_t>(std::count_if(
-              round.begin(), round.end(),
-              [](const RoundStage &s) { return s.stage == Stage::splat_unblocked; }))),
-          stages(device, stages_of(pass), features, layout, settings.source_overlays) {}
+        : Pass(pass), stages(device, stages_of(pass), features, layout, settings.source_overlays) {}
 
     static std::vector<Stage> stages_of(const Pass &pass) {
         std::vector<Stage> list = {Stage::carry_film};
@@ -62,7 +57,6 @@ struct CompiledPass : Pass {
         if (ray_counts.size() > 0) {
             ray_counts.fill(0);
         }
-        additions = 0;
         profile.clear();
     }
 
@@ -77,15 +71,12 @@ struct CompiledPass : Pass {
         return rays;
     }
 
-    uint64_t splats;  ///< maximum number of splats per path in flight and round
     StageSet stages;
     Buffer<int64_t> film;
     Buffer<int64_t> ray_counts;
     /// Values to which the index of a light or vertex is bound.
     std::map<StageInput, uint32_t> indices = {{StageInput::light_index, SELECT_LIGHT},
                                               {StageInput::vertex_index, SELECT_LIGHT}};
-    /// Maximum number of additions to one pixel since the last carry propagation.
-    uint64_t additions = 0;
     std::map<std::string, Profiler::Stage> profile;  ///< profile of the stages in `render`
 };
 
@@ -188,18 +179,11 @@ struct RenderSession::State {
 
     /// Compiles the stages for the last few paths of a batch, of which `in_flight` are left, and
     /// runs their first round.
-    void add_tail_stages(CompiledPass &pass, uint64_t in_flight);
+    void add_tail_stages(CompiledPass &pass);
 
     /// Enqueues a stage. `paths` is the number of paths that a stage of complete paths
     /// (StageItems::paths) traces.
     void enqueue(CompiledPass &pass, Stage stage, uint64_t paths = 0);
-
-    /// Propagates carries in the film's sums.
-    void carry_film(CompiledPass &pass);
-
-    /// Reserves room for `additions` more additions to one pixel: propagates carries first if they
-    /// might overflow.
-    void make_room(CompiledPass &pass, uint64_t additions);
 
     /// Returns the words of a pass's film after carry propagation.
     std::vector<int64_t> read_film(CompiledPass &pass);

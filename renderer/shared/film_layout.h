@@ -5,12 +5,12 @@
 // of 2^(lowest + k step), its unit. A float is added as a whole to the lowest word whose limit it
 // does not reach, rounded to a multiple of the unit. A radiance keeps all of its 24 bits; only
 // values below the range are rounded, at 2^lowest. What a float adds depends on the float alone.
-// Therefore the sum of any number of floats in any order is the same integer. Carries are
-// propagated to the next word before a word can overflow, and before a sum is read.
+// Therefore the sum of any number of floats in any order is the same integer. The work-item whose
+// addition fills a word moves its upper half to the next word. Before sums are read, carries are
+// propagated so that equal sums have equal words.
 //
 // - Radiance: limits 2^-60 2^-40 2^-20 1 2^20 2^40, units 2^-104 ... 2^-4. One addition is below
-//   2^44 units, so 2^19 additions fit between two carry propagations. A value of 2^40 or more is
-//   out of range; it is counted and reported.
+//   2^44 units. A value of 2^40 or more is out of range; it is counted and reported.
 // - Squares: limits 2^-40 2^-16 2^8 2^32 2^56 2^80, units 2^-84 ... 2^36. One addition is below
 //   2^44 units. The relative rounding error of a square of 2^-60 or more is at most 2^-21, which is
 //   reached at the lower end of a word's range.
@@ -26,8 +26,10 @@
 #define FILM_SQUARE_LOWEST (-84)
 #define FILM_SQUARE_STEP 24
 
-#define FILM_UNITS_PER_ADDITION 44                /* log2, exclusive */
-#define FILM_ADDITIONS_BETWEEN_CARRIES (1u << 18) /* half of the limit */
+#define FILM_UNITS_PER_ADDITION 44 /* log2, exclusive */
+
+/// Largest number of additions of one launch to a pixel (film_add_units).
+#define FILM_ADDITIONS_AT_ONCE (1u << 18)
 
 /// Number of sums of one pixel: R, G, B, and their squares if the film keeps them.
 #define FILM_PIXEL_SUMS(variance) (FILM_CHANNELS * ((variance) ? 2 : 1))
