@@ -200,8 +200,7 @@ TEST(Pipeline, KeepsWhatARoundMaySplatWithinTheRoomOfAWord) {
     RenderSettings settings = small({"device.stream_capacity=1048576"});
     settings.algorithm = &algorithms::light_tracing;
     const RenderSession session(cornell_box(), settings, device());
-    EXPECT_LE(2 * session.report()["stream"]["capacity"].get<uint64_t>(),
-              FILM_ADDITIONS_AT_ONCE);
+    EXPECT_LE(2 * session.report()["stream"]["capacity"].get<uint64_t>(), FILM_ADDITIONS_AT_ONCE);
 }
 
 TEST(Pipeline, CountsFewerLightPathsInTheWeights) {
