@@ -50,6 +50,11 @@ bool names_directory(const fs::path &path) {
 
 }  // namespace
 
+bool is_file(const fs::path &path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
 std::string read_file(const fs::path &path) {
     if (names_directory(path)) {
         throw input_error(fmt::format("{}: is a directory, not a file", path.string()));

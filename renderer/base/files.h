@@ -9,6 +9,10 @@
 
 namespace rtrays {
 
+/// Returns whether `path` is a file. A path that the system refuses, such as a too long one, is
+/// not.
+bool is_file(const std::filesystem::path &path);
+
 /// Reads a file. Throws `Error` (bad input) naming the path and the reason.
 std::string read_file(const std::filesystem::path &path);
 

@@ -141,25 +141,31 @@ void write_image(const std::filesystem::path &path, const char *format, int widt
     }
 }
 
+/// Calls a function of OpenImageIO. A damaged header may request more memory than is available.
+template <typename Function>
+auto guarded(const std::filesystem::path &path, const Function &function) {
+    try {
+        return function();
+    } catch (const Error &) {
+        throw;
+    } catch (const std::exception &error) {
+        throw file_error(path, std::string("cannot read image: ") + error.what());
+    }
+}
+
 }  // namespace
 
 }  // namespace rtrays
 
 // Exported symbols of the module, of the types in image_module.h.
 extern "C" bool rtrays_has_alpha_channel(const std::filesystem::path &path) {
-    return rtrays::open_image(path)->spec().alpha_channel >= 0;
+    return rtrays::guarded(path,
+                           [&] { return rtrays::open_image(path)->spec().alpha_channel >= 0; });
 }
 
 extern "C" void rtrays_read_image_file(const std::filesystem::path &path,
                                        rtrays::ImageChannels channels, rtrays::RawImage &image) {
-    try {
-        rtrays::read_image(path, channels, image);
-    } catch (const rtrays::Error &) {
-        throw;
-    } catch (const std::exception &error) {
-        // A damaged header may request more memory than is available.
-        throw rtrays::file_error(path, std::string("cannot read image: ") + error.what());
-    }
+    rtrays::guarded(path, [&] { rtrays::read_image(path, channels, image); });
 }
 
 extern "C" void rtrays_write_image_file(const std::filesystem::path &path, const char *format,

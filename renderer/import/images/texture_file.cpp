@@ -58,7 +58,7 @@ void check_texels(const TextureImage &image, const std::filesystem::path &path) 
 
 std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::path &path,
                                                       TextureEncoding encoding) {
-    if (!std::filesystem::is_regular_file(path)) {
+    if (!is_file(path)) {
         throw file_error(path, "no such file");
     }
     RawImage raw;
@@ -93,7 +93,7 @@ bool holds_floats(const std::filesystem::path &path) {
 }
 
 bool has_alpha_channel(const std::filesystem::path &path) {
-    if (!std::filesystem::is_regular_file(path)) {
+    if (!is_file(path)) {
         throw file_error(path, "no such file");
     }
     return image_function<HasAlphaChannel>(has_alpha_channel_name, path)(path);
@@ -128,8 +128,9 @@ void write_texture_file(const TextureImage &image, const std::filesystem::path &
 
 std::shared_ptr<const TextureImage> TextureFiles::load(const std::filesystem::path &path,
                                                        TextureEncoding encoding) {
+    std::error_code unresolved;  // such a path is not a file, which loading reports
     std::shared_ptr<const TextureImage> &image =
-        images_[{std::filesystem::weakly_canonical(path), encoding}];
+        images_[{std::filesystem::weakly_canonical(path, unresolved), encoding}];
     if (image == nullptr) {
         image = load_texture_file(path, encoding);
     }

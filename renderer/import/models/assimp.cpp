@@ -25,6 +25,7 @@
 #include <utility>
 
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
 #include "renderer/base/progress.h"
 #include "renderer/import/models/scene.h"
 
@@ -217,7 +218,7 @@ void try_in_child(const Read &read, const std::filesystem::path &path, bool quie
 
 std::shared_ptr<const aiScene> read_fenced(const Read &read, const std::filesystem::path &path,
                                            bool quiet) {
-    if (!std::filesystem::is_regular_file(path)) {
+    if (!is_file(path)) {
         throw input_error(fmt::format("{}: no such file", path.string()));
     }
     try_in_child(read, path, quiet);

@@ -90,8 +90,9 @@ void read_base_texture(const Json &texture, GltfMaterial &made) {
     }
     const Json &transform = member(member(texture, "extensions"), "KHR_texture_transform");
     made.base_transform = transform_of(transform);
+    // Casting a number that no unsigned integer holds would be undefined.
     made.base_uv_set = static_cast<unsigned>(
-        std::max(0.0, number(transform, "texCoord", number(texture, "texCoord", 0))));
+        std::clamp(number(transform, "texCoord", number(texture, "texCoord", 0)), 0.0, 1e6));
 }
 
 /// Notes textures of extensions, which are not read.

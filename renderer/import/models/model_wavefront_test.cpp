@@ -294,6 +294,16 @@ TEST(Mtl, MissingFilesAreErrors) {
     EXPECT_EQ(LoadedModel(model).scene.arrays().textures.name, std::vector<std::string>{"tiles"});
 }
 
+TEST(Mtl, NamesThatTheSystemRefusesAreMissingFiles) {
+    const TemporaryFolder folder;
+    const std::string longest(5000, 'n');
+    const auto model = folder.write("m.obj", square("\nmtllib zz.mtl\n"));
+    folder.write("zz.mtl", "newmtl m\nmap_Kd " + longest + ".png\n");
+    expect_input_error("no such file", [&] { LoadedModel read(model); });
+    folder.write("m.obj", square("\nmtllib " + longest + "\n"));
+    expect_input_error("m.obj:2: missing MTL file", [&] { LoadedModel read(model); });
+}
+
 TEST(Mtl, ReadsSeveralFilesAndNamesInAnyCase) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl n\nKd 0.25\nnewmtl twice\nKd 0.1\n");

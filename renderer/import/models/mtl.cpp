@@ -345,7 +345,7 @@ std::shared_ptr<Texture> opacity_texture(const MtlMaterial &material, const std:
 }  // namespace
 
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path &path, ModelNotes &notes) {
-    if (!std::filesystem::is_regular_file(path)) {
+    if (!is_file(path)) {
         throw input_error(fmt::format("{}: no such file", path.string()));
     }
     const std::string text = read_file(path);

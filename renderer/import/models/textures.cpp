@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "renderer/base/files.h"
 #include "renderer/import/models/statements.h"
 
 namespace rtrays {
@@ -43,10 +44,9 @@ fs::path find_model_file(const std::string &stated, const std::vector<fs::path> 
     std::string with_slashes = stated;
     std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
     const fs::path path = with_slashes;
-    std::error_code ignored;
     for (const fs::path &folder : folders) {
         for (const fs::path &tried : {path, path.filename()}) {
-            if (fs::is_regular_file(folder / tried, ignored)) {
+            if (is_file(folder / tried)) {
                 return folder / tried;
             }
         }
@@ -54,7 +54,7 @@ fs::path find_model_file(const std::string &stated, const std::vector<fs::path> 
     for (const fs::path &folder : folders) {
         for (const fs::path &tried : {path.relative_path(), path.filename()}) {
             const fs::path found = find_in_any_case(folder, tried);
-            if (fs::is_regular_file(found, ignored)) {
+            if (is_file(found)) {
                 notes.add("names of files differ in case from the files used",
                           fmt::format("{} is {}", stated, found.filename().string()));
                 return found;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "renderer/base/error.h"
+#include "renderer/base/files.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/mtl.h"
 #include "renderer/import/models/obj.h"
@@ -104,14 +105,14 @@ void add_libraries(const ObjLibraries &statement, const fs::path &obj, MtlLibrar
                    ModelNotes &notes) {
     const std::vector<fs::path> folders = {obj.parent_path()};
     const fs::path single = find_model_file(statement.files, folders, notes);
-    if (!statement.files.empty() && fs::is_regular_file(single)) {
+    if (!statement.files.empty() && is_file(single)) {
         library.add(single);
         return;
     }
     std::string_view rest = statement.files;
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
         const fs::path file = find_model_file(std::string(word), folders, notes);
-        if (!fs::is_regular_file(file)) {
+        if (!is_file(file)) {
             throw input_error(
                 fmt::format("{}:{}: missing MTL file '{}'; remove the statement to "
                             "read the model without materials",
@@ -196,7 +197,7 @@ void read_ply_scene(const fs::path &path, Scene &scene, ModelNames &names, Model
     Node &model = add_model_node(scene.graph().root(), names.unique(stem, "model"),
                                  Eigen::Matrix4d::Identity());
     MtlLibrary library(path.parent_path(), scene, notes);
-    if (file.material.empty() || !fs::exists(mtl)) {
+    if (file.material.empty() || !is_file(mtl)) {
         if (!file.material.empty()) {
             notes.add(fmt::format("{} is missing, so material_index is ignored; everything is grey",
                                   mtl.filename().string()));
