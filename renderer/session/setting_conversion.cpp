@@ -37,6 +37,7 @@ IntegratorSettings integrator_settings(const RenderSettings &settings) {
     converted.max_depth = settings.max_depth == 0 ? UNLIMITED_DEPTH : settings.max_depth;
     converted.beta = settings.beta;
     converted.max_continuation = settings.max_continuation;
+    converted.roulette_start = settings.roulette_start;
     converted.adaptive_threshold = settings.adaptive_threshold;
     return converted;
 }

@@ -110,6 +110,9 @@ const std::vector<Setting> &image_setting_table() {
          "always uses 1)"},
         {"integrator.max_continuation", NumberSetting{&S::max_continuation, 0.0f, 1.0f},
          "largest probability with which Russian roulette continues a path"},
+        {"integrator.roulette_start", NumberSetting{&S::roulette_start, 0.0f, 1e3f, true},
+         "at mirrors and smooth glass, throughput below which Russian roulette may end a path; 1: "
+         "always (thesis)"},
         {"integrator.adaptive_threshold", NumberSetting{&S::adaptive_threshold, 0.0f, 1e3f},
          "throughput below which adaptive termination ends a path"},
         {"integrator.light_selection", choice(&S::light_selection, light_selections),

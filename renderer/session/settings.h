@@ -55,6 +55,8 @@ struct RenderSettings {
     uint32_t max_depth = 0;
     /// Largest continuation probability of Russian roulette, in (0, 1). The default is 1 - 2^-20.
     float max_continuation = 0x1.ffffep-1f;
+    /// Throughput below which roulette may end a path at a delta, 1: always (thesis).
+    float roulette_start = 1.0f;
     /// Throughput below which adaptive termination ends a path.
     float adaptive_threshold = 0.01f;
     LightSelection light_selection = LightSelection::mixed;

@@ -33,6 +33,7 @@ typedef struct IntegratorSettings {
     uint max_depth;          ///< maximum number of scattering events; UNLIMITED_DEPTH for no limit
     float beta;              ///< exponent of the power heuristic
     float max_continuation;  ///< largest continuation probability of roulette, below 1
+    float roulette_start;    ///< throughput below which roulette may end a path at a delta
     float adaptive_threshold;  ///< throughput below which adaptive termination ends a path
     uint light_paths;          ///< number of light paths per sample of the image
     /// Number of vertices stored per light path, if they are connected to camera paths.
@@ -48,5 +49,5 @@ DEVICE bool all_strategies(IntegratorSettings settings, uint events) {
 }
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(IntegratorSettings) == 40, "layout shared with the device");
+static_assert(sizeof(IntegratorSettings) == 44, "layout shared with the device");
 #endif

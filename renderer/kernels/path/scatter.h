@@ -33,14 +33,22 @@ DEVICE bool is_last_hit(IntegratorSettings settings, uint depth) {
 /// Inside glass radiance is larger by eta^2, a factor that the path loses on its way out. Roulette
 /// excludes this factor (PBRT 4th ed., section 13.2.2), hence `scale_change`. The throughput of a
 /// light path is measured relative to its initial value.
+///
+/// At a delta, roulette gains nothing while the throughput is high: no other strategy follows the
+/// path there, and its next hit may be a light. It starts below `settings.roulette_start`. The
+/// thesis' mode is 1.
 DEVICE bool survives_roulette(Path path, IntegratorSettings settings, float largest,
-                              float scale_change, float u, PRIVATE float3 *throughput) {
+                              float scale_change, bool is_delta, float u,
+                              PRIVATE float3 *throughput) {
     float scale = 1.0f;
     if (FEATURE_roulette_scale) {
         scale = get_roulette_scale(path) * scale_change;
         set_roulette_scale(path, scale);
     }
-    const float continuation = min(largest / scale, settings.max_continuation);
+    float continuation = min(largest / scale, settings.max_continuation);
+    if (FEATURE_delta && is_delta && largest / scale >= settings.roulette_start) {
+        continuation = settings.max_continuation;
+    }
     if (!(u < continuation)) {
         return false;
     }
@@ -93,11 +101,12 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
     if (!(largest > 0.0f)) {
         return false;
     }
+    const bool is_delta = !(sample.pdf_w < INFINITY);
     if (FEATURE_roulette && settings.termination == TERMINATION_ROULETTE) {
         // Importance crosses boundaries unchanged.
         const float scale_change = FEATURE_from_light ? 1.0f : sample.scale;
-        if (!survives_roulette(path, settings, largest, scale_change, uniform_float(words.z),
-                               &throughput)) {
+        if (!survives_roulette(path, settings, largest, scale_change, is_delta,
+                               uniform_float(words.z), &throughput)) {
             return false;
         }
     }
@@ -111,7 +120,6 @@ DEVICE bool scatter(Path path, PRIVATE const SceneView *scene, IntegratorSetting
     set_depth(path, depth + 1u);
     set_pdf_w(path, sample.pdf_w);
     if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
-        const bool is_delta = !(sample.pdf_w < INFINITY);
         continue_ratios(path, settings, depth, is_delta, event);
     }
     return true;
