@@ -162,7 +162,8 @@ void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene
     compiled.triangle_features =
         FeatureMask()
             .with(Feature::triangles, !meshes.triangle.empty())
-            .with(Feature::smooth_normals, any(meshes.has_normals))
+            .with(Feature::smooth_normals,
+                  any(meshes.has_normals) || compiled.material_features.has(Feature::normal_maps))
             .with(Feature::texture_coordinates, reads_uv(compiled) && any(meshes.has_uv));
     if (every_array || compiled.triangle_features.has(Feature::smooth_normals)) {
         compile_normals(meshes, compiled);
@@ -189,13 +190,16 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
     if (parts.materials) {
         const bool had_textures = compiled.material_features.has(Feature::textures);
         const bool read_uv = reads_uv(compiled);
+        const bool had_maps = compiled.material_features.has(Feature::normal_maps);
         former.materials = std::exchange(compiled.materials, {});
         former.components = std::exchange(compiled.components, {});
+        former.normal_maps = std::exchange(compiled.normal_maps, {});
         compile_materials(scene, compiled);
         const bool has_textures = compiled.material_features.has(Feature::textures);
         parts.textures |=
             has_textures != had_textures || !are_equal(compiled.texture_sources, scene.textures);
-        parts.triangles |= reads_uv(compiled) != read_uv;
+        parts.triangles |= reads_uv(compiled) != read_uv ||
+                           compiled.material_features.has(Feature::normal_maps) != had_maps;
         parts.opacity |=
             compiled.opacity_sources != scene.materials.opacity ||
             (!compiled.opacities.empty() && !are_equal(compiled.texture_sources, scene.textures));

@@ -75,6 +75,7 @@ struct CompiledScene {
     std::vector<ShapeBounds> shape_bounds;
     std::vector<MaterialRecord> materials;
     std::vector<BxdfRecord> components;
+    std::vector<NormalMapRecord> normal_maps;
     std::vector<TextureRecord> textures;
     std::vector<uint32_t> texels;
     std::vector<uint32_t> triangle_masks;

@@ -90,6 +90,29 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
     return record;
 }
 
+/// Compiles the map of a material, if it has one.
+void compile_normal_map(const NormalMap &map, CompiledScene &compiled, MaterialRecord &material,
+                        FeatureMask &features) {
+    if (map.kind == NormalMap::Kind::none) {
+        return;
+    }
+    const bool has_heights = map.kind == NormalMap::Kind::heights;
+    NormalMapRecord record{};
+    record.texture = map.texture;
+    record.scale = static_cast<float>(map.scale);
+    record.flags = (has_heights ? NORMAL_MAP_HEIGHTS : 0u) |
+                   (map.shadowing ? NORMAL_MAP_SHADOWING : 0u) |
+                   (map.follows_v ? NORMAL_MAP_FOLLOWS_V : 0u) |
+                   (map.mirrored_back ? NORMAL_MAP_MIRRORED_BACK : 0u);
+    material.flags |= MATERIAL_MAPPED;
+    material.normal_map = static_cast<uint32_t>(compiled.normal_maps.size());
+    compiled.normal_maps.push_back(record);
+    features = features.with(Feature::normal_maps)
+                   .with(Feature::bump_maps, has_heights || features.has(Feature::bump_maps))
+                   .with(Feature::textures)
+                   .with(Feature::tangents);
+}
+
 void compile_texture(const TextureArrays &textures, size_t index, CompiledScene &compiled) {
     const TextureImage &image = *textures.image[index];
     TextureRecord record = texture_record(textures, index);
@@ -147,6 +170,9 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             static_cast<uint32_t>(compiled.components.size()) - record.first_component;
         record.flags |= (materials.two_sided[i] == 0 ? MATERIAL_ONE_SIDED : 0u) |
                         (all_delta ? MATERIAL_DELTA : 0u);
+        if (i < materials.normal_map.size() && record.component_count > 0) {
+            compile_normal_map(materials.normal_map[i], compiled, record, features);
+        }
         features = features
                        .with(Feature::composite,
                              features.has(Feature::composite) || record.component_count != 1)

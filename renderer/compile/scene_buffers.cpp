@@ -22,6 +22,7 @@ constexpr auto materials = &SceneParts::materials;
 constexpr auto components = &SceneParts::materials;
 constexpr auto textures = &SceneParts::textures;
 constexpr auto texels = &SceneParts::textures;
+constexpr auto normal_maps = &SceneParts::materials;
 constexpr auto triangle_masks = &SceneParts::opacity;
 constexpr auto masked_triangles = &SceneParts::opacity;
 constexpr auto opacities = &SceneParts::opacity;

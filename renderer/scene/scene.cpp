@@ -115,6 +115,19 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
             collector.add(opacity.cutoff);
         }
     }
+    const std::vector<NormalMap> &maps = arrays.materials.normal_map;
+    if (!std::all_of(maps.begin(), maps.end(),
+                     [](const NormalMap &map) { return map.kind == NormalMap::Kind::none; })) {
+        collector.begin("normal_maps");
+        for (const NormalMap &map : maps) {
+            collector.add(map.kind);
+            collector.add(map.texture);
+            collector.add(map.scale);
+            collector.add(map.shadowing);
+            collector.add(map.follows_v);
+            collector.add(map.mirrored_back);
+        }
+    }
     const ShapeArrays &shapes = arrays.shapes;
     if (!shapes.kind.empty()) {
         collector.begin("shapes");

@@ -42,9 +42,10 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "lambert"})",
              "in.json:2: /nodes/1/material: missing key 'reflectance' of the lambert: albedo"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "sigma": 0})",
-             "/nodes/1/material/sigma: unknown key 'sigma' of the lambert; allowed: emission, "
-             "opacity, opacity_cutoff, opacity_texture, reflectance, reflectance_texture, "
-             "two_sided"},
+             "/nodes/1/material/sigma: unknown key 'sigma' of the lambert; allowed: bump_map, "
+             "bump_map_texture, emission, map_follows_v, map_mirrored_back, map_shadowing, "
+             "normal_map, normal_map_texture, opacity, opacity_cutoff, opacity_texture, "
+             "reflectance, reflectance_texture, two_sided"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "specular_texture": {"file": "a", "encoding": "srgb"}})",
              "unknown key 'specular_texture' of the lambert"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1.5]})",
@@ -96,8 +97,9 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite"})", "missing key 'components' of the composite"},
             {R"({"type": "composite", "components": []})", "/nodes/1/material/components"},
             {R"({"type": "composite", "eta": 1, "components": [{"bxdf": "lambert", "weight": [1, 1, 1]}]})",
-             "unknown key 'eta' of the composite; allowed: components, emission, opacity, "
-             "opacity_cutoff, opacity_texture, two_sided"},
+             "unknown key 'eta' of the composite; allowed: bump_map, bump_map_texture, components, "
+             "emission, map_follows_v, map_mirrored_back, map_shadowing, normal_map, "
+             "normal_map_texture, opacity, opacity_cutoff, opacity_texture, two_sided"},
             {R"({"type": "composite", "components": [{"weight": [1, 1, 1]}]})",
              "/nodes/1/material/components/0 (in 'a'): missing key 'bxdf'"},
             {R"({"type": "composite", "components": [{"bxdf": "lambert"}]})",
@@ -198,6 +200,27 @@ TEST_F(TexturedMaterials, OpacityIsAtMostOne) {
     expect_input_error("opacity: 0.75 times the brightest texel of its texture, 2, exceeds 1",
                        [&] { scene.set_property("a.opacity", "0.75"); });
     expect_input_error("opacity", [&] { parse(textured("1.5")); });
+}
+
+TEST_F(TexturedMaterials, NormalAndBumpMapsNeedTriangles) {
+    std::ofstream(testing::TempDir() + "one.ppm", std::ios::binary) << "P6 1 1 255\n"
+                                                                    << "abc";
+    const auto with = [](const char *geometry, const char *keys) {
+        return std::string(R"({"name": "a", "geometry": {"type": ")") + geometry +
+               R"("}, "material": {"type": "mirror", "reflectance": [1, 1, 1], )" + keys + "}}";
+    };
+    const char *normals = R"("normal_map_texture": {"file": "one.ppm", "encoding": "linear"})";
+    const char *heights = R"("bump_map_texture": {"file": "one.ppm", "encoding": "linear"})";
+    for (const char *map : {normals, heights}) {
+        expect_input_error("sphere 'a': material 'a' has a normal or bump map, but only triangles",
+                           [&] { parse(with("sphere", map)); });
+        parse(with("rectangle", map));
+    }
+    expect_input_error("has normal_map_texture and bump_map_texture; remove one of them", [&] {
+        parse(with("rectangle", (std::string(normals) + ", " + heights).c_str()));
+    });
+    // Without a texture there is no map.
+    parse(with("sphere", R"("normal_map": 2, "bump_map": 3)"));
 }
 
 TEST(SceneErrors, Geometry) {

@@ -206,8 +206,9 @@ TEST(Properties, ErrorsNameAddressAndAlternatives) {
         "'lamp.fov': unknown node or shared object 'lamp'; the scene has: box, materials.white",
         set("lamp.fov", "1"));
     expect_input_error(
-        "'box.size': 'box' has no property 'size'; properties are: emission, fov, fov_axis, "
-        "opacity, opacity_cutoff, "
+        "'box.size': 'box' has no property 'size'; properties are: bump_map, emission, fov, "
+        "fov_axis, map_follows_v, map_mirrored_back, map_shadowing, normal_map, opacity, "
+        "opacity_cutoff, "
         "reflectance, ",
         set("box.size", "1"));
     expect_input_error("expected NODE.PROPERTY", set("fov", "1"));

@@ -551,6 +551,37 @@ TEST_F(Textures, OfOpacitiesAreKeptWhileTheyAreUsed) {
     EXPECT_EQ(opacities[1].texture + opacities[0].texture, 0u + no_index) << "one has texture 0";
 }
 
+TEST_F(Textures, OfNormalMapsAreKeptWhileTheyAreUsed) {
+    write_text("two.ppm", std::string("P6 2 1 255\n") + "\x10\x20\x30\x40\x50\x60");
+    const char *plain =
+        R"({"name": "a", "geometry": {"type": "rectangle"}, "material": {"type": "lambert", "reflectance": [1, 1, 1],
+            "reflectance_texture": {"file": "two.ppm", "encoding": "srgb"}}})";
+    const std::string hash = parse(plain).hash();
+    Scene scene =
+        parse(std::string(plain) +
+              R"(, {"name": "b", "geometry": {"type": "rectangle"}, "material": {"type": "mirror",
+            "reflectance": [1, 1, 1], "normal_map": 0.5, "map_follows_v": true, "map_shadowing": false,
+            "normal_map_texture": {"file": "two.ppm", "encoding": "linear"}}},
+           {"name": "c", "geometry": {"type": "rectangle"}, "material": {"type": "mirror",
+            "reflectance": [1, 1, 1], "bump_map": -2, "map_mirrored_back": true,
+            "bump_map_texture": {"file": "two.ppm", "encoding": "linear"}}})");
+    const std::vector<NormalMap> &maps = scene.materials().normal_map;
+    ASSERT_EQ(maps.size(), 3u);
+    EXPECT_TRUE(maps[0] == NormalMap());
+    EXPECT_TRUE(maps[1] == (NormalMap{NormalMap::Kind::normals, 1, 0.5, false, true, false}));
+    EXPECT_TRUE(maps[2] == (NormalMap{NormalMap::Kind::heights, 2, -2, true, false, true}));
+    const std::string mapped_hash = scene.hash();
+    EXPECT_NE(mapped_hash, hash);
+    scene.set_property("c.bump_map", "3");
+    scene.update(0);
+    EXPECT_EQ(maps[2].scale, 3);
+    EXPECT_NE(scene.hash(), mapped_hash);
+    scene.graph().find("a")->set_core(grey("plain"));
+    scene.update(0);
+    expect_consistent(scene.graph());
+    EXPECT_EQ(scene.arrays().textures.name.size(), 2u);
+}
+
 TEST_F(Textures, EnvironmentsAreImagesOfFloats) {
     Image image = Image::rgb(2, 1);
     image.channel("R") = {1, 2};

@@ -131,6 +131,32 @@ inline bool operator==(const MaterialOpacity &a, const MaterialOpacity &b) {
     return a.value == b.value && a.texture == b.texture && a.cutoff == b.cutoff;
 }
 
+/// The map that tilts the shading normals of a material (kernels/bsdf/normal_map.h).
+struct NormalMap {
+    enum class Kind {
+        none,
+        normals,  ///< each texel is the normal n as (n + 1) / 2, in the frame of dp/du and normal
+        heights,  ///< the luminance of a texel is a height above the surface, in scene units
+    };
+    Kind kind = Kind::none;
+    uint32_t texture = no_index;  ///< index into TextureArrays
+    double scale = 1;             ///< factor of the heights, or of x and y of the normals
+    /// Darkens light that arrives below the horizon of the microsurface that the map suggests
+    /// (Conty Estevez et al. 2019).
+    bool shadowing = true;
+    /// The y axis of normals points along dp/dv. Otherwise it is the normal times dp/du, which
+    /// differs where the texture coordinates are mirrored.
+    bool follows_v = false;
+    /// The back looks like the front: what rises in front rises behind, too. Otherwise it sinks.
+    bool mirrored_back = false;
+};
+
+inline bool operator==(const NormalMap &a, const NormalMap &b) {
+    return a.kind == b.kind && a.texture == b.texture && a.scale == b.scale &&
+           a.shadowing == b.shadowing && a.follows_v == b.follows_v &&
+           a.mirrored_back == b.mirrored_back;
+}
+
 /// Materials: weighted sums of atomic BxDFs (thesis 3.3.6).
 struct MaterialArrays {
     std::vector<std::string> name;
@@ -138,6 +164,7 @@ struct MaterialArrays {
     std::vector<uint32_t> component_count;
     std::vector<uint8_t> two_sided;        ///< 0: black from behind, unless a component refracts
     std::vector<MaterialOpacity> opacity;  ///< a material without an entry is opaque
+    std::vector<NormalMap> normal_map;     ///< a material without an entry has no map
     // per component, all materials concatenated
     std::vector<BxdfComponent> component;
 };

@@ -31,7 +31,7 @@
     X(shapes, "the scene has surfaces that are not made of triangles")                        \
     X(quadrics, "a shape is a quadric, a disc or a plane")                                    \
     X(julia, "a shape is a quaternion Julia set")                                             \
-    X(smooth_normals, "vertices have shading normals")                                        \
+    X(smooth_normals, "vertices have shading normals, or a map tilts them")                   \
     X(texture_coordinates, "a texture or a tangent uses the (u, v) coordinates of a mesh")    \
     X(tangents, "a BxDF is anisotropic")                                                      \
     /* materials */                                                                           \
@@ -57,6 +57,8 @@
     X(fresnel_conductor_approximate, "approximate conductor of the thesis")                   \
     X(fresnel_schlick, "Schlick's approximation")                                             \
     X(textures, "a weight has a texture")                                                     \
+    X(normal_maps, "a map of normals or heights tilts shading normals")                       \
+    X(bump_maps, "such a map has heights")                                                    \
     X(opacity, "rays may pass a surface: hits are accepted with its opacity")                 \
     /* lights */                                                                              \
     X(lights, "the scene has emitters")                                                       \

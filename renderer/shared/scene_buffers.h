@@ -36,6 +36,7 @@
     X(FEATURE_scattering, BxdfRecord, components)                \
     X(FEATURE_textures, TextureRecord, textures)                 \
     X(FEATURE_textures, uint, texels)                            \
+    X(FEATURE_normal_maps, NormalMapRecord, normal_maps)         \
     X(FEATURE_lights, LightRecord, lights)                       \
     X(FEATURE_area_lights, EmitterTriangle, emitter_triangles)   \
     X(FEATURE_environment, float, environment_texels)            \

@@ -48,8 +48,8 @@ typedef struct SurfaceTriangle {
 typedef struct MaterialRecord {
     uint first_component;
     uint component_count;
-    uint flags;  ///< MATERIAL_*
-    uint padding;
+    uint flags;       ///< MATERIAL_*
+    uint normal_map;  ///< index of its NormalMapRecord, if MATERIAL_MAPPED
 } MaterialRecord;
 
 /// Refracts: the indices of refraction on its two sides differ, so its sides are distinguished.
@@ -57,7 +57,8 @@ typedef struct MaterialRecord {
 #define MATERIAL_ONE_SIDED 2u  ///< black from behind
 /// All components are deltas: the material cannot be connected to a light.
 #define MATERIAL_DELTA 4u
-#define MATERIAL_TURNS 8u  ///< anisotropic: its appearance depends on the tangent
+#define MATERIAL_TURNS 8u    ///< anisotropic: its appearance depends on the tangent
+#define MATERIAL_MAPPED 16u  ///< a map tilts its shading normals
 
 /// One atomic BxDF of a material (renderer/scene/stores.h describes each).
 typedef struct BxdfRecord {
@@ -111,6 +112,19 @@ typedef struct TextureRecord {
 #define TEXTURE_SRGB 2u
 #define TEXTURE_BILINEAR 4u  ///< bilinear lookup, otherwise nearest
 #define TEXTURE_CLAMP 8u     ///< clamped coordinates, otherwise repeated
+
+/// A map of normals or heights (kernels/bsdf/normal_map.h).
+typedef struct NormalMapRecord {
+    uint texture;  ///< index of its texture
+    float scale;   ///< factor of the heights, or of x and y of the normals
+    uint flags;    ///< NORMAL_MAP_*
+    uint padding;
+} NormalMapRecord;
+
+#define NORMAL_MAP_HEIGHTS 1u        ///< heights, otherwise normals
+#define NORMAL_MAP_SHADOWING 2u      ///< shadows light at grazing angles
+#define NORMAL_MAP_FOLLOWS_V 4u      ///< y is along dp/dv, otherwise along the normal times dp/du
+#define NORMAL_MAP_MIRRORED_BACK 8u  ///< the back looks like the front
 
 /// The opacity of a material (kernels/traversal/opacity.h).
 typedef struct OpacityRecord {
@@ -254,6 +268,7 @@ static_assert(sizeof(SurfaceTriangle) == 64, "layout shared with the device");
 static_assert(sizeof(MaterialRecord) == 16, "layout shared with the device");
 static_assert(sizeof(BxdfRecord) == 64, "layout shared with the device");
 static_assert(sizeof(TextureRecord) == 32, "layout shared with the device");
+static_assert(sizeof(NormalMapRecord) == 16, "layout shared with the device");
 static_assert(sizeof(OpacityRecord) == 48, "layout shared with the device");
 static_assert(sizeof(MaskedTriangle) == 32, "layout shared with the device");
 static_assert(sizeof(TriangleNormals) == 48, "layout shared with the device");

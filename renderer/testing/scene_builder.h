@@ -164,6 +164,11 @@ inline void expect_consistent(const SceneGraph &graph) {
     for (const MaterialOpacity &opacity : arrays.materials.opacity) {
         mark(opacity.texture);
     }
+    ASSERT_EQ(arrays.materials.normal_map.size(), arrays.materials.name.size());
+    for (const NormalMap &map : arrays.materials.normal_map) {
+        ASSERT_EQ(map.texture == no_index, map.kind == NormalMap::Kind::none);
+        mark(map.texture);
+    }
     ASSERT_EQ(std::count(used.begin(), used.end(), false), 0) << "textures that no material uses";
 }
 

@@ -107,7 +107,7 @@ Names names_of(const Table &table, Names names = {}) {
 class SceneFormat : public WithImages {};
 
 TEST_F(SceneFormat, EveryExampleIsReadAndSerialized) {
-    for (const char *name : {"wood.png", "fence.png"}) {
+    for (const char *name : {"wood.png", "fence.png", "stone.png", "dents.png"}) {
         std::ofstream(testing::TempDir() + name, std::ios::binary) << "P6 1 1 255\nabc";
     }
     for (const auto &[from, to] :

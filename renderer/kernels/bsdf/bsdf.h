@@ -77,6 +77,17 @@ DEVICE bool is_delta_material(MaterialRecord material) {
     return FEATURE_delta && (material.flags & MATERIAL_DELTA) != 0u;
 }
 
+/// Returns the share of light from the local direction `wi` that the microsurface of a map lets
+/// pass (normal_map.h): the shadowing of GGX (B. Walter et al. 2007) with the roughness of the
+/// tilt.
+DEVICE float map_shadowing(SurfaceFrame frame, float3 wi) {
+    const float cosine = fabs(dot(frame.untilted, wi));
+    const float cos2 = cosine * cosine;
+    const float alpha2 = frame.shadowing_alpha2;
+    const float sum = cosine + sqrt(cos2 + alpha2 * max(1.0f - cos2, 0.0f));
+    return alpha2 > 0.0f && sum > 0.0f ? 2.0f * cosine / sum : 1.0f;
+}
+
 /// bsdf_evaluate for local directions whose sides agree.
 DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRecord material,
                                      SurfaceFrame frame, float3 wo, float3 wi) {
@@ -108,6 +119,9 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
                            other_lobe.f_cos;
         }
         value.pdf_w = shares > 0.0f ? value.pdf_w / shares : 0.0f;
+    }
+    if (FEATURE_normal_maps) {
+        value.f_cos *= map_shadowing(frame, wi);
     }
     return value;
 }
@@ -264,6 +278,9 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
                         component_fresnel(component, eta, wo.z, squared_sine(wo), wi) /
                         sample.probability;
         sample.weight *= sample.scale;
+        if (FEATURE_normal_maps && !FEATURE_from_light) {
+            sample.weight *= map_shadowing(frame, wi);
+        }
         sample.pdf_w = INFINITY;
         return sample;
     }

@@ -4,17 +4,23 @@
 #include <gtest/gtest.h>
 
 #include "renderer/testing/bsdf_cases.h"
+#include "renderer/testing/mapped_triangle.h"
 
 namespace rtrays {
 namespace {
 
 constexpr uint32_t sample_count = 400'000;
 
-/// A surface with unit normals, both on the front.
+/// A surface with unit normals, both on the front. The shading normal is that of the vertices or
+/// that of a map.
 struct Surface {
     float3 ng, ns;
+    const MappedTriangle *mapped = nullptr;
 
     SurfaceFrame frame(float3 wo) const {
+        if (mapped != nullptr) {
+            return mapped->frame(wo);
+        }
         return make_surface_frame(ng, ns, make_float3(0.2f, 0.1f, 0.9f), make_float2(0, 0), wo);
     }
     bool between_horizons(float3 w) const { return dot(ng, w) * dot(ns, w) < 0.0f; }
@@ -91,7 +97,9 @@ float3 at_angle(double degrees) {
                        static_cast<float>(std::cos(degrees * pi / 180)));
 }
 
-TEST(LightPaths, BringTheLightThatCameraPathsSee) {
+/// Compares light paths with camera paths on four surfaces, with the normals of vertices or of
+/// maps.
+void expect_equal_light(bool mapped) {
     const std::vector<TestMaterial> materials = {
         {"lambert", {component(BXDF_LAMBERT)}},
         {"plastic",
@@ -107,7 +115,11 @@ TEST(LightPaths, BringTheLightThatCameraPathsSee) {
     for (const TestMaterial &material : materials) {
         const bool refracts = (material.flags & MATERIAL_BOUNDARY) != 0;
         for (const auto &[tilt, light_angle] : angles) {
-            const Surface surface = {make_float3(0, 0, 1), at_angle(tilt)};
+            MappedTriangle triangle;
+            triangle.set_texel(at_angle(tilt));
+            triangle.map.flags = NORMAL_MAP_SHADOWING;
+            const Surface surface = {make_float3(0, 0, 1), at_angle(tilt),
+                                     mapped ? &triangle : nullptr};
             const float3 light = at_angle(light_angle);
             const Importance sampled = by_light_paths(material, surface, light, ++block),
                              expected = by_all_directions(material, surface, light, ++block);
@@ -116,7 +128,8 @@ TEST(LightPaths, BringTheLightThatCameraPathsSee) {
                 // Rough glass refracts into a cone. Its mirror image need not contain all
                 // directions between the horizons, so light paths may bring less, but never more.
                 const double surplus = a.mean() - b.mean();
-                EXPECT_LT(refracts ? surplus : std::abs(surplus),
+                // Both are 0 where the map reverses its tilt for all directions between.
+                EXPECT_LE(refracts ? surplus : std::abs(surplus),
                           limit * std::sqrt(a.error2() + b.error2()) + 1e-4 * b.mean())
                     << material.name << ", normals at " << tilt << ", light at " << light_angle;
             }
@@ -126,6 +139,14 @@ TEST(LightPaths, BringTheLightThatCameraPathsSee) {
         }
     }
     EXPECT_GT(largest_share, 0.2) << "much of the light leaves between the horizons";
+}
+
+TEST(LightPaths, BringTheLightThatCameraPathsSee) {
+    expect_equal_light(false);
+}
+
+TEST(LightPaths, BringTheLightOfSurfacesWithNormalMaps) {
+    expect_equal_light(true);
 }
 
 }  // namespace

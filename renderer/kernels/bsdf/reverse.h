@@ -93,6 +93,9 @@ DEVICE ScatterEvent scatter_event(PRIVATE const SceneView *scene, SurfaceHit hit
             log2_quotient(probability, sample.probability) + log2_of(bend) + log2_of(sample.scale);
         if (probability > 0.0f) {
             event.importance = sample.weight / sample.scale * bend;
+            if (FEATURE_normal_maps && FEATURE_from_light) {
+                event.importance *= map_shadowing(back, to_local(back, frame.wo));
+            }
         }
         return event;
     }

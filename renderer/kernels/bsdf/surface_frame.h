@@ -14,6 +14,10 @@ typedef struct SurfaceFrame {
     float3 wo;
     float2 uv;
     uint front;  ///< 1: wo is on the surface's front
+    /// The shading normal before a map tilted it, in this frame, with either sign.
+    float3 untilted;
+    /// Squared roughness of the microsurface that a map suggests; 0 if it casts no shadows.
+    float shadowing_alpha2;
 } SurfaceFrame;
 
 /// Returns a frame about the unit vector `z` with x as close to `tangent` as possible. Falls back
@@ -58,5 +62,7 @@ DEVICE SurfaceFrame make_surface_frame(float3 ng, float3 ns, float3 tangent, flo
     frame.y = axes.y;
     frame.wo = wo;
     frame.uv = uv;
+    frame.untilted = frame.ns;
+    frame.shadowing_alpha2 = 0.0f;
     return frame;
 }

@@ -12,6 +12,8 @@ typedef struct SurfaceHit {
     SurfacePoint point;  ///< with the geometric normal
     float3 normal;       ///< for shading, unit
     float3 tangent;      ///< dp/du, of any length; zero if undefined or not needed
+    /// Gradients of u and v along the surface; zero if undefined or not needed.
+    float3 gradient_u, gradient_v;
     float2 uv;
     uint material;
     /// For a triangle the index of its emitter triangle, for a shape that of its light; or
@@ -38,6 +40,29 @@ DEVICE float3 triangle_tangent(PRIVATE const SceneView *scene, uint triangle) {
     return jacobian > 0.0f ? along : jacobian != 0.0f ? -along : e1;
 }
 
+/// Sets the gradients of u and v on a triangle with the unit normal `n`, if the (u, v) of its
+/// corners span the plane.
+DEVICE void triangle_gradients(PRIVATE const SceneView *scene, uint triangle, float3 n,
+                               PRIVATE float3 *gradient_u, PRIVATE float3 *gradient_v) {
+    GLOBAL const SurfaceTriangle *surface = scene->surface_triangles + triangle;
+    const float3 p0 = make_float3(surface->p0[0], surface->p0[1], surface->p0[2]);
+    const float3 e1 = make_float3(surface->p1[0], surface->p1[1], surface->p1[2]) - p0;
+    const float3 e2 = make_float3(surface->p2[0], surface->p2[1], surface->p2[2]) - p0;
+    const float twice_area = dot(cross(e1, e2), n);
+    if (!FEATURE_texture_coordinates || !(twice_area > 0.0f)) {
+        return;
+    }
+    GLOBAL const TriangleUv *at = scene->triangle_uvs + triangle;
+    const float du1 = at->uv[1][0] - at->uv[0][0], dv1 = at->uv[1][1] - at->uv[0][1];
+    const float du2 = at->uv[2][0] - at->uv[0][0], dv2 = at->uv[2][1] - at->uv[0][1];
+    if (du1 * dv2 - du2 * dv1 == 0.0f) {
+        return;
+    }
+    // Their products with e1 and e2 are the differences of u and v along these edges.
+    *gradient_u = cross(e1 * (-du2 / twice_area) + e2 * (du1 / twice_area), n);
+    *gradient_v = cross(e1 * (-dv2 / twice_area) + e2 * (dv1 / twice_area), n);
+}
+
 /// Returns the hit with barycentrics (1 - u - v, u, v) on a triangle.
 DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, float u, float v) {
     GLOBAL const SurfaceTriangle *surface = scene->surface_triangles + triangle;
@@ -45,6 +70,8 @@ DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, fl
     hit.point = scene_point(surface, u, v);
     hit.normal = hit.point.normal;
     hit.tangent = make_float3(0.0f, 0.0f, 0.0f);
+    hit.gradient_u = make_float3(0.0f, 0.0f, 0.0f);
+    hit.gradient_v = make_float3(0.0f, 0.0f, 0.0f);
     hit.uv = make_float2(0.0f, 0.0f);
     hit.material = surface->material;
     hit.emitter = surface->emitter;
@@ -67,6 +94,9 @@ DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, fl
     if (FEATURE_tangents) {
         hit.tangent = triangle_tangent(scene, triangle);
     }
+    if (FEATURE_normal_maps) {
+        triangle_gradients(scene, triangle, hit.point.normal, &hit.gradient_u, &hit.gradient_v);
+    }
     return hit;
 }
 
@@ -76,6 +106,8 @@ DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point
     hit.point = shape_point(shape, object_point);
     hit.normal = hit.point.normal;
     hit.tangent = make_float3(0.0f, 0.0f, 0.0f);
+    hit.gradient_u = make_float3(0.0f, 0.0f, 0.0f);
+    hit.gradient_v = make_float3(0.0f, 0.0f, 0.0f);
     hit.uv = make_float2(0.0f, 0.0f);
     if (FEATURE_textures) {
         hit.uv = shape_uv(shape, object_point);

@@ -53,6 +53,11 @@ DEVICE void prefetch_texels(PRIVATE const SceneView *scene, uint material, float
             prefetch_texture(scene->textures + component->texture, scene->texels, uv);
         }
     }
+    if (FEATURE_normal_maps && (scene->materials[material].flags & MATERIAL_MAPPED) != 0u) {
+        GLOBAL const NormalMapRecord *map =
+            scene->normal_maps + scene->materials[material].normal_map;
+        prefetch_texture(scene->textures + map->texture, scene->texels, uv);
+    }
 }
 
 /// Returns the active path at entry i, for a stage that reads the hit primitive.

@@ -20,6 +20,33 @@ DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const ui
     return make_float3((float)r, (float)g, (float)b) / 255.0f;
 }
 
+/// Returns the derivatives of the luminance by u and v at `uv`. They are zero for a texture of the
+/// nearest texel.
+DEVICE float2 texture_gradient(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
+                               float2 uv) {
+    if ((texture->flags & TEXTURE_BILINEAR) == 0u) {
+        return make_float2(0.0f, 0.0f);
+    }
+    const uint clamped = texture->flags & TEXTURE_CLAMP;
+    const uint width = texture->width, height = texture->height;
+    const float2 at = texture_position(texture, uv);
+    const TexelPair columns = texel_pair(at.x, width, clamped);
+    const TexelPair rows = texel_pair(at.y, height, clamped);
+    const uint upper = rows.first * width, lower = rows.second * width;
+    const float3 weights = make_float3(0.2126f, 0.7152f, 0.0722f);  // luminance of Rec. 709
+    const float upper_left = dot(texture_texel(texture, texels, upper + columns.first), weights);
+    const float upper_right = dot(texture_texel(texture, texels, upper + columns.second), weights);
+    const float lower_left = dot(texture_texel(texture, texels, lower + columns.first), weights);
+    const float lower_right = dot(texture_texel(texture, texels, lower + columns.second), weights);
+    const float by_column =
+        (upper_right - upper_left) * (1.0f - rows.t) + (lower_right - lower_left) * rows.t;
+    const float by_row =
+        (lower_left - upper_left) * (1.0f - columns.t) + (lower_right - upper_right) * columns.t;
+    // Rows run from the top, against v.
+    return make_float2(by_column * (float)width * texture->uv_scale[0],
+                       -by_row * (float)height * texture->uv_scale[1]);
+}
+
 /// Returns the linear colour at `uv`.
 DEVICE float3 texture_lookup(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
                              float2 uv) {

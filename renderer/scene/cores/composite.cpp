@@ -207,7 +207,7 @@ std::shared_ptr<const MaterialType> composite_type(const std::vector<CompositePa
         for (const Part &part : made) {
             check_part(part, p);
         }
-        check_opacity(p);
+        check_common_parameters(p);
         check_energy(expand(p));
     };
     return type;

@@ -24,11 +24,31 @@ const ParameterTable &common_material_parameters() {
          true},
         {"opacity_cutoff", "if positive, opacities from here on count as 1 and lower ones as 0",
          0.0, Parameter::Need::defaulted, ranges::unit},
+        {"normal_map",
+         "factor of x and y of the normals of normal_map_texture",
+         1.0,
+         Parameter::Need::defaulted,
+         ranges::any,
+         {},
+         true},
+        {"bump_map",
+         "factor of the heights of bump_map_texture, in scene units",
+         1.0,
+         Parameter::Need::defaulted,
+         ranges::any,
+         {},
+         true},
+        {"map_shadowing", "normal and bump maps shadow light that arrives at grazing angles", true},
+        {"map_follows_v",
+         "y of a normal map points along dp/dv, otherwise along the normal times dp/du", false},
+        {"map_mirrored_back",
+         "what a normal or bump map raises in front it also raises behind, otherwise it sinks",
+         false},
     };
     return table;
 }
 
-void check_opacity(const ParameterSet &parameters) {
+void check_common_parameters(const ParameterSet &parameters) {
     const std::shared_ptr<Texture> texture = parameters.texture("opacity");
     const double largest =
         texture != nullptr ? static_cast<double>(texture->largest_texel().maxCoeff()) : 1;
@@ -36,6 +56,9 @@ void check_opacity(const ParameterSet &parameters) {
         throw input_error(fmt::format(
             "opacity: {} times the brightest texel of its texture, {:.6g}, exceeds 1; lower it",
             parameters.number("opacity"), largest));
+    }
+    if (parameters.texture("normal_map") != nullptr && parameters.texture("bump_map") != nullptr) {
+        throw input_error("has normal_map_texture and bump_map_texture; remove one of them");
     }
 }
 
@@ -69,6 +92,25 @@ MaterialOpacity MaterialCore::opacity() const {
     made.value = parameters().number("opacity");
     made.cutoff = parameters().number("opacity_cutoff");
     return made;
+}
+
+NormalMap MaterialCore::normal_map() const {
+    NormalMap made;
+    if (normal_map_texture() == nullptr) {
+        return made;
+    }
+    const bool has_normals = parameters().texture("normal_map") != nullptr;
+    made.kind = has_normals ? NormalMap::Kind::normals : NormalMap::Kind::heights;
+    made.scale = parameters().number(has_normals ? "normal_map" : "bump_map");
+    made.shadowing = parameters().get<bool>("map_shadowing");
+    made.follows_v = parameters().get<bool>("map_follows_v");
+    made.mirrored_back = parameters().get<bool>("map_mirrored_back");
+    return made;
+}
+
+std::shared_ptr<Texture> MaterialCore::normal_map_texture() const {
+    const std::shared_ptr<Texture> normals = parameters().texture("normal_map");
+    return normals != nullptr ? normals : parameters().texture("bump_map");
 }
 
 Dirty MaterialCore::outdated_by(const std::string &parameter) const {

@@ -39,7 +39,7 @@ struct MaterialType : CoreType {
 const std::vector<MaterialType> &material_types();
 
 /// The scattering and emission of a surface: a sum of atomic BxDFs (thesis 3.3.6). All types share
-/// the parameters two_sided, emission, opacity and opacity_cutoff.
+/// the parameters of `common_material_parameters`.
 class MaterialCore : public ParameterCore {
   public:
     /// Throws `Error` (bad input) like `ParameterCore`, and for an unknown type, listing the types.
@@ -59,6 +59,10 @@ class MaterialCore : public ParameterCore {
     /// Returns the opacity without the index of its texture, which is `opacity_texture`.
     MaterialOpacity opacity() const;
     std::shared_ptr<Texture> opacity_texture() const { return parameters().texture("opacity"); }
+    /// Returns the map of normals or heights without the index of its texture, which is
+    /// `normal_map_texture`.
+    NormalMap normal_map() const;
+    std::shared_ptr<Texture> normal_map_texture() const;
     bool is_opaque() const { return opacity_texture() == nullptr && opacity().is_opaque(); }
 
     /// Called by the textures of the material when they change.
@@ -74,7 +78,8 @@ class MaterialCore : public ParameterCore {
 /// Returns the parameters that every material has.
 const ParameterTable &common_material_parameters();
 
-/// Throws `Error` (bad input) if the opacity of a material exceeds 1 at a texel.
-void check_opacity(const ParameterSet &parameters);
+/// Throws `Error` (bad input) if the opacity of a material exceeds 1 at a texel, or if it has both
+/// a map of normals and one of heights.
+void check_common_parameters(const ParameterSet &parameters);
 
 }  // namespace rtrays

@@ -223,7 +223,7 @@ MaterialType material(const char *name, ParameterTable parameters,
         if (check != nullptr) {
             check(p);
         }
-        check_opacity(p);
+        check_common_parameters(p);
         check_energy(expand(p));
     };
     return type;

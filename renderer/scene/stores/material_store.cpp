@@ -42,6 +42,9 @@ void TextureStore::keep_used(MaterialArrays &materials) {
         for (MaterialOpacity &opacity : materials.opacity) {
             visit(opacity.texture);
         }
+        for (NormalMap &map : materials.normal_map) {
+            visit(map.texture);
+        }
     };
     for_each_use([&](uint32_t texture) {
         if (texture != no_index) {
@@ -87,6 +90,7 @@ void MaterialStore::append(const Node &node) {
     arrays.component.resize(arrays.component.size() + count);
     arrays.two_sided.push_back(1);
     arrays.opacity.emplace_back();
+    arrays.normal_map.emplace_back();
     version_.push_back(0);
 }
 
@@ -102,6 +106,8 @@ void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &)
     arrays.two_sided[slot] = material.two_sided() ? 1 : 0;
     arrays.opacity[slot] = material.opacity();
     arrays.opacity[slot].texture = textures_.record(material.opacity_texture());
+    arrays.normal_map[slot] = material.normal_map();
+    arrays.normal_map[slot].texture = textures_.record(material.normal_map_texture());
     version_[slot] = material.version();
 }
 
@@ -114,6 +120,7 @@ void MaterialStore::keep(const std::vector<uint32_t> &slots) {
     }
     arrays.component = std::move(components);
     keep_elements(arrays.opacity, slots);
+    keep_elements(arrays.normal_map, slots);
     textures_.keep_used(arrays);
     keep_elements(arrays.name, slots);
     keep_elements(arrays.first_component, slots);

@@ -22,8 +22,8 @@ class TextureStore {
     /// it is new or the texture has changed.
     uint32_t record(const std::shared_ptr<Texture> &texture);
 
-    /// Removes the records that neither a component nor an opacity refers to, and updates the
-    /// indices in both.
+    /// Removes the records that no component, opacity or normal map refers to, and updates the
+    /// indices in the others.
     void keep_used(MaterialArrays &materials);
 
     TextureArrays &arrays;

@@ -48,6 +48,12 @@ void ShapeStore::write(uint32_t slot, const Node &node, const AttributeSet &attr
             fmt::format("{} '{}': material '{}' has an opacity, but a Julia set must be opaque",
                         shape.type_name(), node.name(), material.name()));
     }
+    if (material.normal_map_texture() != nullptr) {
+        throw input_error(fmt::format(
+            "{} '{}': material '{}' has a normal or bump map, but only triangles support these; "
+            "use a mesh",
+            shape.type_name(), node.name(), material.name()));
+    }
 
     Eigen::Matrix4d world =
         attributes.get<TransformAttribute>().world_from_object * shape.object_from_canonical();
