@@ -235,6 +235,8 @@ Parametrization Geometry::parametrize(const SurfacePoint &point) const {
         const double determinant = along1.x() * along2.y() - along2.x() * along1.y();
         if (std::abs(determinant) > 1e-12 * along1.norm() * along2.norm()) {
             result.tangent = (along2.y() * record.edge1 - along1.y() * record.edge2) / determinant;
+            result.along_v = (along1.x() * record.edge2 - along2.x() * record.edge1) / determinant;
+            result.derivatives = true;
         }
     }
     return result;

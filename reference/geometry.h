@@ -35,6 +35,9 @@ struct Parametrization {
     Vec3 shading_normal;  ///< unit; the geometric normal if the surface has no other
     Vec3 tangent;         ///< along dp/du, of any length
     Eigen::Vector2d uv;   ///< zero if the surface has no coordinates
+    /// Whether `tangent` is dp/du and `along_v` is dp/dv, with their lengths.
+    bool derivatives = false;
+    Vec3 along_v = Vec3::Zero();
 };
 
 /// Coherence of a ray with its neighbours. It is a hint to Embree and does not change the result.

@@ -39,6 +39,7 @@ struct World {
     const Geometry &geometry;
     const std::vector<BsdfModel> &bsdfs;  ///< indexed by material
     const Lights &lights;
+    const std::vector<NormalTilt> *tilts = nullptr;  ///< indexed by material; nullptr: no maps
 };
 
 /// Upper bound of the survival probability in Russian roulette.
@@ -109,9 +110,11 @@ class PathIntegrator {
                 return result;
             }
 
-            const BsdfModel &bsdf = world_.bsdfs[world_.geometry.material(hit)];
+            const uint32_t material = world_.geometry.material(hit);
+            const BsdfModel &bsdf = world_.bsdfs[material];
             const Shading shading =
-                make_shading(world_.geometry, hit, wo, bsdf.needs_parametrization());
+                make_shading(world_.geometry, hit, wo, bsdf.needs_parametrization(),
+                             world_.tilts != nullptr ? &(*world_.tilts)[material] : nullptr);
             const Vec3 wo_local = shading.frame.to_local(wo);
             light_sampled_too = samples_lights_ && !bsdf.is_delta();
             if (light_sampled_too) {
@@ -133,7 +136,7 @@ class PathIntegrator {
             if (depth + 1 == max_depth_ && light_sampled_too && !counts_hits_) {
                 return result;  // emission hit by the last ray would not count
             }
-            throughput *= sample->weight;
+            throughput *= sample->weight * shading.share(ray.direction);
             expansion *= sample->expansion;
             if (roulette_) {
                 const double survival = std::min(throughput.maxCoeff() * expansion, roulette_cap);
@@ -211,7 +214,8 @@ class PathIntegrator {
             counts_hits_ && !light->delta
                 ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local, shading.uv))
                 : 1.0;
-        return f * light->radiance * (weight * std::abs(wi_local.z()) / light->pdf_w);
+        return f * light->radiance *
+               (weight * shading.share(light->wi) * std::abs(wi_local.z()) / light->pdf_w);
     }
 
     World<BsdfModel, Lights> world_;

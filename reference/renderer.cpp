@@ -78,9 +78,10 @@ struct ReferenceRenderer::State {
           camera(scene.cameras, wanted.camera, wanted.width, wanted.height),
           geometry(scene.meshes, scene.shapes, make_opacities(scene.materials, scene.textures)),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
+          tilts(make_normal_tilts(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
-          integrator({geometry, bsdfs, lights}, wanted.strategies, wanted.max_depth,
-                     wanted.joinable_only, wanted.roulette),
+          integrator({geometry, bsdfs, lights, tilts.empty() ? nullptr : &tilts}, wanted.strategies,
+                     wanted.max_depth, wanted.joinable_only, wanted.roulette),
           film(wanted.width, wanted.height, 0),
           threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
           arena(threads) {}
@@ -92,6 +93,7 @@ struct ReferenceRenderer::State {
     Camera camera;
     Geometry geometry;
     std::vector<Bsdf> bsdfs;
+    std::vector<NormalTilt> tilts;
     LightSet lights;
     PathIntegrator<Bsdf, LightSet> integrator;
     Film film;

@@ -17,4 +17,20 @@ Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &po
     return surface;
 }
 
+Shading make_tilted_shading(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo,
+                            const NormalTilt &tilt) {
+    const Vec3 ng = geometry.normal(point);
+    Parametrization surface = geometry.parametrize(point);
+    if (surface.shading_normal.dot(ng) < 0.0) {
+        surface.shading_normal = -surface.shading_normal;
+    }
+    return {Frame(tilt.normal_for(surface, ng, wo), surface.tangent),
+            ng,
+            surface.uv,
+            true,
+            &tilt,
+            surface.shading_normal,
+            tilt.normal(surface, ng)};
+}
+
 }  // namespace rtrays::reference

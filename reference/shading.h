@@ -12,6 +12,7 @@
 
 #include "reference/geometry.h"
 #include "reference/math.h"
+#include "reference/normal_map.h"
 
 namespace rtrays::reference {
 
@@ -20,7 +21,15 @@ struct Shading {
     Frame frame;  ///< z is the shading normal on the surface's front, x along dp/du
     Vec3 geometric_normal;
     Eigen::Vector2d uv;
-    bool bent;  ///< whether the frame's z differs from the geometric normal
+    bool bent;                         ///< whether the frame's z differs from the geometric normal
+    const NormalTilt *tilt = nullptr;  ///< the map of the material, or nullptr
+    Vec3 untilted = Vec3::Zero();      ///< shading normal without the map
+    Vec3 tilted = Vec3::Zero();        ///< the normal of the map
+
+    /// Returns the share of light from `wi` that is not shadowed by the map.
+    double share(const Vec3 &wi) const {
+        return tilt == nullptr ? 1.0 : tilt->shadowing(tilted, untilted, wi);
+    }
 
     /// Returns whether wi, given in both spaces, is on the same side of both normals.
     bool agrees(const Vec3 &wi, const Vec3 &wi_local) const {
@@ -33,10 +42,18 @@ struct Shading {
 Parametrization parametrize_for(const Geometry &geometry, const SurfacePoint &point,
                                 const Vec3 &wo);
 
+/// Builds the scattering frame of a surface with a map of normals or heights.
+Shading make_tilted_shading(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo,
+                            const NormalTilt &tilt);
+
 /// Builds the scattering frame. `parametrized` tells whether uv and the direction of dp/du are
-/// needed. The simple case is inline, so that the frame stays in registers.
+/// needed, and `tilt` is the map of the material, or nullptr. The simple case is inline, so that
+/// the frame stays in registers.
 inline Shading make_shading(const Geometry &geometry, const SurfacePoint &point, const Vec3 &wo,
-                            bool parametrized) {
+                            bool parametrized, const NormalTilt *tilt = nullptr) {
+    if (tilt != nullptr && !tilt->is_none()) {
+        return make_tilted_shading(geometry, point, wo, *tilt);
+    }
     const Vec3 ng = geometry.normal(point);
     if (!parametrized && !geometry.has_shading_normal(point)) {
         return {Frame(ng), ng, Eigen::Vector2d::Zero(), false};

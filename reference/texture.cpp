@@ -79,28 +79,54 @@ int Texture::wrap(int64_t i, int size) const {
     return static_cast<int>(remainder < 0 ? remainder + size : remainder);
 }
 
-Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
-    const int width = image_->width, height = image_->height;
-    // Texel coordinates from the lower left corner. Coordinates beyond 2^52 texels have no fraction
-    // and would overflow the integers below. They are clamped to that value, where every texel is
-    // equally valid.
+Spectrum Texture::look_up(double column, double row_from_below) const {
+    return texel(*image_, wrap(static_cast<int64_t>(column), image_->width),
+                 image_->height - 1 - wrap(static_cast<int64_t>(row_from_below), image_->height));
+}
+
+Eigen::Vector2d Texture::texel_coordinates(const Eigen::Vector2d &uv) const {
+    // From the lower left corner. Coordinates beyond 2^52 texels have no fraction and would
+    // overflow integers. They are clamped to that value, where every texel is equally valid.
     const auto coordinate = [](double x) { return std::clamp(x, -0x1p52, 0x1p52); };
-    const double x = coordinate((scale_.x() * uv.x() + offset_.x()) * width);
-    const double y = coordinate((scale_.y() * uv.y() + offset_.y()) * height);
-    const auto look_up = [&](double column, double row_from_below) {
-        return texel(*image_, wrap(static_cast<int64_t>(column), width),
-                     height - 1 - wrap(static_cast<int64_t>(row_from_below), height));
-    };
+    return {coordinate((scale_.x() * uv.x() + offset_.x()) * image_->width),
+            coordinate((scale_.y() * uv.y() + offset_.y()) * image_->height)};
+}
+
+Texture::Cell Texture::cell(const Eigen::Vector2d &uv) const {
+    const Eigen::Vector2d at = texel_coordinates(uv).array() - 0.5;
+    const double column = std::floor(at.x()), row = std::floor(at.y());
+    return {look_up(column, row),
+            look_up(column + 1.0, row),
+            look_up(column, row + 1.0),
+            look_up(column + 1.0, row + 1.0),
+            at.x() - column,
+            at.y() - row};
+}
+
+Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
     if (filter_ == TextureArrays::Filter::nearest) {
-        return look_up(std::floor(x), std::floor(y));
+        const Eigen::Vector2d at = texel_coordinates(uv);
+        return look_up(std::floor(at.x()), std::floor(at.y()));
     }
-    const double column = std::floor(x - 0.5), row = std::floor(y - 0.5);
-    const double right = x - 0.5 - column, up = y - 0.5 - row;
-    const Spectrum below =
-        (1.0 - right) * look_up(column, row) + right * look_up(column + 1.0, row);
-    const Spectrum above =
-        (1.0 - right) * look_up(column, row + 1.0) + right * look_up(column + 1.0, row + 1.0);
-    return (1.0 - up) * below + up * above;
+    const Cell c = cell(uv);
+    const Spectrum below = (1.0 - c.right) * c.lower_left + c.right * c.lower_right;
+    const Spectrum above = (1.0 - c.right) * c.upper_left + c.right * c.upper_right;
+    return (1.0 - c.up) * below + c.up * above;
+}
+
+Eigen::Vector2d Texture::luminance_gradient(const Eigen::Vector2d &uv) const {
+    if (filter_ == TextureArrays::Filter::nearest) {
+        return Eigen::Vector2d::Zero();
+    }
+    const Cell c = cell(uv);
+    const auto luminance = [](const Spectrum &s) {
+        return 0.2126 * s[0] + 0.7152 * s[1] + 0.0722 * s[2];
+    };
+    const double by_column = (1.0 - c.up) * luminance(c.lower_right - c.lower_left) +
+                             c.up * luminance(c.upper_right - c.upper_left);
+    const double by_row = (1.0 - c.right) * luminance(c.upper_left - c.lower_left) +
+                          c.right * luminance(c.upper_right - c.lower_right);
+    return {by_column * image_->width * scale_.x(), by_row * image_->height * scale_.y()};
 }
 
 }  // namespace rtrays::reference

@@ -23,7 +23,18 @@ class Texture {
 
     Spectrum evaluate(const Eigen::Vector2d &uv) const;
 
+    /// Returns the derivatives of the Rec. 709 luminance by u and v; zero for the filter `nearest`.
+    Eigen::Vector2d luminance_gradient(const Eigen::Vector2d &uv) const;
+
   private:
+    /// The texels around a point for bilinear interpolation.
+    struct Cell {
+        Spectrum lower_left, lower_right, upper_left, upper_right;
+        double right, up;  ///< position of the point between the texels
+    };
+    Cell cell(const Eigen::Vector2d &uv) const;
+    Spectrum look_up(double column, double row_from_below) const;
+    Eigen::Vector2d texel_coordinates(const Eigen::Vector2d &uv) const;
     int wrap(int64_t i, int size) const;
 
     std::shared_ptr<const TextureImage> image_;
