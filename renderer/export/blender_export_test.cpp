@@ -50,6 +50,8 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"ggx", "no Fresnel term"},
         {"julia",
          "'object': Cycles supports only triangles, which cannot represent this Julia set"},
+        {"bump_map", "the export to Cycles does not support normal and bump maps"},
+        {"normal_map", "the export to Cycles does not support normal and bump maps"},
         {"opacity", "the export to Cycles does not support an opacity"},
         {"oren_nayar_079", "its Oren-Nayar model differs"},
         {"plane",

@@ -162,6 +162,11 @@ class SceneWriter {
                     fmt::format("{}material '{}': the export to Cycles does not support an opacity",
                                 user_of(i), materials.name[i]));
             }
+            if (materials.normal_map[i].kind != NormalMap::Kind::none) {
+                throw input_error(fmt::format(
+                    "{}material '{}': the export to Cycles does not support normal and bump maps",
+                    user_of(i), materials.name[i]));
+            }
             Json components = Json::array();
             for (uint32_t c = 0; c < materials.component_count[i]; ++c) {
                 const BxdfComponent &part = materials.component[materials.first_component[i] + c];

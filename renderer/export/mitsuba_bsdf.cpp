@@ -2,6 +2,8 @@
 #include "renderer/export/mitsuba_bsdf.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "renderer/base/error.h"
 #include "renderer/import/images/texture_file.h"
@@ -91,6 +93,7 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
     const BxdfComponent *parts = &materials.component[materials.first_component[material]];
     const bool depends_on_uv =
         materials.opacity[material].texture != no_index ||
+        materials.normal_map[material].kind != NormalMap::Kind::none ||
         std::any_of(parts, parts + materials.component_count[material],
                     [](const BxdfComponent &part) {
                         return part.texture != no_index ||
@@ -110,11 +113,21 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
         const bool twosided = !row.transmits && materials.two_sided[material] != 0;
         try {
             const bool is_opaque = materials.opacity[material].is_opaque();
-            const pugi::xml_node parent =
+            std::string own_id = is_opaque ? id : std::string();
+            pugi::xml_node parent =
                 is_opaque ? scene_ : write_mask(materials.opacity[material], id, uv);
-            const pugi::xml_node outer = add_object(parent, "bsdf", twosided ? "twosided" : plugin,
-                                                    is_opaque ? id : std::string());
-            (this->*row.write)(twosided ? add_object(outer, "bsdf", plugin) : outer, parts, uv);
+            const NormalMap &map = materials.normal_map[material];
+            const bool mapped = map.kind != NormalMap::Kind::none;
+            if (mapped && (!twosided || !map.mirrored_back)) {
+                parent = write_map(parent, material, std::exchange(own_id, {}), uv);
+            }
+            if (twosided) {
+                parent = add_object(parent, "bsdf", "twosided", std::exchange(own_id, {}));
+            }
+            if (mapped && twosided && map.mirrored_back) {
+                parent = write_map(parent, material, {}, uv);
+            }
+            (this->*row.write)(add_object(parent, "bsdf", plugin, own_id), parts, uv);
         } catch (const Error &error) {
             throw Error(error.exit_code(),
                         fmt::format("material '{}': {}", materials.name[material], error.what()));
@@ -138,6 +151,45 @@ pugi::xml_node BsdfWriter::write_mask(const MaterialOpacity &opacity, const std:
         write_weight(mask, "opacity", Vector3d::Constant(value), opacity.texture, uv);
     }
     return mask;
+}
+
+bool BsdfWriter::has_mirrored_uv(uint32_t material) const {
+    const MeshArrays &meshes = arrays_.meshes;
+    for (size_t i = 0; i < meshes.triangle.size() && !meshes.uv.empty(); ++i) {
+        const auto &[a, b, c] = meshes.triangle[i];
+        const Eigen::Vector2f along1 = meshes.uv[b] - meshes.uv[a],
+                              along2 = meshes.uv[c] - meshes.uv[a];
+        if (meshes.material[meshes.triangle_mesh[i]] == material &&
+            along1.x() * along2.y() < along2.x() * along1.y()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+pugi::xml_node BsdfWriter::write_map(pugi::xml_node parent, uint32_t material,
+                                     const std::string &id, UvConvention uv) {
+    const NormalMap &map = arrays_.materials.normal_map[material];
+    const bool has_heights = map.kind == NormalMap::Kind::heights;
+    if (!has_heights && map.follows_v && has_mirrored_uv(material)) {
+        throw input_error(
+            "the y axis of Mitsuba's normal maps does not follow mirrored texture coordinates; set "
+            "map_follows_v to false");
+    }
+    pugi::xml_node bsdf = add_object(parent, "bsdf", has_heights ? "bumpmap" : "normalmap", id);
+    add_boolean(bsdf, "use_shadowing_function", map.shadowing);
+    if (has_heights) {
+        add_number(bsdf, "scale", map.scale);
+        write_weight(bsdf, "heights", Vector3d::Ones(), map.texture, uv);
+    } else {
+        // A texel t becomes (s (2 t - 1) + 1) / 2 for the factor s of its component. Lengths do not
+        // matter, so no factor need be above 1.
+        const double largest = std::max(1.0, std::abs(map.scale));
+        const Vector3d factor = Vector3d(map.scale, map.scale, 1) / largest;
+        write_weight(bsdf, "normalmap", factor, map.texture, uv,
+                     Vector3d::Constant(0.5) - 0.5 * factor);
+    }
+    return bsdf;
 }
 
 void BsdfWriter::write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
@@ -192,7 +244,7 @@ void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, 
 }
 
 void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vector3d &weight,
-                              uint32_t texture, UvConvention uv) {
+                              uint32_t texture, UvConvention uv, const Vector3d &offset) {
     if (texture == no_index) {
         add_colour(bsdf, name, weight);
         return;
@@ -200,7 +252,7 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
     const TextureArrays &textures = arrays_.textures;
     pugi::xml_node node = add_object(bsdf, "texture", "bitmap");
     node.append_attribute("name") = name;
-    add_property(node, "string", "filename", image_file(texture, weight));
+    add_property(node, "string", "filename", image_file(texture, weight, offset));
     add_property(
         node, "string", "filter_type",
         textures.filter[texture] == TextureArrays::Filter::nearest ? "nearest" : "bilinear");
@@ -212,10 +264,11 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
 
     // The inverse of the importer's mapping: Mitsuba's rows run from the top.
     const Vector2d &scale = textures.uv_scale[texture];
-    const Vector2d &offset = textures.uv_offset[texture];
+    const Vector2d &uv_offset = textures.uv_offset[texture];
     const bool flipped = uv == UvConvention::flipped;
     const Vector2d to_scale(scale[0], flipped ? scale[1] : -scale[1]);
-    const Vector2d to_offset(offset[0], flipped ? 1 - scale[1] - offset[1] : 1 - offset[1]);
+    const Vector2d to_offset(uv_offset[0],
+                             flipped ? 1 - scale[1] - uv_offset[1] : 1 - uv_offset[1]);
     if (to_scale == Vector2d::Ones() && to_offset == Vector2d::Zero()) {
         return;
     }
@@ -231,9 +284,11 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
         fmt::format("{}, {}, 0", to_offset[0], to_offset[1]).c_str();
 }
 
-std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight) {
+std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight,
+                                   const Vector3d &offset) {
     const std::shared_ptr<const TextureImage> &image = arrays_.textures.image[texture];
-    std::string &file = images_[{image.get(), weight[0], weight[1], weight[2]}];
+    std::string &file =
+        images_[{image.get(), weight[0], weight[1], weight[2], offset[0], offset[2]}];
     if (!file.empty()) {
         return file;
     }
@@ -246,8 +301,8 @@ std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight) {
         for (size_t i = 0; i < written.floats.size(); ++i) {
             double value = image->floats.empty() ? image->bytes[i] / 255.0 : image->floats[i];
             value = image->floats.empty() && image->srgb ? srgb_decoded(value) : value;
-            written.floats[i] =
-                static_cast<float>(value * weight[static_cast<Eigen::Index>(i % 3)]);
+            const auto channel = static_cast<Eigen::Index>(i % 3);
+            written.floats[i] = static_cast<float>(value * weight[channel] + offset[channel]);
         }
     }
     const std::filesystem::path path =

@@ -41,21 +41,32 @@ class BsdfWriter {
     /// Returns the BSDF that lets light pass. The BSDF of the surface becomes its child.
     pugi::xml_node write_mask(const MaterialOpacity &opacity, const std::string &id,
                               UvConvention uv);
+    /// Returns the BSDF of a map of normals or heights. The BSDF of the surface becomes its child.
+    pugi::xml_node write_map(pugi::xml_node parent, uint32_t material, const std::string &id,
+                             UvConvention uv);
+    /// Returns whether a triangle of the material has texture coordinates of negative area.
+    bool has_mirrored_uv(uint32_t material) const;
     void write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
 
+    /// Writes a colour, or a texture whose texels are multiplied by `weight`. `offset` is added to
+    /// the texels then, equally in the first two channels.
     void write_weight(pugi::xml_node bsdf, const char *name, const Eigen::Vector3d &weight,
-                      uint32_t texture, UvConvention uv);
-    std::string image_file(uint32_t texture, const Eigen::Vector3d &weight);
+                      uint32_t texture, UvConvention uv,
+                      const Eigen::Vector3d &offset = Eigen::Vector3d::Zero());
+    std::string image_file(uint32_t texture, const Eigen::Vector3d &weight,
+                           const Eigen::Vector3d &offset);
 
     const SceneArrays &arrays_;
     pugi::xml_node scene_;
     Names &ids_;
     DataFolder &folder_;
     std::map<std::pair<uint32_t, UvConvention>, std::string> written_;
-    std::map<std::tuple<const TextureImage *, double, double, double>, std::string> images_;
+    /// By image, weight, and offset of the first and the last channel.
+    std::map<std::tuple<const TextureImage *, double, double, double, double, double>, std::string>
+        images_;
 };
 
 }  // namespace rtrays::mitsuba

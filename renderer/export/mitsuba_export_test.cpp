@@ -71,6 +71,17 @@ void expect_same_material(const SceneArrays &a, uint32_t i, const SceneArrays &b
     if (before.texture != no_index) {
         expect_same_texture(a.textures, before.texture, b.textures, after.texture);
     }
+    const NormalMap &map = a.materials.normal_map[i], &map_after = b.materials.normal_map[j];
+    ASSERT_EQ(map.kind, map_after.kind);
+    if (map.kind != NormalMap::Kind::none) {
+        EXPECT_EQ(map.shadowing, map_after.shadowing);
+        EXPECT_TRUE(a.materials.two_sided[i] == 0 || map.mirrored_back == map_after.mirrored_back);
+        if (map.scale == map_after.scale) {
+            expect_same_texture(a.textures, map.texture, b.textures, map_after.texture);
+        } else {
+            EXPECT_EQ(map.kind, NormalMap::Kind::normals) << "the texels have the factor";
+        }
+    }
     bool refracts = false;
     for (uint32_t c = 0; c < a.materials.component_count[i]; ++c) {
         const BxdfComponent &p = a.materials.component[a.materials.first_component[i] + c];
@@ -172,6 +183,7 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"conductor_approximate", "no BSDF for ideal_reflection * conductor_approximate;"},
         {"julia", "no julia"},
         {"lambert_blinn", "no BSDF for lambert + blinn;"},
+        {"normal_map", "Mitsuba's normal maps does not follow mirrored texture coordinates"},
         {"opacity", "material 'cut_out': Mitsuba has no cutoff of an opacity texture"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},
         {"plane", "'ground': Mitsuba has no plane, and it cannot be tessellated"},
@@ -276,6 +288,31 @@ TEST_F(MitsubaExport, OpacitiesComeBackAsMasks) {
     expect_same_scene(scene, through_mitsuba(scene));
     // Shadow rays of Mitsuba's integrator "path" do not pass masks.
     EXPECT_NE(read_file(folder_ / "out.xml").find("\"volpath\""), std::string::npos);
+}
+
+TEST_F(MitsubaExport, TheFactorOfNormalsGoesIntoTheTexels) {
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "tile", "geometry": {"type": "rectangle"}, "material":
+         {"type": "lambert", "reflectance": [1, 1, 1], "normal_map": 3, "map_mirrored_back": true,
+          "normal_map_texture": {"file": "assets/normals.png", "encoding": "linear"}}},
+        {"name": "thin", "geometry": {"type": "rectangle"}, "material":
+         {"type": "lambert", "reflectance": [1, 1, 1], "map_shadowing": false, "opacity": 0.5,
+          "normal_map_texture": {"file": "assets/normals.png", "encoding": "linear"}}}]})",
+                         "in.json", "in", scenes + "/features");
+    const Scene back = through_mitsuba(scene);
+    expect_same_scene(scene, back);
+    const auto texels = [](const Scene &of) -> const TextureImage & {
+        return *of.arrays().textures.image[of.materials().normal_map[0].texture];
+    };
+    const std::vector<uint8_t> &bytes = texels(scene).bytes;
+    const std::vector<float> &floats = texels(back).floats;
+    ASSERT_EQ(bytes.size(), floats.size());
+    for (size_t i = 0; i < floats.size(); ++i) {
+        const double n = 2 * (bytes[i] / 255.0) - 1;
+        EXPECT_NEAR(2 * static_cast<double>(floats[i]) - 1, i % 3 == 2 ? n / 3 : n, 1e-6);
+    }
 }
 
 TEST_F(MitsubaExport, FarScenesStayWhereTheyAre) {
