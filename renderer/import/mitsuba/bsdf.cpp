@@ -114,6 +114,7 @@ struct MaterialReader::Draft {
     bool depends_on_uv = false;
 
     bool has_opacity() const { return values.count("opacity") + textures.count("opacity") > 0; }
+    bool has_map() const { return textures.count("normal_map") + textures.count("bump_map") > 0; }
 
     void set_type(const char *name) {
         type = static_type(find_type(material_types(), name, "material"));
@@ -142,6 +143,8 @@ const std::vector<MaterialReader::Type> &MaterialReader::types() {
         {"twosided", &MaterialReader::read_twosided},
         {"blendbsdf", &MaterialReader::read_blend},
         {"mask", &MaterialReader::read_mask},
+        {"normalmap", &MaterialReader::read_normal_map},
+        {"bumpmap", &MaterialReader::read_bump_map},
     };
     return all;
 }
@@ -222,6 +225,10 @@ void MaterialReader::read_twosided(Object &object, Draft &draft) {
     }
     draft = read_bsdf(inner[0], draft.uv, *draft.errors);
     draft.values["two_sided"] = true;
+    if (draft.has_map()) {
+        // Mitsuba turns the directions before it applies the map, so both sides look the same.
+        draft.values["map_mirrored_back"] = true;
+    }
 }
 
 void MaterialReader::read_blend(Object &object, Draft &draft) {
@@ -240,6 +247,10 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
         draft.depends_on_uv |= part.depends_on_uv;
         if (part.has_opacity()) {
             throw inner[i].error("a blend of masks is unsupported; mask the blend instead");
+        }
+        if (part.has_map()) {
+            throw inner[i].error(
+                "a blend of normal or bump maps is unsupported; apply one map to the blend");
         }
         const auto core = inner[i].located(
             [&] { return MaterialCore("", part.type, part.values, part.textures).components(); });
@@ -284,6 +295,47 @@ void MaterialReader::read_mask(Object &object, Draft &draft) {
         throw object.property("opacity").error(fmt::format("{} is not within [0, 1]", opacity));
     }
     draft.values["opacity"] = opacity;
+}
+
+void MaterialReader::read_map(Object &object, const std::vector<Element> &textures,
+                              const char *parameter, Draft &draft) {
+    const std::vector<Element> inner = object.objects("bsdf");
+    if (inner.size() != 1 || textures.size() != 1) {
+        throw object.element().error(
+            fmt::format("has {} BSDFs and {} textures of the map; expected one of each",
+                        inner.size(), textures.size()));
+    }
+    draft = read_bsdf(inner[0], draft.uv, *draft.errors);
+    if (draft.has_map()) {
+        throw inner[0].error("a map in a map is unsupported; combine their images");
+    }
+    if (draft.has_opacity()) {
+        throw inner[0].error("a mask in a map is unsupported; put the map inside the mask");
+    }
+    if (!object.boolean("flip_invalid_normals", true)) {
+        throw object.property("flip_invalid_normals")
+            .error("false is unsupported: the normals would be black where they face away");
+    }
+    draft.values["map_shadowing"] = object.boolean("use_shadowing_function", true);
+    draft.values["map_mirrored_back"] = false;
+    const std::shared_ptr<Texture> map = texture(textures[0], draft);
+    if (map->image()->srgb) {
+        notice(textures[0]
+                   .error("raw is false, so the map is decoded from sRGB, as in Mitsuba; maps are "
+                          "usually linear data, with raw set to true")
+                   .what());
+    }
+    draft.textures[parameter] = map;
+}
+
+void MaterialReader::read_normal_map(Object &object, Draft &draft) {
+    read_map(object, object.objects("texture", "normalmap"), "normal_map", draft);
+}
+
+void MaterialReader::read_bump_map(Object &object, Draft &draft) {
+    const double scale = object.number("scale", 1);
+    read_map(object, object.objects("texture"), "bump_map", draft);
+    draft.values["bump_map"] = scale;
 }
 
 void MaterialReader::read_diffuse(Object &object, Draft &draft) {

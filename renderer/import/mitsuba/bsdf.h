@@ -72,6 +72,11 @@ class MaterialReader {
     void read_twosided(Object &object, Draft &draft);
     void read_blend(Object &object, Draft &draft);
     void read_mask(Object &object, Draft &draft);
+    void read_normal_map(Object &object, Draft &draft);
+    void read_bump_map(Object &object, Draft &draft);
+    /// Reads what normal and bump maps share. `parameter` is that of the texture.
+    void read_map(Object &object, const std::vector<Element> &textures, const char *parameter,
+                  Draft &draft);
 
     void read_colour(Object &object, const char *property, const char *parameter, double initial,
                      Draft &draft);

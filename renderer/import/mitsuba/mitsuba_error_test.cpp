@@ -14,6 +14,8 @@ struct BadElement {
     const char *message;  ///< fragment of the error message
 };
 
+const char *const checks = "<texture type=\"checkerboard\" name=\"normalmap\"/>";
+
 class BadElements : public testing::TestWithParam<BadElement> {};
 
 TEST_P(BadElements, AreOneClearError) {
@@ -185,7 +187,28 @@ INSTANTIATE_TEST_SUITE_P(
             bsdf("principled"),
             "in.xml:4: <bsdf type=\"principled\">: unsupported BSDF type; supported types are: "
             "diffuse, dielectric, "},
-        BadElement{bsdf("bumpmap"), "unsupported BSDF type"},
+        BadElement{bsdf("normalmap", "<bsdf type=\"diffuse\"/>"),
+                   "in.xml:4: <bsdf type=\"normalmap\">: has 1 BSDFs and 0 textures of the map"},
+        BadElement{bsdf("bumpmap", checks), "has 0 BSDFs and 1 textures of the map"},
+        BadElement{bsdf("bumpmap", std::string(checks) + "<bsdf type=\"normalmap\">" + checks +
+                                       "<bsdf type=\"diffuse\"/></bsdf>"),
+                   "a map in a map is unsupported"},
+        BadElement{bsdf("bumpmap", std::string(checks) +
+                                       "<bsdf type=\"mask\"><bsdf type=\"diffuse\"/></bsdf>"),
+                   "put the map inside the mask"},
+        BadElement{
+            bsdf("normalmap", std::string(checks) + "<boolean name=\"flip_invalid_normals\" "
+                                                    "value=\"false\"/><bsdf type=\"diffuse\"/>"),
+            "<boolean name=\"flip_invalid_normals\">: false is unsupported"},
+        BadElement{bsdf("blendbsdf",
+                        "<float name=\"weight\" value=\"0.5\"/><bsdf "
+                        "type=\"diffuse\"/><bsdf type=\"bumpmap\">" +
+                            std::string(checks) + "<bsdf type=\"diffuse\"/></bsdf>"),
+                   "a blend of normal or bump maps is unsupported"},
+        BadElement{shape("<bsdf type=\"normalmap\">" + std::string(checks) +
+                             "<bsdf type=\"diffuse\"/></bsdf>",
+                         "sphere"),
+                   "has a normal or bump map, but only triangles support these"},
         BadElement{bsdf("thindielectric"), "unsupported BSDF type"},
         BadElement{bsdf("diffuse", "<float name=\"alpha\" value=\"0.1\"/>"),
                    "in.xml:5: <float name=\"alpha\">: unknown property of bsdf type 'diffuse'; "

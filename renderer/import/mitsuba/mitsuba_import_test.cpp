@@ -398,6 +398,43 @@ void write_image() {
         << std::string("\xff\x80\x01\x40\x20\x10");
 }
 
+TEST_F(MitsubaTextures, AreNormalAndBumpMaps) {
+    write_image();
+    const std::string raw =
+        R"(<texture type="bitmap" name="normalmap"><string name="filename" value="two.ppm"/>
+           <boolean name="raw" value="true"/></texture>)";
+    const auto maps = [](const std::string &bsdf) {
+        const Scene scene =
+            parse_mitsuba_xml(mitsuba_scene(R"(<shape type="rectangle">)" + bsdf + "</shape>"),
+                              "in.xml", "in", testing::TempDir());
+        return scene.materials().normal_map.at(0);
+    };
+    const std::string diffuse = R"(<bsdf type="diffuse"/>)";
+    using Map = NormalMap::Kind;
+    const Notices notices;
+    EXPECT_TRUE(maps(R"(<bsdf type="normalmap">)" + raw + diffuse + "</bsdf>") ==
+                (NormalMap{Map::normals, 0, 1, true, false, false}));
+    EXPECT_TRUE(maps(R"(<bsdf type="bumpmap"><float name="scale" value="-2"/>
+                <boolean name="use_shadowing_function" value="false"/>)" +
+                     raw + R"(<bsdf type="twosided">)" + diffuse + "</bsdf></bsdf>") ==
+                (NormalMap{Map::heights, 0, -2, false, false, false}));
+    EXPECT_TRUE(maps(R"(<bsdf type="mask"><bsdf type="twosided"><bsdf type="normalmap">)" + raw +
+                     diffuse + "</bsdf></bsdf></bsdf>") ==
+                (NormalMap{Map::normals, 0, 1, true, false, true}))
+        << "turned before the map applies";
+    for (const std::string &text : notices.texts()) {
+        EXPECT_EQ(text.find("raw is false"), std::string::npos) << text;
+    }
+    maps(R"(<bsdf type="normalmap"><texture type="bitmap" name="normalmap">
+            <string name="filename" value="two.ppm"/></texture>)" +
+         diffuse + "</bsdf>");
+    const std::vector<std::string> texts = notices.texts();
+    EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const std::string &text) {
+        return text.find("raw is false, so the map is decoded from sRGB, as in Mitsuba") !=
+               std::string::npos;
+    }));
+}
+
 TEST_F(MitsubaTextures, AreLookedUpWhereMitsubaDoes) {
     write_image();
     const std::string textured =
