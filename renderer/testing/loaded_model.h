@@ -45,6 +45,11 @@ struct LoadedModel {
         return scene.materials().opacity[material_index(name)];
     }
 
+    /// Returns the map of normals or heights of the material with that name.
+    NormalMap normal_map(const std::string &name) const {
+        return scene.materials().normal_map[material_index(name)];
+    }
+
     /// Returns the texels of the image of that material's opacity, or nothing.
     std::vector<uint8_t> opacity_texels(const std::string &name) const {
         const uint32_t texture = opacity(name).texture;

@@ -84,15 +84,32 @@ GltfTextureTransform transform_of(const Json &extension) {
     return made;
 }
 
-void read_base_texture(const Json &texture, GltfMaterial &made) {
-    if (!texture.is_object()) {
-        return;
-    }
+/// The placement of a texture of a material.
+struct Placement {
+    unsigned uv_set = 0;
+    GltfTextureTransform transform;
+};
+
+Placement placement_of(const Json &texture) {
     const Json &transform = member(member(texture, "extensions"), "KHR_texture_transform");
-    made.base_transform = transform_of(transform);
     // Casting a number that no unsigned integer holds would be undefined.
-    made.base_uv_set = static_cast<unsigned>(
-        std::clamp(number(transform, "texCoord", number(texture, "texCoord", 0)), 0.0, 1e6));
+    const double uv_set =
+        std::clamp(number(transform, "texCoord", number(texture, "texCoord", 0)), 0.0, 1e6);
+    return {static_cast<unsigned>(uv_set), transform_of(transform)};
+}
+
+/// Reads the placements of the base colour and of the normals. Without a base colour the normals
+/// have the texture coordinates for themselves.
+void read_placements(const Json &base_texture, const Json &normal_texture, GltfMaterial &made) {
+    const Placement normals =
+        normal_texture.is_object() ? placement_of(normal_texture) : Placement{};
+    const Placement base = base_texture.is_object() ? placement_of(base_texture) : normals;
+    made.base_uv_set = base.uv_set;
+    made.base_transform = base.transform;
+    made.normal_scale = number(normal_texture, "scale", 1);
+    made.normals_use_base_uv =
+        normals.uv_set == base.uv_set && !normals.transform.rotates() && !base.transform.rotates();
+    made.normal_transform = normals.transform;
 }
 
 /// Notes textures of extensions, which are not read.
@@ -130,7 +147,8 @@ GltfMaterial read_material(const Json &material, const std::string &name, ModelN
     made.specular_colour = colour(specular, "specularColorFactor");
     const Json &two_sided = member(material, "doubleSided");
     made.is_two_sided = two_sided.is_boolean() && two_sided.get<bool>();
-    read_base_texture(member(member(material, "pbrMetallicRoughness"), "baseColorTexture"), made);
+    read_placements(member(member(material, "pbrMetallicRoughness"), "baseColorTexture"),
+                    member(material, "normalTexture"), made);
     return made;
 }
 

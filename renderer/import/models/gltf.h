@@ -36,6 +36,11 @@ struct GltfMaterial {
     bool is_two_sided = false;
     unsigned base_uv_set = 0;  ///< texture coordinates of the base colour
     GltfTextureTransform base_transform;
+    double normal_scale = 1;
+    /// Whether the map of normals uses the texture coordinates of the base colour, and neither
+    /// rotates them.
+    bool normals_use_base_uv = true;
+    GltfTextureTransform normal_transform;
 };
 
 /// A .gltf or .glb file.

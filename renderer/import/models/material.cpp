@@ -26,9 +26,8 @@ struct UnusedMap {
     const char *note;
 };
 constexpr UnusedMap unused_maps[] = {
-    {aiTextureType_HEIGHT, "bump and normal maps are ignored"},
-    {aiTextureType_NORMALS, "bump and normal maps are ignored"},
-    {aiTextureType_NORMAL_CAMERA, "bump and normal maps are ignored"},
+    {aiTextureType_HEIGHT, "bump maps are ignored outside MTL"},
+    {aiTextureType_NORMAL_CAMERA, "normal maps in camera space are ignored"},
     {aiTextureType_DISPLACEMENT, "displacement maps are ignored"},
     {aiTextureType_SHININESS, "shininess maps are ignored"},
     {aiTextureType_AMBIENT, "ambient and occlusion maps are ignored"},
@@ -353,6 +352,24 @@ void ModelMaterials::read_opacity(const aiMaterial &source, const GltfMaterial *
     }
 }
 
+void ModelMaterials::read_normals(const aiMaterial &source, const GltfMaterial *gltf,
+                                  const std::string &name, ModelSurface &surface) {
+    if (!has_map(source, aiTextureType_NORMALS)) {
+        return;
+    }
+    if (gltf != nullptr && !gltf->normals_use_base_uv) {
+        notes_.add(
+            "normal maps are ignored if their texture coordinates are rotated or differ from those "
+            "of the base colour",
+            name);
+        return;
+    }
+    surface.normal_texture =
+        texture(source, aiTextureType_NORMALS, gltf != nullptr ? &gltf->normal_transform : nullptr,
+                name, TextureEncoding::linear);
+    surface.map_scale = gltf != nullptr ? gltf->normal_scale : 1;
+}
+
 ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     const aiMaterial &source = *model_->mMaterials[index];
     const GltfMaterial *const gltf = extended(index);
@@ -366,6 +383,7 @@ ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
         read_physical(source, gltf != nullptr ? *gltf : without_extensions(source), name, surface);
     }
     read_opacity(source, gltf, name, surface);
+    read_normals(source, gltf, name, surface);
     surface.diffuse_texture = texture(source, colour_map(source),
                                       gltf != nullptr ? &gltf->base_transform : nullptr, name);
     surface.specular_texture =

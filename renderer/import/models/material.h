@@ -58,6 +58,8 @@ class ModelMaterials {
                                      TextureEncoding encoding = TextureEncoding::srgb);
     void read_opacity(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
                       ModelSurface &surface);
+    void read_normals(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
+                      ModelSurface &surface);
     void read_physical(const aiMaterial &source, const GltfMaterial &extended,
                        const std::string &name, ModelSurface &surface);
     ModelSurface read(unsigned index, const std::string &name);

@@ -142,7 +142,36 @@ TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
     EXPECT_TRUE(loaded.says("emission maps are replaced by their mean (1: brass)")) << loaded.told;
     EXPECT_TRUE(loaded.says("metalness and roughness maps are replaced by their mean"))
         << loaded.told;
-    EXPECT_TRUE(loaded.says("bump and normal maps are ignored")) << loaded.told;
+}
+
+TEST(ModelFile, ReadsTheNormalTextureOfGltf) {
+    const std::string image =
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAGElEQVR42mNgcPj/v4EBSiJYDv8ZcMoAADqyFfGE/"
+        "XEFAAAAAElFTkSuQmCC";
+    Json model = parse_json(bytes_of(corpus / "triangles.gltf"), "triangles.gltf");
+    model["images"] = {{{"uri", image}}};
+    model["textures"] = {{{"source", 0}}};
+    Json &material = model["materials"][0];
+    const auto load = [&] {
+        const TemporaryFolder folder;
+        return Loaded(folder.write("m.gltf", model.dump()));
+    };
+    material["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+    const Loaded loaded = load();
+    EXPECT_TRUE(loaded.normal_map("brass") ==
+                (NormalMap{NormalMap::Kind::normals, 0, 0.5, true, true, false}));
+    EXPECT_FALSE(loaded.scene.arrays().textures.image[0]->srgb) << "linear data";
+    EXPECT_FALSE(loaded.says("normal maps")) << loaded.told;
+    // The base colour decides the texture coordinates of the mesh.
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    material["normalTexture"]["texCoord"] = 1;
+    const Loaded other = load();
+    EXPECT_TRUE(other.normal_map("brass") == NormalMap());
+    EXPECT_TRUE(
+        other.says("normal maps are ignored if their texture coordinates are rotated or "
+                   "differ from those of the base colour (1: brass)"))
+        << other.told;
 }
 
 TEST(ModelFile, ReadsTheOpacityOfGltf) {

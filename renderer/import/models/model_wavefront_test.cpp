@@ -367,12 +367,37 @@ TEST(Mtl, ReadsMapsOfTheOpacity) {
     EXPECT_TRUE(load("map_Tr mask.pgm\n").says("maps of Tr are ignored"));
 }
 
+TEST(Mtl, HasMapsOfNormalsAndHeights) {
+    const auto load = [](const std::string &statements) {
+        const TemporaryFolder folder;
+        folder.write("grey.pgm", "P5 2 1 255\n\x07\x09");
+        folder.write("blue.ppm", "P6 1 1 255\n\x80\x80\xff");
+        folder.write("a.mtl", "newmtl m\nKd 1\n" + statements);
+        return LoadedModel(folder.write("m.obj", square("mtllib a.mtl\n")));
+    };
+    using Map = NormalMap::Kind;
+    const LoadedModel heights = load("map_Bump -bm 0.25 -s 2 2 grey.pgm\n");
+    EXPECT_TRUE(heights.normal_map("m") == (NormalMap{Map::heights, 0, 0.25, true, true, false}));
+    EXPECT_EQ(heights.scene.arrays().textures.uv_scale[0], Vector2d(2, 2));
+    EXPECT_TRUE(heights.says("heights of map_Bump are in units of the model")) << heights.told;
+    for (const char *keyword : {"norm", "map_Kn"}) {
+        const LoadedModel normals = load(std::string(keyword) + " -bm 2 blue.ppm\nbump grey.pgm\n");
+        EXPECT_TRUE(normals.normal_map("m") == (NormalMap{Map::normals, 0, 2, true, true, false}));
+        EXPECT_FALSE(normals.scene.arrays().textures.image[0]->srgb) << "linear data";
+        EXPECT_TRUE(normals.says("map_Bump is ignored beside a map of normals")) << normals.told;
+    }
+    const LoadedModel coloured = load("bump blue.ppm\n");
+    EXPECT_TRUE(coloured.normal_map("m") == (NormalMap{Map::normals, 0, 1, true, true, false}));
+    EXPECT_TRUE(coloured.says("coloured images of map_Bump are maps of normals")) << coloured.told;
+    EXPECT_TRUE(load("").normal_map("m") == NormalMap());
+}
+
 TEST(Mtl, NamesWhatItIgnores) {
     const LoadedModel model = with_material(
-        "Ka 1 1 1\nKd 0\nmap_Kd a.png\nmap_Ke a.png\nmap_bump -bm 2 none.png\nsharpness 60\n"
+        "Ka 1 1 1\nKd 0\nmap_Kd a.png\nmap_Ke a.png\ndisp none.png\nsharpness 60\n"
         "Pr 0.5\n");
     for (const char *text :
-         {"ambient colours are ignored (1: m)", "bump and normal maps are ignored (1: m)",
+         {"ambient colours are ignored (1: m)", "displacement maps are ignored (1: m)",
           "statements that are unsupported here are ignored (1: 'sharpness' in line 7)",
           "map_Kd has no effect, because it is multiplied by 'Kd 0 0 0' (1: m)",
           "map_Ke has no effect, because it is multiplied by Ke, which is 0 (1: m)",

@@ -24,15 +24,10 @@ struct Ignored {
     std::string_view keyword;
     const char *note;
 };
-constexpr const char *bump_note = "bump and normal maps are ignored";
 constexpr Ignored ignored[] = {
     {"map_ka", "ambient and occlusion maps are ignored"},
     {"map_tr", "maps of Tr are ignored; give the opacity as map_d"},
     {"map_ns", "shininess maps are ignored"},
-    {"map_bump", bump_note},
-    {"bump", bump_note},
-    {"norm", bump_note},
-    {"map_kn", bump_note},
     {"disp", "displacement maps are ignored"},
     {"map_disp", "displacement maps are ignored"},
     {"refl", "reflection maps are ignored"},
@@ -119,6 +114,10 @@ class MtlReader {
             current_->material.opacity_map = map(statement);
         } else if (keyword == "map_ke") {
             current_->material.emission_map = map(statement);
+        } else if (keyword == "norm" || keyword == "map_kn") {
+            current_->material.normal_map = map(statement);
+        } else if (keyword == "map_bump" || keyword == "bump") {
+            current_->material.bump_map = map(statement);
         } else if (keyword == "ka") {
             if (!colour(rest).isZero()) {
                 notes_.add("ambient colours are ignored", current_->material.name);
@@ -221,6 +220,8 @@ class MtlReader {
                 pair = {values[0], values[1]};
             } else if (option == "-clamp") {
                 made.placement.clamps = take_word(after) == "on";
+            } else if (option == "-bm") {
+                option_numbers(after, &made.multiplier, 1);
             } else if (option == "-t") {
                 option_numbers(after, values, 3);
                 note_option(option, statement);
@@ -228,8 +229,8 @@ class MtlReader {
                 option_numbers(after, values, 2);
                 note_option(option, statement);
             } else if (option == "-blendu" || option == "-blendv" || option == "-cc" ||
-                       option == "-boost" || option == "-bm" || option == "-texres" ||
-                       option == "-imfchan" || option == "-type") {
+                       option == "-boost" || option == "-texres" || option == "-imfchan" ||
+                       option == "-type") {
                 take_word(after);
                 note_option(option, statement);
             } else {
@@ -342,6 +343,46 @@ std::shared_ptr<Texture> opacity_texture(const MtlMaterial &material, const std:
     return image != nullptr ? textures.texture(image, map.file + "_alpha", map.placement) : nullptr;
 }
 
+/// Returns whether all texels are grey.
+bool is_grey(const TextureImage &image) {
+    const auto equal = [](const auto &values) {
+        for (size_t i = 0; i + 2 < values.size(); i += 3) {
+            if (values[i] != values[i + 1] || values[i] != values[i + 2]) {
+                return false;
+            }
+        }
+        return true;
+    };
+    return equal(image.bytes) && equal(image.floats);
+}
+
+/// Sets the map of normals or of heights. Many programs write a map of normals as map_Bump; its
+/// colours tell.
+void set_normals(const MtlMaterial &material, const std::string &name,
+                 const std::vector<std::filesystem::path> &folders, ModelTextures &textures,
+                 ModelNotes &notes, ModelSurface &surface) {
+    const bool has_normals = !material.normal_map.file.empty();
+    const MtlMap &map = has_normals ? material.normal_map : material.bump_map;
+    if (map.file.empty()) {
+        return;
+    }
+    if (has_normals && !material.bump_map.file.empty()) {
+        notes.add("map_Bump is ignored beside a map of normals", name);
+    }
+    const std::shared_ptr<const TextureImage> image = textures.load(map.file, folders, false);
+    const auto texture = textures.texture(image, map.file, map.placement);
+    surface.map_scale = map.multiplier;
+    if (has_normals || !is_grey(*image)) {
+        surface.normal_texture = texture;
+        if (!has_normals) {
+            notes.add("coloured images of map_Bump are maps of normals", name);
+        }
+    } else {
+        surface.bump_texture = texture;
+        notes.add("heights of map_Bump are in units of the model", name);
+    }
+}
+
 }  // namespace
 
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path &path, ModelNotes &notes) {
@@ -373,6 +414,7 @@ std::shared_ptr<MaterialCore> make_mtl_material(const MtlMaterial &material,
         surface.diffuse_texture = texture(material.diffuse_map);
         surface.specular_texture = surface.is_physical ? nullptr : texture(material.specular_map);
         surface.opacity_texture = opacity_texture(material, name, folders, textures, notes);
+        set_normals(material, name, folders, textures, notes, surface);
         if (!material.emission_map.file.empty() && !surface.emission.isZero()) {
             notes.add("emission maps are replaced by their mean", name);
             surface.emission = surface.emission.cwiseProduct(

@@ -16,6 +16,7 @@ namespace rtrays {
 struct MtlMap {
     std::string file;
     TexturePlacement placement;
+    double multiplier = 1;  ///< option -bm
 };
 
 /// A material of an MTL file. Its images are not loaded yet.
@@ -27,12 +28,15 @@ struct MtlMaterial {
     MtlMap specular_map;
     MtlMap emission_map;
     MtlMap opacity_map;
+    MtlMap normal_map;
+    MtlMap bump_map;
 };
 
 /// Reads the materials of an MTL file in its order. Illumination models 4, 6, 7 and 9 are glass of
 /// index Ni and transmittance Tf. Models 3 and 5 without a diffuse colour are metals of reflectance
-/// Ks. Pr and Pm together are roughness and metalness. Notes name everything else that is ignored.
-/// Throws `Error` (bad input) naming the file, the line and the fault.
+/// Ks. Pr and Pm together are roughness and metalness. norm and map_Kn are maps of normals,
+/// map_Bump and bump are maps of heights. Notes name everything else that is ignored. Throws
+/// `Error` (bad input) naming the file, the line and the fault.
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path &path, ModelNotes &notes);
 
 /// Converts a material and loads its images. They are looked for beside the MTL file, then in

@@ -298,6 +298,9 @@ class SceneWriter {
         if (!made->parameters().textures().empty() && core->uvs().empty()) {
             notes_.add("textured meshes without texture coordinates show one texel", name);
         }
+        if (made->normal_map_texture() != nullptr && mesh.HasTangentsAndBitangents()) {
+            notes_.add("stored tangents are replaced by those of the texture coordinates", name);
+        }
         node.set_core(core);
         node.set_core(made);
     }

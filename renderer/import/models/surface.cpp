@@ -61,6 +61,14 @@ void set_common(const ModelSurface &s, ParameterValues &values, ParameterTexture
     if (s.opacity_texture != nullptr) {
         textures["opacity"] = s.opacity_texture;
     }
+    for (const auto &[parameter, texture] :
+         {std::pair("normal_map", s.normal_texture), std::pair("bump_map", s.bump_texture)}) {
+        if (texture != nullptr) {
+            textures[parameter] = texture;
+            values[parameter] = s.map_scale;
+            values["map_follows_v"] = true;
+        }
+    }
 }
 
 void set_texture(const char *parameter, const std::shared_ptr<Texture> &texture,

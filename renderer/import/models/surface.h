@@ -24,6 +24,9 @@ struct ModelSurface {
     std::shared_ptr<Texture> diffuse_texture;
     std::shared_ptr<Texture> specular_texture;
     std::shared_ptr<Texture> opacity_texture;
+    std::shared_ptr<Texture> normal_texture;
+    std::shared_ptr<Texture> bump_texture;
+    double map_scale = 1;  ///< factor of x and y of the normals, or of the heights
     double exponent = 0;
     double opacity = 1;
     double opacity_cutoff = 0;  ///< as of `MaterialCore`
