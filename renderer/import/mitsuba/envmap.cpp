@@ -47,6 +47,14 @@ TextureImage decoded(const TextureImage &image) {
     return result;
 }
 
+/// Returns the number of our rows between two of Mitsuba's rows: the more, the smaller the error,
+/// but an image of moderate size should not become a large one.
+int rows_between(const TextureImage &image) {
+    constexpr int64_t most_texels = 1 << 20;
+    const int64_t texels = int64_t{image.width} * (image.height - 1);
+    return static_cast<int>(std::clamp<int64_t>(most_texels / texels, 2, 32));
+}
+
 }  // namespace
 
 TextureImage to_mitsuba_envmap(const TextureImage &image) {
@@ -87,9 +95,11 @@ TextureImage from_mitsuba_envmap(const TextureImage &image) {
             return odd;
         }
     }
-    TextureImage result = with_rows(rows, 2 * (image.height - 1));
+    const int between = rows_between(image);
+    TextureImage result = with_rows(rows, between * (image.height - 1));
     for (int row = 0; row < result.height; ++row) {
-        mix_rows(rows, row / 2, row / 2 + 1, row % 2 == 0 ? 0.25f : 0.75f, result, row);
+        const float t = (static_cast<float>(row % between) + 0.5f) / static_cast<float>(between);
+        mix_rows(rows, row / between, row / between + 1, t, result, row);
     }
     return result;
 }

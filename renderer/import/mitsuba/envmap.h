@@ -15,11 +15,11 @@ namespace rtrays::mitsuba {
 TextureImage to_mitsuba_envmap(const TextureImage &image);
 
 /// Returns the image converted from Mitsuba's layout. The result of `to_mitsuba_envmap` is restored
-/// exactly. The h rows of any other image become 2 (h - 1) rows, at one quarter and three quarters
-/// between each pair. Linear interpolation between these rows matches Mitsuba's, except within a
-/// quarter of a row from each of Mitsuba's rows. There it differs by up to 1/8 of the second
-/// difference of rows. 8-bit texels are decoded by the sRGB curve, as in Mitsuba. Throws `Error`
-/// (bad input) for an image below 2 x 3 texels, which Mitsuba rejects.
+/// exactly. The h rows of any other image become m (h - 1) rows, m = 2 to 32 between each pair, for
+/// at most 2^20 texels if m is above 2. Linear interpolation between these rows matches Mitsuba's,
+/// except within 1/(2 m) of a row from each of Mitsuba's rows. There it differs by up to 1/(4 m) of
+/// the second difference of rows. 8-bit texels are decoded by the sRGB curve, as in Mitsuba. Throws
+/// `Error` (bad input) for an image below 2 x 3 texels, which Mitsuba rejects.
 TextureImage from_mitsuba_envmap(const TextureImage &image);
 
 }  // namespace rtrays::mitsuba
