@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "renderer/import/mitsuba/serialized.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/model_file.h"
 #include "renderer/scene/cores/mesh.h"
@@ -138,6 +139,7 @@ const std::vector<ShapeReader::Type> &ShapeReader::types() {
     static const std::vector<Type> all = {
         {"obj", &ShapeReader::read_file},
         {"ply", &ShapeReader::read_file},
+        {"serialized", &ShapeReader::read_serialized_mesh},
         {"rectangle", &ShapeReader::read_rectangle},
         {"cube", &ShapeReader::read_cube},
         {"sphere", &ShapeReader::read_sphere},
@@ -230,29 +232,60 @@ Shape ShapeReader::read_cylinder(Object &object) {
     return shape;
 }
 
-Shape ShapeReader::read_file(Object &object) {
-    const bool is_obj = object.type() == "obj";
+namespace {
+
+std::filesystem::path file_of(Object &object) {
     const std::optional<std::string> file = object.text("filename");
     if (!file.has_value()) {
         throw object.element().error("needs a filename");
     }
+    return object.element().path(*file);
+}
+
+}  // namespace
+
+Shape ShapeReader::read_file(Object &object) {
+    const bool flip_v = object.boolean("flip_tex_coords", object.type() == "obj");
+    const std::filesystem::path path = file_of(object);
+    return mesh(object, path, "", flip_v,
+                [&](bool without_normals) { return geometry_of(path, without_normals); });
+}
+
+Shape ShapeReader::read_serialized_mesh(Object &object) {
+    const std::filesystem::path path = file_of(object);
+    const double index = object.number("shape_index", 0);
+    if (!(index >= 0 && index < no_index) || index != std::floor(index)) {
+        throw object.property("shape_index")
+            .error(fmt::format("expected an integer from 0, got {}", index));
+    }
+    const std::string key = fmt::format("{} ", index);
+    return mesh(object, path, key, false, [&](bool without_normals) {
+        MeshCore::Geometry geometry = read_serialized(path, static_cast<size_t>(index));
+        if (without_normals) {
+            geometry.normals.clear();
+        }
+        turn_towards_normals(geometry);
+        return geometry;
+    });
+}
+
+Shape ShapeReader::mesh(Object &object, const std::filesystem::path &path,
+                        const std::string &prefix, bool flip_v,
+                        const std::function<MeshCore::Geometry(bool without_normals)> &load) {
     const Matrix4d to_world = object.transform();
     const bool face_normals = object.boolean("face_normals", false);
     const bool flip_normals = object.boolean("flip_normals", false);
-    const bool flip_v = object.boolean("flip_tex_coords", is_obj);
-    const std::filesystem::path path = object.element().path(*file);
-
     // Normals in the file are transformed. If there are none, Mitsuba computes them from the
     // triangles in world space. The result is the same in object space if the transform is a
     // similarity that does not mirror.
     const bool is_plain =
         similarity_scale(to_world) > 0 && to_world.topLeftCorner<3, 3>().determinant() > 0;
-    const std::string key =
-        fmt::format("{} {} {}", face_normals, flip_normals, path.lexically_normal().string());
+    const std::string key = fmt::format("{}{} {} {}", prefix, face_normals, flip_normals,
+                                        path.lexically_normal().string());
     std::shared_ptr<Core> core = is_plain ? shared_[key] : nullptr;
     Matrix4d world_from_geometry = to_world;
     if (core == nullptr) {
-        MeshCore::Geometry geometry = geometry_of(path, face_normals);
+        MeshCore::Geometry geometry = load(face_normals);
         if (geometry.normals.empty()) {
             if (!is_plain) {
                 for (Vector3d &vertex : geometry.vertices) {

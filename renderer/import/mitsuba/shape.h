@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -52,6 +54,11 @@ class ShapeReader {
     Shape read_disk(Object &object);
     Shape read_cylinder(Object &object);
     Shape read_file(Object &object);
+    Shape read_serialized_mesh(Object &object);
+    /// Returns the shape of a mesh from a file. `prefix` identifies the mesh within its file, and
+    /// `load` returns it. `flip_v` exchanges the top and the bottom of textures.
+    Shape mesh(Object &object, const std::filesystem::path &path, const std::string &prefix,
+               bool flip_v, const std::function<MeshCore::Geometry(bool without_normals)> &load);
 
     std::shared_ptr<Core> &shared(const std::string &key) { return shared_[key]; }
 
