@@ -81,6 +81,25 @@ TEST(MitsubaSpectra, HaveTypes) {
         {0.5, 0.25, 0}, 0);
 }
 
+TEST(MitsubaSpectra, OfBlackBodies) {
+    const auto body = [](int temperature) {
+        return radiance(
+            "<spectrum type=\"blackbody\" name=\"radiance\"><float name=\"temperature\" "
+            "value=\"" +
+            std::to_string(temperature) + "\"/></spectrum>");
+    };
+    // By Mitsuba's variant scalar_spectral, with 5e6 samples.
+    const Vector3d mitsuba(15278.978, 12094.669, 9601.108);
+    EXPECT_LT((body(5000) - mitsuba).norm(), 2e-3 * mitsuba.norm()) << body(5000).transpose();
+    // The chromaticity of 6500 K on the Planckian locus (CIE 15), with the primaries of Rec. 709.
+    const Vector3d rgb = body(6500);
+    const double x = Vector3d(0.4124, 0.3576, 0.1805).dot(rgb);
+    const double y = Vector3d(0.2126, 0.7152, 0.0722).dot(rgb);
+    const double z = Vector3d(0.0193, 0.1192, 0.9505).dot(rgb);
+    EXPECT_NEAR(x / (x + y + z), 0.3135, 5e-4);
+    EXPECT_NEAR(y / (x + y + z), 0.3237, 5e-4);
+}
+
 TEST(MitsubaSpectra, GiveTheConstantsOfMetals) {
     const auto metal = [](const std::string &properties) {
         return parse_elements("<shape type=\"cube\"><bsdf type=\"conductor\">" + properties +

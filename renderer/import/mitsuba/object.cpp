@@ -248,7 +248,7 @@ std::optional<Vector3d> Object::vector(const std::string &name) {
     return result;
 }
 
-Vector3d Object::typed_spectrum(const Element &element) const {
+Vector3d Object::typed_spectrum(const Element &element, SpectrumUse use) const {
     Object spectrum(element, *document_);
     Vector3d value;
     if (spectrum.type() == "d65") {  // white in Rec. 709
@@ -258,8 +258,15 @@ Vector3d Object::typed_spectrum(const Element &element) const {
         value = spectrum.colour("color").value_or(Vector3d::Ones());
     } else if (spectrum.type() == "uniform") {
         value = Vector3d::Constant(spectrum.number("value", 1));
+    } else if (spectrum.type() == "blackbody") {
+        const std::optional<double> temperature = spectrum.number("temperature");
+        if (use != SpectrumUse::emission || !temperature.has_value() || !(*temperature > 0)) {
+            throw element.error("expected a positive temperature, for an emission");
+        }
+        value = spectrum_colour(blackbody(*temperature), use);
     } else {
-        throw element.error("unsupported spectrum type; supported types are: d65, srgb, uniform");
+        throw element.error(
+            "unsupported spectrum type; supported types are: blackbody, d65, srgb, uniform");
     }
     spectrum.finish();
     return value;
@@ -267,7 +274,7 @@ Vector3d Object::typed_spectrum(const Element &element) const {
 
 Vector3d Object::spectrum(const Element &element, SpectrumUse use) const {
     if (element.has("type")) {
-        return typed_spectrum(element);
+        return typed_spectrum(element, use);
     }
     std::string text = element.attribute("value");
     const auto pairs = std::count(text.begin(), text.end(), ':');

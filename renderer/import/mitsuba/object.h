@@ -79,7 +79,7 @@ class Object {
     const Element *find(const std::string &name, const std::vector<const char *> &tags,
                         const char *expected);
     Eigen::Vector3d spectrum(const Element &element, SpectrumUse use) const;
-    Eigen::Vector3d typed_spectrum(const Element &element) const;
+    Eigen::Vector3d typed_spectrum(const Element &element, SpectrumUse use) const;
 
     Element element_;
     const Document *document_;

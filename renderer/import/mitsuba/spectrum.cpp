@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 
@@ -54,6 +55,20 @@ double value_at(const Spectrum &spectrum, double wavelength) {
 
 Vector3d illuminant_e() {
     return rgb_from_xyz() * Vector3d::Ones();
+}
+
+Spectrum blackbody(double temperature) {
+    // Exact by the definition of the units (SI, 2019).
+    constexpr double planck = 6.62607015e-34, light_speed = 299792458, boltzmann = 1.380649e-23;
+    Spectrum spectrum;
+    for (double wavelength = first_wavelength; wavelength <= last_wavelength; ++wavelength) {
+        const double metres = 1e-9 * wavelength;
+        const double exponent = planck * light_speed / (metres * boltzmann * temperature);
+        spectrum.wavelengths.push_back(wavelength);
+        spectrum.values.push_back(1e-9 * 2 * planck * light_speed * light_speed /
+                                  (std::pow(metres, 5) * std::expm1(exponent)));
+    }
+    return spectrum;
 }
 
 Vector3d spectrum_colour(const Spectrum &spectrum, SpectrumUse use) {

@@ -24,6 +24,10 @@ struct Spectrum {
 /// spectrum is (1, 1, 1), because reflectances are relative to white.
 Eigen::Vector3d illuminant_e();
 
+/// Returns the radiance of a black body at a temperature in kelvin by Planck's law, in
+/// W / (m^2 sr nm), from 360 to 830 nm.
+Spectrum blackbody(double temperature);
+
 /// Returns the colour of a spectrum by the CIE 1931 observer. Sums 1000 wavelengths from 360 to
 /// 830 nm like Mitsuba (src/core/spectrum.cpp, spectrum_list_to_srgb). Throws `Error` (bad input)
 /// unless there are two wavelengths or more, in increasing order.
