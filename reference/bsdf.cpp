@@ -22,7 +22,8 @@ Composite::Composite(std::vector<Component> components, bool two_sided)
 }
 
 Viewpoint Composite::viewpoint(const Vec3 &wo, const Eigen::Vector2d &uv) const {
-    return {{wo.x(), wo.y(), std::abs(wo.z())}, boundary_ && wo.z() < 0.0, uv};
+    const bool behind = wo.z() < 0.0;
+    return {{wo.x(), wo.y(), std::abs(wo.z())}, behind, boundary_ && behind, uv};
 }
 
 namespace {
@@ -140,7 +141,7 @@ std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArray
             count == 1 ? &materials.component[materials.first_component[i]] : nullptr;
         const bool plain = first != nullptr && two_sided &&
                            first->kind == BxdfComponent::Kind::lambert &&
-                           first->texture == no_index &&
+                           first->texture == no_index && first->side == BxdfComponent::Side::both &&
                            first->fresnel == BxdfComponent::Fresnel::ideal && !first->complement;
         bsdfs.emplace_back(plain ? Bsdf(Lambert(first->weight.cast<double>()))
                                  : Bsdf(Composite(std::move(components), two_sided)));

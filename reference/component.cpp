@@ -46,8 +46,14 @@ void check(const BxdfComponent &c, const TextureArrays &textures, const std::str
             require((c.eta.array() >= 0.0).all() && (c.eta.array() <= 1.0).all(), what,
                     "the reflectance at normal incidence must be in [0, 1]");
             break;
+        case BxdfComponent::Fresnel::thin_dielectric:
+            require(positive(c.eta[1]), what, "the index of the plate must be positive");
+            require(!refracts || c.eta[0] == 1.0, what, "a thin plate must not bend light");
+            break;
     }
     require(!refracts || positive(c.eta[0]), what, "eta must be positive");
+    require(!refracts || c.side == BxdfComponent::Side::both, what,
+            "a refracting component must act on both sides");
     const bool has_alpha = c.kind == Kind::ward || c.kind == Kind::ward_original ||
                            c.kind == Kind::microfacet_reflection ||
                            c.kind == Kind::microfacet_refraction;
@@ -93,6 +99,7 @@ Component::Component(const BxdfComponent &component, const TextureArrays &textur
       fresnel_(component),
       eta_(component.eta[0]),
       fresnel_of_wo_(component.fresnel_of_wo),
+      side_(component.side),
       lobe_((check(component, textures, what), make_lobe(component))) {
     if (component.texture != no_index) {
         texture_.emplace(textures, component.texture);

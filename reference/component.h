@@ -16,6 +16,7 @@ namespace rtrays::reference {
 /// state.
 struct Viewpoint {
     Vec3 wo;        ///< wo.z > 0
+    bool behind;    ///< wo is behind the surface
     bool inverted;  ///< wo is behind a boundary, so dielectric indices are 1 / eta
     Eigen::Vector2d uv;
 };
@@ -68,6 +69,10 @@ class Component {
     double half_cosine(const Vec3 &wi, const Viewpoint &view) const;
     Spectrum fresnel_factor(const Vec3 &wi, const Viewpoint &view) const;
     Spectrum colour(const Viewpoint &view) const {
+        using Side = BxdfComponent::Side;
+        if (side_ != Side::both && (side_ == Side::back) != view.behind) {
+            return Spectrum::Zero();
+        }
         return texture_ ? Spectrum(weight_ * texture_->evaluate(view.uv)) : weight_;
     }
     double eta(const Viewpoint &view) const { return view.inverted ? 1.0 / eta_ : eta_; }
@@ -80,6 +85,7 @@ class Component {
     bool transmits_;
     bool rough_;  ///< the Fresnel term is evaluated at the half vector
     bool fresnel_of_wo_;
+    BxdfComponent::Side side_;
     Lobe lobe_;
 };
 

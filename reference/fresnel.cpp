@@ -56,6 +56,11 @@ double fresnel_schlick(double cos_o, double reflectance_at_normal) {
     return reflectance_at_normal + (1.0 - reflectance_at_normal) * square(square(c)) * c;
 }
 
+double thin_plate_reflectance(double cos_o, double eta) {
+    const double r = fresnel_dielectric(cos_o, eta);
+    return r < 1.0 ? r + square(1.0 - r) * r / (1.0 - square(r)) : 1.0;
+}
+
 Spectrum Fresnel::evaluate(double cos_o, bool inverted) const {
     Spectrum f;
     switch (kind_) {
@@ -79,6 +84,9 @@ Spectrum Fresnel::evaluate(double cos_o, bool inverted) const {
             for (int i = 0; i < 3; ++i) {
                 f[i] = fresnel_schlick(cos_o, eta_[i]);
             }
+            break;
+        case BxdfComponent::Fresnel::thin_dielectric:
+            f = Spectrum::Constant(thin_plate_reflectance(cos_o, eta_[1]));
             break;
         default:
             throw run_error("unknown Fresnel term");

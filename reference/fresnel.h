@@ -25,6 +25,11 @@ double fresnel_conductor_approximate(double cos_o, double eta, double k);
 /// Returns Schlick's approximation (Schlick 1994, eq. 15; thesis (3.29)).
 double fresnel_schlick(double cos_o, double reflectance_at_normal);
 
+/// Returns the reflectance of a plate of two parallel dielectric boundaries, summed over all
+/// reflections inside it: each boundary reflects R, and r = R + (1 - R)^2 R / (1 - R^2) (Born &
+/// Wolf 1999, 7.6, without interference). `eta`: index of the plate over that around it.
+double thin_plate_reflectance(double cos_o, double eta);
+
 /// Returns the cosine of the refracted angle, or 0 at total internal reflection. The arguments are
 /// those of `fresnel_dielectric`.
 double refracted_cosine(double cos_o, double eta);

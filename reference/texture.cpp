@@ -75,8 +75,11 @@ int Texture::wrap(int64_t i, int size) const {
     if (wrap_ == TextureArrays::Wrap::clamp) {
         return static_cast<int>(std::clamp<int64_t>(i, 0, size - 1));
     }
-    const int64_t remainder = i % size;
-    return static_cast<int>(remainder < 0 ? remainder + size : remainder);
+    // A mirrored image and the image itself repeat together.
+    const int64_t period = wrap_ == TextureArrays::Wrap::mirror ? int64_t{2} * size : size;
+    const int64_t remainder = i % period;
+    const int64_t texel = remainder < 0 ? remainder + period : remainder;
+    return static_cast<int>(texel < size ? texel : period - 1 - texel);
 }
 
 Spectrum Texture::look_up(double column, double row_from_below) const {

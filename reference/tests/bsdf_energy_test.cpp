@@ -188,6 +188,54 @@ TEST(Bsdf, one_sided_materials_are_black_from_behind_and_boundaries_are_not) {
     EXPECT_TRUE(make_bsdf({}).is_delta());
 }
 
+TEST(Bsdf, materials_may_differ_by_side) {
+    Rng rng(88, 0, 0);
+    BxdfComponent front = lambert(0.5), back = lambert(0.25);
+    front.side = BxdfComponent::Side::front;
+    back.side = BxdfComponent::Side::back;
+    const Bsdf two = make_bsdf({front, back});
+    EXPECT_EQ(two.evaluate(at(10.0), at(20.0), no_uv)[0], 0.5 * inv_pi);
+    EXPECT_EQ(two.evaluate(at(100.0), at(120.0), no_uv)[0], 0.25 * inv_pi);
+    EXPECT_NEAR(two.sample(at(120.0), no_uv, rng)->weight[0], 0.25, 1e-12);
+    const Bsdf one = make_bsdf({back});
+    EXPECT_EQ(one.evaluate(at(10.0), at(20.0), no_uv)[0], 0.0);
+    EXPECT_FALSE(one.sample(at(20.0), no_uv, rng));
+    BxdfComponent window = ideal_refraction(1.5);
+    window.side = BxdfComponent::Side::front;
+    EXPECT_THROW(make_bsdf({window}), Error);
+}
+
+TEST(Bsdf, thin_plates_pass_light_straight_through) {
+    BxdfComponent mirrored = ideal_reflection(), passed = ideal_refraction(1.0);
+    for (BxdfComponent *part : {&mirrored, &passed}) {
+        part->fresnel = BxdfComponent::Fresnel::thin_dielectric;
+        part->eta = {1.0, 1.5, 1.5};
+    }
+    passed.complement = true;
+    const Bsdf plate = make_bsdf({mirrored, passed});
+    Rng rng(89, 0, 0);
+    for (const double degrees : {0.0, 60.0, 120.0}) {
+        const Vec3 wo = at(degrees);
+        const double r = fresnel_dielectric(std::abs(wo.z()), 1.5);
+        constexpr int samples = 20000;
+        int through = 0;
+        for (int i = 0; i < samples; ++i) {
+            const auto sample = plate.sample(wo, no_uv, rng);
+            ASSERT_TRUE(sample);
+            ASSERT_NEAR(sample->weight[0], 1.0, 1e-12);
+            if (sample->wi.z() * wo.z() < 0.0) {
+                ++through;
+                ASSERT_LT((sample->wi + wo).norm(), 1e-12);
+            }
+        }
+        const double expected = (1.0 - r) / (1.0 + r);
+        EXPECT_NEAR(through, samples * expected,
+                    4.0 * std::sqrt(samples * expected * (1.0 - expected)));
+    }
+    passed.eta[0] = 1.5;
+    EXPECT_THROW(make_bsdf({passed}), Error);
+}
+
 TEST(Bsdf, smooth_glass_obeys_snell_and_fresnel) {
     constexpr int samples = 100000;
     Rng rng(88, 0, 0);

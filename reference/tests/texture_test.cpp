@@ -56,6 +56,20 @@ TEST(Texture, clamping_repeats_the_border) {
     EXPECT_EQ(red(bilinear, 9.0, 9.0), 2.0);
 }
 
+TEST(Texture, mirroring_turns_back_at_every_edge) {
+    const TextureArrays nearest = four_texels(Filter::nearest, Wrap::mirror);
+    for (const double u : {0.1, 0.4, 0.6, 0.9}) {
+        for (const double v : {0.2, 0.7}) {
+            EXPECT_EQ(red(nearest, 2.0 - u, v), red(nearest, u, v));
+            EXPECT_EQ(red(nearest, -u, -v), red(nearest, u, v));
+            EXPECT_EQ(red(nearest, u + 4.0, v - 6.0), red(nearest, u, v));
+        }
+    }
+    const TextureArrays bilinear = four_texels(Filter::bilinear, Wrap::mirror);
+    EXPECT_EQ(red(bilinear, 0.0, 0.0), 3.0);
+    EXPECT_DOUBLE_EQ(red(bilinear, 1.5, 1.0), 1.5);
+}
+
 TEST(Texture, scale_comes_before_offset) {
     TextureArrays t = four_texels(Filter::nearest, Wrap::clamp);
     t.uv_scale[0] = {0.5, 2.0};

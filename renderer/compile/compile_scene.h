@@ -142,6 +142,9 @@ void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene
 /// `opacity_features`.
 void compile_opacity(const SceneArrays &scene, bool every_array, CompiledScene &compiled);
 
+/// Returns whether `index` is the index of a texture that is mirrored beyond its edges.
+bool is_mirrored(const TextureArrays &textures, uint32_t index);
+
 /// Returns the record of texture `index` without the place of its texels.
 TextureRecord texture_record(const TextureArrays &textures, size_t index);
 

@@ -44,6 +44,8 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::fresnel_conductor, Feature::fresnel},
     {Feature::fresnel_conductor_approximate, Feature::fresnel},
     {Feature::fresnel_schlick, Feature::fresnel},
+    {Feature::fresnel_thin_dielectric, Feature::fresnel},
+    {Feature::component_sides, Feature::scattering},
     {Feature::textures, Feature::scattering},
     {Feature::tangents, Feature::scattering},
     {Feature::normal_maps, Feature::textures},
@@ -76,6 +78,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
 constexpr std::pair<Feature, std::array<Feature, 2>> supporting_features[] = {
     {Feature::scattering, {Feature::triangles, Feature::shapes}},
     {Feature::opacity, {Feature::triangles, Feature::shapes}},
+    {Feature::texture_mirror, {Feature::textures, Feature::opacity}},
     {Feature::shapes, {Feature::quadrics, Feature::julia}},
     {Feature::infinite_lights, {Feature::dome, Feature::environment}},
     {Feature::delta, {Feature::ideal_reflection, Feature::ideal_refraction}},

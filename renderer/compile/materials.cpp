@@ -33,12 +33,13 @@ struct FresnelRow {
 };
 
 /// Rows are in the order of BxdfComponent::Fresnel.
-constexpr std::array<FresnelRow, 5> fresnels = {{
+constexpr std::array<FresnelRow, 6> fresnels = {{
     {FRESNEL_IDEAL, Feature::fresnel},  // needs no code
     {FRESNEL_DIELECTRIC, Feature::fresnel_dielectric},
     {FRESNEL_CONDUCTOR, Feature::fresnel_conductor},
     {FRESNEL_CONDUCTOR_APPROXIMATE, Feature::fresnel_conductor_approximate},
     {FRESNEL_SCHLICK, Feature::fresnel_schlick},
+    {FRESNEL_THIN_DIELECTRIC, Feature::fresnel_thin_dielectric},
 }};
 
 bool is_delta(uint32_t kind) {
@@ -56,7 +57,10 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
     record.kind = kind.record_kind;
     record.flags = fresnel.flag | (component.complement ? BXDF_FLAG_COMPLEMENT : 0u) |
                    (component.fresnel_of_wo ? BXDF_FLAG_FRESNEL_OF_WO : 0u) |
-                   (beckmann ? BXDF_FLAG_BECKMANN : 0u);
+                   (beckmann ? BXDF_FLAG_BECKMANN : 0u) |
+                   (component.side == BxdfComponent::Side::front  ? BXDF_FLAG_FRONT_ONLY
+                    : component.side == BxdfComponent::Side::back ? BXDF_FLAG_BACK_ONLY
+                                                                  : 0u);
     record.texture = component.texture == no_index ? NO_TEXTURE : component.texture;
     record.parameter = static_cast<float>(
         component.kind == BxdfComponent::Kind::blinn ? component.exponent : component.sigma);
@@ -80,6 +84,9 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
     }
     if (refracts(record.kind)) {
         features = features.with(Feature::refraction);
+    }
+    if (component.side != BxdfComponent::Side::both) {
+        features = features.with(Feature::component_sides);
     }
     if (record.alpha_x != record.alpha_y) {
         features = features.with(Feature::tangents);
@@ -131,6 +138,10 @@ void compile_texture(const TextureArrays &textures, size_t index, CompiledScene 
 
 }  // namespace
 
+bool is_mirrored(const TextureArrays &textures, uint32_t index) {
+    return index != no_index && textures.wrap[index] == TextureArrays::Wrap::mirror;
+}
+
 TextureRecord texture_record(const TextureArrays &textures, size_t index) {
     const TextureImage &image = *textures.image[index];
     TextureRecord record{};
@@ -139,7 +150,9 @@ TextureRecord texture_record(const TextureArrays &textures, size_t index) {
     record.flags =
         (image.bytes.empty() ? TEXTURE_FLOAT : 0u) | (image.srgb ? TEXTURE_SRGB : 0u) |
         (textures.filter[index] == TextureArrays::Filter::bilinear ? TEXTURE_BILINEAR : 0u) |
-        (textures.wrap[index] == TextureArrays::Wrap::clamp ? TEXTURE_CLAMP : 0u);
+        (textures.wrap[index] == TextureArrays::Wrap::clamp    ? TEXTURE_CLAMP
+         : textures.wrap[index] == TextureArrays::Wrap::mirror ? TEXTURE_CLAMP | TEXTURE_MIRROR
+                                                               : 0u);
     for (int i = 0; i < 2; ++i) {
         record.uv_scale[i] = static_cast<float>(textures.uv_scale[index][i]);
         record.uv_offset[i] = static_cast<float>(textures.uv_offset[index][i]);
@@ -160,6 +173,9 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
                 continue;  // a component without reflectance needs no code
             }
             const BxdfRecord compiled_component = compile_component(component, features);
+            if (is_mirrored(scene.textures, component.texture)) {
+                features = features.with(Feature::texture_mirror);
+            }
             record.flags |= refracts(compiled_component.kind) ? MATERIAL_BOUNDARY : 0u;
             record.flags |=
                 compiled_component.alpha_x != compiled_component.alpha_y ? MATERIAL_TURNS : 0u;
@@ -172,6 +188,9 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
                         (all_delta ? MATERIAL_DELTA : 0u);
         if (i < materials.normal_map.size() && record.component_count > 0) {
             compile_normal_map(materials.normal_map[i], compiled, record, features);
+            if (is_mirrored(scene.textures, materials.normal_map[i].texture)) {
+                features = features.with(Feature::texture_mirror);
+            }
         }
         features = features
                        .with(Feature::composite,

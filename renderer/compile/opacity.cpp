@@ -97,7 +97,13 @@ void compile_opacity(const SceneArrays &scene, bool every_array, CompiledScene &
         }
     }
     compiled.opacity_features =
-        FeatureMask().with(Feature::opacity, any_shape || !compiled.masked_triangles.empty());
+        FeatureMask()
+            .with(Feature::opacity, any_shape || !compiled.masked_triangles.empty())
+            .with(Feature::texture_mirror,
+                  std::any_of(compiled.opacities.begin(), compiled.opacities.end(),
+                              [](const OpacityRecord &record) {
+                                  return (record.texture.flags & TEXTURE_MIRROR) != 0u;
+                              }));
 }
 
 }  // namespace rtrays

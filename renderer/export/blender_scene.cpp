@@ -28,6 +28,12 @@ using Fresnel = BxdfComponent::Fresnel;
 /// Returns why Cycles of Blender 3.4 cannot render a component, or an empty text if it can. See
 /// intern/cycles/kernel/closure/bsdf_*.h and kernel/svm/closure.h in its sources.
 std::string missing_in_cycles(const BxdfComponent &part) {
+    if (part.side != BxdfComponent::Side::both) {
+        return "the export has no materials that differ by side";
+    }
+    if (part.fresnel == Fresnel::thin_dielectric) {
+        return "the export has no thin plates";
+    }
     switch (part.kind) {
         case Kind::lambert:
             return part.fresnel == Fresnel::ideal || part.fresnel_of_wo
@@ -223,6 +229,12 @@ class SceneWriter {
 
     Json write_texture(uint32_t i) {
         const TextureArrays &textures = arrays_.textures;
+        if (textures.wrap[i] == TextureArrays::Wrap::mirror) {
+            throw input_error(
+                fmt::format("texture '{}': the export to Cycles does not support the wrap mode "
+                            "mirror",
+                            textures.name[i]));
+        }
         return {{"name", textures.name[i]},
                 {"file", image_file(textures.image[i], textures.name[i])},
                 {"filter",

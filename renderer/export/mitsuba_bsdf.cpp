@@ -21,11 +21,10 @@ using Kind = BxdfComponent::Kind;
 
 /// Returns the formula of a material, such as "ideal_reflection * dielectric + lambert * (1 -
 /// dielectric)".
-std::string formula(const BxdfComponent *parts, uint32_t count) {
+std::string formula(const std::vector<BxdfComponent> &parts) {
     std::string text;
-    for (uint32_t i = 0; i < count; ++i) {
-        const BxdfComponent &part = parts[i];
-        text += (i > 0 ? " + " : "") + bxdf_names()[static_cast<size_t>(part.kind)];
+    for (const BxdfComponent &part : parts) {
+        text += (text.empty() ? "" : " + ") + bxdf_names()[static_cast<size_t>(part.kind)];
         if (part.fresnel != BxdfComponent::Fresnel::ideal) {
             const std::string term = fresnel_names()[static_cast<size_t>(part.fresnel)] +
                                      (part.fresnel_of_wo ? " of wo" : "");
@@ -64,6 +63,8 @@ const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
         {"microfacet_reflection * conductor", "conductor", false, &BsdfWriter::write_conductor},
         {"ideal_reflection * dielectric + ideal_refraction * (1 - dielectric)", "dielectric", true,
          &BsdfWriter::write_dielectric},
+        {"ideal_reflection * thin_dielectric + ideal_refraction * (1 - thin_dielectric)",
+         "thindielectric", true, &BsdfWriter::write_thin_dielectric},
         {"microfacet_reflection * dielectric + microfacet_refraction * (1 - dielectric)",
          "dielectric", true, &BsdfWriter::write_dielectric},
         // A rough coat cannot be a roughplastic: Mitsuba's transmits less light to its base.
@@ -73,10 +74,8 @@ const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
     return all;
 }
 
-const BsdfWriter::Recipe &BsdfWriter::recipe(uint32_t material) const {
-    const MaterialArrays &materials = arrays_.materials;
-    const std::string wanted = formula(&materials.component[materials.first_component[material]],
-                                       materials.component_count[material]);
+const BsdfWriter::Recipe &BsdfWriter::recipe(const std::vector<BxdfComponent> &parts) {
+    const std::string wanted = formula(parts);
     std::string known;
     for (const Recipe &row : recipes()) {
         if (wanted == row.components) {
@@ -84,8 +83,7 @@ const BsdfWriter::Recipe &BsdfWriter::recipe(uint32_t material) const {
         }
         known += (known.empty() ? "" : "; ") + std::string(row.components);
     }
-    throw input_error(fmt::format("material '{}': Mitsuba has no BSDF for {}; supported are: {}",
-                                  materials.name[material], wanted, known));
+    throw input_error(fmt::format("Mitsuba has no BSDF for {}; supported are: {}", wanted, known));
 }
 
 std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
@@ -107,33 +105,63 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
     }
     std::string &id = written_[{material, depends_on_uv ? uv : UvConvention::none}];
     if (id.empty()) {
-        const Recipe &row = recipe(material);
         id = ids_.unique(materials.name[material]);
-        const std::string plugin = (is_rough(parts[0]) ? "rough" : "") + std::string(row.plugin);
-        const bool twosided = !row.transmits && materials.two_sided[material] != 0;
         try {
             const bool is_opaque = materials.opacity[material].is_opaque();
-            std::string own_id = is_opaque ? id : std::string();
-            pugi::xml_node parent =
+            const pugi::xml_node parent =
                 is_opaque ? scene_ : write_mask(materials.opacity[material], id, uv);
-            const NormalMap &map = materials.normal_map[material];
-            const bool mapped = map.kind != NormalMap::Kind::none;
-            if (mapped && (!twosided || !map.mirrored_back)) {
-                parent = write_map(parent, material, std::exchange(own_id, {}), uv);
-            }
-            if (twosided) {
-                parent = add_object(parent, "bsdf", "twosided", std::exchange(own_id, {}));
-            }
-            if (mapped && twosided && map.mirrored_back) {
-                parent = write_map(parent, material, {}, uv);
-            }
-            (this->*row.write)(add_object(parent, "bsdf", plugin, own_id), parts, uv);
+            write_sides(parent, is_opaque ? id : std::string(), material, uv);
         } catch (const Error &error) {
             throw Error(error.exit_code(),
                         fmt::format("material '{}': {}", materials.name[material], error.what()));
         }
     }
     return id;
+}
+
+void BsdfWriter::write_sides(pugi::xml_node parent, std::string id, uint32_t material,
+                             UvConvention uv) {
+    using Side = BxdfComponent::Side;
+    const MaterialArrays &materials = arrays_.materials;
+    std::vector<BxdfComponent> front, back;
+    bool differ = false;
+    for (uint32_t i = 0; i < materials.component_count[material]; ++i) {
+        const BxdfComponent &part = materials.component[materials.first_component[material] + i];
+        differ = differ || part.side != Side::both;
+        if (part.side != Side::back) {
+            front.push_back(part);
+        }
+        if (part.side != Side::front) {
+            back.push_back(part);
+        }
+    }
+    const bool transmits = !front.empty() && recipe(front).transmits;
+    const bool is_two_sided = !transmits && materials.two_sided[material] != 0;
+    const NormalMap &map = materials.normal_map[material];
+    const bool mapped = map.kind != NormalMap::Kind::none;
+    const bool maps_sides = mapped && is_two_sided && map.mirrored_back;
+    if (mapped && !maps_sides) {
+        parent = write_map(parent, material, std::exchange(id, {}), uv);
+    }
+    if (is_two_sided) {
+        parent = add_object(parent, "bsdf", "twosided", std::exchange(id, {}));
+    }
+    const auto side = [&] { return maps_sides ? write_map(parent, material, {}, uv) : parent; };
+    write_parts(side(), id, front, uv);
+    if (is_two_sided && differ) {
+        write_parts(side(), {}, back, uv);
+    }
+}
+
+void BsdfWriter::write_parts(pugi::xml_node parent, const std::string &id,
+                             const std::vector<BxdfComponent> &parts, UvConvention uv) {
+    if (parts.empty()) {
+        add_number(add_object(parent, "bsdf", "diffuse", id), "reflectance", 0);
+        return;
+    }
+    const Recipe &row = recipe(parts);
+    const std::string plugin = (is_rough(parts[0]) ? "rough" : "") + std::string(row.plugin);
+    (this->*row.write)(add_object(parent, "bsdf", plugin, id), parts.data(), uv);
 }
 
 pugi::xml_node BsdfWriter::write_mask(const MaterialOpacity &opacity, const std::string &id,
@@ -225,6 +253,19 @@ void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *part
                  uv);
 }
 
+void BsdfWriter::write_thin_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts,
+                                       UvConvention uv) {
+    if (parts[0].eta != parts[1].eta) {
+        throw input_error("the reflection and the transmission must have the same eta");
+    }
+    add_number(bsdf, "int_ior", parts[0].eta[1]);
+    add_number(bsdf, "ext_ior", 1);
+    write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture,
+                 uv);
+    write_weight(bsdf, "specular_transmittance", parts[1].weight.cast<double>(), parts[1].texture,
+                 uv);
+}
+
 void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
     const double eta = parts[0].eta[0];
     if (parts[1].eta[0] != eta || !(eta > 1) || eta > 3) {
@@ -256,8 +297,8 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
     add_property(
         node, "string", "filter_type",
         textures.filter[texture] == TextureArrays::Filter::nearest ? "nearest" : "bilinear");
-    add_property(node, "string", "wrap_mode",
-                 textures.wrap[texture] == TextureArrays::Wrap::clamp ? "clamp" : "repeat");
+    constexpr const char *wraps[] = {"repeat", "clamp", "mirror"};  // in the order of Wrap
+    add_property(node, "string", "wrap_mode", wraps[static_cast<size_t>(textures.wrap[texture])]);
     const TextureImage &image = *textures.image[texture];
     const bool decodes = image.floats.empty() && image.srgb && weight == Vector3d::Ones();
     add_boolean(node, "raw", !decodes);

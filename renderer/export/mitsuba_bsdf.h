@@ -36,7 +36,13 @@ class BsdfWriter {
         Write write;
     };
     static const std::vector<Recipe> &recipes();
-    const Recipe &recipe(uint32_t material) const;
+    static const Recipe &recipe(const std::vector<BxdfComponent> &parts);
+
+    /// Writes the BSDF of a material without its opacity. An empty id means none.
+    void write_sides(pugi::xml_node parent, std::string id, uint32_t material, UvConvention uv);
+    /// Writes the BSDF of one side, black if there are no components.
+    void write_parts(pugi::xml_node parent, const std::string &id,
+                     const std::vector<BxdfComponent> &parts, UvConvention uv);
 
     /// Returns the BSDF that lets light pass. The BSDF of the surface becomes its child.
     pugi::xml_node write_mask(const MaterialOpacity &opacity, const std::string &id,
@@ -49,6 +55,7 @@ class BsdfWriter {
     void write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+    void write_thin_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
 
     /// Writes a colour, or a texture whose texels are multiplied by `weight`. `offset` is added to

@@ -128,6 +128,15 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
             collector.add(map.mirrored_back);
         }
     }
+    const std::vector<BxdfComponent> &components = arrays.materials.component;
+    if (std::any_of(components.begin(), components.end(), [](const BxdfComponent &component) {
+            return component.side != BxdfComponent::Side::both;
+        })) {
+        collector.begin("sides");
+        for (const BxdfComponent &component : components) {
+            collector.add(component.side);
+        }
+    }
     const ShapeArrays &shapes = arrays.shapes;
     if (!shapes.kind.empty()) {
         collector.begin("shapes");

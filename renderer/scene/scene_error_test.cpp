@@ -107,7 +107,7 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite", "components": [{"bxdf": "lambert", "weight": [1, 1, 1], "alpha": 0.5}]})",
              "/nodes/1/material/components/0/alpha: unknown key 'alpha' of the lambert; allowed: "
              "bxdf, "
-             "fresnel, weight, "
+             "fresnel, side, weight, "
              "weight_texture"},
             {R"({"type": "composite", "components": [{"bxdf": "ward", "weight": [1, 1, 1]}]})",
              "missing key 'component_0_alpha'"},
@@ -119,8 +119,17 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite", "components": [{"bxdf": "ideal_reflection", "weight": [1, 1, 1], "fresnel": {"type": "dielectric", "eta": 1.5, "of_wo": true}}]})",
              "unknown key 'of_wo' of the dielectric Fresnel term"},
             {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "fresnel": {"type": "schlick", "reflectance": [0, 0, 0]}}]})",
-             "component 0: a refracting component supports the Fresnel terms ideal and dielectric, "
-             "not schlick"},
+             "component 0: a refracting component supports the Fresnel terms ideal, dielectric and "
+             "thin_dielectric, not schlick"},
+            {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "fresnel": {"type": "thin_dielectric", "eta": 1.5}}]})",
+             "component_0_eta: 1.5 bends light, which a thin_dielectric does not; set it to 1"},
+            {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "side": "front"}]})",
+             "unknown key 'side' of the ideal_refraction"},
+            {R"({"type": "composite", "components": [
+                 {"bxdf": "lambert", "weight": [0.75, 0.75, 0.75], "side": "front"},
+                 {"bxdf": "lambert", "weight": [0.5, 0.5, 0.5], "side": "back"},
+                 {"bxdf": "lambert", "weight": [0.5, 0.5, 0.75]}]})",
+             "add up to 1.5 in blue, seen from the front"},
             {R"({"type": "composite", "components": [{"bxdf": "ideal_refraction", "weight": [1, 1, 1], "eta": 1.5, "fresnel": {"type": "dielectric", "eta": 1.6}}]})",
              "component_0_fresnel_eta: 1.6 differs from the component's eta, 1.5; omit it"},
             {R"({"type": "composite", "components": [{"bxdf": "microfacet_refraction", "weight": [1, 1, 1], "eta": 1, "alpha": 0.5}]})",
@@ -218,6 +227,10 @@ TEST_F(TexturedMaterials, NormalAndBumpMapsNeedTriangles) {
     }
     expect_input_error("has normal_map_texture and bump_map_texture; remove one of them", [&] {
         parse(with("rectangle", (std::string(normals) + ", " + heights).c_str()));
+    });
+    expect_input_error("a bump map cannot be mirrored beyond its edges", [&] {
+        parse(with("rectangle", R"("bump_map_texture": {"file": "one.ppm", "encoding": "linear",
+                                                        "wrap": "mirror"})"));
     });
     // Without a texture there is no map.
     parse(with("sphere", R"("normal_map": 2, "bump_map": 3)"));

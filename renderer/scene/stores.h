@@ -53,7 +53,8 @@ struct TextureImage {
 /// the upper right corner. Texel centres are at half-integer texel coordinates.
 struct TextureArrays {
     enum class Filter { nearest, bilinear };
-    enum class Wrap { repeat, clamp };
+    /// Beyond the edges: repeated, continued by the texels at the edge, or mirrored at every edge.
+    enum class Wrap { repeat, clamp, mirror };
     std::vector<std::string> name;
     std::vector<std::shared_ptr<const TextureImage>> image;
     std::vector<Filter> filter;
@@ -92,8 +93,13 @@ struct BxdfComponent {
         conductor,              ///< exact; `eta`, `k`
         conductor_approximate,  ///< thesis (3.28); `eta`, `k`
         schlick,  ///< thesis (3.29, 3.30); `eta` holds the reflectance at normal incidence
+        /// A thin plate of a dielectric with all reflections inside it: 2 R / (1 + R), where R is
+        /// the exact dielectric term of `eta[1]`, the same from both sides.
+        thin_dielectric,
     };
     enum class Distribution { ggx, beckmann };
+    /// The side of the surface on which the component scatters light.
+    enum class Side { both, front, back };
 
     Kind kind = Kind::lambert;
     Rgb weight = Rgb::Ones();     ///< not negative
@@ -111,6 +117,7 @@ struct BxdfComponent {
     double exponent = 0;          ///< Blinn's exponent, positive
     Eigen::Vector2d alpha{0, 0};  ///< roughness along the tangent and across it, (0, 1]
     Distribution distribution = Distribution::ggx;
+    Side side = Side::both;  ///< both if the component refracts
 };
 
 /// The opacity of a material: the share of light that its surface stops. The rest passes straight

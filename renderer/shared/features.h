@@ -56,9 +56,12 @@
     X(fresnel_conductor, "exact conductor")                                                   \
     X(fresnel_conductor_approximate, "approximate conductor of the thesis")                   \
     X(fresnel_schlick, "Schlick's approximation")                                             \
+    X(fresnel_thin_dielectric, "thin plate of a dielectric")                                  \
+    X(component_sides, "a BxDF reflects on one side of the surface only")                     \
     X(textures, "a weight has a texture")                                                     \
     X(normal_maps, "a map of normals or heights tilts shading normals")                       \
     X(bump_maps, "such a map has heights")                                                    \
+    X(texture_mirror, "a texture is mirrored beyond its edges")                               \
     X(opacity, "rays may pass a surface: hits are accepted with its opacity")                 \
     /* lights */                                                                              \
     X(lights, "the scene has emitters")                                                       \

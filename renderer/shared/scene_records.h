@@ -68,7 +68,8 @@ typedef struct BxdfRecord {
     float parameter;  ///< sigma for BXDF_OREN_NAYAR, exponent for BXDF_BLINN
     float weight[3];
     float alpha_x;  ///< roughness along the tangent
-    /// Fresnel term: relative index of refraction (dielectric: [0]) or normal reflectance (Schlick)
+    /// Fresnel term: relative index of refraction (dielectric: [0], thin plate: [1]) or normal
+    /// reflectance (Schlick)
     float eta[3];
     float alpha_y;  ///< roughness across the tangent
     float k[3];     ///< extinction coefficient of a conductor
@@ -93,9 +94,12 @@ typedef struct BxdfRecord {
 #define FRESNEL_CONDUCTOR 2u
 #define FRESNEL_CONDUCTOR_APPROXIMATE 3u
 #define FRESNEL_SCHLICK 4u
+#define FRESNEL_THIN_DIELECTRIC 5u
 #define BXDF_FLAG_COMPLEMENT 8u      ///< uses 1 - F instead of F
 #define BXDF_FLAG_FRESNEL_OF_WO 16u  ///< Fresnel term of wo alone: not symmetric in wi and wo
 #define BXDF_FLAG_BECKMANN 32u       ///< Beckmann distribution, otherwise GGX
+#define BXDF_FLAG_FRONT_ONLY 64u     ///< black from behind
+#define BXDF_FLAG_BACK_ONLY 128u     ///< black from the front
 
 /// A texture: a range of the texel buffer. 8-bit texels have one word each, with R in the lowest
 /// byte; float texels have three words.
@@ -112,6 +116,8 @@ typedef struct TextureRecord {
 #define TEXTURE_SRGB 2u
 #define TEXTURE_BILINEAR 4u  ///< bilinear lookup, otherwise nearest
 #define TEXTURE_CLAMP 8u     ///< clamped coordinates, otherwise repeated
+/// Mirrored coordinates. Comes with TEXTURE_CLAMP, because the neighbours at an edge are the same.
+#define TEXTURE_MIRROR 16u
 
 /// A map of normals or heights (kernels/bsdf/normal_map.h).
 typedef struct NormalMapRecord {

@@ -20,6 +20,8 @@ void add_fresnel(const BxdfComponent &bxdf, const std::string &prefix, Parameter
         bxdf.kind == Kind::ideal_refraction || bxdf.kind == Kind::microfacet_refraction;
     if (bxdf.fresnel == Fresnel::dielectric && !refracts) {
         values[prefix + "eta"] = bxdf.eta[0];
+    } else if (bxdf.fresnel == Fresnel::thin_dielectric) {
+        values[prefix + "eta"] = bxdf.eta[1];
     } else if (bxdf.fresnel == Fresnel::conductor) {
         values[prefix + "eta"] = bxdf.eta;
         values[prefix + "k"] = bxdf.k;
@@ -42,6 +44,9 @@ void add_component(const MaterialComponent &component, const std::string &prefix
     }
     if (bxdf.kind == Kind::ideal_refraction || bxdf.kind == Kind::microfacet_refraction) {
         values[prefix + "eta"] = bxdf.eta[0];
+    } else {
+        constexpr const char *sides[] = {"both", "front", "back"};  // in the order of Side
+        values[prefix + "side"] = std::string(sides[static_cast<size_t>(bxdf.side)]);
     }
     add_fresnel(bxdf, prefix + "fresnel_", values);
 }

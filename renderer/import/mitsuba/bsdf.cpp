@@ -136,6 +136,7 @@ const std::vector<MaterialReader::Type> &MaterialReader::types() {
         {"diffuse", &MaterialReader::read_diffuse},
         {"dielectric", &MaterialReader::read_dielectric},
         {"roughdielectric", &MaterialReader::read_dielectric},
+        {"thindielectric", &MaterialReader::read_thin_dielectric},
         {"conductor", &MaterialReader::read_conductor},
         {"roughconductor", &MaterialReader::read_conductor},
         {"plastic", &MaterialReader::read_plastic},
@@ -210,25 +211,56 @@ MaterialReader::Draft MaterialReader::read_bsdf(const Element &bsdf, UvConventio
     throw bsdf.error(fmt::format("unsupported BSDF type; supported types are: {}", names));
 }
 
+std::vector<MaterialComponent> MaterialReader::nested_components(const Element &bsdf,
+                                                                 const Draft &part, Draft &draft) {
+    draft.depends_on_uv |= part.depends_on_uv;
+    return bsdf.located(
+        [&] { return MaterialCore("", part.type, part.values, part.textures).components(); });
+}
+
 void MaterialReader::read_twosided(Object &object, Draft &draft) {
     const std::vector<Element> inner = object.objects("bsdf");
-    if (inner.size() != 1) {
-        throw object.element().error(
-            fmt::format("has {} BSDFs; expected one, which is used for both sides", inner.size()));
+    if (inner.empty() || inner.size() > 2) {
+        throw object.element().error(fmt::format(
+            "has {} BSDFs; expected one for both sides, or one for each side", inner.size()));
     }
-    const std::string type = inner[0].attribute("type");
-    if (type == "twosided" || type == "dielectric" || type == "roughdielectric") {
-        throw inner[0].error("already two-sided; remove the enclosing twosided BSDF");
+    for (const Element &bsdf : inner) {
+        const std::string type = bsdf.attribute("type");
+        if (type == "twosided" || type == "thindielectric" || type == "dielectric" ||
+            type == "roughdielectric") {
+            throw bsdf.error("already two-sided; remove the enclosing twosided BSDF");
+        }
+        if (type == "mask") {
+            throw bsdf.error("light passes it, so it cannot be two-sided; put twosided inside");
+        }
     }
-    if (type == "mask") {
-        throw inner[0].error("light passes it, so it cannot be two-sided; put twosided inside");
+    Draft front = read_bsdf(inner[0], draft.uv, *draft.errors);
+    front.values["two_sided"] = true;
+    if (inner.size() == 1) {
+        draft = front;
+        if (draft.has_map()) {
+            // Mitsuba turns the directions before it applies the map, so both sides look the same.
+            draft.values["map_mirrored_back"] = true;
+        }
+        return;
     }
-    draft = read_bsdf(inner[0], draft.uv, *draft.errors);
-    draft.values["two_sided"] = true;
-    if (draft.has_map()) {
-        // Mitsuba turns the directions before it applies the map, so both sides look the same.
-        draft.values["map_mirrored_back"] = true;
+    Draft back = read_bsdf(inner[1], draft.uv, *draft.errors);
+    std::vector<MaterialComponent> components;
+    for (const bool is_front : {true, false}) {
+        const Element &bsdf = inner[is_front ? 0 : 1];
+        if ((is_front ? front : back).has_map()) {
+            throw bsdf.error("a normal or bump map for one side only is unsupported");
+        }
+        for (MaterialComponent part : nested_components(bsdf, is_front ? front : back, draft)) {
+            if (part.bxdf.kind == BxdfComponent::Kind::ideal_refraction ||
+                part.bxdf.kind == BxdfComponent::Kind::microfacet_refraction) {
+                throw bsdf.error("light passes it, so it cannot be on one side only");
+            }
+            part.bxdf.side = is_front ? BxdfComponent::Side::front : BxdfComponent::Side::back;
+            components.push_back(part);
+        }
     }
+    set_composite(components, true, draft);
 }
 
 void MaterialReader::read_blend(Object &object, Draft &draft) {
@@ -244,7 +276,6 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
     bool two_sided[2] = {};
     for (const size_t i : {0, 1}) {
         const Draft part = read_bsdf(inner[i], draft.uv, *draft.errors);
-        draft.depends_on_uv |= part.depends_on_uv;
         if (part.has_opacity()) {
             throw inner[i].error("a blend of masks is unsupported; mask the blend instead");
         }
@@ -252,8 +283,7 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
             throw inner[i].error(
                 "a blend of normal or bump maps is unsupported; apply one map to the blend");
         }
-        const auto core = inner[i].located(
-            [&] { return MaterialCore("", part.type, part.values, part.textures).components(); });
+        const auto core = nested_components(inner[i], part, draft);
         two_sided[i] = std::get<bool>(part.values.at("two_sided"));
         for (MaterialComponent component : core) {
             component.bxdf.weight *= static_cast<float>(i == 0 ? 1 - *weight : *weight);
@@ -264,10 +294,15 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
         throw object.element().error(
             "only one of the BSDFs is two-sided; make both or none of them so");
     }
+    set_composite(components, two_sided[0], draft);
+}
+
+void MaterialReader::set_composite(const std::vector<MaterialComponent> &components, bool two_sided,
+                                   Draft &draft) {
     Composite composite = composite_of(components);
     draft.type = composite.type;
     draft.values = std::move(composite.values);
-    draft.values["two_sided"] = two_sided[0];
+    draft.values["two_sided"] = two_sided;
     draft.textures = std::move(composite.textures);
 }
 
@@ -353,6 +388,15 @@ void MaterialReader::read_dielectric(Object &object, Draft &draft) {
     if (is_rough(object)) {
         read_roughness(object, draft);
     }
+}
+
+void MaterialReader::read_thin_dielectric(Object &object, Draft &draft) {
+    constexpr double bk7 = 1.5046;
+    draft.set_type("thin_glass");
+    draft.values["two_sided"] = true;
+    draft.values["eta"] = relative_index(object, bk7);
+    read_colour(object, "specular_reflectance", "reflectance", 1, draft);
+    read_colour(object, "specular_transmittance", "transmittance", 1, draft);
 }
 
 void MaterialReader::read_conductor(Object &object, Draft &draft) {
@@ -488,7 +532,7 @@ std::shared_ptr<Texture> MaterialReader::bitmap(Object &object, UvConvention uv)
         throw element.error("needs a filename");
     }
     const std::vector<std::string> filters = {"bilinear", "nearest"};
-    const std::vector<std::string> wraps = {"repeat", "clamp"};
+    const std::vector<std::string> wraps = {"repeat", "clamp", "mirror"};
     ParameterValues values = read_placement(object, uv);
     values["filter"] = filters[object.choice("filter_type", filters, 0)];
     values["wrap"] = wraps[object.choice("wrap_mode", wraps, 0)];

@@ -67,6 +67,7 @@ class MaterialReader {
     Draft read_bsdf(const Element &bsdf, UvConvention uv, ErrorList &errors);
     void read_diffuse(Object &object, Draft &draft);
     void read_dielectric(Object &object, Draft &draft);
+    void read_thin_dielectric(Object &object, Draft &draft);
     void read_conductor(Object &object, Draft &draft);
     void read_plastic(Object &object, Draft &draft);
     void read_twosided(Object &object, Draft &draft);
@@ -77,6 +78,13 @@ class MaterialReader {
     /// Reads what normal and bump maps share. `parameter` is that of the texture.
     void read_map(Object &object, const std::vector<Element> &textures, const char *parameter,
                   Draft &draft);
+
+    /// Returns the components of a nested BSDF, and adds what its draft depends on.
+    static std::vector<MaterialComponent> nested_components(const Element &bsdf, const Draft &part,
+                                                            Draft &draft);
+    /// Makes a material of these components.
+    static void set_composite(const std::vector<MaterialComponent> &components, bool two_sided,
+                              Draft &draft);
 
     void read_colour(Object &object, const char *property, const char *parameter, double initial,
                      Draft &draft);

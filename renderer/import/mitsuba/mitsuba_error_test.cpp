@@ -129,8 +129,12 @@ INSTANTIATE_TEST_SUITE_P(
                    "expected one number, or pairs WAVELENGTH:VALUE"},
         BadElement{light("point", "<spectrum name=\"intensity\" filename=\"none.spd\"/>"),
                    "in.xml:4: <spectrum name=\"intensity\">: cannot find 'none.spd'"},
-        BadElement{light("point", "<spectrum name=\"intensity\" type=\"blackbody\"/>"),
-                   "unsupported spectrum type; supported types are: d65, srgb, uniform"},
+        BadElement{light("point", "<spectrum name=\"intensity\" type=\"irregular\"/>"),
+                   "unsupported spectrum type; supported types are: blackbody, d65, srgb, uniform"},
+        BadElement{
+            light("point", "<spectrum name=\"intensity\" type=\"blackbody\"/>"),
+            "in.xml:4: <spectrum type=\"blackbody\" name=\"intensity\">: expected a positive "
+            "temperature, for an emission"},
         BadElement{light("point", "<rgb name=\"intensity\" value=\"#ffffff\"/>"),
                    "expected finite numbers, got '#ffffff'"},
         BadElement{light("point", "<rgb name=\"intensity\" value=\"+-1\"/>"),
@@ -154,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadElement{shape("", "heightfield"),
                    "in.xml:3: <shape type=\"heightfield\">: unsupported shape type; supported "
-                   "types are: obj, ply, rectangle, cube, sphere, disk, cylinder"},
+                   "types are: obj, ply, serialized, rectangle, cube, sphere, disk, cylinder"},
         BadElement{shape("", "ply"), "in.xml:3: <shape type=\"ply\">: needs a filename"},
         BadElement{shape("<string name=\"filename\" value=\"none.ply\"/>", "ply"),
                    "in.xml:3: <shape type=\"ply\">: "},
@@ -209,7 +213,11 @@ INSTANTIATE_TEST_SUITE_P(
                              "<bsdf type=\"diffuse\"/></bsdf>",
                          "sphere"),
                    "has a normal or bump map, but only triangles support these"},
-        BadElement{bsdf("thindielectric"), "unsupported BSDF type"},
+        BadElement{bsdf("twosided", "<bsdf type=\"normalmap\">" + std::string(checks) +
+                                        "<bsdf type=\"diffuse\"/></bsdf><bsdf type=\"diffuse\"/>"),
+                   "a normal or bump map for one side only is unsupported"},
+        BadElement{bsdf("thindielectric", "<float name=\"int_ior\" value=\"0\"/>"),
+                   "int_ior and ext_ior must be positive"},
         BadElement{bsdf("diffuse", "<float name=\"alpha\" value=\"0.1\"/>"),
                    "in.xml:5: <float name=\"alpha\">: unknown property of bsdf type 'diffuse'; "
                    "properties are: reflectance"},
@@ -230,9 +238,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadElement{
             bsdf("diffuse",
                  "<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
-                 "value=\"a.png\"/>\n<string name=\"wrap_mode\" value=\"mirror\"/></texture>"),
-            "in.xml:6: <string name=\"wrap_mode\">: unknown value 'mirror'; values are: repeat, "
-            "clamp"},
+                 "value=\"a.png\"/>\n<string name=\"wrap_mode\" value=\"tile\"/></texture>"),
+            "in.xml:6: <string name=\"wrap_mode\">: unknown value 'tile'; values are: repeat, "
+            "clamp, mirror"},
         BadElement{bsdf("diffuse",
                         "<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
                         "value=\"a.png\"/>\n<transform name=\"to_uv\"><rotate z=\"1\" "
@@ -247,10 +255,13 @@ INSTANTIATE_TEST_SUITE_P(
                    "in.xml:5: <texture type=\"bitmap\" name=\"opacity\">: bsdf type 'diffuse' "
                    "accepts no texture as 'opacity'"},
         BadElement{bsdf("twosided"), "in.xml:4: <bsdf type=\"twosided\">: has 0 BSDFs"},
-        BadElement{bsdf("twosided", "<bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/>"),
-                   "has 2 BSDFs; expected one"},
-        BadElement{bsdf("twosided", "<bsdf type=\"dielectric\"/>"),
+        BadElement{bsdf("twosided",
+                        "<bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/>"),
+                   "has 3 BSDFs; expected one for both sides, or one for each side"},
+        BadElement{bsdf("twosided", "<bsdf type=\"diffuse\"/><bsdf type=\"dielectric\"/>"),
                    "in.xml:5: <bsdf type=\"dielectric\">: already two-sided"},
+        BadElement{bsdf("twosided", "<bsdf type=\"thindielectric\"/>"),
+                   "in.xml:5: <bsdf type=\"thindielectric\">: already two-sided"},
         BadElement{"<bsdf type=\"blendbsdf\" id=\"a\"><float name=\"weight\" value=\"0\"/><ref "
                    "id=\"a\"/><ref id=\"a\"/></bsdf>" +
                        shape("<ref id=\"a\"/>"),

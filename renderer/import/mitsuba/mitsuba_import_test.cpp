@@ -451,6 +451,10 @@ TEST_F(MitsubaTextures, AreLookedUpWhereMitsubaDoes) {
     EXPECT_TRUE(textures.image[0]->srgb);
     EXPECT_EQ(textures.filter[0], TextureArrays::Filter::nearest);
     EXPECT_EQ(textures.wrap[0], TextureArrays::Wrap::clamp);
+    const Scene mirrored =
+        parse_elements(std::string(textured).replace(textured.find("clamp"), 5, "mirror") +
+                       R"(<shape type="rectangle"><ref id="paper"/></shape>)");
+    EXPECT_EQ(mirrored.arrays().textures.wrap[0], TextureArrays::Wrap::mirror);
     // Mitsuba's row from the top is 4 v + 1/4 of the height. RTRays' row from the bottom is
     // uv_scale v' + uv_offset, where v' is Mitsuba's v on rectangles and cubes and 1 - v on
     // spheres.

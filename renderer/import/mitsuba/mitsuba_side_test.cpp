@@ -106,6 +106,20 @@ TEST_F(MitsubaSides, FlippedSpheresAreMeshes) {
     EXPECT_EQ(same.arrays().shapes.name.size(), 1u);
 }
 
+TEST_F(MitsubaSides, MayHaveTwoBsdfs) {
+    const Scene scene = load(R"(<shape type="rectangle"><bsdf type="twosided">
+        <bsdf type="plastic"/><bsdf type="diffuse"><rgb name="reflectance" value="0.25"/></bsdf>
+        </bsdf></shape>)");
+    const std::vector<BxdfComponent> &parts = scene.materials().component;
+    ASSERT_EQ(parts.size(), 3u);
+    EXPECT_EQ(parts[0].side, BxdfComponent::Side::front);
+    EXPECT_EQ(parts[1].side, BxdfComponent::Side::front);
+    EXPECT_EQ(parts[2].side, BxdfComponent::Side::back);
+    EXPECT_EQ(parts[2].kind, BxdfComponent::Kind::lambert);
+    EXPECT_EQ(parts[2].weight, Vector3f::Constant(0.25f));
+    EXPECT_EQ(scene.materials().two_sided[0], 1);
+}
+
 TEST_F(MitsubaSides, MirroredSpheresAreFlipped) {
     // In Mitsuba, the front of such a sphere is its inside. No other shape is like that.
     const auto mirrored = [&](const std::string &type, const std::string &properties) {
@@ -163,6 +177,22 @@ TEST_F(MitsubaSides, CylindersMayBeStretchedAlongTheirAxis) {
 constexpr const char *two_lamps = R"(
     <shape type="rectangle" id="a"><ref id="e"/></shape>
     <emitter type="area" id="e"><rgb name="radiance" value="3, 2, 1"/></emitter>)";
+
+TEST(MitsubaBsdfs, ThinDielectricsDoNotBendLight) {
+    const auto plate =
+        parse_elements(R"(<shape type="rectangle"><bsdf type="thindielectric"/></shape>)")
+            .materials()
+            .component;
+    ASSERT_EQ(plate.size(), 2u);
+    EXPECT_EQ(plate[0].kind, BxdfComponent::Kind::ideal_reflection);
+    EXPECT_EQ(plate[1].kind, BxdfComponent::Kind::ideal_refraction);
+    EXPECT_TRUE(plate[1].complement);
+    for (const BxdfComponent &part : plate) {
+        EXPECT_EQ(part.fresnel, BxdfComponent::Fresnel::thin_dielectric);
+        EXPECT_EQ(part.eta[0], 1);
+        EXPECT_NEAR(part.eta[1], 1.50418, 5e-6);
+    }
+}
 
 TEST(MitsubaEmitterReferences, MayPrecedeTheEmitter) {
     const Scene scene = parse_elements(two_lamps);

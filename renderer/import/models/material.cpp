@@ -239,17 +239,16 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
     if (source.GetTextureCount(type) > 1) {
         notes_.add("only the first of several texture layers is used", name);
     }
-    for (int axis = 0; axis < 2; ++axis) {
-        if (modes[axis] != aiTextureMapMode_Wrap && modes[axis] != aiTextureMapMode_Clamp) {
-            notes_.add("mirrored and decal textures are repeated", name);
-        }
+    if (modes[0] == aiTextureMapMode_Decal || modes[1] == aiTextureMapMode_Decal) {
+        notes_.add("decal textures are repeated", name);
     }
-    const bool clamps = modes[0] == aiTextureMapMode_Clamp;
-    if (clamps != (modes[1] == aiTextureMapMode_Clamp)) {
+    if (modes[0] != modes[1]) {
         notes_.add("textures with different wrap modes along u and v use the mode along u", name);
     }
     TexturePlacement placement;
-    placement.clamps = clamps;
+    placement.wrap = modes[0] == aiTextureMapMode_Clamp    ? TextureArrays::Wrap::clamp
+                     : modes[0] == aiTextureMapMode_Mirror ? TextureArrays::Wrap::mirror
+                                                           : TextureArrays::Wrap::repeat;
     int filter = 0;
     constexpr int nearest = 9728;  // NEAREST of OpenGL, as in glTF
     placement.is_nearest = source.Get(_AI_MATKEY_GLTF_MAPPINGFILTER_MAG_BASE, type_number, 0,

@@ -265,6 +265,20 @@ TEST(Gltf, HonoursTheFilterOfTheSampler) {
               (std::vector<Filter>{Filter::nearest, Filter::bilinear}));
 }
 
+TEST(Gltf, HonoursTheWrapModesOfTheSampler) {
+    Json model = document();
+    model["images"] = {{{"uri", checker}}};
+    model["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    model["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    using Wrap = TextureArrays::Wrap;
+    for (const auto &[stated, wrap] :
+         {std::pair(33071, Wrap::clamp), std::pair(10497, Wrap::repeat),
+          std::pair(33648, Wrap::mirror)}) {
+        model["samplers"] = {{{"wrapS", stated}, {"wrapT", stated}}};
+        EXPECT_EQ(loaded(model).scene.arrays().textures.wrap, std::vector<Wrap>{wrap});
+    }
+}
+
 TEST(Gltf, NamesWhatIsDropped) {
     Json model = document();
     model["scenes"].push_back(model["scenes"][0]);

@@ -219,7 +219,8 @@ class MtlReader {
                 option_numbers(after, values, 3);
                 pair = {values[0], values[1]};
             } else if (option == "-clamp") {
-                made.placement.clamps = take_word(after) == "on";
+                made.placement.wrap = take_word(after) == "on" ? TextureArrays::Wrap::clamp
+                                                               : TextureArrays::Wrap::repeat;
             } else if (option == "-bm") {
                 option_numbers(after, &made.multiplier, 1);
             } else if (option == "-t") {

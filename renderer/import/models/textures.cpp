@@ -103,9 +103,11 @@ std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const Text
                                                 const TexturePlacement &placement) {
     const Eigen::Vector2d &scale = placement.scale;
     const Eigen::Vector2d &offset = placement.offset;
-    const std::string key = fmt::format(
-        "{} {} {} {} {} {} {}", static_cast<const void *>(image.get()), placement.clamps,
-        placement.is_nearest, scale[0], scale[1], offset[0], offset[1]);
+    const std::string key =
+        fmt::format("{} {} {} {} {} {} {}", static_cast<const void *>(image.get()),
+                    static_cast<int>(placement.wrap), placement.is_nearest, scale[0], scale[1],
+                    offset[0], offset[1]);
+    constexpr const char *wraps[] = {"repeat", "clamp", "mirror"};  // in the order of Wrap
     std::shared_ptr<Texture> &made = textures_[key];
     if (made == nullptr) {
         std::string path = file;
@@ -113,7 +115,7 @@ std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const Text
         made = std::make_shared<Texture>(
             names_.unique(fs::path(path).stem().string(), "texture"), image,
             ParameterValues{{"filter", std::string(placement.is_nearest ? "nearest" : "bilinear")},
-                            {"wrap", std::string(placement.clamps ? "clamp" : "repeat")},
+                            {"wrap", std::string(wraps[static_cast<size_t>(placement.wrap)])},
                             {"uv_scale", scale},
                             {"uv_offset", offset}});
         all_.push_back(made);

@@ -20,8 +20,8 @@ namespace rtrays {
 struct TexturePlacement {
     Eigen::Vector2d scale = Eigen::Vector2d::Ones();
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< added to the scaled coordinates
-    bool clamps = false;                               ///< beyond the edges, instead of repeating
-    bool is_nearest = false;                           ///< without interpolation
+    TextureArrays::Wrap wrap = TextureArrays::Wrap::repeat;
+    bool is_nearest = false;  ///< without interpolation
 };
 
 /// Returns the file of that name in the first of the folders that has it. In each folder the path

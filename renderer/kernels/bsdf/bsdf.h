@@ -94,7 +94,7 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
     BsdfValue value;
     GLOBAL const BxdfRecord *component = scene->components + material.first_component;
     const float eta = component_eta(component, material.flags, frame.front);
-    const float3 colour = component_colour(scene, component, frame.uv);
+    const float3 colour = component_colour(scene, component, frame.front, frame.uv);
     const Lobe lobe = component_evaluate(component, eta, wo, wi);
     value.pdf_w = lobe.pdf_w;
     value.f_cos = colour *
@@ -108,7 +108,7 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
         for (uint i = 1u; i < material.component_count; ++i) {
             GLOBAL const BxdfRecord *other = component + i;
             const float other_eta = component_eta(other, material.flags, frame.front);
-            const float3 other_colour = component_colour(scene, other, frame.uv);
+            const float3 other_colour = component_colour(scene, other, frame.front, frame.uv);
             const float share = component_share(other, other_eta, wo, other_colour);
             const Lobe other_lobe = component_evaluate(other, other_eta, wo, wi);
             shares += share;
@@ -205,8 +205,8 @@ DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord mate
         const uint index = material.first_component + i;
         GLOBAL const BxdfRecord *component = scene->components + index;
         const float eta = component_eta(component, material.flags, frame.front);
-        const float candidate =
-            component_share(component, eta, wo, component_colour(scene, component, frame.uv));
+        const float candidate = component_share(
+            component, eta, wo, component_colour(scene, component, frame.front, frame.uv));
         if (candidate > 0.0f) {
             shares += candidate;
             const float take_over = candidate / shares;
@@ -274,7 +274,7 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
     }
     sample.scale = is_refracting(component->kind) ? refraction_scale(eta) : 1.0f;
     if (is_delta(component->kind)) {
-        sample.weight = component_colour(scene, component, frame.uv) *
+        sample.weight = component_colour(scene, component, frame.front, frame.uv) *
                         component_fresnel(component, eta, wo.z, squared_sine(wo), wi) /
                         sample.probability;
         sample.weight *= sample.scale;

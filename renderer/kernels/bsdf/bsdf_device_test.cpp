@@ -69,13 +69,14 @@ TEST(BsdfDevice, EveryKindCompilesAlone) {
             expect_build(base.with(kind).with(distribution));
         }
     }
-    for (const Feature fresnel :
-         {Feature::fresnel_dielectric, Feature::fresnel_conductor,
-          Feature::fresnel_conductor_approximate, Feature::fresnel_schlick}) {
+    for (const Feature fresnel : {Feature::fresnel_dielectric, Feature::fresnel_conductor,
+                                  Feature::fresnel_conductor_approximate, Feature::fresnel_schlick,
+                                  Feature::fresnel_thin_dielectric}) {
         expect_build(base.with(Feature::lambert).with(Feature::fresnel).with(fresnel));
     }
-    for (const Feature other : {Feature::textures, Feature::composite, Feature::one_sided,
-                                Feature::tangents, Feature::smooth_normals}) {
+    for (const Feature other :
+         {Feature::textures, Feature::composite, Feature::one_sided, Feature::component_sides,
+          Feature::tangents, Feature::smooth_normals}) {
         expect_build(base.with(Feature::lambert).with(other));
     }
 }

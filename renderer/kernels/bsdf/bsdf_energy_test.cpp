@@ -393,6 +393,29 @@ TEST(SurfaceFrame, DropsDirectionsBetweenTheTwoHorizons) {
     }
 }
 
+TEST(Material, MayDifferByItsSide) {
+    BxdfRecord in_front = component(BXDF_IDEAL_REFLECTION), behind = component(BXDF_LAMBERT);
+    in_front.flags |= BXDF_FLAG_FRONT_ONLY;
+    behind.flags |= BXDF_FLAG_BACK_ONLY;
+    const TestMaterial silvered = {"silvered", {in_front, behind}};
+    const TestMaterial mirror = {"mirror", {component(BXDF_IDEAL_REFLECTION)}, MATERIAL_DELTA};
+    const TestMaterial diffuse = {"diffuse", {component(BXDF_LAMBERT)}};
+    for (const bool front : {true, false}) {
+        const SurfaceFrame frame = tilted_frame(40, 0.6, front);
+        const TestMaterial &same = front ? mirror : diffuse;
+        for (const float select : {0.0f, 0.4f, 0.9f}) {
+            const BsdfSample found = silvered.sample(frame, select, 0.3f, 0.6f);
+            const BsdfSample expected = same.sample(frame, select, 0.3f, 0.6f);
+            EXPECT_EQ(found.pdf_w, expected.pdf_w);
+            EXPECT_EQ(found.weight.x, expected.weight.x);
+            EXPECT_EQ(found.wi.x, expected.wi.x);
+        }
+        EXPECT_EQ(silvered.evaluate(frame, frame.ns).f_cos.x,
+                  same.evaluate(frame, frame.ns).f_cos.x);
+        EXPECT_EQ(silvered.evaluate(frame, frame.ns).pdf_w, same.evaluate(frame, frame.ns).pdf_w);
+    }
+}
+
 TEST(Material, OneSidedIsBlackFromBehind) {
     const TestMaterial wall = {"wall", {component(BXDF_LAMBERT)}, MATERIAL_ONE_SIDED};
     for (const bool front : {true, false}) {

@@ -222,6 +222,52 @@ TEST(IdealRefraction, BendsBySnell) {
     }
 }
 
+/// Returns a component of a thin plate of index 1.5.
+BxdfRecord of_plate(uint kind, uint flags) {
+    BxdfRecord record = with_eta(component(kind), 1.0f, FRESNEL_THIN_DIELECTRIC | flags);
+    record.eta[1] = 1.5f;
+    return record;
+}
+
+// Born and Wolf 1999, 7.6: R, then T R^(2n + 1) T for n = 0, 1, ...
+TEST(ThinDielectric, SumsTheReflectionsInsideAPlate) {
+    for (const float c : cosines()) {
+        const double r = static_cast<double>(dielectric(c, 1.5f));
+        double sum = r;
+        for (double inner = r; inner > 1e-12 && r < 1; inner *= r * r) {
+            sum += (1 - r) * (1 - r) * inner;
+        }
+        EXPECT_NEAR(fresnel_thin_dielectric(c, squared_sine_of(c), 1.5f), sum, 1e-6) << c;
+    }
+    EXPECT_NEAR(fresnel_thin_dielectric(1.0f, 0.0f, 1.5f), 1.0 / 13, 1e-7);
+    EXPECT_EQ(fresnel_thin_dielectric(0.1f, squared_sine_of(0.1f), 0.5f),
+              1.0f);  // total reflection
+}
+
+TEST(ThinDielectric, PassesStraightThroughEitherSide) {
+    const TestMaterial plate = {"plate",
+                                {of_plate(BXDF_IDEAL_REFLECTION, 0u),
+                                 of_plate(BXDF_IDEAL_REFRACTION, BXDF_FLAG_COMPLEMENT)},
+                                MATERIAL_BOUNDARY | MATERIAL_DELTA};
+    for (const bool front : {true, false}) {
+        const SurfaceFrame frame = tilted_frame(60, 0.6, front);
+        constexpr int count = 1 << 12;
+        int passed = 0;
+        for (int i = 0; i < count; ++i) {
+            const BsdfSample s =
+                plate.sample(frame, (static_cast<float>(i) + 0.5f) / count, 0.5f, 0.5f);
+            ASSERT_NEAR(s.weight.x, 1.0f, 1e-6f);
+            if (dot(s.wi, frame.ns) < 0.0f) {
+                ++passed;
+                ASSERT_NEAR(dot(s.wi, frame.wo), -1.0f, 1e-6f);
+                ASSERT_EQ(s.scale, 1.0f);
+            }
+        }
+        const double r = fresnel_double(0.5, 1.5, 0);
+        EXPECT_NEAR(static_cast<double>(passed) / count, (1 - r) / (1 + r), 1.0 / count);
+    }
+}
+
 TEST(IdealRefraction, IsChosenByItsFresnelTerm) {
     const SurfaceFrame frame = tilted_frame(75);
     const auto expected = fresnel_double(std::cos(75 * pi / 180), 1.5, 0);

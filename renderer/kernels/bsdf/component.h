@@ -24,9 +24,13 @@ DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_fla
     return (material_flags & MATERIAL_BOUNDARY) != 0u && front == 0u ? 1.0f / eta : eta;
 }
 
-/// Returns weight times texture at `uv`.
+/// Returns weight times texture at `uv`; black if the component does not reflect on wo's side.
 DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
-                               float2 uv) {
+                               uint front, float2 uv) {
+    const uint excluded = front != 0u ? BXDF_FLAG_BACK_ONLY : BXDF_FLAG_FRONT_ONLY;
+    if (FEATURE_component_sides && (component->flags & excluded) != 0u) {
+        return make_float3(0.0f, 0.0f, 0.0f);
+    }
     float3 colour = make_float3(component->weight[0], component->weight[1], component->weight[2]);
     if (FEATURE_textures && component->texture != NO_TEXTURE) {
         colour *= texture_lookup(scene->textures + component->texture, scene->texels, uv);

@@ -95,6 +95,14 @@ DEVICE float fresnel_schlick(float cosine, float r0) {
     return r0 + (1.0f - r0) * (m2 * m2 * m);
 }
 
+/// Returns the fraction that a thin plate reflects, with all reflections between its two parallel
+/// surfaces: R + T^2 R (1 + R^2 + ...) = 2 R / (1 + R). `eta` is the index of the plate over that
+/// around it.
+DEVICE float fresnel_thin_dielectric(float cosine, float sine2, float eta) {
+    const float f = fresnel_dielectric(cosine, sine2, eta);
+    return 2.0f * f / (1.0f + f);
+}
+
 /// Returns F, or 1 - F, of a component's weight, per channel. `eta` is the relative index of a
 /// dielectric (component_eta). Dielectrics are reciprocal: a ray and its refraction have the same F
 /// on either side.
@@ -119,6 +127,9 @@ DEVICE float3 fresnel_term(GLOBAL const BxdfRecord *component, float eta, float 
         f = make_float3(fresnel_schlick(c, component->eta[0]),
                         fresnel_schlick(c, component->eta[1]),
                         fresnel_schlick(c, component->eta[2]));
+    } else if (FEATURE_fresnel_thin_dielectric && kind == FRESNEL_THIN_DIELECTRIC) {
+        const float value = fresnel_thin_dielectric(c, sine2, component->eta[1]);
+        f = make_float3(value, value, value);
     } else {
         return f;  // FRESNEL_IDEAL: 1, with or without complement
     }

@@ -53,7 +53,7 @@ DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, Su
         GLOBAL const BxdfRecord *other = scene->components + i;
         const float eta = component_eta(other, record.flags, frame.front);
         const float share =
-            component_share(other, eta, wo, component_colour(scene, other, frame.uv));
+            component_share(other, eta, wo, component_colour(scene, other, frame.front, frame.uv));
         shares += share;
         own = i == component ? share : own;
     }

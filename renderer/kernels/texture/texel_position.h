@@ -7,6 +7,13 @@
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
 
+// Some host code is compiled without features. It supports mirrored textures.
+#ifdef FEATURE_texture_mirror
+#define MIRRORS_TEXTURES FEATURE_texture_mirror
+#else
+#define MIRRORS_TEXTURES 1
+#endif
+
 /// Returns the coordinate in [0, 1] for a lookup at x. For repeated textures, a coordinate whose
 /// fraction rounds to 1 gives 0. So does one beyond the range of float, whose fraction is NaN.
 DEVICE float texture_wrap(float x, uint clamped) {
@@ -15,6 +22,11 @@ DEVICE float texture_wrap(float x, uint clamped) {
     }
     const float fraction = x - floor(x);
     return fraction >= 0.0f && fraction < 1.0f ? fraction : 0.0f;
+}
+
+/// Returns the coordinate in [0, 1] for a lookup at x in an image that is mirrored at its edges.
+DEVICE float texture_mirror(float x) {
+    return fabs(x - 2.0f * floor(0.5f * x + 0.5f));  // the distance from the nearest even number
 }
 
 /// Neighbouring texels along one axis, and the position `t` of the lookup between them.
@@ -40,7 +52,11 @@ DEVICE TexelPair texel_pair(float x, uint size, uint clamped) {
 /// lower right corner.
 DEVICE float2 texture_position(GLOBAL const TextureRecord *texture, float2 uv) {
     const uint clamped = texture->flags & TEXTURE_CLAMP;
-    return make_float2(
-        texture_wrap(texture->uv_scale[0] * uv.x + texture->uv_offset[0], clamped),
-        1.0f - texture_wrap(texture->uv_scale[1] * uv.y + texture->uv_offset[1], clamped));
+    float x = texture->uv_scale[0] * uv.x + texture->uv_offset[0];
+    float y = texture->uv_scale[1] * uv.y + texture->uv_offset[1];
+    if (MIRRORS_TEXTURES && (texture->flags & TEXTURE_MIRROR) != 0u) {
+        x = texture_mirror(x);
+        y = texture_mirror(y);
+    }
+    return make_float2(texture_wrap(x, clamped), 1.0f - texture_wrap(y, clamped));
 }

@@ -2,6 +2,8 @@
 // Compares texture lookups with an implementation in double precision.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "renderer/testing/bsdf_cases.h"
 #include "renderer/testing/float_traps.h"
 
@@ -45,9 +47,13 @@ struct TestTexture {
     double lookup(double u, double v, uint channel) const {
         u = record.uv_scale[0] * u + record.uv_offset[0];
         v = record.uv_scale[1] * v + record.uv_offset[1];
-        const bool clamp = (record.flags & TEXTURE_CLAMP) != 0u;
+        const bool mirror = (record.flags & TEXTURE_MIRROR) != 0u;
+        const bool clamp = (record.flags & TEXTURE_CLAMP) != 0u && !mirror;
         const auto wrap = [&](long i, long size) {
-            return clamp ? std::clamp(i, 0l, size - 1) : (i % size + size) % size;
+            const long twice = (i % (2 * size) + 2 * size) % (2 * size);
+            return clamp    ? std::clamp(i, 0l, size - 1)
+                   : mirror ? std::min(twice, 2 * size - 1 - twice)
+                            : (i % size + size) % size;
         };
         const auto at = [&](long x, long y) {
             return texel(wrap(x, width), height - 1 - wrap(y, height), channel);
@@ -79,8 +85,16 @@ TEST(Texture, SrgbTableIsTheCurve) {
     }
 }
 
+/// Returns all values of a texture's flags. Mirrored textures are clamped, too.
+std::vector<uint> all_flags() {
+    std::vector<uint> all(24);
+    std::iota(all.begin(), all.begin() + 16, 0u);
+    std::iota(all.begin() + 16, all.end(), TEXTURE_MIRROR | TEXTURE_CLAMP);
+    return all;
+}
+
 TEST(Texture, AgreesWithDoublePrecision) {
-    for (uint flags = 0; flags < 16; ++flags) {
+    for (const uint flags : all_flags()) {
         TestTexture texture(flags);
         texture.record.uv_scale[0] = 1.75f;
         texture.record.uv_scale[1] = -0.6f;
@@ -130,7 +144,7 @@ TEST(Texture, HasItsOriginAtTheLowerLeft) {
 TEST(Texture, StaysInsideTheImageWhateverTheCoordinates) {
     const float infinity = std::numeric_limits<float>::infinity();
     const test::InvalidAllowed coordinates_that_are_none;
-    for (uint flags = 0; flags < 16; ++flags) {
+    for (const uint flags : all_flags()) {
         const TestTexture texture(flags);
         std::vector<double> values;
         for (const float u : {0.0f, -0.0f, 1.0f, -1.0f, -1e-10f, -1e-45f, 0.99999994f, 1e9f, -3e38f,

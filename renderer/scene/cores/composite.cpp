@@ -37,6 +37,7 @@ struct Part {
     bool refracts() const {
         return kind == Kind::ideal_refraction || kind == Kind::microfacet_refraction;
     }
+    bool is_thin() const { return fresnel == Fresnel::thin_dielectric; }
     bool is_diffuse() const { return kind == Kind::lambert || kind == Kind::oren_nayar; }
     bool is_conductor() const {
         return fresnel == Fresnel::conductor || fresnel == Fresnel::conductor_approximate;
@@ -65,6 +66,13 @@ void add_bxdf_rows(const Part &part, ParameterTable &table) {
     }
     if (part.refracts()) {
         table.push_back(rows::dielectric_eta(part.prefix + "eta"));
+    } else {
+        table.push_back({part.prefix + "side",
+                         "side of the surface on which the component reflects",
+                         std::string("both"),
+                         Need::defaulted,
+                         ranges::any,
+                         {"both", "front", "back"}});
     }
 }
 
@@ -77,6 +85,10 @@ void add_fresnel_rows(const Part &part, ParameterTable &table) {
         // A refracting component has its own eta, which the Fresnel term shares.
         table.push_back(rows::dielectric_eta(prefix + "eta",
                                              part.refracts() ? Need::optional : Need::required));
+    } else if (part.is_thin()) {
+        Parameter eta = rows::dielectric_eta(prefix + "eta");
+        eta.help = "index of refraction of the plate over that around it";
+        table.push_back(eta);
     } else if (part.is_conductor()) {
         table.push_back(rows::conductor_eta(prefix + "eta"));
         table.push_back(rows::conductor_k(prefix + "k"));
@@ -103,6 +115,11 @@ void check_part(const Part &part, const ParameterSet &p) {
     if (part.fresnel == Fresnel::dielectric && p.has(fresnel_eta) && p.number(fresnel_eta) != eta) {
         throw input_error(fmt::format("{}: {} differs from the component's eta, {}; omit it",
                                       fresnel_eta, p.number(fresnel_eta), eta));
+    }
+    if (part.is_thin() && eta != 1) {
+        throw input_error(
+            fmt::format("{}eta: {} bends light, which a thin_dielectric does not; set it to 1",
+                        part.prefix, eta));
     }
     if (part.kind == Kind::microfacet_refraction && std::abs(eta - 1) < nearest) {
         throw input_error(fmt::format(
@@ -133,7 +150,13 @@ MaterialComponent expand_part(const Part &part, const ParameterSet &p) {
         bxdf.distribution = p.choice<BxdfComponent::Distribution>(part.prefix + "distribution");
     }
     const std::string prefix = part.fresnel_prefix();
-    if (part.refracts()) {
+    if (!part.refracts()) {
+        bxdf.side = p.choice<BxdfComponent::Side>(part.prefix + "side");
+    }
+    if (part.is_thin()) {
+        const double eta = p.number(prefix + "eta");
+        bxdf.eta = {1, eta, eta};
+    } else if (part.refracts()) {
         bxdf.eta.setConstant(p.number(part.prefix + "eta"));
     } else if (part.fresnel == Fresnel::dielectric) {
         bxdf.eta.setConstant(p.number(prefix + "eta"));
@@ -153,10 +176,11 @@ Part make_part(const CompositePart &names, size_t index) {
     const Part part{static_cast<Kind>(index_in(bxdf_names(), names.bxdf, "bxdf")),
                     static_cast<Fresnel>(index_in(fresnel_names(), names.fresnel, "fresnel")),
                     part_prefix(index)};
-    if (part.refracts() && part.fresnel != Fresnel::ideal && part.fresnel != Fresnel::dielectric) {
+    if (part.refracts() && part.fresnel != Fresnel::ideal && part.fresnel != Fresnel::dielectric &&
+        !part.is_thin()) {
         throw input_error(
-            fmt::format("component {}: a refracting component supports the Fresnel terms ideal and "
-                        "dielectric, not {}",
+            fmt::format("component {}: a refracting component supports the Fresnel terms ideal, "
+                        "dielectric and thin_dielectric, not {}",
                         index, names.fresnel));
     }
     return part;
@@ -172,8 +196,8 @@ const std::vector<std::string> &bxdf_names() {
 }
 
 const std::vector<std::string> &fresnel_names() {
-    static const std::vector<std::string> names = {"ideal", "dielectric", "conductor",
-                                                   "conductor_approximate", "schlick"};
+    static const std::vector<std::string> names = {
+        "ideal", "dielectric", "conductor", "conductor_approximate", "schlick", "thin_dielectric"};
     return names;
 }
 

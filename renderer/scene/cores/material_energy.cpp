@@ -54,8 +54,8 @@ double conductor_approximate(double cosine, double eta, double k) {
                   (size - 2 * eta * cosine + cos2) / (size + 2 * eta * cosine + cos2));
 }
 
-/// Returns F or 1 - F of one channel; `behind` means a view from behind a boundary.
-double fresnel(const BxdfComponent &bxdf, int channel, double cosine, bool behind) {
+/// Returns F or 1 - F of one channel; `inverted` means a view from behind a boundary.
+double fresnel(const BxdfComponent &bxdf, int channel, double cosine, bool inverted) {
     double f = 1;  // the value of every term at grazing incidence
     if (cosine == 0) {
         return bxdf.complement ? 0 : 1;
@@ -64,7 +64,11 @@ double fresnel(const BxdfComponent &bxdf, int channel, double cosine, bool behin
         case Fresnel::ideal:
             break;
         case Fresnel::dielectric:
-            f = dielectric(cosine, behind ? 1 / bxdf.eta[0] : bxdf.eta[0]);
+            f = dielectric(cosine, inverted ? 1 / bxdf.eta[0] : bxdf.eta[0]);
+            break;
+        case Fresnel::thin_dielectric:
+            f = dielectric(cosine, bxdf.eta[1]);
+            f = 2 * f / (1 + f);
             break;
         case Fresnel::conductor:
             f = conductor(cosine, bxdf.eta[channel], bxdf.k[channel]);
@@ -84,14 +88,19 @@ struct Excess {
     double cosine = 0;
     int channel = 0;
     bool behind = false;
+    bool inverted = false;  ///< behind a boundary
 };
 
 /// Returns the contribution of a component to the sum, for a channel and direction.
 double contribution(const MaterialComponent &component, const Excess &at) {
+    using Side = BxdfComponent::Side;
+    if (component.bxdf.side == (at.behind ? Side::front : Side::back)) {
+        return 0;
+    }
     const double texel =
         component.texture != nullptr ? component.texture->largest_texel()[at.channel] : 1;
     return component.bxdf.weight[at.channel] * texel *
-           fresnel(component.bxdf, at.channel, at.cosine, at.behind);
+           fresnel(component.bxdf, at.channel, at.cosine, at.inverted);
 }
 
 }  // namespace
@@ -104,12 +113,18 @@ void check_energy(const std::vector<MaterialComponent> &components) {
             return c.bxdf.kind == Kind::ideal_refraction ||
                    c.bxdf.kind == Kind::microfacet_refraction;
         });
+    const bool sides_differ =
+        is_boundary ||
+        std::any_of(components.begin(), components.end(), [](const MaterialComponent &c) {
+            return c.bxdf.side != BxdfComponent::Side::both;
+        });
     Excess worst;
-    for (int i = 0; i < (is_boundary ? 2 : 1) * 3 * (steps + 1); ++i) {
+    for (int i = 0; i < (sides_differ ? 2 : 1) * 3 * (steps + 1); ++i) {
         Excess at;
         at.channel = i % 3;
         at.cosine = static_cast<double>(i / 3 % (steps + 1)) / steps;
         at.behind = i / 3 > steps;
+        at.inverted = at.behind && is_boundary;
         for (const MaterialComponent &component : components) {
             at.sum += contribution(component, at);
         }

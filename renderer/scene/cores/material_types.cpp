@@ -88,6 +88,18 @@ Components expand_glass(const ParameterSet &p) {  // thesis (3.53)
             with_dielectric(surface(true, p, "transmittance"), eta, true)};
 }
 
+Components expand_thin_glass(const ParameterSet &p) {
+    const double eta = p.number("eta");
+    Components made = {component(Kind::ideal_reflection, p, "reflectance"),
+                       component(Kind::ideal_refraction, p, "transmittance")};
+    for (MaterialComponent &part : made) {
+        part.bxdf.fresnel = Fresnel::thin_dielectric;
+        part.bxdf.complement = part.bxdf.kind == Kind::ideal_refraction;
+        part.bxdf.eta = {1, eta, eta};
+    }
+    return made;
+}
+
 Components expand_refraction(const ParameterSet &p) {
     MaterialComponent made = component(Kind::ideal_refraction, p, "transmittance");
     made.bxdf.eta.setConstant(p.number("eta"));
@@ -250,6 +262,11 @@ const std::vector<MaterialType> &material_types() {
                   colour("transmittance", "factor of the refracted light", Need::defaulted),
                   smooth_or_rough(), distribution("distribution")},
                  expand_glass, check_rough_refraction),
+        material("thin_glass",
+                 {dielectric_eta("eta"),
+                  colour("reflectance", "factor of the reflected light", Need::defaulted),
+                  colour("transmittance", "factor of the transmitted light", Need::defaulted)},
+                 expand_thin_glass),
         material("refraction",
                  {dielectric_eta("eta"), colour("transmittance", "factor of the refracted light")},
                  expand_refraction),

@@ -53,7 +53,7 @@ const ParameterTable &Texture::parameter_table() {
          std::string("repeat"),
          Need::defaulted,
          ranges::any,
-         {"repeat", "clamp"}},
+         {"repeat", "clamp", "mirror"}},
         {"uv_scale", "scale of the texture coordinates", Eigen::Vector2d(1, 1), Need::defaulted,
          modest},
         {"uv_offset", "offset added to the scaled texture coordinates", Eigen::Vector2d(0, 0),

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/stores/material_store.h"
 
+#include <fmt/format.h>
+
+#include "renderer/base/error.h"
 #include "renderer/scene/cores/material.h"
 
 namespace rtrays {
@@ -108,6 +111,13 @@ void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &)
     arrays.opacity[slot].texture = textures_.record(material.opacity_texture());
     arrays.normal_map[slot] = material.normal_map();
     arrays.normal_map[slot].texture = textures_.record(material.normal_map_texture());
+    const NormalMap &map = arrays.normal_map[slot];
+    if (map.kind == NormalMap::Kind::heights &&
+        textures_.arrays.wrap[map.texture] == TextureArrays::Wrap::mirror) {
+        throw input_error(fmt::format(
+            "material '{}': a bump map cannot be mirrored beyond its edges; use repeat or clamp",
+            material.name()));
+    }
     version_[slot] = material.version();
 }
 
