@@ -60,22 +60,31 @@ def own_image(program, scene, output, *options):
     call([program, scene, "-o", output, "--quiet", *options])
 
 
-def versions():
-    """Returns the versions of the peers. Reports each missing peer and then returns None."""
-    found = []
-    if shutil.which("blender"):
-        found.append(call(["blender", "--version"]).splitlines()[0])
-    else:
-        print(
-            "peers: blender is not installed; `scripts/install --peers` installs it",
-            file=sys.stderr,
-        )
+def mitsuba_version():
+    """Returns the version of Mitsuba. Reports if it is missing and then returns None."""
     try:
         print_version = "import mitsuba; print(mitsuba.__version__)"
-        found.append("Mitsuba " + call([MITSUBA_PYTHON, "-c", print_version]).strip())
+        return "Mitsuba " + call([MITSUBA_PYTHON, "-c", print_version]).strip()
     except ProgramError:
         print(
             "peers: mitsuba is not in build/peers; `scripts/install --peers` installs it there",
             file=sys.stderr,
         )
-    return found if len(found) == 2 else None
+        return None
+
+
+def blender_version():
+    """Returns the version of Blender. Reports if it is missing and then returns None."""
+    if shutil.which("blender"):
+        return call(["blender", "--version"]).splitlines()[0]
+    print(
+        "peers: blender is not installed; `scripts/install --peers` installs it",
+        file=sys.stderr,
+    )
+    return None
+
+
+def versions():
+    """Returns the versions of the peers, or None if one is missing."""
+    found = [blender_version(), mitsuba_version()]
+    return None if None in found else found
