@@ -41,7 +41,7 @@ def what(text):
 
 
 def measure(file, folder):
-    """Returns the comparison of our picture of a file with Mitsuba's, or the error of the import."""
+    """Compares our picture of a file with that of Mitsuba. Returns the error of the import, if any."""
     ours, theirs = folder / "renderer.exr", folder / "mitsuba.exr"
     depth = ["--set", f"integrator.max_depth={MAX_DEPTH}"]
     try:
