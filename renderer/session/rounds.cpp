@@ -133,9 +133,10 @@ void RenderSession::State::enqueue(CompiledPass &pass, Stage stage, uint64_t pat
 }
 
 void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
-    if (count == 0) {
-        for (CompiledPass &pass : passes) {
-            enqueue(pass, Stage::carry_film);  // the first enqueue compiles the kernel
+    for (CompiledPass &pass : passes) {
+        pass.is_carried = false;
+        if (count == 0) {
+            carry_film(pass);  // the first enqueue compiles the kernel
         }
     }
     if (features.has(Feature::vertex_connections)) {
@@ -158,7 +159,7 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
     for (CompiledPass &pass : passes) {
         if (pass.features.has(Feature::convergence) &&
             (count == 0 || convergence->rule().is_check(first + count))) {
-            enqueue(pass, Stage::carry_film);
+            carry_film(pass);
             convergence->check(pass.film, first + count);
             pass.stages.bind(convergence->arguments());
         }
@@ -166,9 +167,16 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
     }
 }
 
+void RenderSession::State::carry_film(CompiledPass &pass) {
+    if (!pass.is_carried) {
+        enqueue(pass, Stage::carry_film);
+        collect_profile(pass);
+        pass.is_carried = true;
+    }
+}
+
 std::vector<int64_t> RenderSession::State::read_film(CompiledPass &pass) {
-    enqueue(pass, Stage::carry_film);
-    collect_profile(pass);
+    carry_film(pass);
     return pass.film.read();
 }
 

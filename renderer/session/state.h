@@ -54,6 +54,7 @@ struct CompiledPass : Pass {
     /// Empties film, ray counts and profile.
     void clear() {
         film.fill(0);
+        is_carried = true;
         if (ray_counts.size() > 0) {
             ray_counts.fill(0);
         }
@@ -73,6 +74,7 @@ struct CompiledPass : Pass {
 
     StageSet stages;
     Buffer<int64_t> film;
+    bool is_carried = true;  ///< no samples were added since the carries were propagated
     Buffer<int64_t> ray_counts;
     /// Values to which the index of a light or vertex is bound.
     std::map<StageInput, uint32_t> indices = {{StageInput::light_index, SELECT_LIGHT},
@@ -184,6 +186,9 @@ struct RenderSession::State {
     /// Enqueues a stage. `paths` is the number of paths that a stage of complete paths
     /// (StageItems::paths) traces.
     void enqueue(CompiledPass &pass, Stage stage, uint64_t paths = 0);
+
+    /// Propagates the carries of the film's sums, unless that has been done.
+    void carry_film(CompiledPass &pass);
 
     /// Returns the words of a pass's film after carry propagation.
     std::vector<int64_t> read_film(CompiledPass &pass);
