@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests the serialization of materials of scene files.
-#include "renderer/import/json/scene_json.h"
-#include "renderer/testing/scene_builder.h"
+#include "renderer/testing/parsed_scene.h"
 
 namespace rtrays {
 namespace {
@@ -11,18 +10,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Kind = BxdfComponent::Kind;
 using Fresnel = BxdfComponent::Fresnel;
-
-/// Returns a scene with a camera and the given nodes. Files are relative to the temporary folder of
-/// the tests.
-Scene parse(const std::string &nodes, const std::string &sections = "") {
-    const std::string text =
-        R"({"version": 1, "film": {"width": 8, "height": 4}, )" + sections +
-        R"("nodes": [{"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}, )" +
-        nodes + "]}";
-    Scene scene = parse_scene_json(text, "in.json", "in", testing::TempDir());
-    expect_consistent(scene.graph());
-    return scene;
-}
 
 /// Returns the components of a material, given as in a scene file.
 std::vector<BxdfComponent> components(const std::string &material) {

@@ -8,8 +8,7 @@
 
 #include "renderer/base/angles.h"
 #include "renderer/base/image.h"
-#include "renderer/import/json/scene_json.h"
-#include "renderer/testing/scene_builder.h"
+#include "renderer/testing/parsed_scene.h"
 
 namespace rtrays {
 namespace {
@@ -18,18 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector2f;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-
-/// Returns a scene with a camera and the given nodes. Files are relative to the temporary folder of
-/// the tests.
-Scene parse(const std::string &nodes, const std::string &sections = "") {
-    const std::string text =
-        R"({"version": 1, "film": {"width": 8, "height": 4}, )" + sections +
-        R"("nodes": [{"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}, )" +
-        nodes + "]}";
-    Scene scene = parse_scene_json(text, "in.json", "in", testing::TempDir());
-    expect_consistent(scene.graph());
-    return scene;
-}
 
 /// Each case has a canonical point of a shape and its position under parameters and a transform.
 TEST(Shapes, ParametersBecomePartOfTheTransform) {

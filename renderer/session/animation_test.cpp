@@ -5,17 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "renderer/device/context.h"
 #include "renderer/import/load_scene.h"
-#include "renderer/session/render_session.h"
+#include "renderer/testing/session_films.h"
 
 namespace rtrays {
 namespace {
 
-DeviceContext &device() {
-    static DeviceContext context;
-    return context;
-}
+using test::device;
 
 RenderSettings small(const std::vector<std::string> &assignments) {
     RenderSettings settings;
@@ -27,10 +23,7 @@ RenderSettings small(const std::vector<std::string> &assignments) {
 }
 
 std::vector<int64_t> render(RenderSession &session) {
-    session.render(0, 2);
-    const FilmState film = session.film();
-    require_valid(film);
-    return film.words;
+    return test::film_words(session, 2);
 }
 
 /// Counts the words in which two films differ. Paths that hit two triangles at the same distance

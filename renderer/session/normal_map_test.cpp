@@ -6,19 +6,17 @@
 #include <cmath>
 #include <fstream>
 
-#include "renderer/device/context.h"
 #include "renderer/import/json/scene_json.h"
-#include "renderer/session/render_session.h"
+#include "renderer/testing/session_films.h"
 
 namespace rtrays {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using test::device;
+using test::film_words;
+using test::settings_of;
 
-DeviceContext &device() {
-    static DeviceContext context;
-    return context;
-}
+constexpr double pi = 3.14159265358979323846;
 
 /// Writes an image of float texels, row by row from the top.
 void write_pfm(const std::string &name, int width, std::vector<float> texels) {
@@ -47,41 +45,8 @@ Scene wall(const std::string &keys, double degrees, const std::string &transform
         "in.json", "in", testing::TempDir());
 }
 
-RenderSettings settings_of(const std::string &algorithm,
-                           const std::vector<std::string> &assignments = {}) {
-    RenderSettings settings;
-    settings.algorithm = &algorithm_named(algorithm);
-    settings.width = settings.height = 16;
-    for (const std::string &assignment : assignments) {
-        apply_setting(settings, assignment);
-    }
-    return settings;
-}
-
-std::vector<int64_t> words(RenderSession &session) {
-    session.render(0, 4);
-    const FilmState film = session.film();
-    require_valid(film);
-    return film.words;
-}
-
-std::vector<int64_t> render(const Scene &scene, const RenderSettings &settings) {
-    RenderSession session(scene, settings, device());
-    return words(session);
-}
-
-/// Expects the mean of the red channel, within 5 standard errors.
 void expect_mean(const Scene &scene, const char *algorithm, double expected) {
-    RenderSession session(scene, settings_of(algorithm), device());
-    session.render(0, 256);
-    const Image image = session.develop();
-    double mean = 0, variance = 0;
-    for (size_t i = 0; i < 256; ++i) {
-        mean += static_cast<double>(image.channel("R")[i]) / 256;
-        variance += static_cast<double>(image.channel("variance.R")[i]) / (256.0 * 256.0);
-    }
-    EXPECT_NEAR(mean, expected, 5 * std::sqrt(variance) + 1e-4 * expected) << algorithm;
-    EXPECT_LT(std::sqrt(variance), 0.02 * expected) << "statistical power";
+    test::expect_mean(scene, settings_of(algorithm), expected, 1e-4);
 }
 
 const std::string normals =
@@ -141,10 +106,11 @@ TEST(BumpMaps, TiltTheNormalByTheirSlope) {
 TEST(NormalMaps, GiveTheSameBitsHoweverPathsAreTraced) {
     write_normal();
     const Scene scene = wall(normals, 60);
-    const std::vector<int64_t> expected = render(scene, settings_of("path_tracing"));
+    const std::vector<int64_t> expected = film_words(scene, settings_of("path_tracing"));
     for (const char *assignment :
          {"device.pipeline=megakernel", "device.path_layout=interleaved", "device.features=all"}) {
-        EXPECT_EQ(render(scene, settings_of("path_tracing", {assignment})), expected) << assignment;
+        EXPECT_EQ(film_words(scene, settings_of("path_tracing", {assignment})), expected)
+            << assignment;
     }
 }
 
@@ -153,22 +119,22 @@ TEST(NormalMaps, CanBeEditedInASession) {
     const RenderSettings settings = settings_of("path_tracing");
     Scene scene = wall(normals, 60);
     RenderSession session(scene, settings, device());
-    const std::vector<int64_t> first = words(session);
+    const std::vector<int64_t> first = film_words(session, 4);
     std::vector<int64_t> last;
     for (const char *value : {"0", "-2", "1"}) {
         scene.set_property("wall.normal_map", value);
         scene.update(0);
         session.update(scene);
-        last = words(session);
-        EXPECT_EQ(last, render(scene, settings)) << value;
+        last = film_words(session, 4);
+        EXPECT_EQ(last, film_words(scene, settings)) << value;
     }
     EXPECT_EQ(last, first);
     // Without the map, triangles have no normals of vertices any more.
     const Scene plain = wall("", 60);
     session.update(plain);
-    EXPECT_EQ(words(session), render(plain, settings));
+    EXPECT_EQ(film_words(session, 4), film_words(plain, settings));
     session.update(scene);
-    EXPECT_EQ(words(session), first);
+    EXPECT_EQ(film_words(session, 4), first);
 }
 
 }  // namespace

@@ -9,25 +9,14 @@
 #include "renderer/import/json/scene_json.h"
 #include "renderer/session/render_session.h"
 #include "renderer/testing/errors.h"
+#include "renderer/testing/session_films.h"
 
 namespace rtrays {
 namespace {
 
-DeviceContext &device() {
-    static DeviceContext context;
-    return context;
-}
-
-RenderSettings settings_of(const std::string &algorithm,
-                           const std::vector<std::string> &assignments = {}) {
-    RenderSettings settings;
-    settings.algorithm = &algorithm_named(algorithm);
-    settings.width = settings.height = 16;
-    for (const std::string &assignment : assignments) {
-        apply_setting(settings, assignment);
-    }
-    return settings;
-}
+using test::device;
+using test::film_words;
+using test::settings_of;
 
 const std::string camera =
     R"({"name": "camera", "camera": {"type": "pinhole", "fov": 30, "fov_axis": "x"}})";
@@ -60,34 +49,9 @@ const std::string lamp =
     R"({"name": "lamp", "geometry": {"type": "rectangle"}, "material": {"type": "lambert", "reflectance": [0, 0, 0]},
     "transform": [{"scale": [4, 4, 1]}, {"translate": [0, 0, -4]}], "light": {"type": "diffuse_area", "radiance": [1, 2, 4]}})";
 
-std::vector<int64_t> words(RenderSession &session, uint64_t samples = 4) {
-    session.render(0, samples);
-    const FilmState film = session.film();
-    require_valid(film);
-    return film.words;
-}
-
-std::vector<int64_t> render(const Scene &scene, const RenderSettings &settings) {
-    RenderSession session(scene, settings, device());
-    return words(session);
-}
-
-/// Expects the mean of the image in the red channel, within 5 standard errors.
 void expect_mean(const Scene &scene, const RenderSettings &settings, double expected,
                  const char *what) {
-    RenderSession session(scene, settings, device());
-    session.render(0, 256);
-    const Image image = session.develop();
-    double mean = 0, variance = 0;
-    const std::vector<float> &red = image.channel("R");
-    for (size_t i = 0; i < red.size(); ++i) {
-        mean += static_cast<double>(red[i]) / static_cast<double>(red.size());
-        variance += static_cast<double>(image.channel("variance.R")[i]) /
-                    static_cast<double>(red.size() * red.size());
-    }
-    EXPECT_NEAR(mean, expected, 5 * std::sqrt(variance) + 1e-6 * expected)
-        << what << ", " << settings.algorithm->name;
-    EXPECT_LT(std::sqrt(variance), 0.02 * expected) << "statistical power";
+    test::expect_mean(scene, settings, expected, 1e-6, what);
 }
 
 TEST(Opacity, OfSheetsMultipliesWhatIsBehindThem) {
@@ -162,37 +126,38 @@ Scene room(const std::string &keys, bool with_sheet = true) {
 
 TEST(Opacity, OfOneOrZeroIsExact) {
     const RenderSettings settings = settings_of("truncated_bdpt");
-    const std::vector<int64_t> opaque = render(room(""), settings);
-    EXPECT_EQ(render(room(", \"opacity\": 1"), settings), opaque);
-    EXPECT_EQ(render(room(", \"opacity\": 0.7, \"opacity_cutoff\": 0.7"), settings), opaque);
-    const std::vector<int64_t> nothing = render(room("", false), settings);
-    EXPECT_EQ(render(room(", \"opacity\": 0"), settings), nothing);
-    EXPECT_EQ(render(room(", \"opacity\": 0.69, \"opacity_cutoff\": 0.7"), settings), nothing);
+    const std::vector<int64_t> opaque = film_words(room(""), settings);
+    EXPECT_EQ(film_words(room(", \"opacity\": 1"), settings), opaque);
+    EXPECT_EQ(film_words(room(", \"opacity\": 0.7, \"opacity_cutoff\": 0.7"), settings), opaque);
+    const std::vector<int64_t> nothing = film_words(room("", false), settings);
+    EXPECT_EQ(film_words(room(", \"opacity\": 0"), settings), nothing);
+    EXPECT_EQ(film_words(room(", \"opacity\": 0.69, \"opacity_cutoff\": 0.7"), settings), nothing);
 }
 
 TEST(Opacity, GivesTheSameBitsHoweverRaysAreTraced) {
     const Scene scene = room(opacity(0.4));
-    const std::vector<int64_t> expected = render(scene, settings_of("path_tracing"));
+    const std::vector<int64_t> expected = film_words(scene, settings_of("path_tracing"));
     for (const char *assignment :
          {"device.bvh_layout=bvh2", "device.bvh_layout=bvh2_stackless", "device.bvh_layout=wide8",
           "device.pipeline=megakernel", "device.features=all"}) {
-        EXPECT_EQ(render(scene, settings_of("path_tracing", {assignment})), expected) << assignment;
+        EXPECT_EQ(film_words(scene, settings_of("path_tracing", {assignment})), expected)
+            << assignment;
     }
-    EXPECT_NE(render(room(opacity(0.5)), settings_of("path_tracing")), expected);
+    EXPECT_NE(film_words(room(opacity(0.5)), settings_of("path_tracing")), expected);
 }
 
 TEST(Opacity, CanBeEditedInASession) {
     const RenderSettings settings = settings_of("truncated_bdpt");
     Scene scene = room(opacity(0.4));
     RenderSession session(scene, settings, device());
-    const std::vector<int64_t> first = words(session);
+    const std::vector<int64_t> first = film_words(session, 4);
     std::vector<int64_t> last;
     for (const char *value : {"0.9", "1", "0", "0.4"}) {
         scene.set_property("sheet.opacity", value);
         scene.update(0);
         session.update(scene);
-        last = words(session);
-        EXPECT_EQ(last, render(scene, settings)) << value;
+        last = film_words(session, 4);
+        EXPECT_EQ(last, film_words(scene, settings)) << value;
     }
     EXPECT_EQ(last, first);
 }

@@ -6,19 +6,16 @@
 #include <memory>
 
 #include "renderer/compile/device_scene.h"
-#include "renderer/device/context.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/session/shared_scenes.h"
 #include "renderer/testing/errors.h"
+#include "renderer/testing/session_films.h"
 
 namespace rtrays {
 namespace {
 
-DeviceContext &device() {
-    static DeviceContext context;
-    return context;
-}
+using test::device;
 
 RenderSettings small(const std::string &algorithm = "truncated_bdpt",
                      const std::vector<std::string> &assignments = {}) {
@@ -37,10 +34,7 @@ Scene box() {
 }
 
 std::vector<int64_t> render(RenderSession &session) {
-    session.render(0, 2);
-    const FilmState film = session.film();
-    require_valid(film);
-    return film.words;
+    return test::film_words(session, 2);
 }
 
 std::vector<int64_t> render_new(const Scene &scene, const RenderSettings &settings) {

@@ -378,25 +378,24 @@ void MaterialReader::read_diffuse(Object &object, Draft &draft) {
     read_colour(object, "reflectance", "reflectance", 0.5, draft);
 }
 
-void MaterialReader::read_dielectric(Object &object, Draft &draft) {
+void MaterialReader::read_glass(Object &object, const char *type, Draft &draft) {
     constexpr double bk7 = 1.5046;
-    draft.set_type("glass");
+    draft.set_type(type);
     draft.values["two_sided"] = true;
     draft.values["eta"] = relative_index(object, bk7);
     read_colour(object, "specular_reflectance", "reflectance", 1, draft);
     read_colour(object, "specular_transmittance", "transmittance", 1, draft);
+}
+
+void MaterialReader::read_dielectric(Object &object, Draft &draft) {
+    read_glass(object, "glass", draft);
     if (is_rough(object)) {
         read_roughness(object, draft);
     }
 }
 
 void MaterialReader::read_thin_dielectric(Object &object, Draft &draft) {
-    constexpr double bk7 = 1.5046;
-    draft.set_type("thin_glass");
-    draft.values["two_sided"] = true;
-    draft.values["eta"] = relative_index(object, bk7);
-    read_colour(object, "specular_reflectance", "reflectance", 1, draft);
-    read_colour(object, "specular_transmittance", "transmittance", 1, draft);
+    read_glass(object, "thin_glass", draft);
 }
 
 void MaterialReader::read_conductor(Object &object, Draft &draft) {

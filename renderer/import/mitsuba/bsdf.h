@@ -66,6 +66,8 @@ class MaterialReader {
 
     Draft read_bsdf(const Element &bsdf, UvConvention uv, ErrorList &errors);
     void read_diffuse(Object &object, Draft &draft);
+    /// Reads what smooth, rough and thin glass have in common.
+    void read_glass(Object &object, const char *type, Draft &draft);
     void read_dielectric(Object &object, Draft &draft);
     void read_thin_dielectric(Object &object, Draft &draft);
     void read_conductor(Object &object, Draft &draft);

@@ -95,8 +95,9 @@ TEST(ModelFile, ReadsNodesInstancesLightsAndCamerasOfGltf) {
     EXPECT_EQ(std::count(model.told.begin(), model.told.end(), '\n'), 2) << model.told;
 }
 
-TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
-    // The file contains checker.png: half of its texels are (255, 128, 0), half are (0, 64, 255).
+/// Returns triangles.gltf with a texture, whose image it contains: checker.png, of which half of
+/// the texels are (255, 128, 0) and half are (0, 64, 255).
+Json with_image() {
     const std::string image =
         "data:image/png;base64,"
         "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAGElEQVR42mNgcPj/v4EBSiJYDv8ZcMoAADqyFfGE/"
@@ -104,6 +105,11 @@ TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
     Json model = parse_json(bytes_of(corpus / "triangles.gltf"), "triangles.gltf");
     model["images"] = {{{"uri", image}}};
     model["textures"] = {{{"source", 0}}};
+    return model;
+}
+
+TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
+    Json model = with_image();
     Json &material = model["materials"][0];
     material["emissiveFactor"] = {1, 1, 0.5};
     material["emissiveTexture"] = {{"index", 0}};
@@ -145,13 +151,7 @@ TEST(ModelFile, MixesMetalAndCoatAndReplacesMapsByTheirMean) {
 }
 
 TEST(ModelFile, ReadsTheNormalTextureOfGltf) {
-    const std::string image =
-        "data:image/png;base64,"
-        "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAIAAAAmkwkpAAAAGElEQVR42mNgcPj/v4EBSiJYDv8ZcMoAADqyFfGE/"
-        "XEFAAAAAElFTkSuQmCC";
-    Json model = parse_json(bytes_of(corpus / "triangles.gltf"), "triangles.gltf");
-    model["images"] = {{{"uri", image}}};
-    model["textures"] = {{{"source", 0}}};
+    Json model = with_image();
     Json &material = model["materials"][0];
     const auto load = [&] {
         const TemporaryFolder folder;
