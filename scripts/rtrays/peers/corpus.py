@@ -41,7 +41,7 @@ def what(text):
 
 
 def measure(file, folder):
-    """Compares our picture of a file with that of Mitsuba. Returns the error of the import, if any."""
+    """Compares our picture of a file with that of Mitsuba, or returns the error of the import."""
     ours, theirs = folder / "renderer.exr", folder / "mitsuba.exr"
     depth = ["--set", f"integrator.max_depth={MAX_DEPTH}"]
     try:
