@@ -5,10 +5,10 @@
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 
 #include "renderer/base/error.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/device/pocl_cache.h"
 
 namespace rtrays {
@@ -56,12 +56,6 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
             device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE)};
 }
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 DeviceInfo select_device(const std::string &spec) {
     const std::vector<DeviceInfo> devices = list_devices();
     if (devices.empty()) {
@@ -101,14 +95,14 @@ DeviceInfo select_device(const std::string &spec) {
     if (spec.empty()) {
         found = find(is_gpu);
         found = found != nullptr ? found : &devices.front();
-    } else if (lower(spec) == "gpu") {
+    } else if (in_lower_case(spec) == "gpu") {
         found = find(is_gpu);
-    } else if (lower(spec) == "cpu") {
+    } else if (in_lower_case(spec) == "cpu") {
         found = find([&](size_t i) { return devices[i].is_cpu; });
     } else {
         found = find([&](size_t i) { return index[i] == spec; });
         found = found != nullptr ? found : find([&](size_t i) {
-            return lower(devices[i].name).find(lower(spec)) != std::string::npos;
+            return in_lower_case(devices[i].name).find(in_lower_case(spec)) != std::string::npos;
         });
     }
     if (found == nullptr) {

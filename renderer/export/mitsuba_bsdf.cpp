@@ -297,8 +297,8 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
     add_property(
         node, "string", "filter_type",
         textures.filter[texture] == TextureArrays::Filter::nearest ? "nearest" : "bilinear");
-    constexpr const char *wraps[] = {"repeat", "clamp", "mirror"};  // in the order of Wrap
-    add_property(node, "string", "wrap_mode", wraps[static_cast<size_t>(textures.wrap[texture])]);
+    add_property(node, "string", "wrap_mode",
+                 wrap_names()[static_cast<size_t>(textures.wrap[texture])]);
     const TextureImage &image = *textures.image[texture];
     const bool decodes = image.floats.empty() && image.srgb && weight == Vector3d::Ones();
     add_boolean(node, "raw", !decodes);

@@ -4,14 +4,13 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
 #include "renderer/base/image.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/import/images/image_module.h"
 #include "renderer/scene/cores/texture.h"
 
@@ -85,9 +84,7 @@ std::shared_ptr<const TextureImage> load_texture_file(const std::filesystem::pat
 }
 
 bool holds_floats(const std::filesystem::path &path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(path);
     return extension == ".exr" || extension == ".hdr" || extension == ".rgbe" ||
            extension == ".pfm";
 }

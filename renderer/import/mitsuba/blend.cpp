@@ -45,8 +45,7 @@ void add_component(const MaterialComponent &component, const std::string &prefix
     if (bxdf.kind == Kind::ideal_refraction || bxdf.kind == Kind::microfacet_refraction) {
         values[prefix + "eta"] = bxdf.eta[0];
     } else {
-        constexpr const char *sides[] = {"both", "front", "back"};  // in the order of Side
-        values[prefix + "side"] = std::string(sides[static_cast<size_t>(bxdf.side)]);
+        values[prefix + "side"] = side_names()[static_cast<size_t>(bxdf.side)];
     }
     add_fresnel(bxdf, prefix + "fresnel_", values);
 }

@@ -531,10 +531,9 @@ std::shared_ptr<Texture> MaterialReader::bitmap(Object &object, UvConvention uv)
         throw element.error("needs a filename");
     }
     const std::vector<std::string> filters = {"bilinear", "nearest"};
-    const std::vector<std::string> wraps = {"repeat", "clamp", "mirror"};
     ParameterValues values = read_placement(object, uv);
     values["filter"] = filters[object.choice("filter_type", filters, 0)];
-    values["wrap"] = wraps[object.choice("wrap_mode", wraps, 0)];
+    values["wrap"] = wrap_names()[object.choice("wrap_mode", wrap_names(), 0)];
     const bool raw = object.boolean("raw", false);
     object.ignore("format");  // of texels in Mitsuba's memory
     object.ignore("accel");

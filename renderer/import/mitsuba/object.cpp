@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "renderer/base/files.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/scene/cores/texture.h"
 
 namespace rtrays::mitsuba {
@@ -193,9 +194,7 @@ bool Object::boolean(const std::string &name, bool initial) {
     if (found == nullptr) {
         return initial;
     }
-    std::string value = found->attribute("value");
-    std::transform(value.begin(), value.end(), value.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string value = in_lower_case(found->attribute("value"));
     if (value != "true" && value != "false") {
         throw found->error(
             fmt::format("expected true or false, got '{}'", found->attribute("value")));

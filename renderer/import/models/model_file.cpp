@@ -9,6 +9,7 @@
 
 #include "renderer/base/angles.h"
 #include "renderer/base/error.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/ply.h"
 #include "renderer/import/models/scene.h"

@@ -10,6 +10,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/import/models/statements.h"
 
 namespace rtrays {

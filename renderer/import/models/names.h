@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: MIT
-// File name extensions and object names of model files.
+// Object names of model files.
 #pragma once
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 
 namespace rtrays {
-
-/// Returns the extension of a file in lower case, such as ".obj".
-inline std::string lower_extension(const std::filesystem::path &path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return extension;
-}
 
 /// Source of legal object names: unique, not empty and without dots.
 class ModelNames {

@@ -15,6 +15,7 @@
 #include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/import/models/assimp.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/gltf.h"

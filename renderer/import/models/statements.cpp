@@ -63,14 +63,6 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-std::string in_lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char &letter : lower) {
-        letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    }
-    return lower;
-}
-
 std::string_view take_word(std::string_view &text) {
     size_t begin = 0;
     while (begin < text.size() && is_blank(text[begin])) {

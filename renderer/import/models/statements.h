@@ -41,9 +41,6 @@ class StatementReader {
 /// Returns text without blanks at either end.
 std::string_view trimmed(std::string_view text);
 
-/// Returns text with ASCII letters in lower case.
-std::string in_lower_case(std::string_view text);
-
 /// Removes the first word from `text` and returns it. Returns an empty word at the end.
 std::string_view take_word(std::string_view &text);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "renderer/base/files.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/import/models/statements.h"
 
 namespace rtrays {
@@ -107,7 +108,6 @@ std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const Text
         fmt::format("{} {} {} {} {} {} {}", static_cast<const void *>(image.get()),
                     static_cast<int>(placement.wrap), placement.is_nearest, scale[0], scale[1],
                     offset[0], offset[1]);
-    constexpr const char *wraps[] = {"repeat", "clamp", "mirror"};  // in the order of Wrap
     std::shared_ptr<Texture> &made = textures_[key];
     if (made == nullptr) {
         std::string path = file;
@@ -115,7 +115,7 @@ std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const Text
         made = std::make_shared<Texture>(
             names_.unique(fs::path(path).stem().string(), "texture"), image,
             ParameterValues{{"filter", std::string(placement.is_nearest ? "nearest" : "bilinear")},
-                            {"wrap", std::string(wraps[static_cast<size_t>(placement.wrap)])},
+                            {"wrap", wrap_names()[static_cast<size_t>(placement.wrap)]},
                             {"uv_scale", scale},
                             {"uv_offset", offset}});
         all_.push_back(made);

@@ -68,11 +68,8 @@ void add_bxdf_rows(const Part &part, ParameterTable &table) {
         table.push_back(rows::dielectric_eta(part.prefix + "eta"));
     } else {
         table.push_back({part.prefix + "side",
-                         "side of the surface on which the component reflects",
-                         std::string("both"),
-                         Need::defaulted,
-                         ranges::any,
-                         {"both", "front", "back"}});
+                         "side of the surface on which the component reflects", std::string("both"),
+                         Need::defaulted, ranges::any, side_names()});
     }
 }
 
@@ -187,6 +184,11 @@ Part make_part(const CompositePart &names, size_t index) {
 }
 
 }  // namespace
+
+const std::vector<std::string> &side_names() {
+    static const std::vector<std::string> names = {"both", "front", "back"};
+    return names;
+}
 
 const std::vector<std::string> &bxdf_names() {
     static const std::vector<std::string> names = {

@@ -16,9 +16,10 @@ struct CompositePart {
     std::string fresnel = "ideal";  ///< "dielectric", "conductor", ...
 };
 
-/// Return the names, in the order of `BxdfComponent::Kind` and `BxdfComponent::Fresnel`.
+/// Return the names, in the order of `BxdfComponent::Kind`, `Fresnel` and `Side`.
 const std::vector<std::string> &bxdf_names();
 const std::vector<std::string> &fresnel_names();
+const std::vector<std::string> &side_names();
 
 /// Returns the prefix of the names of a component's parameters: "component_0_" and so on. The
 /// parameters of its Fresnel term begin with "component_0_fresnel_".

@@ -48,18 +48,19 @@ const ParameterTable &Texture::parameter_table() {
          Need::defaulted,
          ranges::any,
          {"nearest", "bilinear"}},
-        {"wrap",
-         "continuation beyond the edges of the image",
-         std::string("repeat"),
-         Need::defaulted,
-         ranges::any,
-         {"repeat", "clamp", "mirror"}},
+        {"wrap", "continuation beyond the edges of the image", std::string("repeat"),
+         Need::defaulted, ranges::any, wrap_names()},
         {"uv_scale", "scale of the texture coordinates", Eigen::Vector2d(1, 1), Need::defaulted,
          modest},
         {"uv_offset", "offset added to the scaled texture coordinates", Eigen::Vector2d(0, 0),
          Need::defaulted, modest},
     };
     return table;
+}
+
+const std::vector<std::string> &wrap_names() {
+    static const std::vector<std::string> names = {"repeat", "clamp", "mirror"};
+    return names;
 }
 
 Texture::Texture(std::string name, std::shared_ptr<const TextureImage> image,

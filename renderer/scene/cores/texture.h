@@ -48,6 +48,9 @@ class Texture : public PropertyHolder {
     uint64_t version_ = 1;
 };
 
+/// Returns the names, in the order of `TextureArrays::Wrap`.
+const std::vector<std::string> &wrap_names();
+
 /// Decodes a value in [0, 1] by the sRGB curve (IEC 61966-2-1) to a linear value.
 double srgb_decoded(double value);
 
