@@ -59,6 +59,10 @@ void check(const BxdfComponent &c, const TextureArrays &textures, const std::str
                            c.kind == Kind::microfacet_refraction;
     require(!has_alpha || (c.alpha.minCoeff() > 0.0 && c.alpha.maxCoeff() <= 1.0), what,
             "alpha must be in (0, 1]");
+    require(c.kind != Kind::coated_lambert ||
+                (c.eta[0] > 1.0 && c.alpha[0] >= 0.0 && c.alpha[0] <= 1.0 &&
+                 c.alpha[0] == c.alpha[1] && c.inner_reflectance < 1.0),
+            what, "a coat must have an eta above 1, one alpha in [0, 1] and must not reflect all");
     require(c.kind != Kind::blinn || positive(c.exponent), what, "the exponent must be positive");
     require(c.kind != Kind::oren_nayar || (c.sigma >= 0.0 && c.sigma <= 0.5 * pi + 1e-9), what,
             "sigma must be in [0, pi / 2]");
@@ -70,6 +74,7 @@ Component::Lobe Component::make_lobe(const BxdfComponent &component) {
     const MicrofacetDistribution distribution(component.distribution, component.alpha);
     switch (component.kind) {
         case Kind::lambert:
+        case Kind::coated_lambert:
             return OrenNayarLobe(0.0);
         case Kind::oren_nayar:
             return OrenNayarLobe(component.sigma);
@@ -104,6 +109,9 @@ Component::Component(const BxdfComponent &component, const TextureArrays &textur
     if (component.texture != no_index) {
         texture_.emplace(textures, component.texture);
     }
+    if (component.kind == Kind::coated_lambert) {
+        coat_.emplace(component);
+    }
     std::visit(
         [this](const auto &lobe) {
             using Model = std::decay_t<decltype(lobe)>;
@@ -120,6 +128,9 @@ double Component::half_cosine(const Vec3 &wi, const Viewpoint &view) const {
 }
 
 Spectrum Component::fresnel_factor(const Vec3 &wi, const Viewpoint &view) const {
+    if (coat_) {
+        return Spectrum::Constant(coat_->transmittance(view.wo.z()) * coat_->transmittance(wi.z()));
+    }
     if (fresnel_.is_ideal()) {
         return Spectrum::Ones();
     }
@@ -183,7 +194,9 @@ std::optional<DeltaEvent> Component::scatter(const Viewpoint &view) const {
 
 double Component::importance(const Viewpoint &view) const {
     double by_channels = 0.0;
-    if (fresnel_.is_ideal()) {
+    if (coat_) {
+        by_channels = colour(view).mean() * coat_->transmittance(view.wo.z());
+    } else if (fresnel_.is_ideal()) {
         by_channels = colour(view).mean();
     } else {
         const Spectrum f = fresnel_.evaluate(view.wo.z(), view.inverted);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <variant>
 
+#include "reference/coat.h"
 #include "reference/fresnel.h"
 #include "reference/lobes.h"
 #include "reference/texture.h"
@@ -73,7 +74,9 @@ class Component {
         if (side_ != Side::both && (side_ == Side::back) != view.behind) {
             return Spectrum::Zero();
         }
-        return texture_ ? Spectrum(weight_ * texture_->evaluate(view.uv)) : weight_;
+        const Spectrum albedo =
+            texture_ ? Spectrum(weight_ * texture_->evaluate(view.uv)) : weight_;
+        return coat_ ? coat_->base(albedo) : albedo;
     }
     double eta(const Viewpoint &view) const { return view.inverted ? 1.0 / eta_ : eta_; }
 
@@ -86,6 +89,7 @@ class Component {
     bool rough_;  ///< the Fresnel term is evaluated at the half vector
     bool fresnel_of_wo_;
     BxdfComponent::Side side_;
+    std::optional<Coat> coat_;  ///< of coated_lambert
     Lobe lobe_;
 };
 

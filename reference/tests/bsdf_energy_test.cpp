@@ -105,6 +105,23 @@ TEST(BsdfEnergy, oren_nayar_has_the_albedo_of_its_closed_form) {
     EXPECT_GT(oren_nayar_albedo(0.5, 0.0) - oren_nayar_albedo(0.51, 0.0), 20.0 * quadrature_error);
 }
 
+// All light that passes a smooth coat leaves a white base, after any number of reflections. The
+// coat of index 1.5 reflects 0.5963 of diffuse light from below (Walsh 1926).
+TEST(BsdfEnergy, coated_bases_have_the_albedo_of_their_closed_form) {
+    const auto base = [](double weight, bool nonlinear) {
+        const TestMaterial material{
+            "", {coated_lambert(BxdfComponent::Distribution::ggx, 0.0, weight, nonlinear)}};
+        return albedo(material, make_bsdf(material.components), at(40.0));
+    };
+    const double passes = 1.0 - fresnel_dielectric(std::cos(40.0 * pi / 180.0), 1.5);
+    for (const bool nonlinear : {false, true}) {
+        EXPECT_NEAR(base(1.0, nonlinear), passes, 3.0 * quadrature_error);
+    }
+    EXPECT_NEAR(base(0.5, false), 0.5 * passes, 3.0 * quadrature_error);
+    EXPECT_NEAR(base(0.5, true), 0.5 * passes * (1.0 - 0.5963) / (1.0 - 0.5 * 0.5963),
+                3.0 * quadrature_error);
+}
+
 TEST(BsdfEnergy, sampled_weights_have_the_albedo_as_their_mean) {
     constexpr int samples = 200000;
     std::vector<Comparison> suite;

@@ -27,6 +27,16 @@ BxdfComponent oren_nayar(double sigma) {
     return component;
 }
 
+BxdfComponent coated_lambert(Distribution distribution, double alpha, double weight,
+                             bool nonlinear) {
+    BxdfComponent component = of_kind(Kind::coated_lambert, weight);
+    component.distribution = distribution;
+    component.alpha = {alpha, alpha};
+    component.eta.setConstant(1.5);
+    component.nonlinear = nonlinear;
+    return component;
+}
+
 BxdfComponent ideal_reflection() {
     return of_kind(Kind::ideal_reflection);
 }
@@ -119,6 +129,13 @@ std::vector<TestMaterial> rough_materials() {
          {lambert(0.5), microfacet(ggx, 0.3, 0.2), oren_nayar(0.5)},
          true,
          false},
+        {"smooth coat",
+         {with_dielectric(ideal_reflection(), 1.5), coated_lambert(ggx, 0.0, 1.0, false)}},
+        {"rough ggx coat",
+         {with_dielectric(microfacet(ggx, 0.3, 0.3), 1.5), coated_lambert(ggx, 0.3, 1.0, true)}},
+        {"rough beckmann coat",
+         {with_dielectric(microfacet(beckmann, 1, 1), 1.5),
+          coated_lambert(beckmann, 1.0, 0.9, false)}},
         {"car paint",
          {with_dielectric(ideal_reflection(), 1.5), with_dielectric(lambert(0.9), 1.5, true)}},
         {"car paint as printed", {with_dielectric(ideal_reflection(), 1.5), printed}, false, false},

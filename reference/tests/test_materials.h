@@ -19,6 +19,9 @@ struct TestMaterial {
 
 BxdfComponent lambert(double weight);
 BxdfComponent oren_nayar(double sigma);
+/// A base under a coat of index 1.5, without the reflection of the coat.
+BxdfComponent coated_lambert(BxdfComponent::Distribution distribution, double alpha, double weight,
+                             bool nonlinear);
 BxdfComponent ideal_reflection();
 BxdfComponent ideal_refraction(double eta);
 BxdfComponent blinn(double exponent);

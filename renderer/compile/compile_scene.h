@@ -76,6 +76,7 @@ struct CompiledScene {
     std::vector<MaterialRecord> materials;
     std::vector<BxdfRecord> components;
     std::vector<NormalMapRecord> normal_maps;
+    std::vector<float> coat_transmittances;
     std::vector<TextureRecord> textures;
     std::vector<uint32_t> texels;
     std::vector<uint32_t> triangle_masks;
@@ -129,7 +130,8 @@ void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExte
 
 // Steps of `recompile`, which empties the arrays of a part before.
 
-/// Compiles materials into `materials` and `components`. Sets `material_features`.
+/// Compiles materials into `materials`, `components` and `coat_transmittances`. Sets
+/// `material_features`.
 void compile_materials(const SceneArrays &scene, CompiledScene &compiled);
 
 /// Compiles the images of all textures into `textures` and `texels`.

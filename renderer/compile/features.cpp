@@ -39,6 +39,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::ward_original, Feature::scattering},
     {Feature::microfacet_reflection, Feature::scattering},
     {Feature::microfacet_refraction, Feature::scattering},
+    {Feature::coated_lambert, Feature::scattering},
     {Feature::fresnel, Feature::scattering},
     {Feature::fresnel_dielectric, Feature::fresnel},
     {Feature::fresnel_conductor, Feature::fresnel},

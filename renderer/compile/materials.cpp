@@ -2,8 +2,11 @@
 // Compiles materials and textures into records, and collects the features that they use.
 #include <array>
 #include <cstring>
+#include <map>
+#include <tuple>
 
 #include "renderer/compile/compile_scene.h"
+#include "renderer/scene/cores/coat.h"
 
 namespace rtrays {
 
@@ -15,7 +18,7 @@ struct KindRow {
 };
 
 /// Rows are in the order of BxdfComponent::Kind.
-constexpr std::array<KindRow, 9> kinds = {{
+constexpr std::array<KindRow, 10> kinds = {{
     {BXDF_LAMBERT, Feature::lambert},
     {BXDF_OREN_NAYAR, Feature::oren_nayar},
     {BXDF_IDEAL_REFLECTION, Feature::ideal_reflection},
@@ -25,7 +28,11 @@ constexpr std::array<KindRow, 9> kinds = {{
     {BXDF_WARD_ORIGINAL, Feature::ward_original},
     {BXDF_MICROFACET_REFLECTION, Feature::microfacet_reflection},
     {BXDF_MICROFACET_REFRACTION, Feature::microfacet_refraction},
+    {BXDF_COATED_LAMBERT, Feature::coated_lambert},
 }};
+
+/// First transmittances of coats, by index of refraction, roughness and distribution.
+using CoatTables = std::map<std::tuple<double, double, BxdfComponent::Distribution>, size_t>;
 
 struct FresnelRow {
     uint32_t flag;
@@ -47,6 +54,27 @@ bool is_delta(uint32_t kind) {
 }
 bool refracts(uint32_t kind) {
     return kind == BXDF_IDEAL_REFRACTION || kind == BXDF_MICROFACET_REFRACTION;
+}
+
+/// Compiles the fields of a base below a coat. Coats with the same parameters share a table.
+void compile_coat(const BxdfComponent &component, BxdfRecord &record, CoatTables &tables,
+                  std::vector<float> &transmittances) {
+    const Coat coat{component.eta[0], component.alpha[0], component.distribution};
+    const double inner = component.inner_reflectance >= 0 ? component.inner_reflectance
+                                                          : coat_diffuse_reflectance(coat);
+    const double factor = 1 / (coat.eta * coat.eta);
+    record.parameter = static_cast<float>(component.nonlinear ? inner : 0);
+    record.k[0] = static_cast<float>(component.nonlinear ? factor : factor / (1 - inner));
+    if (coat.alpha == 0) {
+        return;
+    }
+    const auto [table, is_new] = tables.emplace(
+        std::make_tuple(coat.eta, coat.alpha, coat.distribution), transmittances.size());
+    record.coat = static_cast<uint32_t>(table->second);
+    for (uint32_t i = 0; is_new && i < COAT_NODES; ++i) {
+        const double root = static_cast<double>(i) / (COAT_NODES - 1);
+        transmittances.push_back(static_cast<float>(coat_transmittance(coat, root * root)));
+    }
 }
 
 BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &features) {
@@ -163,6 +191,7 @@ TextureRecord texture_record(const TextureArrays &textures, size_t index) {
 void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
     const MaterialArrays &materials = scene.materials;
     FeatureMask features;
+    CoatTables coats;
     for (size_t i = 0; i < materials.name.size(); ++i) {
         MaterialRecord record{};
         record.first_component = static_cast<uint32_t>(compiled.components.size());
@@ -172,9 +201,12 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             if (!(component.weight.maxCoeff() > 0.0f)) {
                 continue;  // a component without reflectance needs no code
             }
-            const BxdfRecord compiled_component = compile_component(component, features);
+            BxdfRecord compiled_component = compile_component(component, features);
             if (is_mirrored(scene.textures, component.texture)) {
                 features = features.with(Feature::texture_mirror);
+            }
+            if (component.kind == BxdfComponent::Kind::coated_lambert) {
+                compile_coat(component, compiled_component, coats, compiled.coat_transmittances);
             }
             record.flags |= refracts(compiled_component.kind) ? MATERIAL_BOUNDARY : 0u;
             record.flags |=

@@ -47,6 +47,7 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"car_paint",
          "component 1 (lambert with Fresnel term dielectric): not supported by Cycles: the Fresnel "
          "term of its diffuse components"},
+        {"coated_diffuse", "no diffuse reflection under a coat"},
         {"ggx", "no Fresnel term"},
         {"julia",
          "'object': Cycles supports only triangles, which cannot represent this Julia set"},

@@ -40,6 +40,8 @@ std::string missing_in_cycles(const BxdfComponent &part) {
                        ? ""
                        : "the Fresnel term of its diffuse components depends on the view direction "
                          "alone, not on the direction of the light";
+        case Kind::coated_lambert:
+            return "it has no diffuse reflection under a coat";
         case Kind::oren_nayar:
             return "its Oren-Nayar model differs (Fujii's, normalised)";
         case Kind::ideal_reflection:

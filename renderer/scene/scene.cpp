@@ -137,6 +137,15 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
             collector.add(component.side);
         }
     }
+    if (std::any_of(components.begin(), components.end(), [](const BxdfComponent &component) {
+            return component.kind == BxdfComponent::Kind::coated_lambert;
+        })) {
+        collector.begin("coats");
+        for (const BxdfComponent &component : components) {
+            collector.add(component.nonlinear);
+            collector.add(component.inner_reflectance);
+        }
+    }
     const ShapeArrays &shapes = arrays.shapes;
     if (!shapes.kind.empty()) {
         collector.begin("shapes");

@@ -84,6 +84,14 @@ struct BxdfComponent {
         ward_original,  ///< Ward 1992, thesis (3.49): diverges at grazing angles; `alpha`
         microfacet_reflection,  ///< Walter et al. 2007; `distribution`, `alpha`
         microfacet_refraction,  ///< Walter et al. 2007, (21); `distribution`, `alpha`, `eta[0]`
+        /// Lambert under a dielectric coat of index `eta[0]`, smooth if `alpha` is 0:
+        ///
+        ///   rho / (1 - s r) / eta^2 T(wi) T(wo) / pi
+        ///
+        /// rho is weight * texture, T the transmittance of the coat, and r the share of diffuse
+        /// light from below that the coat reflects back. s is rho if `nonlinear`, otherwise 1. The
+        /// Fresnel term is ideal, as T contains it.
+        coated_lambert,
     };
     /// The Fresnel term F. Microfacet kinds (including blinn, ward and ward_original) evaluate it
     /// at the half vector, all other kinds at the normal. Each term states the fields that it uses.
@@ -118,6 +126,10 @@ struct BxdfComponent {
     Eigen::Vector2d alpha{0, 0};  ///< roughness along the tangent and across it, (0, 1]
     Distribution distribution = Distribution::ggx;
     Side side = Side::both;  ///< both if the component refracts
+    /// Light between base and coat is coloured by every reflection.
+    bool nonlinear = false;
+    /// The share r of coated_lambert; that of the coat if negative.
+    double inner_reflectance = -1;
 };
 
 /// The opacity of a material: the share of light that its surface stops. The rest passes straight

@@ -49,6 +49,7 @@
     X(ward_original, "Ward's anisotropic reflection as published")                            \
     X(microfacet_reflection, "GGX or Beckmann, reflection")                                   \
     X(microfacet_refraction, "GGX or Beckmann, refraction")                                   \
+    X(coated_lambert, "diffuse reflection under a dielectric coat")                           \
     X(ggx, "a microfacet distribution is GGX")                                                \
     X(beckmann, "a microfacet distribution is Beckmann's")                                    \
     X(fresnel, "a weight has a Fresnel term")                                                 \

@@ -34,6 +34,7 @@
     X(FEATURE_texture_coordinates, TriangleUv, triangle_uvs)     \
     X(FEATURE_scattering, MaterialRecord, materials)             \
     X(FEATURE_scattering, BxdfRecord, components)                \
+    X(FEATURE_coated_lambert, float, coat_transmittances)        \
     X(FEATURE_textures, TextureRecord, textures)                 \
     X(FEATURE_textures, uint, texels)                            \
     X(FEATURE_normal_maps, NormalMapRecord, normal_maps)         \

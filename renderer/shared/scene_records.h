@@ -62,18 +62,22 @@ typedef struct MaterialRecord {
 
 /// One atomic BxDF of a material (renderer/scene/stores.h describes each).
 typedef struct BxdfRecord {
-    uint kind;        ///< BXDF_*
-    uint flags;       ///< FRESNEL_*, BXDF_FLAG_*
-    uint texture;     ///< index of the texture, or NO_TEXTURE
-    float parameter;  ///< sigma for BXDF_OREN_NAYAR, exponent for BXDF_BLINN
+    uint kind;     ///< BXDF_*
+    uint flags;    ///< FRESNEL_*, BXDF_FLAG_*
+    uint texture;  ///< index of the texture, or NO_TEXTURE
+    /// Sigma for BXDF_OREN_NAYAR, exponent for BXDF_BLINN, and for BXDF_COATED_LAMBERT the share of
+    /// light from below that the coat reflects back and that takes the colour of the base.
+    float parameter;
     float weight[3];
     float alpha_x;  ///< roughness along the tangent
     /// Fresnel term: relative index of refraction (dielectric: [0], thin plate: [1]) or normal
     /// reflectance (Schlick)
     float eta[3];
     float alpha_y;  ///< roughness across the tangent
-    float k[3];     ///< extinction coefficient of a conductor
-    float padding;
+    /// Extinction coefficient of a conductor; BXDF_COATED_LAMBERT: factor of the colour (kernels/
+    /// bsdf/coat.h)
+    float k[3];
+    uint coat;  ///< BXDF_COATED_LAMBERT, if rough: first of its COAT_NODES transmittances
 } BxdfRecord;
 
 #define NO_TEXTURE 0xffffffffu
@@ -87,6 +91,9 @@ typedef struct BxdfRecord {
 #define BXDF_WARD_ORIGINAL 6u
 #define BXDF_MICROFACET_REFLECTION 7u
 #define BXDF_MICROFACET_REFRACTION 8u
+#define BXDF_COATED_LAMBERT 9u
+
+#define COAT_NODES 128u  ///< transmittances of a rough coat, at cosines (i / (COAT_NODES - 1))^2
 
 #define FRESNEL_MASK 7u
 #define FRESNEL_IDEAL 0u

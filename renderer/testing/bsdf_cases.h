@@ -13,8 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "renderer/compile/compile_scene.h"
 #include "renderer/kernels/bsdf/bsdf.h"
 #include "renderer/kernels/sampling/random.h"
+#include "renderer/scene/cores/coat.h"
 #include "renderer/testing/chi_square.h"
 #include "renderer/testing/direction_grid.h"
 
@@ -25,6 +27,7 @@ struct TestMaterial {
     std::string name;
     std::vector<BxdfRecord> components;
     uint flags = 0;
+    std::vector<float> coat_transmittances{};
 
     MaterialRecord record() const { return {0, static_cast<uint>(components.size()), flags, 0}; }
     BsdfValue evaluate(const SurfaceFrame &frame, float3 wi) const {
@@ -49,6 +52,7 @@ struct TestMaterial {
         SceneView view{};
         view.materials = &material;
         view.components = components.data();
+        view.coat_transmittances = coat_transmittances.data();
         return view;
     }
 };
@@ -112,6 +116,37 @@ inline TestMaterial car_paint(bool printed) {
             {with_eta(component(BXDF_IDEAL_REFLECTION), 1.5f, FRESNEL_DIELECTRIC),
              with_eta(component(BXDF_LAMBERT), 1.5f,
                       FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT | printed_flag)}};
+}
+
+/// A base of reflectance `colour` under a coat of index 1.5, with the reflection of the coat. It is
+/// compiled as materials of scenes are.
+inline TestMaterial coated(const std::string &name, double alpha, uint distribution, float colour,
+                           bool nonlinear) {
+    MaterialArrays arrays;
+    arrays.name = {name};
+    arrays.first_component = {0};
+    arrays.component_count = {2};
+    arrays.two_sided = {1};
+    BxdfComponent surface;
+    surface.kind = alpha > 0 ? BxdfComponent::Kind::microfacet_reflection
+                             : BxdfComponent::Kind::ideal_reflection;
+    surface.fresnel = BxdfComponent::Fresnel::dielectric;
+    BxdfComponent base;
+    base.kind = BxdfComponent::Kind::coated_lambert;
+    base.weight.setConstant(colour);
+    base.nonlinear = nonlinear;
+    for (BxdfComponent *part : {&surface, &base}) {
+        set_coat({1.5, alpha,
+                  distribution != 0 ? BxdfComponent::Distribution::beckmann
+                                    : BxdfComponent::Distribution::ggx},
+                 *part);
+        arrays.component.push_back(*part);
+    }
+    CompiledScene compiled;
+    SceneArrays scene;
+    scene.materials = arrays;
+    compile_materials(scene, compiled);
+    return {name, compiled.components, compiled.materials[0].flags, compiled.coat_transmittances};
 }
 
 /// Returns the frame of a tilted surface that is seen at `theta` degrees from its normal, on its

@@ -92,6 +92,7 @@ double narrowest_lobe(const MaterialArrays &materials) {
         switch (component.kind) {
             case Kind::lambert:
             case Kind::oren_nayar:
+            case Kind::coated_lambert:
             case Kind::ideal_reflection:
             case Kind::ideal_refraction:
                 break;

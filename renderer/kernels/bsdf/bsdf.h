@@ -98,24 +98,25 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
     const Lobe lobe = component_evaluate(component, eta, wo, wi);
     value.pdf_w = lobe.pdf_w;
     value.f_cos = colour *
-                  component_fresnel(component, eta, lobe.cosine, squared_sine_of(lobe.cosine), wi) *
+                  component_fresnel(scene, component, eta, lobe.cosine,
+                                    squared_sine_of(lobe.cosine), wo, wi) *
                   lobe.f_cos;
     // A material of one component needs no selection. It ends here with the same bits as in a scene
     // without composite materials.
     if (FEATURE_composite && material.component_count > 1u) {
-        float shares = component_share(component, eta, wo, colour);
+        float shares = component_share(scene, component, eta, wo, colour);
         value.pdf_w *= shares;
         for (uint i = 1u; i < material.component_count; ++i) {
             GLOBAL const BxdfRecord *other = component + i;
             const float other_eta = component_eta(other, material.flags, frame.front);
             const float3 other_colour = component_colour(scene, other, frame.front, frame.uv);
-            const float share = component_share(other, other_eta, wo, other_colour);
+            const float share = component_share(scene, other, other_eta, wo, other_colour);
             const Lobe other_lobe = component_evaluate(other, other_eta, wo, wi);
             shares += share;
             value.pdf_w += share * other_lobe.pdf_w;
             value.f_cos += other_colour *
-                           component_fresnel(other, other_eta, other_lobe.cosine,
-                                             squared_sine_of(other_lobe.cosine), wi) *
+                           component_fresnel(scene, other, other_eta, other_lobe.cosine,
+                                             squared_sine_of(other_lobe.cosine), wo, wi) *
                            other_lobe.f_cos;
         }
         value.pdf_w = shares > 0.0f ? value.pdf_w / shares : 0.0f;
@@ -206,7 +207,7 @@ DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord mate
         GLOBAL const BxdfRecord *component = scene->components + index;
         const float eta = component_eta(component, material.flags, frame.front);
         const float candidate = component_share(
-            component, eta, wo, component_colour(scene, component, frame.front, frame.uv));
+            scene, component, eta, wo, component_colour(scene, component, frame.front, frame.uv));
         if (candidate > 0.0f) {
             shares += candidate;
             const float take_over = candidate / shares;
@@ -275,7 +276,7 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
     sample.scale = is_refracting(component->kind) ? refraction_scale(eta) : 1.0f;
     if (is_delta(component->kind)) {
         sample.weight = component_colour(scene, component, frame.front, frame.uv) *
-                        component_fresnel(component, eta, wo.z, squared_sine(wo), wi) /
+                        component_fresnel(scene, component, eta, wo.z, squared_sine(wo), wo, wi) /
                         sample.probability;
         sample.weight *= sample.scale;
         if (FEATURE_normal_maps && !FEATURE_from_light) {

@@ -58,7 +58,7 @@ TEST(BsdfDevice, EveryKindCompilesAlone) {
     };
     expect_build(base);
     for (const Feature kind : {Feature::lambert, Feature::oren_nayar, Feature::blinn, Feature::ward,
-                               Feature::ward_original}) {
+                               Feature::ward_original, Feature::coated_lambert}) {
         expect_build(base.with(kind));
     }
     for (const Feature kind : {Feature::ideal_reflection, Feature::ideal_refraction}) {
@@ -109,6 +109,8 @@ TEST(BsdfDevice, EverythingCompiledInChangesNoBit) {
         {{"lambert", {component(BXDF_LAMBERT)}}, base.with(Feature::lambert)},
         {{"oren_nayar", {oren_nayar(0.5f)}}, base.with(Feature::oren_nayar)},
         {{"blinn", {blinn(64)}}, base.with(Feature::blinn)},
+        {{"smooth coat", {coated("smooth coat", 0, 0, 0.5f, true).components.back()}},
+         base.with(Feature::coated_lambert)},
         {{"ward", {rough(BXDF_WARD, 0.2f, 0.2f)}}, base.with(Feature::ward)},
         {{"ggx", {rough(BXDF_MICROFACET_REFLECTION, 0.3f, 0.3f)}},
          base.with(Feature::microfacet_reflection).with(Feature::ggx)},

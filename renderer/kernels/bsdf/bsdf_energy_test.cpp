@@ -28,6 +28,8 @@ std::vector<TestMaterial> materials() {
           with_eta(component(BXDF_IDEAL_REFLECTION), 1.5f, FRESNEL_DIELECTRIC)}},
         car_paint(false),
         car_paint(true),
+        coated("smooth coat", 0, 0, 1, false),
+        coated("smooth coat, nonlinear", 0, 0, 0.8f, true),
     };
     for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
         const std::string name = distribution != 0 ? "beckmann " : "ggx ";
@@ -39,6 +41,8 @@ std::vector<TestMaterial> materials() {
             {name + "refraction 0.4",
              {with_eta(rough(BXDF_MICROFACET_REFRACTION, 0.4f, 0.4f, distribution), 1.5f)},
              MATERIAL_BOUNDARY});
+        all.push_back(coated(name + "coat 0.1", 0.1, distribution, 1, false));
+        all.push_back(coated(name + "coat 1", 1, distribution, 1, true));
         all.push_back(rough_glass(name + "glass 0.3", 0.3f, 0.3f, distribution));
         all.push_back(rough_glass(name + "glass 0.02, 0.1", 0.02f, 0.1f, distribution));
     }
@@ -144,6 +148,82 @@ TEST(Energy, OrenNayarHasTheAlbedoOfItsClosedForm) {
     EXPECT_GT(std::abs(found(0.51f, 0) - oren_nayar_albedo(0.5, 0)), 10 * tolerance);
     const double a = oren_nayar_albedo(0.5, 0);
     EXPECT_GT(0.02 * std::min(a, oren_nayar_albedo(0.5, pi / 3) - a), 5 * tolerance);
+}
+
+/// Returns the mean weight of `material` over a regular grid of random numbers.
+double mean_weight(const TestMaterial &material, const SurfaceFrame &frame, float select) {
+    constexpr int steps = 400;
+    double sum = 0;
+    for (int i = 0; i < steps * steps; ++i) {
+        const auto u = static_cast<float>((i / steps + 0.5) / steps);
+        const auto v = static_cast<float>((i % steps + 0.5) / steps);
+        const BsdfSample sample = material.sample(frame, select, u, v);
+        sum += sample.pdf_w > 0.0f ? static_cast<double>(sample.weight.x) : 0.0;
+    }
+    return sum / (steps * steps);
+}
+
+// A white base returns all light that passes a smooth coat, after any number of reflections.
+TEST(Energy, AWhiteBaseUnderASmoothCoatScattersAll) {
+    for (const bool nonlinear : {false, true}) {
+        const TestMaterial material = coated("white", 0, 0, 1, nonlinear);
+        for (const double degrees : {0.0, 60.0, 85.0}) {
+            const Albedo a = albedo(material, tilted_frame(degrees));
+            EXPECT_NEAR(a.mean, 1.0, 4.5 * a.error + 1e-4) << degrees;
+        }
+    }
+    // The share of light reflected back, r = 0.5963, from the ratio of both models: for the base
+    // alone it is (1 - r) / (1 - rho r).
+    const auto base = [](bool nonlinear) {
+        TestMaterial material = coated("grey", 0, 0, 0.5f, nonlinear);
+        material.components.erase(material.components.begin());
+        return mean_weight(material, tilted_frame(30), 0.5f);
+    };
+    EXPECT_NEAR(base(true) / base(false), (1 - 0.5963) / (1 - 0.5 * 0.5963), 1e-4);
+}
+
+// Sampling of visible microfacets is independent of the quadrature of the coat.
+TEST(Energy, CoatsTransmitWhatTheirMicrofacetsRefract) {
+    for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
+        for (const float alpha : {0.05f, 0.3f, 1.0f}) {
+            const TestMaterial refraction = {
+                "refraction",
+                {with_eta(rough(BXDF_MICROFACET_REFRACTION, alpha, alpha, distribution), 1.5f,
+                          FRESNEL_DIELECTRIC | BXDF_FLAG_COMPLEMENT)},
+                MATERIAL_BOUNDARY};
+            const Coat coat{1.5, static_cast<double>(alpha),
+                            distribution != 0 ? BxdfComponent::Distribution::beckmann
+                                              : BxdfComponent::Distribution::ggx};
+            for (const double degrees : {0.0, 60.0, 85.0}) {
+                const double refracted =
+                    1.5 * 1.5 * mean_weight(refraction, tilted_frame(degrees), 0.5f);
+                EXPECT_NEAR(refracted, coat_transmittance(coat, std::cos(degrees * pi / 180)), 1e-3)
+                    << alpha << ' ' << degrees;
+            }
+        }
+    }
+}
+
+TEST(Energy, InterpolatedTransmittancesHaveTheirErrorBound) {
+    for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
+        for (const double alpha : {1e-4, 0.01, 0.1, 1.0}) {
+            const TestMaterial material = coated("coat", alpha, distribution, 1, false);
+            SceneView view{};
+            view.coat_transmittances = material.coat_transmittances.data();
+            const Coat coat{1.5, alpha,
+                            distribution != 0 ? BxdfComponent::Distribution::beckmann
+                                              : BxdfComponent::Distribution::ggx};
+            for (uint32_t i = 0; i < COAT_NODES - 1; ++i) {
+                const double root = (i + 0.5) / (COAT_NODES - 1), c = root * root;
+                const float3 w = make_float3(static_cast<float>(std::sqrt((1 - c) * (1 + c))), 0.0f,
+                                             static_cast<float>(c));
+                EXPECT_NEAR(static_cast<double>(
+                                ::coat_transmittance(&view, &material.components.back(), w)),
+                            coat_transmittance(coat, c), 5e-4)
+                    << alpha << ' ' << c;
+            }
+        }
+    }
 }
 
 // At normal incidence, wo.m is positive for all normals. A distribution whose area projects to 1

@@ -45,6 +45,7 @@ std::vector<SamplingCase> sampling_cases() {
          0.3,
          {30.0, 85.0}},
         {car_paint(false), 1.0, {45.0, 88.0}},
+        {coated("coat", 0.3, 0, 0.8f, true), 0.6, {30.0, 88.0}},
     };
     for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {
         const std::string name = distribution != 0 ? "beckmann " : "ggx ";

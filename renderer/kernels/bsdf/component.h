@@ -5,6 +5,7 @@
 #pragma once
 
 #include "renderer/kernels/bsdf/blinn.h"
+#include "renderer/kernels/bsdf/coat.h"
 #include "renderer/kernels/bsdf/diffuse.h"
 #include "renderer/kernels/bsdf/distribution.h"
 #include "renderer/kernels/bsdf/fresnel.h"
@@ -24,7 +25,8 @@ DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_fla
     return (material_flags & MATERIAL_BOUNDARY) != 0u && front == 0u ? 1.0f / eta : eta;
 }
 
-/// Returns weight times texture at `uv`; black if the component does not reflect on wo's side.
+/// Returns weight times texture at `uv`, for a base below a coat with the light that the coat
+/// reflects back; black if the component does not reflect on wo's side.
 DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
                                uint front, float2 uv) {
     const uint excluded = front != 0u ? BXDF_FLAG_BACK_ONLY : BXDF_FLAG_FRONT_ONLY;
@@ -34,6 +36,9 @@ DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const Bxdf
     float3 colour = make_float3(component->weight[0], component->weight[1], component->weight[2]);
     if (FEATURE_textures && component->texture != NO_TEXTURE) {
         colour *= texture_lookup(scene->textures + component->texture, scene->texels, uv);
+    }
+    if (FEATURE_coated_lambert && component->kind == BXDF_COATED_LAMBERT) {
+        return colour_below_coat(component, colour);
     }
     return colour;
 }
@@ -61,7 +66,8 @@ DEVICE Roughness component_roughness(GLOBAL const BxdfRecord *component) {
 DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, float3 wo,
                                float3 wi) {
     const uint kind = component->kind;
-    if (FEATURE_lambert && kind == BXDF_LAMBERT) {
+    if ((FEATURE_lambert && kind == BXDF_LAMBERT) ||
+        (FEATURE_coated_lambert && kind == BXDF_COATED_LAMBERT)) {
         return lambert_evaluate(wo, wi);
     }
     if (FEATURE_oren_nayar && kind == BXDF_OREN_NAYAR) {
@@ -109,16 +115,21 @@ DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta,
     if (FEATURE_ideal_refraction && kind == BXDF_IDEAL_REFRACTION) {
         return ideal_refraction_direction(wo, eta);
     }
-    return sample_cosine_hemisphere(u, v);  // Lambert, Oren-Nayar
+    return sample_cosine_hemisphere(u, v);  // Lambert, Oren-Nayar, coated Lambert
 }
 
-/// Returns the Fresnel term of the component's weight for wo and wi. `cosine` is that of Lobe,
-/// `sine2` the square of its sine.
+/// Returns the Fresnel term of the component's weight for wo and wi, or the transmittances of its
+/// coat. `cosine` is that of Lobe, `sine2` the square of its sine.
 ///
 /// Diffuse kinds use the product of the terms of both directions, so that they remain reciprocal,
 /// unless the material requests the term of wo alone (thesis (3.55)).
-DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, float cosine,
-                                float sine2, float3 wi) {
+DEVICE float3 component_fresnel(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
+                                float eta, float cosine, float sine2, float3 wo, float3 wi) {
+    if (FEATURE_coated_lambert && component->kind == BXDF_COATED_LAMBERT) {
+        const float transmittance =
+            coat_transmittance(scene, component, wo) * coat_transmittance(scene, component, wi);
+        return make_float3(transmittance, transmittance, transmittance);
+    }
     if (!FEATURE_fresnel) {
         return make_float3(1.0f, 1.0f, 1.0f);
     }
@@ -140,8 +151,8 @@ DEVICE float3 component_fresnel(GLOBAL const BxdfRecord *component, float eta, f
 /// here. The term is therefore blended towards 1/2 by the root of the roughness, as 1 - F grows
 /// with the root of the angle near total internal reflection. Thus no direction is selected far too
 /// rarely, and contributions remain bounded.
-DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, float3 wo,
-                             float3 colour) {
+DEVICE float component_share(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
+                             float eta, float3 wo, float3 colour) {
     const bool glossy = FEATURE_blinn || FEATURE_ward || FEATURE_ward_original ||
                         FEATURE_microfacet_reflection || FEATURE_microfacet_refraction;
     if (FEATURE_fresnel) {
@@ -156,6 +167,9 @@ DEVICE float component_share(GLOBAL const BxdfRecord *component, float eta, floa
             f = f * (1.0f - s) + make_float3(0.5f * s, 0.5f * s, 0.5f * s);
         }
         colour *= f;
+    }
+    if (FEATURE_coated_lambert && component->kind == BXDF_COATED_LAMBERT) {
+        colour *= coat_transmittance(scene, component, wo);
     }
     if (FEATURE_ideal_refraction && component->kind == BXDF_IDEAL_REFRACTION &&
         refracted_cosine(wo.z, squared_sine(wo), eta) <= 0.0f) {

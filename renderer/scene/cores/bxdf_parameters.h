@@ -50,6 +50,23 @@ inline Parameter dielectric_eta(const std::string &name, Need need = Need::requi
             index_of_refraction};
 }
 
+/// Roughness of a coat over a diffuse base.
+inline Parameter coat_alpha(const std::string &name) {
+    return {name, "roughness of the coat; 0 is ideally smooth", 0.0, Need::defaulted, ranges::unit};
+}
+
+inline Parameter coat_eta(const std::string &name) {
+    return {name,
+            "index of refraction of the coat relative to the outside",
+            1.5,
+            Need::required,
+            {1, 3, false, true}};
+}
+
+inline Parameter nonlinear(const std::string &name) {
+    return {name, "whether reflections between base and coat saturate the base's colour", false};
+}
+
 inline Parameter conductor_eta(const std::string &name, Need need = Need::required) {
     return {name, "index of refraction per channel", Eigen::Vector3d(1, 1, 1), need,
             index_of_refraction};

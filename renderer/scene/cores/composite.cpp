@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "renderer/scene/cores/bxdf_parameters.h"
+#include "renderer/scene/cores/coat.h"
 #include "renderer/scene/cores/material_energy.h"
 
 namespace rtrays {
@@ -39,6 +40,7 @@ struct Part {
     }
     bool is_thin() const { return fresnel == Fresnel::thin_dielectric; }
     bool is_diffuse() const { return kind == Kind::lambert || kind == Kind::oren_nayar; }
+    bool is_coated() const { return kind == Kind::coated_lambert; }
     bool is_conductor() const {
         return fresnel == Fresnel::conductor || fresnel == Fresnel::conductor_approximate;
     }
@@ -61,8 +63,19 @@ void add_bxdf_rows(const Part &part, ParameterTable &table) {
     if (part.has_alpha()) {
         table.push_back(rows::alpha(part.prefix + "alpha"));
     }
-    if (part.has_distribution()) {
+    if (part.has_distribution() || part.is_coated()) {
         table.push_back(rows::distribution(part.prefix + "distribution"));
+    }
+    if (part.is_coated()) {
+        table.push_back(rows::coat_alpha(part.prefix + "alpha"));
+        table.push_back(rows::coat_eta(part.prefix + "eta"));
+        table.push_back(rows::nonlinear(part.prefix + "nonlinear"));
+        table.push_back({part.prefix + "inner_reflectance",
+                         "share of diffuse light from below that the coat reflects back; computed "
+                         "from the coat if not given",
+                         0.0,
+                         Need::optional,
+                         {0, 1, true, false}});
     }
     if (part.refracts()) {
         table.push_back(rows::dielectric_eta(part.prefix + "eta"));
@@ -102,8 +115,28 @@ void add_fresnel_rows(const Part &part, ParameterTable &table) {
     }
 }
 
+void check_coat(const Part &part, const ParameterSet &p) {
+    const Coat coat =
+        coat_of(p, part.prefix + "eta", part.prefix + "alpha", part.prefix + "distribution");
+    const std::string inner = part.prefix + "inner_reflectance";
+    if (!p.has(inner)) {
+        return;
+    }
+    constexpr double tolerance = 2e-3;  // Mitsuba's fit for smooth coats is above the integral
+    const double largest = coat_diffuse_reflectance(coat);
+    if (p.number(inner) > largest + tolerance) {
+        throw input_error(fmt::format(
+            "{}: {} exceeds {:.4f}, which the coat reflects back, so the base would return more "
+            "light than arrives; omit it",
+            inner, p.number(inner), largest));
+    }
+}
+
 void check_part(const Part &part, const ParameterSet &p) {
     constexpr double nearest = 1e-3;  // as in material_types.cpp
+    if (part.is_coated()) {
+        check_coat(part, p);
+    }
     if (!part.refracts()) {
         return;
     }
@@ -143,6 +176,14 @@ MaterialComponent expand_part(const Part &part, const ParameterSet &p) {
     if (part.has_alpha()) {
         bxdf.alpha = p.get<Eigen::Vector2d>(part.prefix + "alpha");
     }
+    if (part.is_coated()) {
+        set_coat(
+            coat_of(p, part.prefix + "eta", part.prefix + "alpha", part.prefix + "distribution"),
+            bxdf);
+        bxdf.nonlinear = p.get<bool>(part.prefix + "nonlinear");
+        const std::string inner = part.prefix + "inner_reflectance";
+        bxdf.inner_reflectance = p.has(inner) ? p.number(inner) : -1.0;
+    }
     if (part.has_distribution()) {
         bxdf.distribution = p.choice<BxdfComponent::Distribution>(part.prefix + "distribution");
     }
@@ -180,6 +221,11 @@ Part make_part(const CompositePart &names, size_t index) {
                         "dielectric and thin_dielectric, not {}",
                         index, names.fresnel));
     }
+    if (part.is_coated() && part.fresnel != Fresnel::ideal) {
+        throw input_error(fmt::format(
+            "component {}: the coat of coated_lambert has its own Fresnel term; omit 'fresnel'",
+            index));
+    }
     return part;
 }
 
@@ -191,9 +237,16 @@ const std::vector<std::string> &side_names() {
 }
 
 const std::vector<std::string> &bxdf_names() {
-    static const std::vector<std::string> names = {
-        "lambert", "oren_nayar",    "ideal_reflection",      "ideal_refraction",     "blinn",
-        "ward",    "ward_original", "microfacet_reflection", "microfacet_refraction"};
+    static const std::vector<std::string> names = {"lambert",
+                                                   "oren_nayar",
+                                                   "ideal_reflection",
+                                                   "ideal_refraction",
+                                                   "blinn",
+                                                   "ward",
+                                                   "ward_original",
+                                                   "microfacet_reflection",
+                                                   "microfacet_refraction",
+                                                   "coated_lambert"};
     return names;
 }
 
@@ -229,6 +282,15 @@ std::shared_ptr<const MaterialType> composite_type(const std::vector<CompositePa
         return components;
     };
     type->expand = expand;
+    const bool refracts =
+        std::any_of(made.begin(), made.end(), [](const Part &part) { return part.refracts(); });
+    const auto coated =
+        std::find_if(made.begin(), made.end(), [](const Part &part) { return part.is_coated(); });
+    if (refracts && coated != made.end()) {
+        throw input_error(
+            fmt::format("component {}: coated_lambert is opaque, so no other component may refract",
+                        coated - made.begin()));
+    }
     type->check = [made, expand](const ParameterSet &p) {
         for (const Part &part : made) {
             check_part(part, p);

@@ -57,6 +57,9 @@ double conductor_approximate(double cosine, double eta, double k) {
 /// Returns F or 1 - F of one channel; `inverted` means a view from behind a boundary.
 double fresnel(const BxdfComponent &bxdf, int channel, double cosine, bool inverted) {
     double f = 1;  // the value of every term at grazing incidence
+    if (bxdf.kind == Kind::coated_lambert) {
+        return cosine == 0 ? 0 : 1 - dielectric(cosine, bxdf.eta[0]);
+    }
     if (cosine == 0) {
         return bxdf.complement ? 0 : 1;
     }

@@ -13,6 +13,9 @@ namespace rtrays {
 /// directions of view on either side of a boundary. The sum must not exceed one in any channel. The
 /// message names the component of the largest contribution.
 ///
+/// The transmittance of a rough coat differs from 1 - F, and the reflectance of its surface from F,
+/// but the sum of both is at most one.
+///
 /// The sum bounds the albedo if the albedo of each BxDF is at most one. Exceptions, which no weight
 /// could correct, are oren_nayar (up to 1.008), ward_original (diverges at grazing angles) and the
 /// thesis' car paint (not reciprocal).

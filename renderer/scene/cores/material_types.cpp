@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/scene/cores/bxdf_parameters.h"
+#include "renderer/scene/cores/coat.h"
 #include "renderer/scene/cores/material.h"
 #include "renderer/scene/cores/material_energy.h"
 #include "renderer/scene/cores/metals.h"
@@ -200,6 +201,17 @@ Components expand_plastic(const ParameterSet &p) {
             with_dielectric(component(Kind::lambert, p, "reflectance"), eta, true)};
 }
 
+Components expand_coated_diffuse(const ParameterSet &p) {
+    const Coat coat = coat_of(p, "eta", "roughness", "distribution");
+    MaterialComponent surface = component(
+        coat.alpha > 0 ? Kind::microfacet_reflection : Kind::ideal_reflection, p, "specular");
+    set_coat(coat, surface.bxdf);
+    MaterialComponent base = component(Kind::coated_lambert, p, "reflectance");
+    set_coat(coat, base.bxdf);
+    base.bxdf.nonlinear = p.get<bool>("nonlinear");
+    return {with_dielectric(surface, coat.eta, false), base};
+}
+
 Components expand_lambert_blinn(const ParameterSet &p) {  // thesis (3.54)
     MaterialComponent blinn = component(Kind::blinn, p, "specular");
     blinn.bxdf.exponent = p.number("exponent");
@@ -276,6 +288,12 @@ const std::vector<MaterialType> &material_types() {
                   colour("specular", "factor of the light reflected by the coat", Need::defaulted),
                   dielectric_eta("eta"), smooth_or_rough(), distribution("distribution")},
                  expand_plastic, check_roughness),
+        material("coated_diffuse",
+                 {colour("reflectance", "albedo of the base"),
+                  colour("specular", "factor of the light reflected by the coat", Need::defaulted),
+                  coat_eta("eta"), coat_alpha("roughness"), distribution("distribution"),
+                  nonlinear("nonlinear")},
+                 expand_coated_diffuse),
         material("lambert_blinn",
                  {colour("reflectance", "albedo"), colour("specular", "weight of the highlight"),
                   exponent("exponent")},
