@@ -67,9 +67,12 @@ const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
          "thindielectric", true, &BsdfWriter::write_thin_dielectric},
         {"microfacet_reflection * dielectric + microfacet_refraction * (1 - dielectric)",
          "dielectric", true, &BsdfWriter::write_dielectric},
-        // A rough coat cannot be a roughplastic: Mitsuba's transmits less light to its base.
         {"ideal_reflection * dielectric + lambert * (1 - dielectric)", "plastic", false,
          &BsdfWriter::write_plastic},
+        {"ideal_reflection * dielectric + coated_lambert", "plastic", false,
+         &BsdfWriter::write_coated},
+        {"microfacet_reflection * dielectric + coated_lambert", "plastic", false,
+         &BsdfWriter::write_coated},
     };
     return all;
 }
@@ -282,6 +285,37 @@ void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, 
     const Vector3d factor = plastic_base_weight(Vector3d::Ones(), eta, false);
     write_weight(bsdf, "diffuse_reflectance", parts[1].weight.cast<double>().cwiseQuotient(factor),
                  parts[1].texture, uv);
+}
+
+void BsdfWriter::write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+    const BxdfComponent &surface = parts[0], &base = parts[1];
+    if (surface.eta[0] != base.eta[0] || (is_rough(surface) && surface.alpha != base.alpha) ||
+        (!is_rough(surface) && base.alpha[0] != 0) ||
+        (is_rough(surface) && surface.distribution != base.distribution)) {
+        throw input_error(
+            "the coat and the component below it must have the same eta, roughness and "
+            "distribution");
+    }
+    const Coat coat{base.eta[0], base.alpha[0], base.distribution};
+    const double inner = plastic_inner_reflectance(coat);
+    const double own =
+        base.inner_reflectance >= 0 ? base.inner_reflectance : coat_diffuse_reflectance(coat);
+    Vector3d weight = base.weight.cast<double>();
+    if (!base.nonlinear) {
+        weight *= (1 - inner) / (1 - own);  // Mitsuba divides by 1 - inner
+    } else if (std::abs(inner - own) > 1e-5) {
+        throw input_error(fmt::format(
+            "Mitsuba's coat reflects {:.5f} of the light below it back, this one {:.5f}, which a "
+            "nonlinear base cannot compensate; set nonlinear to false, or inner_reflectance to "
+            "Mitsuba's",
+            inner, own));
+    }
+    add_number(bsdf, "int_ior", coat.eta);
+    add_number(bsdf, "ext_ior", 1);
+    add_boolean(bsdf, "nonlinear", base.nonlinear);
+    write_roughness(bsdf, surface);
+    write_weight(bsdf, "specular_reflectance", surface.weight.cast<double>(), surface.texture, uv);
+    write_weight(bsdf, "diffuse_reflectance", weight, base.texture, uv);
 }
 
 void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vector3d &weight,

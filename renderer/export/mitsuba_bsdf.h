@@ -56,6 +56,7 @@ class BsdfWriter {
     void write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_thin_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+    void write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
 
     /// Writes a colour, or a texture whose texels are multiplied by `weight`. `offset` is added to

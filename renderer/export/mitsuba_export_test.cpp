@@ -10,6 +10,7 @@
 #include "renderer/export/mitsuba_xml.h"
 #include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
+#include "renderer/scene/cores/coat.h"
 #include "renderer/scene/cores/texture.h"
 #include "renderer/scene/stores/tessellation.h"
 #include "renderer/testing/mitsuba_scenes.h"
@@ -181,6 +182,7 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"blinn_64", "no BSDF for blinn * conductor;"},
         {"car_paint_thesis",
          "no BSDF for ideal_reflection * dielectric + lambert * (1 - dielectric of wo);"},
+        {"coated_diffuse", "of the light below it back"},
         {"conductor_approximate", "no BSDF for ideal_reflection * conductor_approximate;"},
         {"julia", "no julia"},
         {"lambert_blinn", "no BSDF for lambert + blinn;"},
@@ -275,6 +277,34 @@ TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
         EXPECT_NEAR(after.weight[channel] * floats.floats[i],
                     before.weight[channel] * srgb_decoded(bytes.bytes[i] / 255.0), 1e-6);
     }
+}
+
+TEST_F(MitsubaExport, CoatedBasesComeBackAsPlastics) {
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "rough", "geometry": {"type": "rectangle"}, "material": {"type": "coated_diffuse", "eta": 1.5,
+         "roughness": 0.25, "reflectance": [0.25, 0.5, 0.75]}},
+        {"name": "printed", "geometry": {"type": "rectangle"}, "material": {"type": "composite", "components": [
+         {"bxdf": "ideal_reflection", "weight": [1, 1, 1], "fresnel": {"type": "dielectric", "eta": 1.25}},
+         {"bxdf": "coated_lambert", "weight": [1, 1, 1], "eta": 1.25, "nonlinear": true, "inner_reflectance": 0.393984,
+          "weight_texture": {"file": "assets/checker.png", "encoding": "srgb"}}]}}]})",
+                         "in.json", "in", scenes + "/features");
+    const std::vector<BxdfComponent> before = scene.materials().component;
+    const std::vector<BxdfComponent> after = through_mitsuba(scene).materials().component;
+    ASSERT_EQ(after.size(), 4u);
+    EXPECT_EQ(after[1].kind, BxdfComponent::Kind::coated_lambert);
+    EXPECT_EQ(after[1].alpha, before[1].alpha);
+    // Mitsuba's coat reflects less light back, so its base is brighter.
+    const double own = coat_diffuse_reflectance({1.5, 0.25});
+    EXPECT_GT(own - after[1].inner_reflectance, 5e-3);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(after[1].weight[i] / (1 - after[1].inner_reflectance),
+                    before[1].weight[i] / (1 - own), 1e-6);
+    }
+    EXPECT_EQ(after[3].kind, BxdfComponent::Kind::coated_lambert);
+    EXPECT_TRUE(after[3].nonlinear);
+    EXPECT_EQ(after[3].alpha, Eigen::Vector2d(0, 0));
 }
 
 TEST_F(MitsubaExport, OpacitiesComeBackAsMasks) {

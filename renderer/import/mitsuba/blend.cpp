@@ -47,6 +47,14 @@ void add_component(const MaterialComponent &component, const std::string &prefix
     } else {
         values[prefix + "side"] = side_names()[static_cast<size_t>(bxdf.side)];
     }
+    if (bxdf.kind == Kind::coated_lambert) {
+        const bool is_ggx = bxdf.distribution == BxdfComponent::Distribution::ggx;
+        values[prefix + "alpha"] = bxdf.alpha[0];
+        values[prefix + "distribution"] = std::string(is_ggx ? "ggx" : "beckmann");
+        values[prefix + "eta"] = bxdf.eta[0];
+        values[prefix + "nonlinear"] = bxdf.nonlinear;
+        values[prefix + "inner_reflectance"] = bxdf.inner_reflectance;
+    }
     add_fresnel(bxdf, prefix + "fresnel_", values);
 }
 

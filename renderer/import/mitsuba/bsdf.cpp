@@ -23,12 +23,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Maximum roughness of a plastic. Mitsuba's base below a rough coat is darker than our base, which
-/// is lit as through a smooth coat. Measured ratios are 0.961 at roughness 0.1, 0.915 at 0.2 and
-/// 0.851 at 0.3, for an index of 1.5 and away from grazing angles. Beyond 0.2 the two models
-/// disagree by more than a tenth.
-constexpr double roughest_plastic = 0.2;
-
 double index_of_refraction(Object &object, const char *name, double initial) {
     if (!object.is(name, "string")) {
         return object.number(name, initial);
@@ -286,6 +280,10 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
         const auto core = nested_components(inner[i], part, draft);
         two_sided[i] = std::get<bool>(part.values.at("two_sided"));
         for (MaterialComponent component : core) {
+            if (component.bxdf.nonlinear) {
+                throw inner[i].error(
+                    "nonlinear: unsupported in a blend if diffuse_reflectance is a texture");
+            }
             component.bxdf.weight *= static_cast<float>(i == 0 ? 1 - *weight : *weight);
             components.push_back(component);
         }
@@ -433,18 +431,12 @@ void MaterialReader::read_plastic(Object &object, Draft &draft) {
     read_colour(object, "specular_reflectance", "specular_reflectance", 1, draft);
     if (is_rough(object)) {
         read_roughness(object, draft);
-        const double alpha = std::get<Vector2d>(draft.values.at("roughness")).maxCoeff();
-        if (alpha > roughest_plastic) {
+        const Vector2d alpha = std::get<Vector2d>(draft.values.at("roughness"));
+        if (alpha[0] != alpha[1]) {
             throw object.element().error(
-                fmt::format("alpha: {} is too rough, the diffuse base would be more than 10 % "
-                            "brighter than in Mitsuba; use at most {}, or type plastic or diffuse",
-                            alpha, roughest_plastic));
+                "alpha_u and alpha_v differ, which is an error in Mitsuba; give one alpha");
         }
-        notice(
-            object.element()
-                .error("only the coat's reflection is rough, the diffuse base is lit as through a "
-                       "smooth coat; it is up to 10 % brighter than in Mitsuba")
-                .what());
+        draft.values["roughness"] = alpha[0];
     }
 }
 

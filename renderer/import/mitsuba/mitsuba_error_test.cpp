@@ -319,8 +319,10 @@ INSTANTIATE_TEST_SUITE_P(
                         "<boolean name=\"nonlinear\" value=\"true\"/><float name=\"int_ior\" "
                         "value=\"1\"/>"),
                    "in.xml:4: <bsdf type=\"plastic\">: eta: "},
-        BadElement{bsdf("roughplastic", "<float name=\"alpha\" value=\"0.3\"/>"),
-                   "alpha: 0.3 is too rough"},
+        BadElement{bsdf("roughplastic",
+                        "<float name=\"alpha_u\" value=\"0.3\"/>"
+                        "<float name=\"alpha_v\" value=\"0.2\"/>"),
+                   "alpha_u and alpha_v differ, which is an error in Mitsuba"},
         BadElement{
             shape("<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/><float "
                   "name=\"alpha_v\" value=\"0.2\"/></bsdf>",

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Mitsuba's "plastic" (Jakob et al. 2022, Mitsuba 3.9, plastic.cpp): a diffuse base below a
+// Mitsuba's "plastic" and "roughplastic" (Jakob et al. 2022, Mitsuba 3.9): a diffuse base below a
 // dielectric coat. The inside of the coat repeatedly reflects part of the light back to the base.
 #pragma once
 
 #include <memory>
 #include <string>
 
+#include "renderer/scene/cores/coat.h"
 #include "renderer/scene/cores/material.h"
 
 namespace rtrays::mitsuba {
+
+/// Returns the fraction of diffuse light from inside that Mitsuba lets the coat reflect. For eta =
+/// 1.5 it is 8e-4 above the exact value if smooth, and about 8e-3 below it if rough.
+double plastic_inner_reflectance(const Coat &coat);
 
 /// Weight of the Lambert component for a base of colour `reflectance` below the coat. It is
 /// reflectance / (eta^2 (1 - F)), or reflectance / (eta^2 (1 - reflectance F)) if `nonlinear`. F is
