@@ -78,6 +78,12 @@ Component::Lobe Component::make_lobe(const BxdfComponent &component) {
             return OrenNayarLobe(0.0);
         case Kind::oren_nayar:
             return OrenNayarLobe(component.sigma);
+        case Kind::disney_diffuse:
+            return DisneyDiffuseLobe(component.disney_roughness, component.flatness);
+        case Kind::disney_sheen:
+            return DisneySheenLobe{};
+        case Kind::disney_clearcoat:
+            return DisneyClearcoatLobe(component.alpha[0]);
         case Kind::ideal_reflection:
             return IdealReflectionLobe{};
         case Kind::ideal_refraction:

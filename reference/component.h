@@ -62,7 +62,8 @@ class Component {
     double importance(const Viewpoint &view) const;
 
   private:
-    using Lobe = std::variant<OrenNayarLobe, BlinnLobe, WardLobe, MicrofacetReflectionLobe,
+    using Lobe = std::variant<OrenNayarLobe, BlinnLobe, WardLobe, DisneyDiffuseLobe,
+                              DisneySheenLobe, DisneyClearcoatLobe, MicrofacetReflectionLobe,
                               MicrofacetRefractionLobe, IdealReflectionLobe, IdealRefractionLobe>;
     static Lobe make_lobe(const BxdfComponent &component);
 

@@ -144,6 +144,84 @@ class WardLobe {
     bool bounded_;
 };
 
+/// Diffuse reflection of the Disney BSDF: Burley 2012, section 5.3, and Burley 2015, section 3 of
+/// the notes, for the flat part.
+class DisneyDiffuseLobe {
+  public:
+    static constexpr bool transmits = false;
+
+    DisneyDiffuseLobe(double roughness, double flatness)
+        : roughness_(roughness), flatness_(flatness) {}
+
+    double evaluate(const Vec3 &wi, const Vec3 &wo, double) const {
+        const double at_half = half_vector(wi, wo).dot(wi);
+        const double ss90 = roughness_ * square(at_half);
+        const double fi = std::pow(1.0 - wi.z(), 5.0), fo = std::pow(1.0 - wo.z(), 5.0);
+        // Burley's product (1 + (Fd90 - 1) fi) (1 + (Fd90 - 1) fo) with Fd90 = 1/2 + 2 ss90.
+        const double usual = (1.0 + (2.0 * ss90 - 0.5) * fi) * (1.0 + (2.0 * ss90 - 0.5) * fo);
+        const double bent = (1.0 + (ss90 - 1.0) * fi) * (1.0 + (ss90 - 1.0) * fo);
+        const double flat = 1.25 * (bent * (1.0 / (wi.z() + wo.z()) - 0.5) + 0.5);
+        return inv_pi * ((1.0 - flatness_) * usual + flatness_ * flat);
+    }
+    double pdf_w(const Vec3 &wi, const Vec3 &, double) const { return wi.z() * inv_pi; }
+    std::optional<Vec3> sample(const Vec3 &, double, Rng &rng) const {
+        const Vec3 wi = sample_cosine_hemisphere(rng);
+        return wi.z() > 0.0 ? std::optional<Vec3>(wi) : std::nullopt;
+    }
+
+  private:
+    double roughness_, flatness_;
+};
+
+/// Sheen of the Disney BSDF (Burley 2012, section 5.5).
+class DisneySheenLobe {
+  public:
+    static constexpr bool transmits = false;
+
+    double evaluate(const Vec3 &wi, const Vec3 &wo, double) const {
+        return std::pow(1.0 - std::min(half_vector(wi, wo).dot(wi), 1.0), 5.0);
+    }
+    double pdf_w(const Vec3 &wi, const Vec3 &, double) const { return wi.z() * inv_pi; }
+    std::optional<Vec3> sample(const Vec3 &, double, Rng &rng) const {
+        const Vec3 wi = sample_cosine_hemisphere(rng);
+        return wi.z() > 0.0 ? std::optional<Vec3>(wi) : std::nullopt;
+    }
+};
+
+/// Clear coat of the Disney BSDF (Burley 2012, appendix B.2): GTR1 and the masking of GGX with
+/// roughness 1/4, times 1/4, without the usual 1 / (4 wi.z wo.z).
+class DisneyClearcoatLobe {
+  public:
+    static constexpr bool transmits = false;
+
+    explicit DisneyClearcoatLobe(double alpha)
+        : squared_(square(alpha)),
+          masking_(BxdfComponent::Distribution::ggx, Eigen::Vector2d(0.25, 0.25)) {}
+
+    double evaluate(const Vec3 &wi, const Vec3 &wo, double) const {
+        const Vec3 h = half_vector(wi, wo);
+        return 0.25 * density(h) * masking_.masking(wi, h) * masking_.masking(wo, h);
+    }
+    double pdf_w(const Vec3 &wi, const Vec3 &wo, double) const {
+        const Vec3 h = half_vector(wi, wo);
+        return density(h) * h.z() / (4.0 * wo.dot(h));
+    }
+    std::optional<Vec3> sample(const Vec3 &wo, double, Rng &rng) const {
+        const double z2 = (1.0 - std::pow(squared_, 1.0 - rng.uniform())) / (1.0 - squared_);
+        const double phi = 2.0 * pi * rng.uniform(), r = std::sqrt(std::max(0.0, 1.0 - z2));
+        const Vec3 h(r * std::cos(phi), r * std::sin(phi), std::sqrt(z2));
+        return wo.dot(h) > 0.0 ? reflect_upwards(wo, h) : std::nullopt;
+    }
+
+  private:
+    double density(const Vec3 &h) const {
+        const double flat = square(h.x()) + square(h.y());
+        return (1.0 - squared_) / (-pi * std::log(squared_) * (flat + squared_ * square(h.z())));
+    }
+    double squared_;
+    MicrofacetDistribution masking_;
+};
+
 /// Microfacet reflection (Walter et al. 2007, eq. 20), sampled by visible normals.
 class MicrofacetReflectionLobe {
   public:

@@ -122,6 +122,19 @@ TEST(BsdfEnergy, coated_bases_have_the_albedo_of_their_closed_form) {
                 3.0 * quadrature_error);
 }
 
+// As Mitsuba 3.9.1's principled BSDF has them, with no other lobe: white, of roughness 0.7.
+TEST(BsdfEnergy, disney_components_have_mitsubas_values) {
+    const Vec3 wo = Vec3(0.9, 0.0, 0.2).normalized(), wi = Vec3(-0.8, 0.1, 0.25).normalized();
+    const auto value = [&](const BxdfComponent &component) {
+        return make_bsdf({component}).evaluate(wi, wo, {0.0, 0.0})[0] * wi.z();
+    };
+    EXPECT_NEAR(value(disney_diffuse(0.7, 0.0)), 0.077319, 1e-6);
+    EXPECT_NEAR(value(disney_diffuse(0.7, 0.4)), 0.111049, 1e-6);
+    EXPECT_NEAR(value(disney_sheen()), 0.064101, 1e-6);
+    EXPECT_NEAR(value(disney_clearcoat(0.1)), 0.0139634, 2e-7);
+    EXPECT_NEAR(value(disney_clearcoat(0.0109)), 0.00844262, 2e-7);
+}
+
 TEST(BsdfEnergy, sampled_weights_have_the_albedo_as_their_mean) {
     constexpr int samples = 200000;
     std::vector<Comparison> suite;

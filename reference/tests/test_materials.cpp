@@ -27,6 +27,25 @@ BxdfComponent oren_nayar(double sigma) {
     return component;
 }
 
+BxdfComponent disney_diffuse(double roughness, double flatness) {
+    BxdfComponent component = of_kind(Kind::disney_diffuse);
+    component.disney_roughness = roughness;
+    component.flatness = flatness;
+    return component;
+}
+
+BxdfComponent disney_sheen() {
+    return of_kind(Kind::disney_sheen);
+}
+
+BxdfComponent disney_clearcoat(double alpha) {
+    BxdfComponent component = of_kind(Kind::disney_clearcoat);
+    component.alpha = {alpha, alpha};
+    component.fresnel = BxdfComponent::Fresnel::schlick;
+    component.eta.setConstant(0.04);
+    return component;
+}
+
 BxdfComponent coated_lambert(Distribution distribution, double alpha, double weight,
                              bool nonlinear) {
     BxdfComponent component = of_kind(Kind::coated_lambert, weight);
@@ -129,6 +148,10 @@ std::vector<TestMaterial> rough_materials() {
          {lambert(0.5), microfacet(ggx, 0.3, 0.2), oren_nayar(0.5)},
          true,
          false},
+        {"disney_diffuse 0", {disney_diffuse(0.0, 0.0)}},
+        {"disney_diffuse 1", {disney_diffuse(1.0, 0.25)}, true, false},
+        {"disney_sheen", {disney_sheen()}},
+        {"disney_clearcoat", {disney_clearcoat(0.1)}},
         {"smooth coat",
          {with_dielectric(ideal_reflection(), 1.5), coated_lambert(ggx, 0.0, 1.0, false)}},
         {"rough ggx coat",

@@ -19,6 +19,9 @@ struct TestMaterial {
 
 BxdfComponent lambert(double weight);
 BxdfComponent oren_nayar(double sigma);
+BxdfComponent disney_diffuse(double roughness, double flatness);
+BxdfComponent disney_sheen();
+BxdfComponent disney_clearcoat(double alpha);
 /// A base under a coat of index 1.5, without the reflection of the coat.
 BxdfComponent coated_lambert(BxdfComponent::Distribution distribution, double alpha, double weight,
                              bool nonlinear);

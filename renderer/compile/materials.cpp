@@ -18,7 +18,7 @@ struct KindRow {
 };
 
 /// Rows are in the order of BxdfComponent::Kind.
-constexpr std::array<KindRow, 10> kinds = {{
+constexpr std::array<KindRow, 13> kinds = {{
     {BXDF_LAMBERT, Feature::lambert},
     {BXDF_OREN_NAYAR, Feature::oren_nayar},
     {BXDF_IDEAL_REFLECTION, Feature::ideal_reflection},
@@ -29,6 +29,9 @@ constexpr std::array<KindRow, 10> kinds = {{
     {BXDF_MICROFACET_REFLECTION, Feature::microfacet_reflection},
     {BXDF_MICROFACET_REFRACTION, Feature::microfacet_refraction},
     {BXDF_COATED_LAMBERT, Feature::coated_lambert},
+    {BXDF_DISNEY_DIFFUSE, Feature::disney_diffuse},
+    {BXDF_DISNEY_SHEEN, Feature::disney_sheen},
+    {BXDF_DISNEY_CLEARCOAT, Feature::disney_clearcoat},
 }};
 
 /// First transmittances of coats, by index of refraction, roughness and distribution.
@@ -97,6 +100,10 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
     copy3(component.weight, record.weight);
     copy3(component.eta, record.eta);
     copy3(component.k, record.k);
+    if (component.kind == BxdfComponent::Kind::disney_diffuse) {
+        record.parameter = static_cast<float>(component.disney_roughness);
+        record.k[0] = static_cast<float>(component.flatness);
+    }
 
     const bool microfacet =
         record.kind == BXDF_MICROFACET_REFLECTION || record.kind == BXDF_MICROFACET_REFRACTION;

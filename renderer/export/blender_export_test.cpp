@@ -57,6 +57,7 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"oren_nayar_079", "its Oren-Nayar model differs"},
         {"plane",
          "'ground': Cycles supports only triangles, which cannot represent this unbounded plane"},
+        {"principled", "it has no such model"},
         {"rough_glass_ggx", "at the normal instead of the half vector"},
         {"rough_plastic", "no Fresnel term"},
         {"texture_mirror", "the export to Cycles does not support the wrap mode mirror"},

@@ -65,6 +65,9 @@ std::string missing_in_cycles(const BxdfComponent &part) {
         case Kind::blinn:
         case Kind::ward:
         case Kind::ward_original:
+        case Kind::disney_diffuse:
+        case Kind::disney_sheen:
+        case Kind::disney_clearcoat:
             return "it has no such model";
     }
     throw run_error("unknown kind of BxDF component");

@@ -190,6 +190,7 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"opacity", "material 'cut_out': Mitsuba has no cutoff of an opacity texture"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},
         {"plane", "'ground': Mitsuba has no plane, and it cannot be tessellated"},
+        {"principled", "no BSDF for disney_diffuse + disney_sheen;"},
         {"refraction_13", "no BSDF for ideal_refraction;"},
         {"rough_plastic",
          "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},

@@ -146,6 +146,15 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
             collector.add(component.inner_reflectance);
         }
     }
+    if (std::any_of(components.begin(), components.end(), [](const BxdfComponent &component) {
+            return component.kind == BxdfComponent::Kind::disney_diffuse;
+        })) {
+        collector.begin("disney");
+        for (const BxdfComponent &component : components) {
+            collector.add(component.disney_roughness);
+            collector.add(component.flatness);
+        }
+    }
     const ShapeArrays &shapes = arrays.shapes;
     if (!shapes.kind.empty()) {
         collector.begin("shapes");

@@ -92,6 +92,14 @@ struct BxdfComponent {
         /// light from below that the coat reflects back. s is rho if `nonlinear`, otherwise 1. The
         /// Fresnel term is ideal, as T contains it.
         coated_lambert,
+        /// Diffuse reflection of Burley 2012, "Physically Based Shading at Disney", blended by
+        /// `flatness` with that of Burley 2015; `disney_roughness`, `flatness`.
+        disney_diffuse,
+        /// Sheen (Burley 2012): (1 - cos)^5 of the angle to the half vector, without 1 / pi.
+        disney_sheen,
+        /// Clear coat (Burley 2012) as Mitsuba has it: D G / 4, where D is GTR1 of roughness
+        /// `alpha[0]` and G is Smith's of roughness 1/4.
+        disney_clearcoat,
     };
     /// The Fresnel term F. Microfacet kinds (including blinn, ward and ward_original) evaluate it
     /// at the half vector, all other kinds at the normal. Each term states the fields that it uses.
@@ -128,6 +136,8 @@ struct BxdfComponent {
     Side side = Side::both;  ///< both if the component refracts
     /// Light between base and coat is coloured by every reflection.
     bool nonlinear = false;
+    double disney_roughness = 0;  ///< Burley's roughness, [0, 1]
+    double flatness = 0;          ///< share of the flat diffuse reflection, [0, 1]
     /// The share r of coated_lambert; that of the coat if negative.
     double inner_reflectance = -1;
 };

@@ -50,6 +50,9 @@
     X(microfacet_reflection, "GGX or Beckmann, reflection")                                   \
     X(microfacet_refraction, "GGX or Beckmann, refraction")                                   \
     X(coated_lambert, "diffuse reflection under a dielectric coat")                           \
+    X(disney_diffuse, "diffuse reflection of Burley")                                         \
+    X(disney_sheen, "sheen of Burley")                                                        \
+    X(disney_clearcoat, "clear coat of Burley, GTR1")                                         \
     X(ggx, "a microfacet distribution is GGX")                                                \
     X(beckmann, "a microfacet distribution is Beckmann's")                                    \
     X(fresnel, "a weight has a Fresnel term")                                                 \

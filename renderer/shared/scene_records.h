@@ -66,7 +66,8 @@ typedef struct BxdfRecord {
     uint flags;    ///< FRESNEL_*, BXDF_FLAG_*
     uint texture;  ///< index of the texture, or NO_TEXTURE
     /// Sigma for BXDF_OREN_NAYAR, exponent for BXDF_BLINN, and for BXDF_COATED_LAMBERT the share of
-    /// light from below that the coat reflects back and that takes the colour of the base.
+    /// light from below that the coat reflects back and that takes the colour of the base;
+    /// roughness for BXDF_DISNEY_DIFFUSE.
     float parameter;
     float weight[3];
     float alpha_x;  ///< roughness along the tangent
@@ -74,8 +75,8 @@ typedef struct BxdfRecord {
     /// reflectance (Schlick)
     float eta[3];
     float alpha_y;  ///< roughness across the tangent
-    /// Extinction coefficient of a conductor; BXDF_COATED_LAMBERT: factor of the colour (kernels/
-    /// bsdf/coat.h)
+    /// Extinction coefficient of a conductor; BXDF_COATED_LAMBERT: factor of the colour
+    /// (kernels/bsdf/coat.h); BXDF_DISNEY_DIFFUSE: flatness
     float k[3];
     uint coat;  ///< BXDF_COATED_LAMBERT, if rough: first of its COAT_NODES transmittances
 } BxdfRecord;
@@ -92,6 +93,9 @@ typedef struct BxdfRecord {
 #define BXDF_MICROFACET_REFLECTION 7u
 #define BXDF_MICROFACET_REFRACTION 8u
 #define BXDF_COATED_LAMBERT 9u
+#define BXDF_DISNEY_DIFFUSE 10u
+#define BXDF_DISNEY_SHEEN 11u
+#define BXDF_DISNEY_CLEARCOAT 12u
 
 #define COAT_NODES 128u  ///< transmittances of a rough coat, at cosines (i / (COAT_NODES - 1))^2
 

@@ -87,6 +87,13 @@ inline BxdfRecord rough(uint kind, float alpha_x, float alpha_y, uint flags = 0)
     return record;
 }
 
+inline BxdfRecord disney_diffuse(float roughness, float flatness) {
+    BxdfRecord record = component(BXDF_DISNEY_DIFFUSE);
+    record.parameter = roughness;
+    record.k[0] = flatness;
+    return record;
+}
+
 inline BxdfRecord with_eta(BxdfRecord record, float eta, uint flags = 0) {
     std::fill_n(record.eta, 3, eta);
     record.flags |= flags;

@@ -93,6 +93,8 @@ double narrowest_lobe(const MaterialArrays &materials) {
             case Kind::lambert:
             case Kind::oren_nayar:
             case Kind::coated_lambert:
+            case Kind::disney_diffuse:
+            case Kind::disney_sheen:
             case Kind::ideal_reflection:
             case Kind::ideal_refraction:
                 break;
@@ -103,6 +105,7 @@ double narrowest_lobe(const MaterialArrays &materials) {
             case Kind::ward_original:
             case Kind::microfacet_reflection:
             case Kind::microfacet_refraction:
+            case Kind::disney_clearcoat:
                 narrowest = std::min(narrowest, component.alpha.prod());
         }
     }

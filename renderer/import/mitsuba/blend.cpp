@@ -25,6 +25,8 @@ void add_fresnel(const BxdfComponent &bxdf, const std::string &prefix, Parameter
     } else if (bxdf.fresnel == Fresnel::conductor) {
         values[prefix + "eta"] = bxdf.eta;
         values[prefix + "k"] = bxdf.k;
+    } else if (bxdf.fresnel == Fresnel::schlick) {
+        values[prefix + "reflectance"] = bxdf.eta;
     }
 }
 
@@ -46,6 +48,13 @@ void add_component(const MaterialComponent &component, const std::string &prefix
         values[prefix + "eta"] = bxdf.eta[0];
     } else {
         values[prefix + "side"] = side_names()[static_cast<size_t>(bxdf.side)];
+    }
+    if (bxdf.kind == Kind::disney_diffuse) {
+        values[prefix + "roughness"] = bxdf.disney_roughness;
+        values[prefix + "flatness"] = bxdf.flatness;
+    }
+    if (bxdf.kind == Kind::disney_clearcoat) {
+        values[prefix + "alpha"] = bxdf.alpha[0];
     }
     if (bxdf.kind == Kind::coated_lambert) {
         const bool is_ggx = bxdf.distribution == BxdfComponent::Distribution::ggx;

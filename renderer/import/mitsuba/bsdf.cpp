@@ -12,7 +12,9 @@
 #include "renderer/import/mitsuba/ior.h"
 #include "renderer/import/mitsuba/measured.h"
 #include "renderer/import/mitsuba/plastic.h"
+#include "renderer/import/mitsuba/principled.h"
 #include "renderer/import/models/names.h"
+#include "renderer/import/models/textures.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/graph.h"
 
@@ -135,6 +137,7 @@ const std::vector<MaterialReader::Type> &MaterialReader::types() {
         {"roughconductor", &MaterialReader::read_conductor},
         {"plastic", &MaterialReader::read_plastic},
         {"roughplastic", &MaterialReader::read_plastic},
+        {"principled", &MaterialReader::read_principled},
         {"twosided", &MaterialReader::read_twosided},
         {"blendbsdf", &MaterialReader::read_blend},
         {"mask", &MaterialReader::read_mask},
@@ -438,6 +441,76 @@ void MaterialReader::read_plastic(Object &object, Draft &draft) {
         }
         draft.values["roughness"] = alpha[0];
     }
+}
+
+void MaterialReader::read_principled(Object &object, Draft &draft) {
+    Principled p;
+    read_colour(object, "base_color", "base_color", 0.5, draft);
+    p.base_color = std::get<Vector3d>(draft.values.at("base_color"));
+    draft.values.erase("base_color");
+    if (const auto found = draft.textures.find("base_color"); found != draft.textures.end()) {
+        p.base_texture = found->second;
+        draft.textures.erase(found);
+    }
+    p.roughness = read_share(object, "roughness", 0.5, draft);
+    p.anisotropic = read_share(object, "anisotropic", 0, draft);
+    p.metallic = read_share(object, "metallic", 0, draft);
+    p.spec_trans = read_share(object, "spec_trans", 0, draft);
+    p.spec_tint = read_share(object, "spec_tint", 0, draft);
+    p.sheen = read_share(object, "sheen", 0, draft);
+    p.sheen_tint = read_share(object, "sheen_tint", 0, draft);
+    p.flatness = read_share(object, "flatness", 0, draft);
+    p.clearcoat = read_share(object, "clearcoat", 0, draft);
+    p.clearcoat_gloss = read_share(object, "clearcoat_gloss", 0, draft);
+    for (const char *rate : {"main_specular_sampling_rate", "clearcoat_sampling_rate",
+                             "diffuse_reflectance_sampling_rate"}) {
+        object.ignore(rate);  // affects noise only
+    }
+    if (object.has("eta") && object.has("specular")) {
+        throw object.element().error("has both eta and specular; give one of them");
+    }
+    const double specular = read_share(object, "specular", 0.5, draft);
+    p.eta = object.number("eta", 2 / (1 - std::sqrt(0.08 * specular)) - 1);
+    if (!(p.eta >= 1 && p.eta <= 100)) {
+        throw object.property("eta").error(fmt::format("{} is not within [1, 100]", p.eta));
+    }
+    if (p.anisotropic > 0) {
+        draft.depends_on_uv = true;
+        if (draft.uv == UvConvention::none) {
+            throw object.property("anisotropic")
+                .error("the tangents of this shape do not match Mitsuba's; use 0");
+        }
+    }
+    if (p.is_glass() && p.spec_tint == 0 && p.clearcoat == 0 && p.base_texture == nullptr) {
+        draft.set_type("glass");
+        draft.values = {{"two_sided", true},
+                        {"eta", std::max(p.eta, 1.001)},
+                        {"roughness", p.alpha()},
+                        {"transmittance", Vector3d(p.base_color.cwiseSqrt())}};
+        return;
+    }
+    Composite composite =
+        composite_of(object.element().located([&] { return principled_components(p); }));
+    draft.type = composite.type;
+    draft.values = std::move(composite.values);
+    draft.values["two_sided"] = false;
+    draft.textures = std::move(composite.textures);
+}
+
+double MaterialReader::read_share(Object &object, const char *property, double initial,
+                                  Draft &draft) {
+    const std::vector<Element> textures = object.objects("texture", property);
+    double value = 0;
+    if (textures.empty()) {
+        value = object.number(property, initial);
+    } else {
+        value = luminance(mean_of(*texture(textures[0], draft)->image()));
+        notice(textures[0].error(fmt::format("replaced by its mean, {:.3g}", value)).what());
+    }
+    if (!(value >= 0 && value <= 1)) {
+        throw object.element().error(fmt::format("{}: {} is not within [0, 1]", property, value));
+    }
+    return value;
 }
 
 void MaterialReader::read_roughness(Object &object, Draft &draft) {

@@ -72,6 +72,9 @@ class MaterialReader {
     void read_thin_dielectric(Object &object, Draft &draft);
     void read_conductor(Object &object, Draft &draft);
     void read_plastic(Object &object, Draft &draft);
+    void read_principled(Object &object, Draft &draft);
+    /// Returns a number within [0, 1]. A texture is replaced by its mean, with a notice.
+    double read_share(Object &object, const char *property, double initial, Draft &draft);
     void read_twosided(Object &object, Draft &draft);
     void read_blend(Object &object, Draft &draft);
     void read_mask(Object &object, Draft &draft);

@@ -188,8 +188,8 @@ INSTANTIATE_TEST_SUITE_P(
     Bsdfs, BadElements,
     testing::Values(
         BadElement{
-            bsdf("principled"),
-            "in.xml:4: <bsdf type=\"principled\">: unsupported BSDF type; supported types are: "
+            bsdf("hair"),
+            "in.xml:4: <bsdf type=\"hair\">: unsupported BSDF type; supported types are: "
             "diffuse, dielectric, "},
         BadElement{bsdf("normalmap", "<bsdf type=\"diffuse\"/>"),
                    "in.xml:4: <bsdf type=\"normalmap\">: has 1 BSDFs and 0 textures of the map"},
@@ -319,6 +319,13 @@ INSTANTIATE_TEST_SUITE_P(
                         "<boolean name=\"nonlinear\" value=\"true\"/><float name=\"int_ior\" "
                         "value=\"1\"/>"),
                    "in.xml:4: <bsdf type=\"plastic\">: eta: "},
+        BadElement{
+            bsdf("principled", "<float name=\"spec_trans\" value=\"0.5\"/>"),
+            "in.xml:4: <bsdf type=\"principled\">: spec_trans: a surface that is only partly"},
+        BadElement{bsdf("principled", "<float name=\"sheen\" value=\"2\"/>"),
+                   "sheen: 2 is not within [0, 1]"},
+        BadElement{bsdf("principled", "<float name=\"eta\" value=\"0.5\"/>"),
+                   "0.5 is not within [1, 100]"},
         BadElement{bsdf("roughplastic",
                         "<float name=\"alpha_u\" value=\"0.3\"/>"
                         "<float name=\"alpha_v\" value=\"0.2\"/>"),

@@ -331,39 +331,6 @@ TEST(MitsubaBsdfs, PlasticsWeighTheirBaseAsMitsubaDoes) {
     EXPECT_NEAR(deep[1].weight[2], 1 / (eta * eta * (1 - internal)), 5e-6);
 }
 
-TEST(MitsubaBsdfs, RoughPlasticsHaveARoughCoat) {
-    const auto plastic = [](const std::string &properties) {
-        return components_of(R"(<bsdf type="roughplastic"><float name="int_ior" value="1.5"/>
-            <float name="ext_ior" value="1"/>)" +
-                             properties + "</bsdf>");
-    };
-    const auto beckmann = plastic(R"(<float name="alpha" value="0.3"/>)");
-    EXPECT_EQ(beckmann[0].kind, Kind::microfacet_reflection);
-    EXPECT_EQ(beckmann[1].kind, Kind::coated_lambert);
-    for (const BxdfComponent &part : beckmann) {
-        EXPECT_EQ(part.alpha, Vector2d(0.3, 0.3));
-        EXPECT_EQ(part.distribution, BxdfComponent::Distribution::beckmann);
-        EXPECT_EQ(part.eta[0], 1.5);
-    }
-    EXPECT_EQ(beckmann[1].weight, Vector3f(0.5f, 0.5f, 0.5f));
-    // Mitsuba's internal reflectances, from the ratio of its nonlinear and linear values.
-    EXPECT_NEAR(beckmann[1].inner_reflectance, 0.52997, 6e-4);
-    EXPECT_NEAR(plastic(R"(<float name="alpha" value="0.05"/>)")[1].inner_reflectance, 0.58594,
-                2e-4);
-    const std::string ggx = R"(<string name="distribution" value="ggx"/>)";
-    EXPECT_NEAR(plastic(R"(<float name="alpha" value="0.3"/>)" + ggx)[1].inner_reflectance, 0.41486,
-                2e-4);
-    EXPECT_NEAR(plastic(R"(<float name="alpha" value="0.5"/>)" + ggx)[1].inner_reflectance, 0.28999,
-                3e-4);
-    // One colour needs no nonlinear base: rho / (1 - rho r) is that of a linear one.
-    const auto deep = plastic(R"(<boolean name="nonlinear" value="true"/>
-        <rgb name="diffuse_reflectance" value="0.25, 0.5, 1"/>)");
-    const double r = deep[1].inner_reflectance;
-    EXPECT_FALSE(deep[1].nonlinear);
-    EXPECT_NEAR(deep[1].weight[0] / (1 - r), 0.25 / (1 - 0.25 * r), 1e-6);
-    EXPECT_NEAR(deep[1].weight[2], 1, 1e-6);
-}
-
 TEST(MitsubaBsdfs, BlendsWeighBothBsdfs) {
     const std::string blend =
         R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/>

@@ -57,8 +57,10 @@ TEST(BsdfDevice, EveryKindCompilesAlone) {
         EXPECT_NO_THROW(build(device, mask)) << ::testing::PrintToString(mask.names());
     };
     expect_build(base);
-    for (const Feature kind : {Feature::lambert, Feature::oren_nayar, Feature::blinn, Feature::ward,
-                               Feature::ward_original, Feature::coated_lambert}) {
+    for (const Feature kind :
+         {Feature::lambert, Feature::oren_nayar, Feature::blinn, Feature::ward,
+          Feature::ward_original, Feature::coated_lambert, Feature::disney_diffuse,
+          Feature::disney_sheen, Feature::disney_clearcoat}) {
         expect_build(base.with(kind));
     }
     for (const Feature kind : {Feature::ideal_reflection, Feature::ideal_refraction}) {
@@ -109,6 +111,8 @@ TEST(BsdfDevice, EverythingCompiledInChangesNoBit) {
         {{"lambert", {component(BXDF_LAMBERT)}}, base.with(Feature::lambert)},
         {{"oren_nayar", {oren_nayar(0.5f)}}, base.with(Feature::oren_nayar)},
         {{"blinn", {blinn(64)}}, base.with(Feature::blinn)},
+        {{"disney_clearcoat", {rough(BXDF_DISNEY_CLEARCOAT, 0.05f, 0.05f)}},
+         base.with(Feature::disney_clearcoat)},
         {{"smooth coat", {coated("smooth coat", 0, 0, 0.5f, true).components.back()}},
          base.with(Feature::coated_lambert)},
         {{"ward", {rough(BXDF_WARD, 0.2f, 0.2f)}}, base.with(Feature::ward)},

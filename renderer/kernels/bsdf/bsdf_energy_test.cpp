@@ -28,6 +28,12 @@ std::vector<TestMaterial> materials() {
           with_eta(component(BXDF_IDEAL_REFLECTION), 1.5f, FRESNEL_DIELECTRIC)}},
         car_paint(false),
         car_paint(true),
+        {"disney_diffuse 0", {disney_diffuse(0, 0)}},
+        {"disney_diffuse 1", {disney_diffuse(1, 0)}},
+        {"disney_diffuse 0.5, flat", {disney_diffuse(0.5f, 0.75f)}},
+        {"disney_sheen", {component(BXDF_DISNEY_SHEEN)}},
+        {"disney_clearcoat 0.1", {rough(BXDF_DISNEY_CLEARCOAT, 0.1f, 0.1f)}},
+        {"disney_clearcoat 0.02", {rough(BXDF_DISNEY_CLEARCOAT, 0.02f, 0.02f)}},
         coated("smooth coat", 0, 0, 1, false),
         coated("smooth coat, nonlinear", 0, 0, 0.8f, true),
     };
@@ -82,6 +88,8 @@ Albedo albedo(const TestMaterial &material, const SurfaceFrame &frame) {
 // exceed the bound.
 TEST(Energy, NoMaterialScattersMoreThanArrives) {
     const std::vector<std::pair<std::string, double>> exempt = {{"oren_nayar 0.1", 1.012},
+                                                                {"disney_diffuse 1", 1.57},
+                                                                {"disney_diffuse 0.5, flat", 1.25},
                                                                 {"ward_original 0.3", infinity}};
     for (const TestMaterial &material : materials()) {
         const auto found = std::find_if(exempt.begin(), exempt.end(),
@@ -223,6 +231,40 @@ TEST(Energy, InterpolatedTransmittancesHaveTheirErrorBound) {
                     << alpha << ' ' << c;
             }
         }
+    }
+}
+
+// As Mitsuba 3.9.1's principled BSDF has them, with no other lobe: white, of roughness 0.7.
+TEST(Disney, ComponentsHaveMitsubasValues) {
+    const struct {
+        float3 wo, wi;
+        double diffuse, flat, sheen, coat, glossy_coat;
+    } rows[] = {
+        {make_float3(0.3f, 0.1f, 0.8f), make_float3(-0.5f, 0.4f, 0.6f), 0.218023, 0.19823,
+         3.27821e-05, 0.00340318, 0.00187105},
+        {make_float3(0.9f, 0.0f, 0.2f), make_float3(0.8f, 0.3f, 0.1f), 0.0675907, 0.0843765,
+         1.59274e-10, 3.89243e-05, 2.00371e-05},
+        {make_float3(0.9f, 0.0f, 0.2f), make_float3(-0.8f, 0.1f, 0.25f), 0.077319, 0.111049,
+         0.064101, 0.0139634, 0.00844262},
+    };
+    const float3 n = make_float3(0, 0, 1);
+    for (const auto &row : rows) {
+        const SurfaceFrame frame =
+            make_surface_frame(n, n, make_float3(1, 0, 0), make_float2(0, 0), normalize(row.wo));
+        const auto expect_value = [&](const BxdfRecord &record, double wanted) {
+            const TestMaterial material = {"disney", {record}};
+            EXPECT_NEAR(static_cast<double>(material.evaluate(frame, normalize(row.wi)).f_cos.x),
+                        wanted, 2e-5 * wanted + 1e-11)
+                << record.kind;
+        };
+        const auto coat = [](float alpha) {
+            return with_eta(rough(BXDF_DISNEY_CLEARCOAT, alpha, alpha), 0.04f, FRESNEL_SCHLICK);
+        };
+        expect_value(disney_diffuse(0.7f, 0), row.diffuse);
+        expect_value(disney_diffuse(0.7f, 0.4f), row.flat);
+        expect_value(component(BXDF_DISNEY_SHEEN), row.sheen);
+        expect_value(coat(0.1f), row.coat);
+        expect_value(coat(0.0109f), row.glossy_coat);
     }
 }
 
@@ -375,6 +417,7 @@ TEST(Limits, NothingIsEverInfiniteOrNegative) {
     std::vector<TestMaterial> all = materials();
     all.push_back({"blinn 1e7", {blinn(1e7f)}});
     all.push_back({"blinn 0.001", {blinn(1e-3f)}});
+    all.push_back({"disney_clearcoat 0.001", {rough(BXDF_DISNEY_CLEARCOAT, 1e-3f, 1e-3f)}});
     for (const uint kind :
          {BXDF_WARD, BXDF_WARD_ORIGINAL, BXDF_MICROFACET_REFLECTION, BXDF_MICROFACET_REFRACTION}) {
         for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {

@@ -45,6 +45,10 @@ std::vector<SamplingCase> sampling_cases() {
          0.3,
          {30.0, 85.0}},
         {car_paint(false), 1.0, {45.0, 88.0}},
+        {{"disney_clearcoat 0.1", {rough(BXDF_DISNEY_CLEARCOAT, 0.1f, 0.1f)}},
+         0.3,
+         {0.0, 60.0, 89.0}},
+        {{"disney_clearcoat 0.001", {rough(BXDF_DISNEY_CLEARCOAT, 1e-3f, 1e-3f)}}, 0.01, {30.0}},
         {coated("coat", 0.3, 0, 0.8f, true), 0.6, {30.0, 88.0}},
     };
     for (const uint distribution : {0u, BXDF_FLAG_BECKMANN}) {

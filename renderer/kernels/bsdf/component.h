@@ -7,6 +7,7 @@
 #include "renderer/kernels/bsdf/blinn.h"
 #include "renderer/kernels/bsdf/coat.h"
 #include "renderer/kernels/bsdf/diffuse.h"
+#include "renderer/kernels/bsdf/disney.h"
 #include "renderer/kernels/bsdf/distribution.h"
 #include "renderer/kernels/bsdf/fresnel.h"
 #include "renderer/kernels/bsdf/ideal.h"
@@ -88,6 +89,15 @@ DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, fl
     if (FEATURE_microfacet_refraction && kind == BXDF_MICROFACET_REFRACTION) {
         return microfacet_refraction_evaluate(wo, wi, component_roughness(component), eta);
     }
+    if (FEATURE_disney_diffuse && kind == BXDF_DISNEY_DIFFUSE) {
+        return disney_diffuse_evaluate(wo, wi, component->parameter, component->k[0]);
+    }
+    if (FEATURE_disney_sheen && kind == BXDF_DISNEY_SHEEN) {
+        return disney_sheen_evaluate(wo, wi);
+    }
+    if (FEATURE_disney_clearcoat && kind == BXDF_DISNEY_CLEARCOAT) {
+        return disney_clearcoat_evaluate(wo, wi, component->alpha_x);
+    }
     return no_lobe();
 }
 
@@ -115,7 +125,10 @@ DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta,
     if (FEATURE_ideal_refraction && kind == BXDF_IDEAL_REFRACTION) {
         return ideal_refraction_direction(wo, eta);
     }
-    return sample_cosine_hemisphere(u, v);  // Lambert, Oren-Nayar, coated Lambert
+    if (FEATURE_disney_clearcoat && kind == BXDF_DISNEY_CLEARCOAT) {
+        return disney_clearcoat_direction(wo, component->alpha_x, u, v);
+    }
+    return sample_cosine_hemisphere(u, v);  // diffuse kinds and sheen
 }
 
 /// Returns the Fresnel term of the component's weight for wo and wi, or the transmittances of its
@@ -154,7 +167,8 @@ DEVICE float3 component_fresnel(PRIVATE const SceneView *scene, GLOBAL const Bxd
 DEVICE float component_share(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
                              float eta, float3 wo, float3 colour) {
     const bool glossy = FEATURE_blinn || FEATURE_ward || FEATURE_ward_original ||
-                        FEATURE_microfacet_reflection || FEATURE_microfacet_refraction;
+                        FEATURE_microfacet_reflection || FEATURE_microfacet_refraction ||
+                        FEATURE_disney_clearcoat;
     if (FEATURE_fresnel) {
         float3 f = fresnel_term(component, eta, wo.z, squared_sine(wo));
         if (glossy && (component->flags & FRESNEL_MASK) != FRESNEL_IDEAL &&

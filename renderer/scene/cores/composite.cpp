@@ -66,6 +66,19 @@ void add_bxdf_rows(const Part &part, ParameterTable &table) {
     if (part.has_distribution() || part.is_coated()) {
         table.push_back(rows::distribution(part.prefix + "distribution"));
     }
+    if (part.kind == Kind::disney_diffuse) {
+        table.push_back(
+            {part.prefix + "roughness", "Burley's roughness", 0.5, Need::required, ranges::unit});
+        table.push_back({part.prefix + "flatness", "share of the flat diffuse reflection", 0.0,
+                         Need::defaulted, ranges::unit});
+    }
+    if (part.kind == Kind::disney_clearcoat) {
+        table.push_back({part.prefix + "alpha",
+                         "roughness of GTR1",
+                         0.1,
+                         Need::required,
+                         {1e-3, 0.5, true, true}});
+    }
     if (part.is_coated()) {
         table.push_back(rows::coat_alpha(part.prefix + "alpha"));
         table.push_back(rows::coat_eta(part.prefix + "eta"));
@@ -176,6 +189,13 @@ MaterialComponent expand_part(const Part &part, const ParameterSet &p) {
     if (part.has_alpha()) {
         bxdf.alpha = p.get<Eigen::Vector2d>(part.prefix + "alpha");
     }
+    if (part.kind == Kind::disney_diffuse) {
+        bxdf.disney_roughness = p.number(part.prefix + "roughness");
+        bxdf.flatness = p.number(part.prefix + "flatness");
+    }
+    if (part.kind == Kind::disney_clearcoat) {
+        bxdf.alpha.setConstant(p.number(part.prefix + "alpha"));
+    }
     if (part.is_coated()) {
         set_coat(
             coat_of(p, part.prefix + "eta", part.prefix + "alpha", part.prefix + "distribution"),
@@ -246,7 +266,10 @@ const std::vector<std::string> &bxdf_names() {
                                                    "ward_original",
                                                    "microfacet_reflection",
                                                    "microfacet_refraction",
-                                                   "coated_lambert"};
+                                                   "coated_lambert",
+                                                   "disney_diffuse",
+                                                   "disney_sheen",
+                                                   "disney_clearcoat"};
     return names;
 }
 

@@ -17,8 +17,8 @@ namespace rtrays {
 /// but the sum of both is at most one.
 ///
 /// The sum bounds the albedo if the albedo of each BxDF is at most one. Exceptions, which no weight
-/// could correct, are oren_nayar (up to 1.008), ward_original (diverges at grazing angles) and the
-/// thesis' car paint (not reciprocal).
+/// could correct, are oren_nayar (up to 1.008), disney_diffuse (up to 1.6, at grazing angles),
+/// ward_original (diverges at grazing angles) and the thesis' car paint (not reciprocal).
 void check_energy(const std::vector<MaterialComponent> &components);
 
 }  // namespace rtrays

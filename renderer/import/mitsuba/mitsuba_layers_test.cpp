@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Tests the import of Mitsuba's BSDFs of several layers. Expected values are from Mitsuba 3.9.
+#include <cmath>
+
+#include "renderer/testing/mitsuba_scenes.h"
+
+namespace rtrays {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using Kind = BxdfComponent::Kind;
+using Fresnel = BxdfComponent::Fresnel;
+
+/// Returns the components of a BSDF that a rectangle has.
+std::vector<BxdfComponent> components_of(const std::string &bsdf) {
+    return parse_elements(R"(<shape type="rectangle">)" + bsdf + "</shape>").materials().component;
+}
+
+TEST(MitsubaBsdfs, RoughPlasticsHaveARoughCoat) {
+    const auto plastic = [](const std::string &properties) {
+        return components_of(R"(<bsdf type="roughplastic"><float name="int_ior" value="1.5"/>
+            <float name="ext_ior" value="1"/>)" +
+                             properties + "</bsdf>");
+    };
+    const auto beckmann = plastic(R"(<float name="alpha" value="0.3"/>)");
+    EXPECT_EQ(beckmann[0].kind, Kind::microfacet_reflection);
+    EXPECT_EQ(beckmann[1].kind, Kind::coated_lambert);
+    for (const BxdfComponent &part : beckmann) {
+        EXPECT_EQ(part.alpha, Vector2d(0.3, 0.3));
+        EXPECT_EQ(part.distribution, BxdfComponent::Distribution::beckmann);
+        EXPECT_EQ(part.eta[0], 1.5);
+    }
+    EXPECT_EQ(beckmann[1].weight, Vector3f(0.5f, 0.5f, 0.5f));
+    // Mitsuba's internal reflectances, from the ratio of its nonlinear and linear values.
+    EXPECT_NEAR(beckmann[1].inner_reflectance, 0.52997, 6e-4);
+    EXPECT_NEAR(plastic(R"(<float name="alpha" value="0.05"/>)")[1].inner_reflectance, 0.58594,
+                2e-4);
+    const std::string ggx = R"(<string name="distribution" value="ggx"/>)";
+    EXPECT_NEAR(plastic(R"(<float name="alpha" value="0.3"/>)" + ggx)[1].inner_reflectance, 0.41486,
+                2e-4);
+    EXPECT_NEAR(plastic(R"(<float name="alpha" value="0.5"/>)" + ggx)[1].inner_reflectance, 0.28999,
+                3e-4);
+    // One colour needs no nonlinear base: rho / (1 - rho r) is that of a linear one.
+    const auto deep = plastic(R"(<boolean name="nonlinear" value="true"/>
+        <rgb name="diffuse_reflectance" value="0.25, 0.5, 1"/>)");
+    const double r = deep[1].inner_reflectance;
+    EXPECT_FALSE(deep[1].nonlinear);
+    EXPECT_NEAR(deep[1].weight[0] / (1 - r), 0.25 / (1 - 0.25 * r), 1e-6);
+    EXPECT_NEAR(deep[1].weight[2], 1, 1e-6);
+}
+
+TEST(MitsubaBsdfs, PrincipledIsASumOfItsLobes) {
+    const auto parts = components_of(R"(<bsdf type="principled"/>)");
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_EQ(parts[0].kind, Kind::microfacet_reflection);
+    EXPECT_EQ(parts[0].fresnel, Fresnel::dielectric);
+    EXPECT_EQ(parts[0].alpha, Vector2d(0.25, 0.25));
+    EXPECT_NEAR(parts[0].eta[0], 1.5, 1e-12);  // of specular 0.5
+    EXPECT_EQ(parts[1].kind, Kind::disney_diffuse);
+    EXPECT_EQ(parts[1].disney_roughness, 0.5);
+    EXPECT_EQ(parts[1].weight, Vector3f(0.5f, 0.5f, 0.5f));
+
+    const auto all =
+        components_of(R"(<bsdf type="principled"><rgb name="base_color" value="0.25, 0.5, 1"/>
+        <float name="metallic" value="0.5"/><float name="spec_tint" value="0.25"/><float name="roughness" value="0.5"/>
+        <float name="anisotropic" value="0.75"/><float name="clearcoat" value="0.5"/><float name="clearcoat_gloss" value="1"/>
+        <float name="sheen" value="0.5"/><float name="flatness" value="0.25"/><float name="eta" value="2"/></bsdf>)");
+    ASSERT_EQ(all.size(), 6u);
+    const double aspect = std::sqrt(1 - 0.9 * 0.75);
+    EXPECT_LT((all[0].alpha - Vector2d(0.25 / aspect, 0.25 * aspect)).norm(), 1e-12);
+    EXPECT_EQ(all[0].weight[0], 0.375f);
+    EXPECT_EQ(all[1].fresnel, Fresnel::schlick);
+    EXPECT_EQ(all[1].weight[0], 0.125f);
+    const double y = 0.25 * 0.2126 + 0.5 * 0.7152 + 0.0722;
+    EXPECT_LT((all[1].eta - Vector3d(0.25, 0.5, 1) / y / 9).norm(), 1e-4);
+    EXPECT_EQ(all[2].eta, Vector3d(0.25, 0.5, 1));  // the metal
+    EXPECT_EQ(all[2].weight[0], 0.5f);
+    EXPECT_EQ(all[3].kind, Kind::disney_clearcoat);
+    EXPECT_NEAR(all[3].alpha[0], 0.001, 1e-12);
+    EXPECT_NEAR(all[3].eta[0], 0.04, 1e-12);
+    EXPECT_EQ(all[4].flatness, 0.25);
+    EXPECT_EQ(all[4].weight, Vector3f(0.125f, 0.25f, 0.5f));
+    EXPECT_EQ(all[5].kind, Kind::disney_sheen);
+    EXPECT_EQ(all[5].weight[0], 0.25f);
+
+    // Without a dielectric reflection Mitsuba has no metallic one either.
+    EXPECT_EQ(components_of(R"(<bsdf type="principled"><float name="specular" value="0"/>
+        <float name="metallic" value="0.5"/></bsdf>)")
+                  .size(),
+              1u);
+    const auto glass = components_of(R"(<bsdf type="principled"><float name="spec_trans" value="1"/>
+        <rgb name="base_color" value="0.25"/></bsdf>)");
+    ASSERT_EQ(glass.size(), 2u);
+    EXPECT_EQ(glass[1].kind, Kind::microfacet_refraction);
+    EXPECT_NEAR(glass[1].weight[0], 0.5f, 1e-6);
+}
+
+}  // namespace
+}  // namespace rtrays
