@@ -7,6 +7,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
+#include "renderer/import/json/scene_json.h"
+
 namespace rtrays {
 namespace {
 
@@ -90,6 +92,40 @@ TEST(Coat, AgreesWithMitsuba) {
         EXPECT_NEAR(coat_transmittance(coat, 1), row.normal, 8e-4) << row.alpha;
         EXPECT_NEAR(coat_transmittance(coat, 0.2), row.oblique, 2e-3) << row.alpha;
     }
+}
+
+/// Returns the components of a material in a scene file.
+std::vector<BxdfComponent> components(const std::string &material) {
+    return parse_scene_json(
+               R"({"version": 1, "film": {"width": 8, "height": 8}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}, {"name": "a",
+        "geometry": {"type": "sphere"}, "material": )" +
+                   material + "}]}",
+               "in.json", "in")
+        .materials()
+        .component;
+}
+
+TEST(Coat, MaterialsHaveACoatAndABase) {
+    const auto rough = components(R"({"type": "coated_diffuse", "reflectance": [0.25, 0.5, 1],
+        "eta": 1.5, "roughness": 0.25, "distribution": "beckmann", "nonlinear": true})");
+    ASSERT_EQ(rough.size(), 2u);
+    EXPECT_EQ(rough[0].kind, BxdfComponent::Kind::microfacet_reflection);
+    EXPECT_EQ(rough[0].fresnel, BxdfComponent::Fresnel::dielectric);
+    EXPECT_EQ(rough[1].kind, BxdfComponent::Kind::coated_lambert);
+    EXPECT_EQ(rough[1].weight, Rgb(0.25f, 0.5f, 1.0f));
+    EXPECT_TRUE(rough[1].nonlinear);
+    EXPECT_LT(rough[1].inner_reflectance, 0);  // that of the coat
+    for (const BxdfComponent &part : rough) {
+        EXPECT_EQ(part.alpha, Eigen::Vector2d(0.25, 0.25));
+        EXPECT_EQ(part.distribution, Distribution::beckmann);
+        EXPECT_EQ(part.eta[0], 1.5);
+    }
+    const auto given = components(R"({"type": "composite", "components": [{"bxdf": "coated_lambert",
+        "weight": [1, 1, 1], "eta": 1.25, "inner_reflectance": 0.25}]})");
+    EXPECT_EQ(given[0].inner_reflectance, 0.25);
+    EXPECT_FALSE(given[0].nonlinear);
+    EXPECT_EQ(given[0].alpha, Eigen::Vector2d(0, 0));
 }
 
 }  // namespace

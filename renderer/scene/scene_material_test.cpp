@@ -49,8 +49,6 @@ void expect_equal(const std::vector<BxdfComponent> &found,
         EXPECT_EQ(found[i].exponent, wanted[i].exponent);
         EXPECT_EQ(found[i].alpha, wanted[i].alpha);
         EXPECT_EQ(found[i].distribution, wanted[i].distribution);
-        EXPECT_EQ(found[i].nonlinear, wanted[i].nonlinear);
-        EXPECT_EQ(found[i].inner_reflectance, wanted[i].inner_reflectance);
         EXPECT_EQ(found[i].side, wanted[i].side);
     }
 }
@@ -114,27 +112,6 @@ TEST(Materials, SidesMayDiffer) {
     std::string both = silvered;
     both.replace(both.find("back"), 4, "both");
     EXPECT_NE(hash(silvered), hash(both));
-}
-
-TEST(Materials, CoatedDiffuseHasACoatAndABase) {
-    BxdfComponent surface =
-        with_dielectric(expected(Kind::microfacet_reflection, {1, 1, 1}), 1.5, false);
-    BxdfComponent base = expected(Kind::coated_lambert, {0.25f, 0.5f, 1});
-    base.eta.setConstant(1.5);
-    base.nonlinear = true;
-    for (BxdfComponent *part : {&surface, &base}) {
-        part->alpha.setConstant(0.25);
-        part->distribution = BxdfComponent::Distribution::beckmann;
-    }
-    expect_equal(components(R"({"type": "coated_diffuse", "reflectance": [0.25, 0.5, 1],
-        "eta": 1.5, "roughness": 0.25, "distribution": "beckmann", "nonlinear": true})"),
-                 {surface, base});
-    base = expected(Kind::coated_lambert, {1, 1, 1});
-    base.eta.setConstant(1.25);
-    base.inner_reflectance = 0.25;
-    expect_equal(components(R"({"type": "composite", "components": [{"bxdf": "coated_lambert",
-        "weight": [1, 1, 1], "eta": 1.25, "inner_reflectance": 0.25}]})"),
-                 {base});
 }
 
 TEST(Materials, RoughGlassIsMadeOfMicrofacets) {

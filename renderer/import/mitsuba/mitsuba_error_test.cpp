@@ -187,10 +187,9 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Bsdfs, BadElements,
     testing::Values(
-        BadElement{
-            bsdf("hair"),
-            "in.xml:4: <bsdf type=\"hair\">: unsupported BSDF type; supported types are: "
-            "diffuse, dielectric, "},
+        BadElement{bsdf("hair"),
+                   "in.xml:4: <bsdf type=\"hair\">: unsupported BSDF type; supported types are: "
+                   "diffuse, dielectric, "},
         BadElement{bsdf("normalmap", "<bsdf type=\"diffuse\"/>"),
                    "in.xml:4: <bsdf type=\"normalmap\">: has 1 BSDFs and 0 textures of the map"},
         BadElement{bsdf("bumpmap", checks), "has 0 BSDFs and 1 textures of the map"},
