@@ -2,7 +2,7 @@
 # Tests of the harness, and those that need all programs.
 rtrays_test(experiments_test HOST
     SOURCES
-        harness/core/contest_test.cpp harness/core/document_test.cpp harness/core/experiment_test.cpp
+        harness/core/contest_test.cpp harness/core/document_test.cpp harness/core/error_parts_test.cpp harness/core/experiment_test.cpp
         harness/core/expression_test.cpp
         harness/core/metrics_test.cpp harness/core/references_test.cpp harness/core/reproduce_test.cpp
         harness/core/statistics_test.cpp

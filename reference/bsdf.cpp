@@ -120,6 +120,22 @@ std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2
                       expansion(*wi, view)};
 }
 
+std::vector<BsdfSample> Composite::delta_events(const Vec3 &wo, const Eigen::Vector2d &uv) const {
+    std::vector<BsdfSample> events;
+    if (is_black(wo) || wo.z() == 0.0) {
+        return events;
+    }
+    const Viewpoint view = viewpoint(wo, uv);
+    for (const Component &component : components_) {
+        const auto event = component.is_delta() ? component.scatter(view) : std::nullopt;
+        if (event && (event->coefficient > 0.0).any()) {
+            events.push_back({mirrored(event->wi, wo), event->coefficient, 0.0, true,
+                              expansion(event->wi, view)});
+        }
+    }
+    return events;
+}
+
 std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArrays &textures) {
     std::vector<Bsdf> bsdfs;
     for (size_t i = 0; i < materials.name.size(); ++i) {

@@ -10,6 +10,8 @@
 //         Density of `sample` per solid angle of wi; 0 for delta components.
 //     std::optional<BsdfSample> sample(wo, uv, rng)
 //         Samples wi; returns nothing if the path is absorbed.
+//     std::vector<BsdfSample> delta_events(wo, uv)
+//         All delta events. Their weights are coefficients, without a probability.
 //     bool is_delta()
 //         Whether `evaluate` is 0 everywhere, so that light sampling is useless.
 //     bool needs_parametrization()
@@ -68,6 +70,7 @@ class Lambert {
         return BsdfSample{wi, albedo_, pdf, false};
     }
 
+    std::vector<BsdfSample> delta_events(const Vec3 &, const Eigen::Vector2d &) const { return {}; }
     bool is_delta() const { return false; }
     bool needs_parametrization() const { return false; }
 
@@ -93,6 +96,7 @@ class Composite {
     Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const;
     double pdf_w(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const;
     std::optional<BsdfSample> sample(const Vec3 &wo, const Eigen::Vector2d &uv, Rng &rng) const;
+    std::vector<BsdfSample> delta_events(const Vec3 &wo, const Eigen::Vector2d &uv) const;
     bool is_delta() const { return delta_; }
     bool needs_parametrization() const { return true; }
 
@@ -127,6 +131,9 @@ class Bsdf {
     }
     std::optional<BsdfSample> sample(const Vec3 &wo, const Eigen::Vector2d &uv, Rng &rng) const {
         return std::visit([&](const auto &model) { return model.sample(wo, uv, rng); }, model_);
+    }
+    std::vector<BsdfSample> delta_events(const Vec3 &wo, const Eigen::Vector2d &uv) const {
+        return std::visit([&](const auto &model) { return model.delta_events(wo, uv); }, model_);
     }
     bool is_delta() const {
         return std::visit([](const auto &model) { return model.is_delta(); }, model_);

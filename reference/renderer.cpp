@@ -2,6 +2,7 @@
 #include "reference/renderer.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/blocked_range2d.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
@@ -18,6 +19,7 @@
 #include "reference/bsdf.h"
 #include "reference/camera.h"
 #include "reference/film.h"
+#include "reference/first_hit_classifier.h"
 #include "reference/geometry.h"
 #include "reference/integrator.h"
 #include "reference/light.h"
@@ -80,12 +82,15 @@ struct ReferenceRenderer::State {
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           tilts(make_normal_tilts(scene.materials, scene.textures)),
           lights(geometry, scene.lights),
-          integrator({geometry, bsdfs, lights, tilts.empty() ? nullptr : &tilts}, wanted.strategies,
-                     wanted.max_depth, wanted.joinable_only, wanted.roulette),
+          integrator(world(), wanted.strategies, wanted.max_depth, wanted.joinable_only,
+                     wanted.roulette),
           film(wanted.width, wanted.height, 0),
           threads(wanted.threads > 0 ? wanted.threads : tbb::info::default_concurrency()),
           arena(threads) {}
 
+    World<Bsdf, LightSet> world() const {
+        return {geometry, bsdfs, lights, tilts.empty() ? nullptr : &tilts};
+    }
     void render_tile(const tbb::blocked_range2d<uint64_t> &tile, uint64_t begin, uint64_t end);
     void render_batch(uint64_t begin, uint64_t end);
 
@@ -186,6 +191,24 @@ Image ReferenceRenderer::develop() const {
     image.attributes()["samplesPerPixel"] = static_cast<int>(samples());
     image.attributes()["renderTimeSeconds"] = static_cast<float>(seconds());
     return image;
+}
+
+std::vector<FirstHit> ReferenceRenderer::first_hits() const {
+    const State &state = *state_;
+    const FirstHitClassifier classifier(state.world(), state.camera);
+    const auto width = static_cast<uint64_t>(state.settings.width);
+    const auto height = static_cast<uint64_t>(state.settings.height);
+    std::vector<FirstHit> classes(width * height);
+    const auto classify_rows = [&](const tbb::blocked_range<uint64_t> &rows) {
+        for (uint64_t y = rows.begin(); y != rows.end(); ++y) {
+            for (uint64_t x = 0; x < width; ++x) {
+                classes[y * width + x] = classifier.of_pixel(x, y, y * width + x);
+            }
+        }
+    };
+    state_->arena.execute(
+        [&] { tbb::parallel_for(tbb::blocked_range<uint64_t>(0, height), classify_rows); });
+    return classes;
 }
 
 double ReferenceRenderer::seconds() const {

@@ -436,7 +436,13 @@ class Program(ProgramTest):
             for point in curve["points"]:
                 self.assertEqual([r["seed"] for r in point["repetitions"]], list(range(1, 9)))
                 self.assertGreater(point["seconds_device"], 0)
+                for repetition in point["repetitions"]:
+                    self.assertAlmostEqual(
+                        sum(repetition["mse_parts"].values()) / repetition["mse"], 1, 12)
             self.assertTrue(curve["agreement"]["agrees"])
+        # The box shows its lamp, but no mirror or glass.
+        self.assertEqual(
+            run["first_hits"]["pixels"], {"light_behind_delta": 0, "delta": 0, "other": 1})
         # A finished seed is not rendered again, so even its times are unchanged.
         points_of = {curve["id"]: curve["points"] for curve in run["curves"]}
         for (curve, seed), ladder in kept.items():

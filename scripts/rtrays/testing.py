@@ -161,6 +161,27 @@ def made_up_run():
     }
 
 
+def add_parts(document):
+    """Adds the parts of all errors to a run: an eighth of the MSE is in lights behind mirrors, a
+    quarter in other mirrors."""
+    document["first_hits"] = {
+        "image": "images/first_hits.exr",
+        "pixels": {"light_behind_delta": 0.0625, "delta": 0.25, "other": 0.6875},
+        "noise_mse": {"light_behind_delta": 0.0, "delta": 0.0, "other": 0.01},
+    }
+    for curve in document["curves"]:
+        for point in curve["points"]:
+            point["mse_clipped"] = point["mse"] / 2
+            for repetition in point["repetitions"]:
+                mse = repetition["mse"]
+                repetition["mse_clipped"] = mse / 2
+                repetition["mse_parts"] = {
+                    "light_behind_delta": mse / 8,
+                    "delta": mse / 4,
+                    "other": 5 * mse / 8,
+                }
+
+
 class RunFolder(unittest.TestCase):
     """A temporary folder with the made-up run and its images."""
 
@@ -177,6 +198,15 @@ class RunFolder(unittest.TestCase):
 
     def tearDown(self):
         self.temporary.cleanup()
+
+    def add_parts(self):
+        """Adds the parts of all errors to the run, and the picture of the classes."""
+        add_parts(self.document)
+        classes = numpy.zeros((4, 4, 3), dtype=numpy.float32)
+        classes[..., 2] = 1
+        classes[0] = (0, 1, 0)
+        classes[0, 0] = (1, 0, 0)
+        numpy.save(self.folder / "images/first_hits.npy", classes)
 
     def run_object(self):
         """Writes the document; returns its run."""

@@ -39,7 +39,7 @@ nlohmann::json compare_images(const std::filesystem::path &image_path,
 std::string comparison_text(const nlohmann::json &comparison) {
     std::string text;
     for (const auto &[key, field] : metric_keys) {
-        text += fmt::format("{:8} {:.6g}\n", key, comparison.at(key).get<double>());
+        text += fmt::format("{:11} {:.6g}\n", key, comparison.at(key).get<double>());
     }
     if (!comparison.contains("agreement")) {
         return text + "no agreement test: an image lacks the layers variance.*\n";
@@ -47,14 +47,14 @@ std::string comparison_text(const nlohmann::json &comparison) {
     const auto &agreement = comparison.at("agreement");
     const auto &difference = agreement.at("relative_difference");
     text +=
-        fmt::format("blocks   {} of {} tests reject at {} (Holm), largest |z| {:.2f} at {}\n",
+        fmt::format("blocks      {} of {} tests reject at {} (Holm), largest |z| {:.2f} at {}\n",
                     agreement.at("rejected").get<int>(), agreement.at("tests").get<int>(),
                     agreement.at("alpha").get<double>(), agreement.at("largest_z").get<double>(),
                     agreement.at("largest_z_at").get<std::string>());
     text += fmt::format(
-        "mean     {:+.4f} % [{:+.4f}, {:+.4f}]: {}\n", 100 * difference.at("value").get<double>(),
-        100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
-        agreement.at("equivalence").get<std::string>());
+        "mean        {:+.4f} % [{:+.4f}, {:+.4f}]: {}\n",
+        100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
+        100 * difference.at("high").get<double>(), agreement.at("equivalence").get<std::string>());
     return text;
 }
 

@@ -23,6 +23,7 @@ json to_json(const Measurement &measurement) {
     json numbers = to_json(measurement.error);
     numbers["seconds_device"] = measurement.seconds_device;
     numbers["seconds_wall"] = measurement.seconds_wall;
+    numbers["mse_parts"] = rtrays::to_json(measurement.mse_parts);
     return numbers;
 }
 
@@ -33,7 +34,9 @@ json summarise_point(const std::vector<Repetition> &repetitions, size_t point, d
     for (const auto &repetition : repetitions) {
         json entry = to_json(repetition.points[point]);
         for (const auto &[key, number] : entry.items()) {
-            values[key].push_back(number);
+            if (number.is_number()) {
+                values[key].push_back(number);
+            }
         }
         entry["seed"] = repetition.seed;
         raw.push_back(entry);
@@ -122,6 +125,7 @@ Repetition parse_repetition(const json &document) {
         for (const auto &[key, field] : metric_keys) {
             point.at(key).get_to(measurement.error.*field);
         }
+        measurement.mse_parts = parse_by_first_hit(point.at("mse_parts"));
         repetition.points.push_back(measurement);
     }
     return repetition;

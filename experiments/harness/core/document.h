@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/harness/core/agreement.h"
+#include "experiments/harness/core/error_parts.h"
 #include "experiments/harness/core/metrics.h"
 #include "experiments/harness/core/statistics.h"
 #include "renderer/base/json.h"
@@ -26,6 +27,7 @@ struct Measurement {
     double seconds_device = 0;
     double seconds_wall = 0;
     ErrorMetrics error;
+    ByFirstHit mse_parts{};  ///< parts of `error.mse` by what the camera sees first
 };
 
 /// Measurements of one seed at increasing sample counts.
@@ -44,10 +46,10 @@ nlohmann::json to_json(const Repetition &repetition);
 Repetition parse_repetition(const nlohmann::json &json);
 
 /// Summarises a curve. "points" has, for each sample count, the medians over seeds, the raw
-/// repetitions, the MSE minus the reference's noise, and whether that noise dominates. "slope" is
-/// the convergence slope over the points before the noise dominates. "slope_unbiased" is the slope
-/// after the noise is subtracted. Throws `Error` (run failed) naming the remedy if fewer than three
-/// points remain.
+/// repetitions (with the parts of their MSE, whose medians would not add up), the MSE minus the
+/// reference's noise, and whether that noise dominates. "slope" is the convergence slope over the
+/// points before the noise dominates. "slope_unbiased" is the slope after the noise is subtracted.
+/// Throws `Error` (run failed) naming the remedy if fewer than three points remain.
 nlohmann::json summarise_curve(const std::vector<Repetition> &repetitions, double noise_mse);
 
 /// Parses the text of a document and checks it against the schema of all documents and that of its

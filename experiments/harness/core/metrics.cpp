@@ -63,7 +63,7 @@ bool has_variance(const Image &image) {
 
 ErrorMetrics compute_metrics(const Image &image, const Image &reference) {
     require_same_size(image, reference);
-    double squares = 0, absolutes = 0, relatives = 0;
+    double squares = 0, absolutes = 0, relatives = 0, clipped = 0;
     for (const auto &name : rgb_names()) {
         const auto &values = image.channel(name);
         const auto &expected = reference.channel(name);
@@ -80,6 +80,8 @@ ErrorMetrics compute_metrics(const Image &image, const Image &reference) {
             squares += d * d;
             absolutes += std::abs(d);
             relatives += d * d / (r * r + 0.01);
+            const double of_clipped = std::min<double>(values[i], 1) - std::min(r, 1.0);
+            clipped += of_clipped * of_clipped;
         }
     }
     const double count = 3.0 * static_cast<double>(image.pixel_count());
@@ -89,6 +91,7 @@ ErrorMetrics compute_metrics(const Image &image, const Image &reference) {
     metrics.rmse = std::sqrt(metrics.mse);
     metrics.mae = absolutes / count;
     metrics.relmse = relatives / count;
+    metrics.mse_clipped = clipped / count;
     return metrics;
 }
 

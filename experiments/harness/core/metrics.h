@@ -19,15 +19,18 @@ struct ErrorMetrics {
     double mae = 0;     ///< mean |d|
     double relmse = 0;  ///< mean(d^2 / (r^2 + 0.01))
     double mse = 0;     ///< rmse^2
+    /// mean (min(image, 1) - min(r, 1))^2: the MSE of the images that a display shows
+    double mse_clipped = 0;
 };
 
 /// The metrics with their keys. The table serves to read and write run.json and print comparisons.
-constexpr std::array<std::pair<const char *, double ErrorMetrics::*>, 5> metric_keys{{
+constexpr std::array<std::pair<const char *, double ErrorMetrics::*>, 6> metric_keys{{
     {"l2", &ErrorMetrics::l2},
     {"rmse", &ErrorMetrics::rmse},
     {"mae", &ErrorMetrics::mae},
     {"relmse", &ErrorMetrics::relmse},
     {"mse", &ErrorMetrics::mse},
+    {"mse_clipped", &ErrorMetrics::mse_clipped},
 }};
 
 /// Throws `Error` (bad input) if sizes or data windows differ or an image has no pixels.

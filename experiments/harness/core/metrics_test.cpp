@@ -60,6 +60,13 @@ TEST(Metrics, OneChannelOfOnePixel) {
     EXPECT_DOUBLE_EQ(metrics.relmse, 9.0 / 4.01 / 6);
 }
 
+TEST(Metrics, ClippedValuesAreThoseOfADisplay) {
+    EXPECT_DOUBLE_EQ(compute_metrics(constant(8, 4, 18), constant(8, 4, 1)).mse_clipped, 0);
+    EXPECT_DOUBLE_EQ(compute_metrics(constant(8, 4, 18), constant(8, 4, 0.5f)).mse_clipped, 0.25);
+    EXPECT_DOUBLE_EQ(compute_metrics(constant(8, 4, 0.25f), constant(8, 4, 3)).mse_clipped, 0.5625);
+    EXPECT_DOUBLE_EQ(compute_metrics(constant(8, 4, -1), constant(8, 4, 0)).mse_clipped, 1);
+}
+
 TEST(Metrics, BlackReferencePixelStaysFinite) {
     EXPECT_DOUBLE_EQ(compute_metrics(constant(1, 1, 0.1f), constant(1, 1, 0)).relmse,
                      static_cast<double>(0.1f) * 0.1f / 0.01);

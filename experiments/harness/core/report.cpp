@@ -47,6 +47,9 @@ void export_images(const fs::path &folder) {
         return;
     }
     export_image(reference, Json::array());
+    if (run.contains("first_hits")) {
+        export_image(run.at("first_hits").at("image"), Json::array());
+    }
     for (const Json &curve : run.at("curves")) {
         export_image(curve.at("image"), curve.at("layers"));
         for (const Json &early : curve.at("early_images")) {

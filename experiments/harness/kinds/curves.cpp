@@ -73,16 +73,37 @@ RenderSettings settings_of(const CurvesDescription &experiment, const CurveDescr
     return settings;
 }
 
+ReferenceSettings reference_settings_of(const CurvesDescription &experiment, const Scene &scene) {
+    ReferenceSettings settings;
+    settings.width = experiment.width;
+    settings.height = experiment.height;
+    settings.camera = static_cast<size_t>(scene.active_camera());
+    return settings;
+}
+
+/// Describes the classes of pixels, and writes their picture.
+Json describe_first_hits(const FirstHits &classes, const StoredReference &reference,
+                         const fs::path &out) {
+    const Image &image = reference.reference.image;
+    const std::string picture = "images/first_hits.exr";
+    write_exr(picture_of(classes, image.width(), image.height()), out / picture);
+    // The noise of an average of two halves is a quarter of the error between them.
+    ByFirstHit noise = divide_mse(reference.halves[0], reference.halves[1], classes);
+    for (double &part : noise) {
+        part /= 4;
+    }
+    return {{"image", picture},
+            {"pixels", to_json(pixel_shares(classes))},
+            {"noise_mse", to_json(noise)}};
+}
+
 /// Measures renderer and reference in interleaved repetitions with the last curve's settings.
 Json run_throughput(const CurvesDescription &experiment, const Scene &scene, DeviceContext &device,
                     bool quiet) {
     const RenderSettings settings = settings_of(experiment, experiment.curves.back());
     RenderSession session(scene, settings, device);
 
-    ReferenceSettings reference_settings;
-    reference_settings.width = experiment.width;
-    reference_settings.height = experiment.height;
-    reference_settings.camera = static_cast<size_t>(scene.active_camera());
+    ReferenceSettings reference_settings = reference_settings_of(experiment, scene);
     reference_settings.strategies =
         strategies_from_name(name_in(path_strategies, settings.strategies));
     reference_settings.max_depth = settings.max_depth;
@@ -198,9 +219,13 @@ class Curves : public Experiment {
         Json description = reference_.description;
         description["image"] = "images/reference.exr";
         write_exr(reference_.reference.image, bench.out / "images/reference.exr");
+        const FirstHits first_hits =
+            ReferenceRenderer(scene_.arrays(), reference_settings_of(description_, scene_))
+                .first_hits();
         return {{"experiment", describe_experiment(description_)},
                 {"reference", description},
-                {"curves", measure_curves(bench)},
+                {"first_hits", describe_first_hits(first_hits, reference_, bench.out)},
+                {"curves", measure_curves(bench, first_hits)},
                 {"throughput", run_throughput(description_, scene_, bench.device, bench.quiet)}};
     }
 
@@ -209,7 +234,7 @@ class Curves : public Experiment {
     }
 
   private:
-    Json measure_curves(const Bench &bench) const {
+    Json measure_curves(const Bench &bench, const FirstHits &first_hits) const {
         uint64_t total = 0, done = 0;
         for (const CurveDescription &curve : description_.curves) {
             total += curve.seeds * curve.spp.back();
@@ -217,10 +242,15 @@ class Curves : public Experiment {
         Progress progress(description_.name, total, "spp", bench.quiet);
         progress.update(0);
         SharedScenes scenes(scene_, bench.device);
-        const LadderTask task{scenes,      RenderSettings(),
-                              {},          0,
-                              {},          reference_.reference.image,
-                              bench.parts, [&](uint64_t spp) { progress.update(done += spp); }};
+        const LadderTask task{scenes,
+                              RenderSettings(),
+                              {},
+                              0,
+                              {},
+                              reference_.reference.image,
+                              first_hits,
+                              bench.parts,
+                              [&](uint64_t spp) { progress.update(done += spp); }};
         Json curves = Json::array();
         for (const CurveDescription &curve : description_.curves) {
             curves.push_back(

@@ -69,7 +69,8 @@ Repetition render_ladder(const LadderTask &task, RenderSession &session, uint32_
         const Image image = session.develop();
         if (is_in(task.spp, spp)) {
             repetition.points.push_back({spp, stats.device_seconds, stats.wall_seconds,
-                                         compute_metrics(image, task.reference)});
+                                         compute_metrics(image, task.reference),
+                                         divide_mse(image, task.reference, task.first_hits)});
         }
         if (seed == first_seed && is_in(task.early_images, spp)) {
             write_exr(image, early_file(task, spp));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/harness/core/document.h"
+#include "experiments/harness/core/error_parts.h"
 #include "experiments/harness/core/rendering.h"
 #include "experiments/harness/kinds/curves_description.h"
 #include "renderer/device/context.h"
@@ -26,6 +27,7 @@ struct LadderTask {
     uint32_t seeds = 0;
     std::vector<uint64_t> early_images;  ///< sample counts at which the first seed's image is kept
     const Image &reference;
+    const FirstHits &first_hits;            ///< classes of the pixels
     std::filesystem::path partial;          ///< folder of finished seeds
     std::function<void(uint64_t)> advance;  ///< called with the newly finished samples per pixel
 };

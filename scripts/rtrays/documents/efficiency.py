@@ -37,20 +37,26 @@ class Cost:
             - self.pilot_seconds
         )
 
-    def draws(self, generator):
-        """Returns the mean MSE of resampled seeds."""
-        return self.mse[generator.integers(0, len(self.mse), (DRAWS, len(self.mse)))].mean(axis=1)
+
+def draws_of_mean(sample, generator):
+    """Returns the means of resampled seeds."""
+    return sample[generator.integers(0, len(sample), (DRAWS, len(sample)))].mean(axis=1)
+
+
+def ratio_of_means(over, under, scale=1.0):
+    """Returns the ratio of the means of two samples, with the bootstrap's 95 % interval over
+    seeds."""
+    generator = numpy.random.default_rng(1)
+    low, high = numpy.quantile(
+        scale * draws_of_mean(over, generator) / draws_of_mean(under, generator), [0.025, 0.975]
+    )
+    return {"value": scale * over.mean() / under.mean(), "low": low, "high": high}
 
 
 def ratio(base, curve, key):
     """Returns MSE x key of `base` over that of `curve`, with the bootstrap's 95 % interval over
     seeds."""
-    scale = getattr(base, key) / getattr(curve, key)
-    generator = numpy.random.default_rng(1)
-    low, high = numpy.quantile(
-        scale * base.draws(generator) / curve.draws(generator), [0.025, 0.975]
-    )
-    return {"value": scale * base.mse.mean() / curve.mse.mean(), "low": low, "high": high}
+    return ratio_of_means(base.mse, curve.mse, getattr(base, key) / getattr(curve, key))
 
 
 def costs(base, curve, noise):

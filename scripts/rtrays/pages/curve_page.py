@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Page of a run of curves, with its tables and plots."""
 
+from rtrays.documents.error_parts import has_parts
 from rtrays.documents.experiments import experiment_path
 from rtrays.pages.curve_findings import explanation, finding
 from rtrays.pages.page import Figure, Page, TableBlock, Text, Viewer
@@ -9,6 +10,11 @@ from rtrays.plots.curve_plots import write_plots
 from rtrays.tables.cells import verdict_of
 from rtrays.tables.curve_tables import write_tables
 from rtrays.tables.verdict_table import gain_rows, verdict_table
+
+NO_PARTS = (
+    "This run is older than the division of the error by what the camera sees first; a new run has"
+    " it."
+)
 
 
 def viewer_block(run):
@@ -42,6 +48,8 @@ def curve_page(run):
     ]
     blocks.append(viewer_block(run))
     blocks += [TableBlock(table, f"tables/{name}") for name, table in tables.items() if table.rows]
+    if not has_parts(run):
+        blocks.append(Text(NO_PARTS))
     width, height = run.get("experiment.size")
     return Page(
         run.folder,

@@ -96,6 +96,30 @@ class CurvePage(RunFolder):
         for name in ("plots/early.png", "edges.json"):
             self.assertEqual((clone / name).read_bytes(), pages[name], name)
 
+    def test_the_page_says_where_the_error_is(self):
+        self.add_parts()
+        self.run_object()
+        done = self.results("report", self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "report.md").read_text()
+        for text in (
+            "## Where the error is, by what the camera sees first",
+            "| (share of pixels) | – | – | 6.25 | 25.00 | 68.75 | – | – |",
+            "plots/error_parts.svg",
+            "plots/first_hits.png",
+        ):
+            self.assertIn(text, page)
+        self.assertNotIn("This run is older", page)
+        for name in ("error_parts.svg", "first_hits.png"):
+            self.assertGreater((self.folder / "plots" / name).stat().st_size, 0)
+
+    def test_a_document_without_parts_says_so(self):
+        self.run_object()
+        self.assertEqual(self.results("report", self.folder).returncode, 0)
+        page = (self.folder / "report.md").read_text()
+        self.assertIn("This run is older than the division of the error", page)
+        self.assertNotIn("Where the error is", page)
+
     def test_images_that_are_not_exported_are_an_error(self):
         self.run_object()
         (self.folder / "images/reference.npy").rename(self.folder / "images/reference.exr")

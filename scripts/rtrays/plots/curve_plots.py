@@ -6,6 +6,7 @@ from matplotlib import pyplot
 
 from rtrays.documents.curves import label, seconds, usable_points
 from rtrays.documents.document import value
+from rtrays.plots.error_plots import write_error_plots
 from rtrays.plots.image_plots import write_pictures
 from rtrays.plots.style import COLOURS, MARKERS, legend_below_axes, save
 
@@ -123,4 +124,8 @@ def write_curves(run, folder):
 def write_plots(run):
     """Writes all figures of a run into its folder "plots"; returns {file: caption}."""
     folder = run.folder / "plots"
-    return {**write_curves(run, folder), **write_pictures(run, folder)}
+    return {
+        **write_curves(run, folder),
+        **write_error_plots(run, folder),
+        **write_pictures(run, folder),
+    }

@@ -11,6 +11,7 @@ from rtrays.tables.efficiency_tables import (
     memory_table,
     throughput_table,
 )
+from rtrays.tables.error_tables import gains_table, parts_table, settings_table
 from rtrays.tables.table import Table
 
 POINT_METRICS = ("l2", "rmse", "mae", "relmse", "mse", "mse_unbiased")
@@ -148,6 +149,8 @@ def repetitions_table(run):
 
 TABLES = {
     "efficiency": efficiency_table,
+    "error_parts": parts_table,
+    "gains_by_part": gains_table,
     "errors": errors_table,
     "slopes": slopes_table,
     "agreement": agreement_table,
@@ -155,6 +158,7 @@ TABLES = {
     "memory": memory_table,
     "edges": edges_table,
     "cost": cost_table,
+    "settings": settings_table,
 }
 
 
