@@ -33,6 +33,26 @@ def base_curve(run):
     return curve_named(run, "path_tracing.mis") or run.curves[-1]
 
 
+# Settings that both curves of a gain should share.
+SHARED = ("integrator.sampler", "integrator.light_selection", "integrator.sphere_sampling")
+
+
+def base_for(run, curve):
+    """Returns path tracing with both strategies under the curve's own sampler, light selection and
+    sphere sampling, or else the base curve of the run."""
+
+    def shared(other):
+        return [value(other, "settings").get(key) for key in SHARED]
+
+    own = (
+        other
+        for other in run.curves
+        if (value(other, "algorithm"), value(other, "strategies")) == ("path_tracing", "mis")
+        and shared(other) == shared(curve)
+    )
+    return next(own, base_curve(run))
+
+
 def shown_curves(run):
     """Returns the curves whose images have figures: path tracing by MIS and truncated BDPT with
     its defaults, or all curves of a run that has neither. The viewer has the images of all

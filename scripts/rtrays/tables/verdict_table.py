@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Table of verdicts on the curves of a run."""
 
-from rtrays.documents.curves import base_curve, is_blind, is_stratified, label
+from rtrays.documents.curves import base_for, is_blind, is_stratified, label
 from rtrays.documents.document import value
 from rtrays.documents.efficiency import gain
 from rtrays.documents.undecided import (
@@ -23,7 +23,7 @@ def gain_rows(run):
     expected = run.document["experiment"].get("expected_gain")
     if expected is None:
         return []
-    noise, base = run.get("reference.noise_floor.mse"), base_curve(run)
+    noise = run.get("reference.noise_floor.mse")
     rows = []
     for key, of_run, words in (
         ("time", "seconds", "equal device time"),
@@ -31,6 +31,7 @@ def gain_rows(run):
     ):
         for curve in run.curves:
             if value(curve, "algorithm") == value(expected, "algorithm"):
+                base = base_for(run, curve)
                 claimed, measured = value(expected, key), gain(base, curve, noise, of_run)
                 verdict = with_advice(
                     gain_verdict(measured, claimed),
