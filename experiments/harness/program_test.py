@@ -218,6 +218,44 @@ class Program(ProgramTest):
             self.control(curves=[{"algorithm": "bdpt"}]))
         self.refused(2, "errors", "run", self.control(errors=[0]))
 
+    def sweep(self, **changes):
+        """Returns the shipped sweep of lamps with an absolute path, two values and changes."""
+        document = json.loads(shipped("light_size").read_text())
+        (lamps,) = (each for each in document["sweeps"] if each["name"] == "ring_lamps")
+        lamps["scene"] = str(EXPERIMENTS.parent / "scenes/mirror_ring/scene.json")
+        document["sweeps"] = [{**lamps, **changes}]
+        document["profiles"]["quick"] = {
+            "size": [16, 16], "spp": 4, "seeds": 8, "values": {"ring_lamps": [0.2, 0.4]}}
+        path = self.folder / "sweep.json"
+        path.write_text(json.dumps(document))
+        return path
+
+    def test_sweep(self):
+        out = self.folder / "out"
+        done = self.call("run", self.sweep(), "--out", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = json.loads((out / "run.json").read_text())["rows"]
+        self.assertEqual([row["value"] for row in rows], [0.2, 0.4])
+        # The scene changes with the value: larger lamps are seen in more pixels of the mirror.
+        small, large = (row["pixels"] for row in rows)
+        self.assertLessEqual(small["light_behind_delta"], large["light_behind_delta"])
+        self.assertEqual(small["other"], large["other"])
+        errors = [row["curves"][1]["repetitions"][0]["mse"] for row in rows]
+        self.assertNotEqual(*errors)
+        for row in rows:
+            for curve in row["curves"]:
+                self.assertEqual([r["seed"] for r in curve["repetitions"]], list(range(1, 9)))
+        reported = self.call("report", out)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        self.assertIn("| 0.4 | truncated BDPT (MIS) |", (out / "light_size.md").read_text())
+
+    def test_sweep_is_refused(self):
+        for text, changes in (
+                ("unknown name 'y'", {"properties": {"light_0.radius": "y"}}),
+                ("light_9", {"properties": {"light_9.radius": "x"}}),
+                ("the sweep 'other' has no values", {"name": "other"})):
+            self.refused(2, text, "run", self.sweep(**changes), "--dry-run")
+
     def tables(self, out):
         return subprocess.run(
             [sys.executable, EXPERIMENTS.parent / "scripts/results", "page", out],

@@ -7,6 +7,7 @@
 #include "experiments/harness/kinds/measurements/measurement.h"
 #include "experiments/harness/kinds/scene_agreement.h"
 #include "experiments/harness/kinds/stability.h"
+#include "experiments/harness/kinds/sweep.h"
 
 namespace rtrays {
 
@@ -38,6 +39,7 @@ const std::vector<Kind> &experiment_kinds() {
          {profile, out},
          leave,
          make_convergence_control},
+        {"sweep", "sweep.schema.json", {profile, out}, leave, make_sweep},
         {"agreement", "agreement.schema.json", {profile, out}, leave, make_agreement},
         {"gate", "gate.schema.json", {Option::check, Option::update_baseline}, leave, make_gate},
     };

@@ -9,10 +9,12 @@ from rtrays.pages.curve_page import curve_page
 from rtrays.pages.measurement_page import TABLES, measurement_page
 from rtrays.pages.stability_page import stability_page
 from rtrays.pages.stiffness_page import stiffness_page
+from rtrays.pages.sweep_page import sweep_page
 
 PAGES = {
     "curves": curve_page,
     "convergence_control": control_page,
+    "sweep": sweep_page,
     "stability": lambda run: (stiffness_page if is_stiffness(run) else stability_page)(run),
     **dict.fromkeys(TABLES, measurement_page),
 }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Tests errors without a reference by hand.
+#include "experiments/harness/kinds/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/base/error.h"
+
+namespace rtrays {
+namespace {
+
+/// Returns an image of one row whose channels have the same values.
+Image row(const std::vector<float> &values) {
+    Image image = Image::rgb(static_cast<int>(values.size()), 1);
+    for (const auto &name : rgb_names()) {
+        image.channel(name) = values;
+    }
+    return image;
+}
+
+const FirstHits classes{FirstHit::other, FirstHit::delta};
+
+TEST(Sweep, ErrorsAreVariancesByClass) {
+    // The variances of {1, 2, 6} and {0, 0, 3} are 7 and 3; the images have two pixels.
+    const auto errors = errors_without_reference({row({1, 0}), row({2, 0}), row({6, 3})}, classes);
+    ByFirstHit mean{};
+    for (const ByFirstHit &error : errors) {
+        for (size_t i = 0; i < mean.size(); ++i) {
+            mean[i] += error[i] / 3;
+        }
+    }
+    EXPECT_DOUBLE_EQ(mean[static_cast<size_t>(FirstHit::other)], 3.5);
+    EXPECT_DOUBLE_EQ(mean[static_cast<size_t>(FirstHit::delta)], 1.5);
+    EXPECT_EQ(mean[static_cast<size_t>(FirstHit::light_behind_delta)], 0);
+    EXPECT_DOUBLE_EQ(errors[2][static_cast<size_t>(FirstHit::other)], 9.0 * 1.5 / 2);
+}
+
+TEST(Sweep, OneImageHasNoError) {
+    EXPECT_THROW(errors_without_reference({row({1, 2})}, classes), Error);
+}
+
+}  // namespace
+}  // namespace rtrays
