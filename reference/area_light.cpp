@@ -70,7 +70,7 @@ std::optional<LightSample> DiffuseEmitter::look(const Geometry &geometry, const 
     const double pdf_w = distance_squared * (distance / projected) / area_;
     return LightSample{to_light / distance,
                        geometry.spawn_point(point, -to_light),
-                       radiance_,
+                       radiance_at(geometry, point),
                        pdf_w,
                        false,
                        false};
@@ -118,11 +118,13 @@ std::optional<LightSample> DiscLight::sample(const Geometry &geometry, const Vec
 
 SphereLight::SphereLight(const Geometry &geometry, uint32_t shape, const Spectrum &radiance)
     : DiffuseEmitter(4.0 * pi * square(scale_of(geometry.shapes()[shape])), radiance),
+      shape_(shape),
       centre_(geometry.shapes()[shape].centre()),
       radius_(scale_of(geometry.shapes()[shape])),
       offset_(geometry.shapes()[shape].offset()) {}
 
-std::optional<LightSample> SphereLight::sample(const Geometry &, const Vec3 &from, Rng &rng) const {
+std::optional<LightSample> SphereLight::sample(const Geometry &geometry, const Vec3 &from,
+                                               Rng &rng) const {
     const Vec3 to_centre = centre_ - from;
     const double distance_squared = to_centre.squaredNorm();
     if (!(distance_squared > square(radius_))) {
@@ -142,7 +144,12 @@ std::optional<LightSample> SphereLight::sample(const Geometry &, const Vec3 &fro
         std::sqrt(std::max(square(radius_) - distance_squared * sine_squared, 0.0));
     const Vec3 point = from + (distance * (1.0 - below) - reach) * wi;
     const Vec3 target = centre_ + (radius_ + offset_) * (point - centre_).normalized();
-    return LightSample{wi, target, radiance_, 1.0 / (2.0 * pi * height), false, false};
+    SurfacePoint on_sphere;
+    on_sphere.position = point;
+    on_sphere.local = geometry.shapes()[shape_].to_object(point).normalized();
+    on_sphere.primitive = static_cast<uint32_t>(geometry.triangles().size()) + shape_;
+    return LightSample{wi,    target, radiance_at(geometry, on_sphere), 1.0 / (2.0 * pi * height),
+                       false, false};
 }
 
 double SphereLight::pdf_w(const Geometry &, const Vec3 &from, const SurfacePoint &) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Area lights: meshes, discs and spheres with one-sided diffuse emission of constant radiance.
+// Area lights: meshes, discs and spheres with one-sided diffuse emission, constant or by a texture.
 // Every area light has these members:
 //
 //     std::optional<LightSample> sample(geometry, from, rng)
@@ -9,7 +9,8 @@
 //     Spectrum emitted(geometry, hit, wo)
 //         Radiance leaving `hit` towards `wo`.
 //     double power()
-//         Emitted power pi A Le [W], mean of the channels (thesis, section 3.3.4).
+//         Emitted power pi A Le [W], mean of the channels (thesis, section 3.3.4). With a texture,
+//         an estimate by the mean of its texels, which affects noise only.
 #pragma once
 
 #include <optional>
@@ -20,6 +21,7 @@
 #include "reference/math.h"
 #include "reference/rng.h"
 #include "reference/sampling.h"
+#include "reference/texture.h"
 
 namespace rtrays::reference {
 
@@ -29,13 +31,24 @@ class DiffuseEmitter {
   public:
     DiffuseEmitter(double area, const Spectrum &radiance) : area_(area), radiance_(radiance) {}
 
+    /// Multiplies the radiance by a texture.
+    void set_texture(const Texture &texture) { texture_ = texture; }
+
     double pdf_w(const Geometry &geometry, const Vec3 &from, const SurfacePoint &hit) const;
     Spectrum emitted(const Geometry &geometry, const SurfacePoint &hit, const Vec3 &wo) const {
-        return geometry.normal(hit).dot(wo) > 0.0 ? radiance_ : Spectrum::Zero();
+        return geometry.normal(hit).dot(wo) > 0.0 ? radiance_at(geometry, hit)
+                                                  : Spectrum(Spectrum::Zero());
     }
-    double power() const { return pi * area_ * radiance_.mean(); }
+    double power() const {
+        return pi * area_ * (texture_ ? Spectrum(radiance_ * texture_->mean()) : radiance_).mean();
+    }
 
   protected:
+    Spectrum radiance_at(const Geometry &geometry, const SurfacePoint &point) const {
+        return texture_ ? Spectrum(radiance_ * texture_->evaluate(geometry.parametrize(point).uv))
+                        : radiance_;
+    }
+
     /// Builds the light sample for `point`, which was sampled uniformly in area, as seen from
     /// `from`. Returns nothing if `from` is behind the light.
     std::optional<LightSample> look(const Geometry &geometry, const Vec3 &from,
@@ -43,6 +56,7 @@ class DiffuseEmitter {
 
     double area_;
     Spectrum radiance_;
+    std::optional<Texture> texture_;
 };
 
 /// All triangles of a mesh. Points are uniform in area.
@@ -84,6 +98,7 @@ class SphereLight : public DiffuseEmitter {
     double pdf_w(const Geometry &geometry, const Vec3 &from, const SurfacePoint &hit) const;
 
   private:
+    uint32_t shape_;
     Vec3 centre_;
     double radius_;
     double offset_;  ///< distance of the ends of shadow rays from the surface

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "renderer/base/error.h"
@@ -20,6 +22,32 @@ constexpr double uniform_share = 0.5;  ///< share of the selection probability; 
 /// what parallel light can fall on.
 double scene_radius(const Geometry &geometry) {
     return geometry.bounds().isEmpty() ? 1.0 : 0.5 * geometry.bounds().diagonal().norm();
+}
+
+/// Returns the material of the surface of an area light.
+uint32_t material_of(const Geometry &geometry, const LightArrays &lights, size_t light) {
+    if (lights.shape[light] != no_index) {
+        return geometry.shapes()[lights.shape[light]].material();
+    }
+    const auto &triangles = geometry.triangles();
+    return std::find_if(triangles.begin(), triangles.end(),
+                        [&](const TriangleRecord &t) { return t.light == light; })
+        ->material;  // a mesh light has a triangle
+}
+
+/// Multiplies the radiance of an area light by a texture, if there is one.
+template <class Light>
+void set_texture(const std::optional<Texture> &texture, Light &light) {
+    if (!texture) {
+        return;
+    }
+    std::visit(
+        [&](auto &one) {
+            if constexpr (std::is_base_of_v<DiffuseEmitter, std::decay_t<decltype(one)>>) {
+                one.set_texture(*texture);
+            }
+        },
+        light);
 }
 
 }  // namespace
@@ -72,7 +100,21 @@ std::optional<LightSet::Light> LightSet::make_light(const Geometry &geometry,
     throw run_error("unknown light kind");
 }
 
-LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {
+std::vector<std::optional<Texture>> emission_textures(const MaterialArrays &materials,
+                                                      const TextureArrays &textures) {
+    std::vector<std::optional<Texture>> all(materials.emission_texture.size());
+    bool any = false;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (materials.emission_texture[i] != no_index) {
+            all[i].emplace(textures, materials.emission_texture[i]);
+            any = true;
+        }
+    }
+    return any ? all : std::vector<std::optional<Texture>>();
+}
+
+LightSet::LightSet(const Geometry &geometry, const LightArrays &lights,
+                   const std::vector<std::optional<Texture>> &textures) {
     std::vector<std::vector<uint32_t>> triangles(lights.kind.size());
     for (uint32_t i = 0; i < geometry.triangles().size(); ++i) {
         const uint32_t light = geometry.triangles()[i].light;
@@ -93,6 +135,9 @@ LightSet::LightSet(const Geometry &geometry, const LightArrays &lights) {
             light = make_light(geometry, lights, i, std::move(triangles[i]));
         } catch (const Error &error) {
             fail(error.what());
+        }
+        if (light && !textures.empty() && lights.kind[i] == Kind::diffuse_area) {
+            set_texture(textures.at(material_of(geometry, lights, i)), *light);
         }
         slot_.push_back(light ? static_cast<uint32_t>(lights_.size()) : no_index);
         if (!light) {

@@ -23,8 +23,10 @@ namespace rtrays::reference {
 /// light of N is ever selected with a probability below 1 / (2 N).
 class LightSet {
   public:
-    /// Throws `Error` (bad input) naming the light for parameters out of range.
-    LightSet(const Geometry &geometry, const LightArrays &lights);
+    /// Throws `Error` (bad input) naming the light for parameters out of range. `textures` has the
+    /// texture of each material's emission, or nothing if no material has one.
+    LightSet(const Geometry &geometry, const LightArrays &lights,
+             const std::vector<std::optional<Texture>> &textures = {});
 
     bool empty() const { return lights_.empty(); }
     bool reach_to_infinity() const { return !infinite_.empty(); }
@@ -77,5 +79,10 @@ class LightSet {
     std::vector<uint32_t> infinite_;
     AliasTable choose_;
 };
+
+/// Returns the texture of each material's emission, or nothing if no material has one. Throws
+/// `Error` (bad input) like `Texture`.
+std::vector<std::optional<Texture>> emission_textures(const MaterialArrays &materials,
+                                                      const TextureArrays &textures);
 
 }  // namespace rtrays::reference

@@ -81,7 +81,7 @@ struct ReferenceRenderer::State {
           geometry(scene.meshes, scene.shapes, make_opacities(scene.materials, scene.textures)),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           tilts(make_normal_tilts(scene.materials, scene.textures)),
-          lights(geometry, scene.lights),
+          lights(geometry, scene.lights, emission_textures(scene.materials, scene.textures)),
           integrator(world(), wanted.strategies, wanted.max_depth, wanted.joinable_only,
                      wanted.roulette),
           film(wanted.width, wanted.height, 0),

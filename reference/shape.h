@@ -39,6 +39,7 @@ class Shape {
     bool intersect(const Ray &ray, double t_max, double &t, Vec3 &object) const;
 
     Vec3 to_world(const Vec3 &object) const { return linear_ * object + centre_; }
+    Vec3 to_object(const Vec3 &world) const { return inverse_ * (world - centre_); }
 
     Vec3 normal(const Vec3 &object) const;  ///< in the world, unit, on the front
     /// Returns the tangent in the world along dp/du, or the object's x axis for a Julia set.

@@ -82,6 +82,16 @@ int Texture::wrap(int64_t i, int size) const {
     return static_cast<int>(texel < size ? texel : period - 1 - texel);
 }
 
+Spectrum Texture::mean() const {
+    Spectrum sum = Spectrum::Zero();
+    for (int row = 0; row < image_->height; ++row) {
+        for (int column = 0; column < image_->width; ++column) {
+            sum += texel(*image_, column, row);
+        }
+    }
+    return sum / (static_cast<double>(image_->width) * image_->height);
+}
+
 Spectrum Texture::look_up(double column, double row_from_below) const {
     return texel(*image_, wrap(static_cast<int64_t>(column), image_->width),
                  image_->height - 1 - wrap(static_cast<int64_t>(row_from_below), image_->height));

@@ -25,6 +25,8 @@ class Texture {
 
     /// Returns the derivatives of the Rec. 709 luminance by u and v; zero for the filter `nearest`.
     Eigen::Vector2d luminance_gradient(const Eigen::Vector2d &uv) const;
+    /// Returns the mean of all texels.
+    Spectrum mean() const;
 
   private:
     /// The texels around a point for bilinear interpolation.

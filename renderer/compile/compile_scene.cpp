@@ -204,8 +204,13 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         parts.opacity |=
             compiled.opacity_sources != scene.materials.opacity ||
             (!compiled.opacities.empty() && !are_equal(compiled.texture_sources, scene.textures));
+        // The selection of lights and triangles depends on texels.
+        parts.lights |= compiled.emission_sources != scene.materials.emission_texture ||
+                        (compiled.material_features.has(Feature::emission_textures) &&
+                         !are_equal(compiled.texture_sources, scene.textures));
         compiled.texture_sources = scene.textures;
         compiled.opacity_sources = scene.materials.opacity;
+        compiled.emission_sources = scene.materials.emission_texture;
     }
     parts.shapes |= parts.opacity && !scene.shapes.kind.empty();  // they hold their opacity
     if (parts.textures) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -95,6 +96,7 @@ struct CompiledScene {
     SceneExtent extent;
     TextureArrays texture_sources;
     std::vector<MaterialOpacity> opacity_sources;
+    std::vector<uint32_t> emission_sources;
     bool has_headlight = false;
     std::shared_ptr<const TextureImage> environment_image;  ///< source of the environment's arrays
     double environment_integral = 0;                        ///< `compile_environment` of that image
@@ -146,6 +148,33 @@ void compile_opacity(const SceneArrays &scene, bool every_array, CompiledScene &
 
 /// Returns whether `index` is the index of a texture that is mirrored beyond its edges.
 bool is_mirrored(const TextureArrays &textures, uint32_t index);
+
+/// Returns the texture of an area light, or `no_index`.
+uint32_t emission_texture(const SceneArrays &scene, size_t light);
+
+/// The distribution of the power of a textured area light, by the means of its texels.
+class EmissionMeans {
+  public:
+    /// `radiance` multiplies the texels.
+    EmissionMeans(const TextureArrays &textures, uint32_t texture, const Rgb &radiance);
+
+    /// Returns the mean of the full image, over texels and channels.
+    double of_image() const;
+
+    /// Returns a mean for a triangle with these texture coordinates: that of all texels in a
+    /// rectangle that encloses those which lookups on the triangle read. It is positive wherever
+    /// the emission is: the mean of a rectangle with a positive texel is at least a thousandth of
+    /// the mean of the image.
+    double of_triangle(const std::array<Eigen::Vector2f, 3> &uv) const;
+
+  private:
+    const TextureArrays &textures_;
+    uint32_t texture_;
+    size_t width_, height_;
+    // Sums over the texels below and to the left of each corner; rows begin at the bottom.
+    std::vector<double> sums_;
+    std::vector<uint32_t> positive_;  ///< numbers of texels that are not black
+};
 
 /// Returns the record of texture `index` without the place of its texels.
 TextureRecord texture_record(const TextureArrays &textures, size_t index);

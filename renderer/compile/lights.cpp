@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "renderer/base/angles.h"
 #include "renderer/base/error.h"
@@ -24,13 +25,35 @@ double triangle_area(const MeshArrays &meshes, uint32_t triangle) {
     return 0.5 * e1.cross(e2).norm();
 }
 
-void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, LightRecord &light,
-                        CompiledScene &compiled) {
-    std::vector<double> areas(meshes.triangle_count[mesh]);
-    for (uint32_t i = 0; i < areas.size(); ++i) {
-        areas[i] = triangle_area(meshes, meshes.first_triangle[mesh] + i);
+/// Areas of the triangles of a mesh light and the weights by which they are selected: the areas,
+/// multiplied by the means of their emission if it has a texture.
+struct TriangleWeights {
+    std::vector<double> area, weight;
+};
+
+TriangleWeights triangle_weights(const MeshArrays &meshes, uint32_t mesh,
+                                 const EmissionMeans *means) {
+    TriangleWeights made;
+    for (uint32_t i = 0; i < meshes.triangle_count[mesh]; ++i) {
+        const uint32_t triangle = meshes.first_triangle[mesh] + i;
+        made.area.push_back(triangle_area(meshes, triangle));
+        made.weight.push_back(made.area.back());
+        if (means != nullptr) {
+            std::array<Eigen::Vector2f, 3> uv;
+            for (size_t corner = 0; corner < 3; ++corner) {
+                uv[corner] = meshes.uv.empty() ? Eigen::Vector2f(0, 0)
+                                               : meshes.uv[meshes.triangle[triangle][corner]];
+            }
+            made.weight.back() *= means->of_triangle(uv);
+        }
     }
-    const SelectionTable table = selection_table(areas);
+    return made;
+}
+
+void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, const TriangleWeights &weights,
+                        LightRecord &light, CompiledScene &compiled) {
+    const std::vector<double> &areas = weights.area;
+    const SelectionTable table = selection_table(weights.weight);
     light.kind = LIGHT_MESH;
     light.first_triangle = static_cast<uint32_t>(compiled.emitter_triangles.size());
     light.triangle_count = meshes.triangle_count[mesh];
@@ -52,17 +75,36 @@ struct Compiled {
     double power = 0;
 };
 
-/// Completes the record of an area light: a mesh, a disc or a sphere.
-void compile_area_light(const SceneArrays &scene, size_t i, SphereSampling sphere_sampling,
-                        LightRecord &record, CompiledScene &compiled) {
+/// Completes the record of an area light: a mesh, a disc or a sphere. Returns its power. If it is
+/// 0, nothing is compiled.
+double compile_area_light(const SceneArrays &scene, size_t i, SphereSampling sphere_sampling,
+                          LightRecord &record, CompiledScene &compiled) {
     const LightArrays &lights = scene.lights;
     FeatureMask &features = compiled.light_features;
+    record.texture = emission_texture(scene, i);
+    std::optional<EmissionMeans> means;
+    if (record.texture != NO_TEXTURE) {
+        means.emplace(scene.textures, record.texture, lights.radiance[i]);
+    }
+    double power = pi * lights.area[i] *
+                   (means ? means->of_image() : static_cast<double>(lights.radiance[i].mean()));
     if (lights.mesh[i] != no_index) {
-        compile_mesh_light(scene.meshes, lights.mesh[i], record, compiled);
+        const TriangleWeights weights =
+            triangle_weights(scene.meshes, lights.mesh[i], means ? &*means : nullptr);
+        if (means) {
+            power = pi * std::accumulate(weights.weight.begin(), weights.weight.end(), 0.0);
+        }
+        if (!(power > 0.0)) {
+            return 0.0;
+        }
+        compile_mesh_light(scene.meshes, lights.mesh[i], weights, record, compiled);
         features = features.with(Feature::area_lights)
                        .with(Feature::light_triangles,
                              features.has(Feature::light_triangles) || record.triangle_count > 1);
-        return;
+        return power;
+    }
+    if (!(power > 0.0)) {
+        return 0.0;
     }
     const bool is_disc = scene.shapes.kind[lights.shape[i]] == ShapeArrays::Kind::disc;
     record.kind = is_disc                                   ? LIGHT_DISC
@@ -72,6 +114,7 @@ void compile_area_light(const SceneArrays &scene, size_t i, SphereSampling spher
     record.area = static_cast<float>(lights.area[i]);
     compiled.shapes[lights.shape[i]].light = static_cast<uint32_t>(compiled.lights.size());
     features = features.with(Feature::shape_lights);
+    return power;
 }
 
 /// Completes the record of a spot light. Returns the integral over directions of its intensity,
@@ -117,6 +160,7 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
     FeatureMask &features = compiled.light_features;
     Compiled light;
     LightRecord &record = light.record;
+    record.texture = NO_TEXTURE;
     copy3(lights.radiance[i], record.radiance);
     const Eigen::Matrix4d &world = lights.world_from_light[i];
     copy3(Eigen::Vector3d(world.block<3, 1>(0, 0)), record.axis_x);
@@ -131,8 +175,7 @@ Compiled compile_light(const SceneArrays &scene, size_t i, const CompileSettings
     }
     switch (lights.kind[i]) {
         case Kind::diffuse_area:
-            light.power = pi * lights.area[i] * mean;
-            compile_area_light(scene, i, settings.sphere_sampling, record, compiled);
+            light.power = compile_area_light(scene, i, settings.sphere_sampling, record, compiled);
             break;
         case Kind::point:
             record.kind = LIGHT_POINT;
@@ -194,6 +237,7 @@ Compiled headlight(const SceneExtent &extent, CompiledScene &compiled) {
     const double intensity = pi * std::pow(std::max(away, extent.radius), 2);
     Compiled light;
     light.record.kind = LIGHT_POINT;
+    light.record.texture = NO_TEXTURE;
     copy3(Eigen::Vector3d::Constant(intensity).eval(), light.record.radiance);
     std::copy_n(compiled.camera.position, 3, light.record.position);
     light.power = 4.0 * pi * intensity;

@@ -238,6 +238,14 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
                              features.has(Feature::one_sided) || materials.two_sided[i] == 0);
         compiled.materials.push_back(record);
     }
+    for (const uint32_t texture : materials.emission_texture) {
+        if (texture != no_index) {
+            features = features.with(Feature::textures).with(Feature::emission_textures);
+        }
+        if (is_mirrored(scene.textures, texture)) {
+            features = features.with(Feature::texture_mirror);
+        }
+    }
     features = features.with(Feature::scattering, !compiled.components.empty());
     compiled.material_features = features;
 }

@@ -61,6 +61,7 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"rough_glass_ggx", "at the normal instead of the half vector"},
         {"rough_plastic", "no Fresnel term"},
         {"texture_mirror", "the export to Cycles does not support the wrap mode mirror"},
+        {"textured_light", "the export to Cycles does not support a texture of emission"},
         {"thin_glass", "not supported by Cycles: the export has no thin plates"},
         {"two_sides", "not supported by Cycles: the export has no materials that differ by side"},
         {"ward_010", "it has no such model"},

@@ -173,6 +173,11 @@ class SceneWriter {
                     fmt::format("{}material '{}': the export to Cycles does not support an opacity",
                                 user_of(i), materials.name[i]));
             }
+            if (materials.emission_texture[i] != no_index) {
+                throw input_error(fmt::format(
+                    "{}material '{}': the export to Cycles does not support a texture of emission",
+                    user_of(i), materials.name[i]));
+            }
             if (materials.normal_map[i].kind != NormalMap::Kind::none) {
                 throw input_error(fmt::format(
                     "{}material '{}': the export to Cycles does not support normal and bump maps",

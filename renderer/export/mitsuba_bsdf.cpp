@@ -122,6 +122,18 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
     return id;
 }
 
+void BsdfWriter::write_radiance(pugi::xml_node emitter, const Rgb &radiance, uint32_t material,
+                                UvConvention uv) {
+    const uint32_t texture = arrays_.materials.emission_texture[material];
+    if (texture != no_index && uv == UvConvention::none) {
+        throw input_error(fmt::format(
+            "material '{}': the texture of its emission needs texture coordinates that agree with "
+            "Mitsuba's; use a mesh with texture coordinates or a sphere",
+            arrays_.materials.name[material]));
+    }
+    write_weight(emitter, "radiance", radiance.cast<double>(), texture, uv);
+}
+
 void BsdfWriter::write_sides(pugi::xml_node parent, std::string id, uint32_t material,
                              UvConvention uv) {
     using Side = BxdfComponent::Side;

@@ -26,6 +26,11 @@ class BsdfWriter {
     /// input) naming the material and the feature that Mitsuba lacks.
     std::string id(uint32_t material, UvConvention uv);
 
+    /// Writes the radiance of an area light, of which the texture is that of the emission of its
+    /// material. Throws `Error` (bad input) naming the material if Mitsuba lacks the coordinates.
+    void write_radiance(pugi::xml_node emitter, const Rgb &radiance, uint32_t material,
+                        UvConvention uv);
+
   private:
     struct Slot;
     using Write = void (BsdfWriter::*)(pugi::xml_node, const BxdfComponent *, UvConvention);

@@ -183,8 +183,8 @@ class SceneWriter {
         pugi::xml_node reference = pugi::xml_node(shape).append_child("ref");
         reference.append_attribute("id") = bsdf.c_str();
         if (light != no_index) {
-            add_colour(add_object(shape, "emitter", "area"), "radiance",
-                       arrays_.lights.radiance[light]);
+            bsdfs_.write_radiance(add_object(shape, "emitter", "area"),
+                                  arrays_.lights.radiance[light], material, uv);
         }
         return shape;
     }

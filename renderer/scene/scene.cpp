@@ -128,6 +128,12 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
             collector.add(map.mirrored_back);
         }
     }
+    const std::vector<uint32_t> &emissions = arrays.materials.emission_texture;
+    if (std::any_of(emissions.begin(), emissions.end(),
+                    [](uint32_t texture) { return texture != no_index; })) {
+        collector.begin("emission textures");
+        collector.add(emissions);
+    }
     const std::vector<BxdfComponent> &components = arrays.materials.component;
     if (std::any_of(components.begin(), components.end(), [](const BxdfComponent &component) {
             return component.side != BxdfComponent::Side::both;

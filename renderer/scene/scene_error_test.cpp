@@ -43,9 +43,9 @@ TEST(SceneErrors, Materials) {
              "in.json:2: /nodes/1/material: missing key 'reflectance' of the lambert: albedo"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "sigma": 0})",
              "/nodes/1/material/sigma: unknown key 'sigma' of the lambert; allowed: bump_map, "
-             "bump_map_texture, emission, map_follows_v, map_mirrored_back, map_shadowing, "
-             "normal_map, normal_map_texture, opacity, opacity_cutoff, opacity_texture, "
-             "reflectance, reflectance_texture, two_sided"},
+             "bump_map_texture, emission, emission_texture, map_follows_v, map_mirrored_back, "
+             "map_shadowing, normal_map, normal_map_texture, opacity, opacity_cutoff, "
+             "opacity_texture, reflectance, reflectance_texture, two_sided"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1], "specular_texture": {"file": "a", "encoding": "srgb"}})",
              "unknown key 'specular_texture' of the lambert"},
             {R"({"type": "lambert", "reflectance": [1, 1, 1.5]})",
@@ -112,8 +112,8 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite", "components": []})", "/nodes/1/material/components"},
             {R"({"type": "composite", "eta": 1, "components": [{"bxdf": "lambert", "weight": [1, 1, 1]}]})",
              "unknown key 'eta' of the composite; allowed: bump_map, bump_map_texture, components, "
-             "emission, map_follows_v, map_mirrored_back, map_shadowing, normal_map, "
-             "normal_map_texture, opacity, opacity_cutoff, opacity_texture, two_sided"},
+             "emission, emission_texture, map_follows_v, map_mirrored_back, map_shadowing, "
+             "normal_map, normal_map_texture, opacity, opacity_cutoff, opacity_texture, two_sided"},
             {R"({"type": "composite", "components": [{"weight": [1, 1, 1]}]})",
              "/nodes/1/material/components/0 (in 'a'): missing key 'bxdf'"},
             {R"({"type": "composite", "components": [{"bxdf": "lambert"}]})",

@@ -194,6 +194,9 @@ struct MaterialArrays {
     std::vector<uint8_t> two_sided;        ///< 0: black from behind, unless a component refracts
     std::vector<MaterialOpacity> opacity;  ///< a material without an entry is opaque
     std::vector<NormalMap> normal_map;     ///< a material without an entry has no map
+    /// Index into TextureArrays of the factor of the radiance of area lights with this material, or
+    /// `no_index`. A material without an entry has none.
+    std::vector<uint32_t> emission_texture;
     // per component, all materials concatenated
     std::vector<BxdfComponent> component;
 };
@@ -264,7 +267,8 @@ struct ShapeArrays {
     std::vector<uint32_t> julia_iterations;
 };
 
-/// Lights. Area lights emit only from the front side of their geometry.
+/// Lights. Area lights emit only from the front side of their geometry. The texture of emission of
+/// its material multiplies their radiance.
 struct LightArrays {
     enum class Kind {
         diffuse_area,  ///< a mesh, a disc, or a sphere transformed by a similarity

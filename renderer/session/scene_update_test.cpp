@@ -118,6 +118,28 @@ TEST(SceneUpdate, MovedMeshCostsItsTrianglesAndTheHierarchy) {
     }
 }
 
+// The texels decide how lights and their triangles are selected.
+TEST(SceneUpdate, TextureOfAnEmissionIsThatOfANewSession) {
+    Scene scene = parse_scene_json(
+        R"({"version": 1, "film": {"width": 20, "height": 16},
+        "textures": {"checks": {"file": "assets/checker.png", "encoding": "srgb", "uv_scale": [0.25, 0.25]}}, "nodes": [
+        {"name": "camera", "transform": [{"translate": [0, 2, 5]}], "camera": {"type": "pinhole", "fov": 45, "fov_axis": "smaller"}},
+        {"name": "ground", "geometry": {"type": "rectangle"}, "material": {"type": "lambert", "reflectance": [0.6, 0.6, 0.6]},
+         "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": -90}}]},
+        {"name": "lamp", "geometry": {"type": "rectangle"}, "transform": [{"translate": [0, 1, -1]}],
+         "material": {"type": "lambert", "reflectance": [0, 0, 0], "emission": [3, 2, 1], "emission_texture": "checks"}},
+        {"name": "ball", "geometry": {"type": "sphere", "radius": 0.3}, "transform": [{"translate": [0, 0.5, 0.5]}],
+         "material": {"type": "lambert", "reflectance": [0, 0, 0], "emission": [1, 1, 1], "emission_texture": "checks"}}]})",
+        "in.json", "in", RTRAYS_SCENES "/features");
+    const RenderSettings settings = small("path_tracing");
+    RenderSession session(scene, settings, device());
+    const std::vector<int64_t> first = render(session);
+    cost_of(scene, session, settings, "textures.checks.uv_offset", "[0.13, 0.27]");
+    EXPECT_NE(render_new(scene, settings), first);
+    cost_of(scene, session, settings, "textures.checks.wrap", "mirror");
+    cost_of(scene, session, settings, "lamp.emission", "[0, 0, 0]");
+}
+
 TEST(SceneUpdate, RepeatedUpdateCostsNothing) {
     Scene scene = box();
     RenderSession session(scene, small(), device());

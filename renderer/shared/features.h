@@ -62,7 +62,7 @@
     X(fresnel_schlick, "Schlick's approximation")                                             \
     X(fresnel_thin_dielectric, "thin plate of a dielectric")                                  \
     X(component_sides, "a BxDF reflects on one side of the surface only")                     \
-    X(textures, "a weight has a texture")                                                     \
+    X(textures, "a weight or an emission has a texture")                                      \
     X(normal_maps, "a map of normals or heights tilts shading normals")                       \
     X(bump_maps, "such a map has heights")                                                    \
     X(texture_mirror, "a texture is mirrored beyond its edges")                               \
@@ -77,6 +77,7 @@
     X(area_lights, "emitting triangles")                                                      \
     X(light_triangles, "a mesh light has more than one triangle: its area table is searched") \
     X(shape_lights, "emitting discs and spheres")                                             \
+    X(emission_textures, "an area light has a texture")                                       \
     X(point_lights, "point lights")                                                           \
     X(spot_lights, "spot lights")                                                             \
     X(directional_lights, "directional lights")                                               \

@@ -240,7 +240,8 @@ typedef struct LightRecord {
     float outer_angle;         ///< spot: in radians
     float angle_scale;         ///< spot: 1 / (outer angle - inner angle)
     float emission_selection;  ///< probability that a light path starts here
-    float padding[2];
+    uint texture;              ///< area lights: index of the factor of `radiance`, or NO_TEXTURE
+    float padding;
 } LightRecord;
 
 #define LIGHT_MESH 0u

@@ -169,6 +169,10 @@ inline void expect_consistent(const SceneGraph &graph) {
         ASSERT_EQ(map.texture == no_index, map.kind == NormalMap::Kind::none);
         mark(map.texture);
     }
+    ASSERT_EQ(arrays.materials.emission_texture.size(), arrays.materials.name.size());
+    for (const uint32_t texture : arrays.materials.emission_texture) {
+        mark(texture);
+    }
     ASSERT_EQ(std::count(used.begin(), used.end(), false), 0) << "textures that no material uses";
 }
 

@@ -148,16 +148,25 @@ const std::vector<MaterialReader::Type> &MaterialReader::types() {
 }
 
 std::shared_ptr<MaterialCore> MaterialReader::read(const Element &bsdf, UvConvention uv,
-                                                   const std::string &default_name) {
+                                                   const std::string &default_name,
+                                                   const std::shared_ptr<Texture> &emission) {
     std::vector<Material> &known = materials_[bsdf.hash()];
     for (const Material &material : known) {
-        if (!material.depends_on_uv || material.uv == uv) {
+        if (emission == nullptr && (!material.depends_on_uv || material.uv == uv)) {
             return material.core;
         }
     }
     ErrorList errors;
-    const Draft draft = read_bsdf(bsdf, uv, errors);
+    Draft draft = read_bsdf(bsdf, uv, errors);
     errors.raise(bsdf.source_name());
+    if (emission != nullptr) {
+        draft.values["emission"] = Vector3d(1, 1, 1);
+        draft.textures["emission"] = emission;
+        return bsdf.located([&] {
+            return std::make_shared<MaterialCore>(material_names_.unique(default_name), draft.type,
+                                                  draft.values, draft.textures);
+        });
+    }
     const bool has_id = bsdf.has("id");
     const std::string name = material_names_.unique(has_id ? bsdf.attribute("id") : default_name);
     const auto core = bsdf.located([&] {
@@ -179,6 +188,14 @@ std::shared_ptr<MaterialCore> MaterialReader::standard(bool emits) {
                             {"two_sided", false}});
     }
     return core;
+}
+
+std::shared_ptr<MaterialCore> MaterialReader::emitting(const std::shared_ptr<Texture> &emission) {
+    return std::make_shared<MaterialCore>(material_names_.unique("black"), "lambert",
+                                          ParameterValues{{"reflectance", Vector3d(0, 0, 0)},
+                                                          {"two_sided", false},
+                                                          {"emission", Vector3d(1, 1, 1)}},
+                                          ParameterTextures{{"emission", emission}});
 }
 
 MaterialReader::Draft MaterialReader::read_bsdf(const Element &bsdf, UvConvention uv,
@@ -567,12 +584,16 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
 
 std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &draft) {
     draft.depends_on_uv = true;
-    if (draft.uv == UvConvention::none) {
+    return texture(element, draft.uv);
+}
+
+std::shared_ptr<Texture> MaterialReader::texture(const Element &element, UvConvention uv) {
+    if (uv == UvConvention::none) {
         throw element.error(
             "this shape has no texture coordinates that match Mitsuba's; use one colour, or a mesh "
             "with texture coordinates");
     }
-    std::shared_ptr<Texture> &texture = textures_[{element.hash(), draft.uv}];
+    std::shared_ptr<Texture> &texture = textures_[{element.hash(), uv}];
     if (texture != nullptr) {
         return texture;
     }
@@ -581,8 +602,8 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &
     if (!is_bitmap && object.type() != "checkerboard") {
         throw element.error("unsupported texture type; supported types are: bitmap, checkerboard");
     }
-    texture = element.located(
-        [&] { return is_bitmap ? bitmap(object, draft.uv) : checkerboard(object, draft.uv); });
+    texture =
+        element.located([&] { return is_bitmap ? bitmap(object, uv) : checkerboard(object, uv); });
     if (element.has("id")) {
         scene_.graph().share("textures." + texture->name(), texture);
     }

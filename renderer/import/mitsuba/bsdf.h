@@ -40,13 +40,21 @@ class MaterialReader {
     MaterialReader(const Document &document, Scene &scene) : document_(document), scene_(scene) {}
 
     /// Returns the material of a "bsdf" element on a geometry whose texture coordinates follow
-    /// `uv`. The material is named `default_name` if the element has no id. Throws `LocatedError`
-    /// that lists all errors of the BSDF.
+    /// `uv`. The material is named `default_name` if the element has no id. `emission` is the
+    /// texture of the radiance of that geometry alone, or nullptr. Throws `LocatedError` that lists
+    /// all errors of the BSDF.
     std::shared_ptr<MaterialCore> read(const Element &bsdf, UvConvention uv,
-                                       const std::string &default_name);
+                                       const std::string &default_name,
+                                       const std::shared_ptr<Texture> &emission = nullptr);
 
     /// Returns the material of a shape without a BSDF: black if the shape emits, otherwise grey.
     std::shared_ptr<MaterialCore> standard(bool emits);
+
+    /// Returns a black material whose emission is a texture.
+    std::shared_ptr<MaterialCore> emitting(const std::shared_ptr<Texture> &emission);
+
+    /// Returns the texture of a geometry whose texture coordinates follow `uv`.
+    std::shared_ptr<Texture> texture(const Element &element, UvConvention uv);
 
     TextureFiles &files() { return files_; }
 

@@ -95,11 +95,15 @@ constexpr Type types[] = {{"point", read_point},
 
 }  // namespace
 
-std::shared_ptr<LightCore> read_area_light(Object &object) {
-    if (object.type() != "area") {
-        throw object.element().error(
+void check_area_light(const Object &emitter) {
+    if (emitter.type() != "area") {
+        throw emitter.element().error(
             "unsupported emitter type on a shape; supported types are: area");
     }
+}
+
+std::shared_ptr<LightCore> read_area_light(Object &object) {
+    check_area_light(object);
     return object.element().located([&] {
         const auto light =
             make_light(object, "diffuse_area", {{"radiance", object.emission("radiance", 1)}});

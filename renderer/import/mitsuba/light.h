@@ -18,6 +18,9 @@ struct PlacedLight {
     Eigen::Matrix4d world_from_light;
 };
 
+/// Throws `LocatedError` unless the emitter of a shape is an area light.
+void check_area_light(const Object &emitter);
+
 /// Converts the emitter of a shape. Throws `LocatedError` unless it is a supported area light.
 std::shared_ptr<LightCore> read_area_light(Object &emitter);
 

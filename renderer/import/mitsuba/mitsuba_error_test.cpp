@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadElement{
             shape(
                 "<emitter type=\"area\">\n<texture type=\"bitmap\" name=\"radiance\"/></emitter>"),
-            "in.xml:4: <emitter type=\"area\">: 'radiance' must be a colour"}));
+            "in.xml:5: <texture type=\"bitmap\" name=\"radiance\">: needs a filename"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Bsdfs, BadElements,

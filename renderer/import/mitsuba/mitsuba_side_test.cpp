@@ -194,6 +194,32 @@ TEST(MitsubaBsdfs, ThinDielectricsDoNotBendLight) {
     }
 }
 
+TEST(MitsubaTexturedEmitters, AreMaterialsWithATextureOfEmission) {
+    const std::string texture =
+        R"(<texture type="checkerboard" name="radiance"><rgb name="color0" value="4,2,0"/>
+        <float name="color1" value="1"/></texture>)";
+    const auto shape = [&](const std::string &type, const std::string &bsdf) {
+        return parse_elements("<shape type=\"" + type + "\"><emitter type=\"area\">" + texture +
+                              "</emitter>" + bsdf + "</shape>");
+    };
+    for (const char *bsdf : {"", R"(<bsdf type="diffuse" id="wall"/>)"}) {
+        const Scene scene = shape("rectangle", bsdf);
+        EXPECT_EQ(scene.lights().radiance.at(0), Vector3f(1, 1, 1));
+        ASSERT_EQ(scene.materials().emission_texture.at(0), 0u);
+        EXPECT_EQ(scene.arrays().textures.image.at(0)->floats[0], 4);
+        EXPECT_EQ(scene.materials().component.at(0).weight[0], *bsdf != 0 ? 0.5f : 0.0f);
+    }
+    expect_input_error("this shape has no texture coordinates that match Mitsuba's",
+                       [&] { shape("disk", ""); });
+    // The BSDF does not emit where it is used without the emitter.
+    const Scene two = parse_elements(
+        R"(<bsdf type="diffuse" id="wall"/><shape type="rectangle"><ref id="wall"/></shape>
+        <shape type="rectangle"><ref id="wall"/><emitter type="area">)" +
+        texture + "</emitter></shape>");
+    EXPECT_EQ(two.lights().name.size(), 1u);
+    EXPECT_EQ(two.materials().name.size(), 2u);
+}
+
 TEST(MitsubaEmitterReferences, MayPrecedeTheEmitter) {
     const Scene scene = parse_elements(two_lamps);
     ASSERT_EQ(scene.lights().kind.size(), 1u);

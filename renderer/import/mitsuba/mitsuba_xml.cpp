@@ -24,6 +24,12 @@ namespace {
 
 using namespace mitsuba;
 
+/// What makes a shape emit: a light, or a texture, which becomes the emission of its material.
+struct ShapeEmission {
+    std::shared_ptr<LightCore> light;
+    std::shared_ptr<Texture> texture;
+};
+
 class SceneReader {
   public:
     SceneReader(const Document &document, const std::string &source_name, Scene &scene)
@@ -167,23 +173,24 @@ class SceneReader {
         }
         // Errors of the emitter and the BSDF are reported even if there is no geometry.
         const auto name = node_names_.unique(wanted_name(element));
+        const UvConvention uv = shape ? shape->uv : UvConvention::same;
+        const auto emission = errors_.collect([&] { return read_shape_light(emitters, uv); });
+        const auto texture = emission ? emission->texture : nullptr;
         const auto material = errors_.collect([&] {
-            return bsdfs.empty()
-                       ? materials_.standard(!emitters.empty())
-                       : materials_.read(bsdfs[0], shape ? shape->uv : UvConvention::same, name);
+            return !bsdfs.empty()       ? materials_.read(bsdfs[0], uv, name, texture)
+                   : texture != nullptr ? materials_.emitting(texture)
+                                        : materials_.standard(!emitters.empty());
         });
-        const auto light = errors_.collect([&] { return read_shape_light(emitters); });
-        if (shape && material && light) {
+        if (shape && material && emission) {
             Shape placed = *shape;
             placed.world_from_geometry = parent * placed.world_from_geometry;
-            add_shape(element, name, placed, *material, *light);
+            add_shape(element, name, placed, *material, *emission);
         }
     }
 
     void add_shape(const Element &element, const std::string &name, const Shape &shape,
-                   const std::shared_ptr<MaterialCore> &material,
-                   const std::shared_ptr<LightCore> &light) {
-        const bool emits = light != nullptr;
+                   const std::shared_ptr<MaterialCore> &material, const ShapeEmission &emission) {
+        const bool emits = emission.light != nullptr || emission.texture != nullptr;
         const bool needs_mesh = (shape.is_flipped && !looks_the_same_flipped(*material, emits)) ||
                                 (emits && !shape.can_emit);
         const Shape placed = needs_mesh ? tessellated(shape) : shape;
@@ -198,19 +205,28 @@ class SceneReader {
         Node &node = add_node(element, name, placed.world_from_geometry);
         node.set_core(placed.geometry);
         node.set_core(material);
-        if (emits) {
-            node.set_core(light);
+        if (emission.light != nullptr) {
+            node.set_core(emission.light);
         }
     }
 
-    /// Returns the light of a shape, or nothing if it has no emitter.
-    std::shared_ptr<LightCore> read_shape_light(const std::vector<Element> &emitters) {
+    /// Returns the emission of a shape whose texture coordinates follow `uv`.
+    ShapeEmission read_shape_light(const std::vector<Element> &emitters, UvConvention uv) {
         if (emitters.empty()) {
-            return nullptr;
+            return {};
         }
         attached_.insert(emitters[0].hash());
         Object emitter(emitters[0], document_);
-        return read_area_light(emitter);
+        const std::vector<Element> textures = emitter.objects("texture", "radiance");
+        if (textures.empty()) {
+            return {read_area_light(emitter), nullptr};
+        }
+        check_area_light(emitter);
+        if (textures.size() > 1 || emitter.has("radiance")) {
+            throw emitters[0].error("duplicate property 'radiance'");
+        }
+        emitter.finish();
+        return {nullptr, materials_.texture(textures[0], uv)};
     }
 
     /// Leaves out a shape that light passes through.

@@ -98,18 +98,24 @@ Placement placement_of(const Json &texture) {
     return {static_cast<unsigned>(uv_set), transform_of(transform)};
 }
 
-/// Reads the placements of the base colour and of the normals. Without a base colour the normals
-/// have the texture coordinates for themselves.
-void read_placements(const Json &base_texture, const Json &normal_texture, GltfMaterial &made) {
-    const Placement normals =
-        normal_texture.is_object() ? placement_of(normal_texture) : Placement{};
-    const Placement base = base_texture.is_object() ? placement_of(base_texture) : normals;
+/// Reads the placements of base colour, normals and emission. Without a base colour the normals
+/// have the texture coordinates for themselves, and without both the emission has.
+void read_placements(const Json &material, GltfMaterial &made) {
+    const Json &base_texture = member(member(material, "pbrMetallicRoughness"), "baseColorTexture");
+    const Json &normal_texture = member(material, "normalTexture");
+    const Placement normals = placement_of(normal_texture);
+    const Placement emission = placement_of(member(material, "emissiveTexture"));
+    const Placement base = base_texture.is_object()     ? placement_of(base_texture)
+                           : normal_texture.is_object() ? normals
+                                                        : emission;
     made.base_uv_set = base.uv_set;
     made.base_transform = base.transform;
     made.normal_scale = number(normal_texture, "scale", 1);
     made.normals_use_base_uv =
         normals.uv_set == base.uv_set && !normals.transform.rotates() && !base.transform.rotates();
     made.normal_transform = normals.transform;
+    made.emission_uv_set = emission.uv_set;
+    made.emission_transform = emission.transform;
 }
 
 /// Notes textures of extensions, which are not read.
@@ -147,8 +153,7 @@ GltfMaterial read_material(const Json &material, const std::string &name, ModelN
     made.specular_colour = colour(specular, "specularColorFactor");
     const Json &two_sided = member(material, "doubleSided");
     made.is_two_sided = two_sided.is_boolean() && two_sided.get<bool>();
-    read_placements(member(member(material, "pbrMetallicRoughness"), "baseColorTexture"),
-                    member(material, "normalTexture"), made);
+    read_placements(material, made);
     return made;
 }
 

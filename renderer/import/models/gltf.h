@@ -41,6 +41,8 @@ struct GltfMaterial {
     /// rotates them.
     bool normals_use_base_uv = true;
     GltfTextureTransform normal_transform;
+    unsigned emission_uv_set = 0;  ///< texture coordinates of the emission
+    GltfTextureTransform emission_transform;
 };
 
 /// A .gltf or .glb file.

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -369,6 +370,37 @@ void ModelMaterials::read_normals(const aiMaterial &source, const GltfMaterial *
     surface.map_scale = gltf != nullptr ? gltf->normal_scale : 1;
 }
 
+void ModelMaterials::read_emission_map(const aiMaterial &source, const GltfMaterial *gltf,
+                                       const std::string &name, ModelSurface &surface) {
+    const int type = has_map(source, aiTextureType_EMISSIVE) ? aiTextureType_EMISSIVE
+                                                             : aiTextureType_EMISSION_COLOR;
+    if (!has_map(source, static_cast<aiTextureType>(type)) || surface.emission.isZero()) {
+        return;
+    }
+    if (gltf == nullptr) {
+        surface.emission_texture = texture(source, type, nullptr, name);
+        return;
+    }
+    // A mesh has the coordinates of the base colour, turned if these are.
+    GltfTextureTransform placed = gltf->emission_transform;
+    if (gltf->base_transform.rotates()) {
+        placed.linear = placed.linear * gltf->base_transform.linear.inverse();
+        placed.offset -= placed.linear * gltf->base_transform.offset;
+    }
+    constexpr double rounding = 1e-9;
+    const bool turns = !(std::abs(placed.linear(0, 1)) + std::abs(placed.linear(1, 0)) < rounding);
+    if (turns || gltf->emission_uv_set != gltf->base_uv_set) {
+        notes_.add(
+            "emission maps with other texture coordinates than the base colour are replaced by "
+            "their mean",
+            name);
+        surface.emission = surface.emission.cwiseProduct(mean_of_map(source, type, true));
+        return;
+    }
+    placed.linear = Eigen::Matrix2d(placed.linear.diagonal().asDiagonal());
+    surface.emission_texture = texture(source, type, &placed, name);
+}
+
 ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     const aiMaterial &source = *model_->mMaterials[index];
     const GltfMaterial *const gltf = extended(index);
@@ -392,13 +424,7 @@ ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     surface.emission =
         colour(source, "$clr.emissive", Vector3d::Zero()) *
         (gltf != nullptr ? gltf->emissive_strength : number(source, "$mat.emissiveIntensity", 1));
-    for (const aiTextureType type : {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR}) {
-        if (has_map(source, type) && !surface.emission.isZero()) {
-            notes_.add("emission maps are replaced by their mean", name);
-            surface.emission = surface.emission.cwiseProduct(mean_of_map(source, type, true));
-            break;
-        }
-    }
+    read_emission_map(source, gltf, name, surface);
     if (gltf != nullptr && gltf->is_two_sided && !surface.emission.isZero()) {
         notes_.add("emission of two-sided materials leaves the front only", name);
     }

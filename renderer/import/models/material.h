@@ -60,6 +60,8 @@ class ModelMaterials {
                       ModelSurface &surface);
     void read_normals(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
                       ModelSurface &surface);
+    void read_emission_map(const aiMaterial &source, const GltfMaterial *gltf,
+                           const std::string &name, ModelSurface &surface);
     void read_physical(const aiMaterial &source, const GltfMaterial &extended,
                        const std::string &name, ModelSurface &surface);
     ModelSurface read(unsigned index, const std::string &name);

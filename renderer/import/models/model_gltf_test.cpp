@@ -60,6 +60,9 @@ TEST(Gltf, EmissionIsFactorTimesTextureTimesStrength) {
     const auto radiance = [&] {
         const LoadedModel read = loaded(model);
         EXPECT_FALSE(read.says("KHR_materials_emissive_strength")) << read.told;
+        EXPECT_EQ(
+            read.scene.materials().emission_texture.at(read.material_index("brass")) != no_index,
+            material.contains("emissiveTexture"));
         return read.scene.lights().radiance.at(read.light("left"));
     };
     for (const bool has_texture : {false, true}) {
@@ -74,10 +77,54 @@ TEST(Gltf, EmissionIsFactorTimesTextureTimesStrength) {
             Json::array({"KHR_lights_punctual", "KHR_materials_emissive_strength"});
         const Vector3f with = radiance();
         EXPECT_LT((with - 50 * without).norm(), 1e-5f * with.norm());
-        EXPECT_EQ(without.x(), has_texture ? 0.5f : 1.0f);
+        EXPECT_EQ(without, Vector3f(1, 0.5f, 0.25f));  // the factor of the texture
     }
     model["extensionsRequired"] = Json::array({"KHR_materials_emissive_strength"});
-    EXPECT_EQ(radiance().x(), 25.0f);
+    EXPECT_EQ(radiance().x(), 50.0f);
+}
+
+TEST(Gltf, EmissionHasItsOwnTextureTransform) {
+    Json model = document();
+    Json &material = model["materials"][0];
+    model["images"] = {{{"uri", checker}}};
+    model["textures"] = {{{"source", 0}}};
+    model["extensionsUsed"].push_back("KHR_texture_transform");
+    const auto texture = [](const Json &transform) {
+        return Json{{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+    };
+    // Returns where the emission of a vertex is looked up.
+    const auto looked_up = [&](size_t vertex) {
+        const LoadedModel read = loaded(model);
+        const TextureArrays &textures = read.scene.arrays().textures;
+        const uint32_t at =
+            read.scene.materials().emission_texture.at(read.material_index("brass"));
+        EXPECT_NE(at, no_index) << read.told;
+        const Vector2d uv = read.scene.meshes().uv.at(vertex).cast<double>();
+        return Vector2d(textures.uv_scale.at(at).cwiseProduct(uv) + textures.uv_offset.at(at));
+    };
+    material["emissiveFactor"] = {1, 1, 1};
+    material["emissiveTexture"] = {{"index", 0}};
+    const Vector2d plain[2] = {looked_up(0), looked_up(1)};
+    material["emissiveTexture"] = texture({{"scale", {2, 3}}, {"offset", {0.25, 0.5}}});
+    const Json turned = texture({{"rotation", 0.5}, {"scale", {2, 2}}});
+    for (size_t vertex = 0; vertex < 2; ++vertex) {
+        // v points down in glTF.
+        const Vector2d expected(2 * plain[vertex][0] + 0.25,
+                                1 - (3 * (1 - plain[vertex][1]) + 0.5));
+        EXPECT_LT((looked_up(vertex) - expected).norm(), 1e-6);
+    }
+    // Both turn alike, so both have the coordinates of the mesh.
+    material["pbrMetallicRoughness"]["baseColorTexture"] = turned;
+    material["emissiveTexture"] = turned;
+    EXPECT_NE(loaded(model).scene.materials().emission_texture.at(0), no_index);
+    // The emission alone turns.
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    const LoadedModel mean = loaded(model);
+    EXPECT_TRUE(
+        mean.says("emission maps with other texture coordinates than the base colour are "
+                  "replaced by their mean (1: brass)"))
+        << mean.told;
+    EXPECT_EQ(mean.scene.lights().radiance.at(mean.light("left")).x(), 0.5f);
 }
 
 TEST(Gltf, RequiredUnknownExtensionsAreErrors) {

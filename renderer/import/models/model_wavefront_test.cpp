@@ -263,6 +263,15 @@ TEST(Mtl, HonoursTheOptionsOfMaps) {
               std::string::npos);
 }
 
+TEST(Mtl, MapsMultiplyTheEmission) {
+    const LoadedModel model = with_material("Kd 0\nKe 3 2 1\nmap_Ke -s 2 2 a.png\n");
+    EXPECT_EQ(model.scene.lights().radiance.at(0), Vector3f(3, 2, 1));
+    const uint32_t texture = model.scene.materials().emission_texture.at(0);
+    ASSERT_NE(texture, no_index);
+    EXPECT_EQ(model.scene.arrays().textures.uv_scale.at(texture), Vector2d(2, 2));
+    EXPECT_FALSE(model.says("emission")) << model.told;
+}
+
 TEST(Mtl, LooksForFilesBesideTheMtlFirst) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.path() / "mats");

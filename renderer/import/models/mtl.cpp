@@ -417,10 +417,8 @@ std::shared_ptr<MaterialCore> make_mtl_material(const MtlMaterial &material,
         surface.specular_texture = surface.is_physical ? nullptr : texture(material.specular_map);
         surface.opacity_texture = opacity_texture(material, name, folders, textures, notes);
         set_normals(material, name, folders, textures, notes, surface);
-        if (!material.emission_map.file.empty() && !surface.emission.isZero()) {
-            notes.add("emission maps are replaced by their mean", name);
-            surface.emission = surface.emission.cwiseProduct(
-                mean_of(*textures.load(material.emission_map.file, folders, true)));
+        if (!surface.emission.isZero()) {
+            surface.emission_texture = texture(material.emission_map);
         }
         return make_model_material(surface, name, notes);
     } catch (const Error &error) {

@@ -61,6 +61,9 @@ void set_common(const ModelSurface &s, ParameterValues &values, ParameterTexture
     if (s.opacity_texture != nullptr) {
         textures["opacity"] = s.opacity_texture;
     }
+    if (s.emission_texture != nullptr) {
+        textures["emission"] = s.emission_texture;
+    }
     for (const auto &[parameter, texture] :
          {std::pair("normal_map", s.normal_texture), std::pair("bump_map", s.bump_texture)}) {
         if (texture != nullptr) {

@@ -20,6 +20,7 @@ struct ModelSurface {
     Eigen::Vector3d diffuse = Eigen::Vector3d::Constant(default_grey);
     Eigen::Vector3d specular = Eigen::Vector3d::Zero();
     Eigen::Vector3d emission = Eigen::Vector3d::Zero();
+    std::shared_ptr<Texture> emission_texture;  ///< factor of the emission
     Eigen::Vector3d transmittance = Eigen::Vector3d::Ones();
     std::shared_ptr<Texture> diffuse_texture;
     std::shared_ptr<Texture> specular_texture;

@@ -63,6 +63,14 @@ DEVICE void triangle_gradients(PRIVATE const SceneView *scene, uint triangle, fl
     *gradient_v = cross(e1 * (-dv2 / twice_area) + e2 * (dv1 / twice_area), n);
 }
 
+/// Returns the texture coordinates of a triangle at barycentrics (1 - u - v, u, v).
+DEVICE float2 triangle_uv(PRIVATE const SceneView *scene, uint triangle, float u, float v) {
+    GLOBAL const TriangleUv *at = scene->triangle_uvs + triangle;
+    const float w = 1.0f - u - v;
+    return make_float2(w * at->uv[0][0] + u * at->uv[1][0] + v * at->uv[2][0],
+                       w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
+}
+
 /// Returns the hit with barycentrics (1 - u - v, u, v) on a triangle.
 DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, float u, float v) {
     GLOBAL const SurfaceTriangle *surface = scene->surface_triangles + triangle;
@@ -87,9 +95,7 @@ DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, fl
         hit.normal = squared > 1e-12f ? n / sqrt(squared) : hit.point.normal;
     }
     if (FEATURE_texture_coordinates) {
-        GLOBAL const TriangleUv *at = scene->triangle_uvs + triangle;
-        hit.uv = make_float2(w * at->uv[0][0] + u * at->uv[1][0] + v * at->uv[2][0],
-                             w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
+        hit.uv = triangle_uv(scene, triangle, u, v);
     }
     if (FEATURE_tangents) {
         hit.tangent = triangle_tangent(scene, triangle);

@@ -3,10 +3,11 @@
 // (thesis, section 3.3.4; Veach 1997, section 8.2). The densities that MIS weights require for
 // other strategies are in light.h.
 //
-// Surfaces emit from points uniform by area into directions in proportion to the cosine. The weight
-// is thus pi L over the density of the point. For light from infinity, the direction is sampled
-// first. Then a point is sampled on a disc perpendicular to it, as wide as the sphere around the
-// scene's bounded surfaces. The weight is pi R^2 L over the density of the direction.
+// Surfaces emit from points uniform by area (with a texture, uniform on each triangle) into
+// directions in proportion to the cosine. The weight is thus pi L over the density of the point.
+// For light from infinity, the direction is sampled first. Then a point is sampled on a disc
+// perpendicular to it, as wide as the sphere around the scene's bounded surfaces. The weight is pi
+// R^2 L over the density of the direction.
 //
 // Such paths light only the part of a plane that is in the shadow of that sphere. The rest is left
 // to other strategies (`disc_pdf_a`), and remains dark without them.
@@ -33,6 +34,7 @@ typedef struct EmissionSample {
     /// lights: per solid angle. Lights at infinity: per area of the disc.
     float pdf_direction;
     uint light;        ///< index of the light
+    float2 uv;         ///< texture coordinates of the point, if a light has a texture
     uint is_delta;     ///< point, spot and directional lights, which cannot be hit
     uint at_infinity;  ///< dome, environment and directional lights
 } EmissionSample;
@@ -63,16 +65,17 @@ DEVICE float3 sample_disc_origin(PRIVATE const SceneView *scene, float3 d, float
 
 /// Emits from a point on an area light into the hemisphere of its normal, in proportion to the
 /// cosine.
-DEVICE void emit_from_surface(LightRecord light, SurfacePoint point, float pdf_a, uint4 b,
-                              PRIVATE EmissionSample *sample) {
+DEVICE void emit_from_surface(PRIVATE const SceneView *scene, LightRecord light, SurfacePoint point,
+                              float2 uv, float pdf_a, uint4 b, PRIVATE EmissionSample *sample) {
     const float3 about_z = sample_cosine_hemisphere(uniform_float(b.x), uniform_float(b.y));
     sample->point = point;
+    sample->uv = uv;
     sample->direction = to_world(frame_from_z(point.normal), about_z);
     sample->origin = offset_ray_origin(point, point.normal);
     sample->pdf_origin = light.emission_selection * pdf_a;
     sample->pdf_direction = about_z.z * INV_PI;
     // A triangle without area has no density, but no word selects it.
-    sample->weight = light_radiance(light) * (PI / sample->pdf_origin);
+    sample->weight = surface_radiance(scene, light, uv) * (PI / sample->pdf_origin);
 }
 
 /// Samples the start of a light path from a point or spot light.
@@ -138,15 +141,15 @@ DEVICE EmissionSample sample_emission(PRIVATE const SceneView *scene, uint4 a, u
     const float3 none = make_float3(0.0f, 0.0f, 0.0f);
     sample.origin = none;
     sample.direction = none;
+    sample.uv = make_float2(0.0f, 0.0f);
     sample.weight = light_radiance(light) / light.emission_selection;
     sample.pdf_origin = light.emission_selection;
     sample.pdf_direction = 0.0f;
     sample.is_delta = 0u;
     sample.at_infinity = 0u;
     if (FEATURE_area_lights && light.kind == LIGHT_MESH) {
-        const LightPoint on =
-            sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, a);
-        emit_from_surface(light, on.point, on.pdf_a, b, &sample);
+        const LightPoint on = sample_mesh_light(scene, light, a);
+        emit_from_surface(scene, light, on.point, on.uv, on.pdf_a, b, &sample);
         return sample;
     }
     if (FEATURE_shape_lights && is_shape_light(light)) {
@@ -154,7 +157,7 @@ DEVICE EmissionSample sample_emission(PRIVATE const SceneView *scene, uint4 a, u
         by_area.kind = light.kind == LIGHT_DISC ? LIGHT_DISC : LIGHT_SPHERE_BY_AREA;
         const ShapeLightSample on = sample_shape_light(
             by_area, scene->shapes, shape_centre(scene->shapes + light.first_triangle), u, v);
-        emit_from_surface(light, on.point, on.pdf_a, b, &sample);
+        emit_from_surface(scene, light, on.point, on.uv, on.pdf_a, b, &sample);
         return sample;
     }
     if ((FEATURE_point_lights || FEATURE_spot_lights) &&

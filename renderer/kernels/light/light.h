@@ -10,6 +10,7 @@
 #include "renderer/kernels/light/spot.h"
 #include "renderer/kernels/sampling/select.h"
 #include "renderer/kernels/scene_view.h"
+#include "renderer/kernels/texture/texture.h"
 #include "renderer/shared/scene_records.h"
 
 /// A sampled direction towards a light.
@@ -34,6 +35,16 @@ typedef struct LightSample {
 DEVICE float3 light_radiance(LightRecord light) {
     return make_float3(light.radiance[0], light.radiance[1], light.radiance[2]);
 }
+
+/// Returns the radiance that leaves an area light at texture coordinates `uv`.
+DEVICE float3 surface_radiance(PRIVATE const SceneView *scene, LightRecord light, float2 uv) {
+    float3 radiance = light_radiance(light);
+    if (FEATURE_emission_textures && light.texture != NO_TEXTURE) {
+        radiance *= texture_lookup(scene->textures + light.texture, scene->texels, uv);
+    }
+    return radiance;
+}
+
 DEVICE float3 light_axis_z(LightRecord light) {
     return make_float3(light.axis_z[0], light.axis_z[1], light.axis_z[2]);
 }
@@ -107,7 +118,7 @@ DEVICE float infinite_pdf_w(PRIVATE const SceneView *scene, float3 d) {
 
 /// Turns a point on an area light into a light sample. `pdf_a` and `uniform_pdf_a` are the
 /// densities per area of light sampling and of emission, both given the light.
-DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, float pdf_a,
+DEVICE void look_at_point(float3 from, SurfacePoint point, float3 radiance, float pdf_a,
                           float uniform_pdf_a, PRIVATE LightSample *sample) {
     const float3 to_point = point.position - from;
     // From behind the density is 0. It is computed without a division by the distance, which may be
@@ -115,7 +126,7 @@ DEVICE void look_at_point(float3 from, LightRecord light, SurfacePoint point, fl
     sample->pdf_w = pdf_a * solid_angle_per_area(to_point, point.normal);
     sample->wi = to_point / sqrt(dot(to_point, to_point));
     sample->target = offset_ray_origin(point, -to_point);
-    sample->radiance = light_radiance(light);
+    sample->radiance = radiance;
     sample->is_delta = 0u;
     if (FEATURE_light_strategy) {
         sample->sampling_over_emission *= pdf_a / uniform_pdf_a;
@@ -183,13 +194,14 @@ DEVICE LightSample sample_one_light(PRIVATE const SceneView *scene, LightRecord 
         sample.arrival_pdf_a = 0.0f;
     }
     if (FEATURE_area_lights && light.kind == LIGHT_MESH) {
-        const LightPoint on =
-            sample_mesh_light(scene->emitter_triangles, scene->surface_triangles, light, words);
-        look_at_point(from, light, on.point, on.pdf_a, on.pdf_a, &sample);
+        const LightPoint on = sample_mesh_light(scene, light, words);
+        look_at_point(from, on.point, surface_radiance(scene, light, on.uv), on.pdf_a, on.pdf_a,
+                      &sample);
     } else if (FEATURE_shape_lights && is_shape_light(light)) {
         const ShapeLightSample on = sample_shape_light(
             light, scene->shapes, from, uniform_float(words.z), uniform_float(words.w));
-        look_at_point(from, light, on.point, on.pdf_a, 1.0f / light.area, &sample);
+        look_at_point(from, on.point, surface_radiance(scene, light, on.uv), on.pdf_a,
+                      1.0f / light.area, &sample);
     } else if ((FEATURE_point_lights || FEATURE_spot_lights) &&
                (light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT)) {
         look_at_position(from, light, &sample);

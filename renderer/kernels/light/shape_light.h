@@ -18,6 +18,7 @@
 typedef struct ShapeLightSample {
     SurfacePoint point;
     float pdf_a;  ///< conditional density per area, given the light
+    float2 uv;    ///< texture coordinates, if a light has a texture
 } ShapeLightSample;
 
 /// Returns whether a light is an emitting shape.
@@ -100,6 +101,7 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
     ShapeLightSample sample;
     sample.point = shape_point(shape, object_point);
     sample.pdf_a = shape_light_pdf_a(light, shapes, from, sample.point);
+    sample.uv = FEATURE_emission_textures ? shape_uv(shape, object_point) : make_float2(0.0f, 0.0f);
     // A shadow ray is the rounded difference of its ends. Over the distance D its end is off by u D
     // per axis, and the t at which it meets the light is off by a few u. The offset of that end
     // must exceed both. Otherwise lights would block themselves from 100 radii on.

@@ -151,7 +151,8 @@ DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, C
     // L_e P_1 / (n_L p_o), MIS (9) for k = 1.
     const float camera_pdf_a = connection.pdf_w * (facing / sqrt(squared)) / squared;
     const float light_pdf_a = start.pdf_origin * (float)settings.light_paths;  // p_o n_L
-    float3 radiance = light_radiance(scene->lights[start.light]) * (camera_pdf_a / light_pdf_a);
+    float3 radiance = surface_radiance(scene, scene->lights[start.light], start.uv) *
+                      (camera_pdf_a / light_pdf_a);
     if (FEATURE_light_emitters && (settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L = P_1 / (n_L p_o) for k = 1, the inverse of MIS (17).
         radiance *= power_heuristic_of_log(log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);

@@ -54,7 +54,7 @@ DEVICE bool surface_emission(Path path, PRIVATE const SceneView *scene, bool by_
         return false;
     }
     const LightRecord light = scene->lights[light_of_hit(scene, primitive, hit.emitter)];
-    met->radiance = light_radiance(light);
+    met->radiance = surface_radiance(scene, light, hit.uv);
     if (by_light_sampling) {
         const float3 from = get_ray_origin(path);
         met->explicit_pdf_w = light_pdf_a(scene, light, primitive, hit.emitter, from, hit.point) *

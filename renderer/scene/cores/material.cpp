@@ -13,8 +13,13 @@ namespace rtrays {
 const ParameterTable &common_material_parameters() {
     static const ParameterTable table = {
         {"two_sided", "false: black from behind, unless a component refracts", true},
-        {"emission", "radiance leaving the front, W / (sr m^2), linear Rec. 709",
-         Eigen::Vector3d(0, 0, 0), Parameter::Need::defaulted, ranges::not_negative},
+        {"emission",
+         "radiance leaving the front, W / (sr m^2), linear Rec. 709",
+         Eigen::Vector3d(0, 0, 0),
+         Parameter::Need::defaulted,
+         ranges::not_negative,
+         {},
+         true},
         {"opacity",
          "share of the light that the surface stops; the rest passes straight through",
          1.0,

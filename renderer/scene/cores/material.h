@@ -56,6 +56,10 @@ class MaterialCore : public ParameterCore {
     bool two_sided() const { return parameters().get<bool>("two_sided"); }
     const Eigen::Vector3d &emission() const { return parameters().vector3("emission"); }
     bool emits() const { return emission().maxCoeff() > 0; }
+    /// Returns the texture that multiplies the emission, or nullptr.
+    std::shared_ptr<Texture> emission_texture() const {
+        return emits() ? parameters().texture("emission") : nullptr;
+    }
     /// Returns the opacity without the index of its texture, which is `opacity_texture`.
     MaterialOpacity opacity() const;
     std::shared_ptr<Texture> opacity_texture() const { return parameters().texture("opacity"); }

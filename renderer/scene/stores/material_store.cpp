@@ -48,6 +48,9 @@ void TextureStore::keep_used(MaterialArrays &materials) {
         for (NormalMap &map : materials.normal_map) {
             visit(map.texture);
         }
+        for (uint32_t &texture : materials.emission_texture) {
+            visit(texture);
+        }
     };
     for_each_use([&](uint32_t texture) {
         if (texture != no_index) {
@@ -94,6 +97,7 @@ void MaterialStore::append(const Node &node) {
     arrays.two_sided.push_back(1);
     arrays.opacity.emplace_back();
     arrays.normal_map.emplace_back();
+    arrays.emission_texture.push_back(no_index);
     version_.push_back(0);
 }
 
@@ -118,6 +122,7 @@ void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &)
             "material '{}': a bump map cannot be mirrored beyond its edges; use repeat or clamp",
             material.name()));
     }
+    arrays.emission_texture[slot] = textures_.record(material.emission_texture());
     version_[slot] = material.version();
 }
 
@@ -131,6 +136,7 @@ void MaterialStore::keep(const std::vector<uint32_t> &slots) {
     arrays.component = std::move(components);
     keep_elements(arrays.opacity, slots);
     keep_elements(arrays.normal_map, slots);
+    keep_elements(arrays.emission_texture, slots);
     textures_.keep_used(arrays);
     keep_elements(arrays.name, slots);
     keep_elements(arrays.first_component, slots);

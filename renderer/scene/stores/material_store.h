@@ -22,8 +22,8 @@ class TextureStore {
     /// it is new or the texture has changed.
     uint32_t record(const std::shared_ptr<Texture> &texture);
 
-    /// Removes the records that no component, opacity or normal map refers to, and updates the
-    /// indices in the others.
+    /// Removes the records that no component, opacity, normal map or emission refers to, and
+    /// updates the indices in the others.
     void keep_used(MaterialArrays &materials);
 
     TextureArrays &arrays;
