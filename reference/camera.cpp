@@ -37,19 +37,24 @@ Camera::Camera(const CameraArrays &cameras, size_t index, int width, int height)
             fmt::format("the film must have at least one pixel, got {}x{}", width, height));
     }
     const double fov = cameras.fov[index];
-    if (!(fov > 0.0 && fov < pi)) {
+    const bool is_parallel = cameras.is_orthographic(index);
+    if (is_parallel && !std::isfinite(cameras.view_size[index])) {
+        throw input_error(fmt::format("camera {}: its size must be finite", index));
+    }
+    if (!is_parallel && !(fov > 0.0 && fov < pi)) {
         throw input_error(
             fmt::format("camera {}: field of view {} rad is outside (0, pi)", index, fov));
     }
     // Pixels are square, so the extent along one axis determines their size on the plane z = -1.
-    const double extent = 2.0 * std::tan(0.5 * fov);
+    const double extent = is_parallel ? cameras.view_size[index] : 2.0 * std::tan(0.5 * fov);
     const double pixel =
         extent / (fov_is_horizontal(cameras.fov_axis[index], width, height) ? width : height);
 
     const Eigen::Matrix4d &world_from_camera = cameras.world_from_camera[index];
     const Eigen::Matrix3d rotation = world_from_camera.topLeftCorner<3, 3>();
     position_ = world_from_camera.topRightCorner<3, 1>();
-    corner_ = rotation * Vec3(-0.5 * pixel * width, 0.5 * pixel * height, -1.0);
+    axis_ = is_parallel ? Vec3(-rotation.col(2)) : Vec3(0.0, 0.0, 0.0);
+    corner_ = rotation * Vec3(-0.5 * pixel * width, 0.5 * pixel * height, is_parallel ? 0.0 : -1.0);
     step_x_ = rotation * Vec3(pixel, 0.0, 0.0);
     step_y_ = rotation * Vec3(0.0, -pixel, 0.0);
 

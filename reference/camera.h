@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pinhole and thin-lens cameras of the reference.
+// Pinhole, thin-lens and orthographic cameras of the reference.
 #pragma once
 
 #include "reference/math.h"
@@ -14,18 +14,23 @@ struct Ray {
     Vec3 direction;
 };
 
-/// Pinhole or thin-lens camera. In camera space it looks along -z, with +y up and +x to the right.
+/// Pinhole, thin-lens or orthographic camera. In camera space it looks along -z, with +y up and +x
+/// to the right.
 class Camera {
   public:
     /// Creates camera `index` of the store with a film of `width` x `height` square pixels. Throws
     /// `Error` (bad input) for an index out of range, a film without pixels, a field of view
-    /// outside (0, pi), or an invalid aperture radius or focus distance.
+    /// outside (0, pi), or an invalid size, aperture radius or focus distance.
     Camera(const CameraArrays &cameras, size_t index, int width, int height);
 
     /// Returns the ray through the centre of the lens and the film point (x, y). The film point is
     /// in pixels from the top left corner: x in [0, width] to the right, y in [0, height]
-    /// downwards. If (x, y) is uniform in a pixel, the importance of the ray is 1 (box filter).
+    /// downwards. If (x, y) is uniform in a pixel, the importance of the ray is 1 (box filter). The
+    /// ray of an orthographic camera begins on its film.
     Ray ray(double x, double y) const {
+        if (!axis_.isZero()) {
+            return {position_ + corner_ + x * step_x_ + y * step_y_, axis_};
+        }
         return {position_, (corner_ + x * step_x_ + y * step_y_).normalized()};
     }
 
@@ -52,6 +57,7 @@ class Camera {
     Vec3 lens_x_;  ///< lens radius to the right; zero for a pinhole
     Vec3 lens_y_;  ///< lens radius upwards
     double focus_distance_;
+    Vec3 axis_;  ///< direction of all rays of an orthographic camera; otherwise zero
 };
 
 }  // namespace rtrays::reference

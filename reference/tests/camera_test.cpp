@@ -17,8 +17,8 @@ constexpr double fov = 0.8;
 
 /// Returns a camera at the origin whose camera space equals world space.
 Camera camera_at_origin(FovAxis axis, int width, int height) {
-    return Camera({{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {axis}, {0}, {1}}, 0, width,
-                  height);
+    return Camera({{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {axis}, {0}, {0}, {1}}, 0,
+                  width, height);
 }
 
 /// Returns the tangents of the half angles towards the middle of the film's right and top edges.
@@ -67,15 +67,15 @@ TEST(Camera, turns_and_moves_with_its_matrix) {
 }
 
 TEST(Camera, refuses_impossible_angles_and_indices) {
-    const CameraArrays flat{{"camera"}, {Eigen::Matrix4d::Identity()}, {pi}, {FovAxis::x}, {0},
+    const CameraArrays flat{{"camera"}, {Eigen::Matrix4d::Identity()}, {pi}, {FovAxis::x}, {0}, {0},
                             {1}};
     EXPECT_THROW(Camera(flat, 0, 4, 4), Error);
     EXPECT_THROW(Camera(flat, 1, 4, 4), Error);
 }
 
 TEST(Camera, a_lens_focuses_on_its_plane) {
-    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3},
-                         {4.0}};
+    CameraArrays cameras{
+        {"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.0}, {0.3}, {4.0}};
     cameras.world_from_camera[0].topLeftCorner<3, 3>() =
         Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
     cameras.world_from_camera[0].topRightCorner<3, 1>() = Vec3(5, -6, 7);
@@ -105,7 +105,7 @@ TEST(Camera, a_lens_focuses_on_its_plane) {
 
 TEST(Camera, points_of_the_lens_are_uniform_and_two_percent_are_seen) {
     const CameraArrays cameras{
-        {"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.3}, {4.0}};
+        {"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.0}, {0.3}, {4.0}};
     const Camera camera(cameras, 0, 6, 4);
     Rng rng(154, 0, 0);
     constexpr int samples = 1000000, rings = 10, sectors = 16;
@@ -127,8 +127,8 @@ TEST(Camera, points_of_the_lens_are_uniform_and_two_percent_are_seen) {
 }
 
 TEST(Camera, a_closed_lens_is_a_pinhole_and_broken_ones_are_refused) {
-    CameraArrays cameras{{"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.0},
-                         {0.0}};
+    CameraArrays cameras{
+        {"camera"}, {Eigen::Matrix4d::Identity()}, {fov}, {FovAxis::x}, {0.0}, {0.0}, {0.0}};
     Rng rng(152, 0, 0), untouched(152, 0, 0);
     const Camera camera(cameras, 0, 6, 4);
     EXPECT_EQ(camera.ray(1.0, 2.0, rng).direction, camera.ray(1.0, 2.0).direction);
@@ -161,6 +161,23 @@ TEST(Camera, a_point_out_of_focus_spreads_over_its_circle_of_confusion) {
     };
     EXPECT_TRUE(lit(8, 8) && lit(9, 8) && lit(6, 8));  // pixels are 0.25 wide there
     EXPECT_FALSE(lit(8, 11) || lit(3, 8));
+}
+
+TEST(Camera, orthographic_rays_are_parallel) {
+    CameraArrays cameras;
+    cameras.name = {"camera"};
+    cameras.world_from_camera = {Eigen::Matrix4d::Identity()};
+    cameras.fov = {0.0};
+    cameras.fov_axis = {CameraArrays::FovAxis::y};
+    cameras.view_size = {6.0};
+    cameras.aperture_radius = {0.0};
+    cameras.focus_distance = {1.0};
+    const Camera camera(cameras, 0, 40, 20);
+    const Ray corner = camera.ray(0.0, 0.0), middle = camera.ray(20.0, 10.0);
+    EXPECT_LT((corner.origin - Vec3(-6.0, 3.0, 0.0)).norm(), 1e-12);
+    EXPECT_LT(middle.origin.norm(), 1e-12);
+    EXPECT_EQ(corner.direction, Vec3(0.0, 0.0, -1.0));
+    EXPECT_EQ(middle.direction, corner.direction);
 }
 
 }  // namespace

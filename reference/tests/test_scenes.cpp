@@ -138,7 +138,7 @@ void TestScene::set_camera(const Vec3 &position, const Vec3 &target, const Vec3 
     world_from_camera.block<3, 1>(0, 1) = z.cross(x);
     world_from_camera.block<3, 1>(0, 2) = z;
     world_from_camera.topRightCorner<3, 1>() = position;
-    cameras = {{"camera"}, {world_from_camera}, {fov}, {CameraArrays::FovAxis::x}, {0}, {1}};
+    cameras = {{"camera"}, {world_from_camera}, {fov}, {CameraArrays::FovAxis::x}, {0}, {0}, {1}};
 }
 
 TestScene furnace_box(float albedo, const Rgb &emission, const Vec3 &centre, double size) {

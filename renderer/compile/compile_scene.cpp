@@ -87,16 +87,21 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     const FovAxis axis = cameras.fov_axis[index];
     const bool along_x = axis == FovAxis::x || (axis == FovAxis::smaller && width <= height) ||
                          (axis == FovAxis::larger && width >= height);
-    // Pixels are square; `pixel` is their size on the plane at unit distance.
-    const double pixel = 2.0 * std::tan(0.5 * cameras.fov[index]) / (along_x ? width : height);
+    const bool orthographic = cameras.is_orthographic(index);
+    const double extent =
+        orthographic ? cameras.view_size[index] : 2.0 * std::tan(0.5 * cameras.fov[index]);
+    // Pixels are square; `pixel` is their size on the film, or on the plane at unit distance.
+    const double pixel = extent / (along_x ? width : height);
 
     CameraRecord camera{};
     camera.width = static_cast<uint32_t>(width);
     camera.height = static_cast<uint32_t>(height);
     camera.pixel_area = static_cast<float>(pixel * pixel);
     copy3(Eigen::Vector3d(world.block<3, 1>(0, 3)), camera.position);
-    copy3(Eigen::Vector3d(forward - 0.5 * pixel * width * right + 0.5 * pixel * height * up),
+    const Eigen::Vector3d to_plane = orthographic ? Eigen::Vector3d(0, 0, 0) : forward;
+    copy3(Eigen::Vector3d(to_plane - 0.5 * pixel * width * right + 0.5 * pixel * height * up),
           camera.corner);
+    camera.orthographic = orthographic ? 1u : 0u;
     copy3(Eigen::Vector3d(pixel * right), camera.step_x);
     copy3(Eigen::Vector3d(-pixel * up), camera.step_y);
     copy3(right, camera.axis_x);
@@ -110,6 +115,9 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
 }
 
 float camera_start_distance(const CameraRecord &camera, const SceneExtent &extent) {
+    if (camera.orthographic != 0u) {
+        return 0.0f;  // `set_camera_start` moves the film instead
+    }
     // From the nearest point that the lens may have, in whatever direction it looks.
     const double distance =
         (Eigen::Vector3f(camera.position).cast<double>() - extent.centre).norm() - extent.radius -
@@ -122,12 +130,23 @@ float camera_start_distance(const CameraRecord &camera, const SceneExtent &exten
 
 void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExtent &extent,
                       CameraRecord &camera) {
+    const Eigen::Matrix4d &world = cameras.world_from_camera[index];
+    const Eigen::Vector3d forward = -world.block<3, 1>(0, 2);
+    if (camera.orthographic != 0u) {
+        // Rays are parallel, so the film may move along them.
+        const Eigen::Vector3d position = world.block<3, 1>(0, 3);
+        const double distance = (extent.centre - position).dot(forward) - extent.radius;
+        if (extent.radius > 0 && extent.bounded && extent.encloses &&
+            distance > 1000 * extent.radius) {
+            copy3(Eigen::Vector3d(position + distance * (1.0 - 0x1p-22) * forward),
+                  camera.position);
+        }
+        return;
+    }
     camera.start_distance = camera_start_distance(camera, extent);
     if (camera.start_distance == 0.0f) {
         return;
     }
-    const Eigen::Matrix4d &world = cameras.world_from_camera[index];
-    const Eigen::Vector3d forward = -world.block<3, 1>(0, 2);
     copy3(Eigen::Vector3d(world.block<3, 1>(0, 3) +
                           static_cast<double>(camera.start_distance) * forward),
           camera.start);
@@ -259,9 +278,12 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
     }
     const bool lens =
         camera.aperture_radius > 0.0f || compiled.lighting.camera_start_distance > 0.0f;
-    compiled.features = FeatureMask().with(Feature::lens, lens) | compiled.material_features |
-                        compiled.triangle_features | shape_features(scene.shapes) |
-                        compiled.light_features | compiled.opacity_features;
+    compiled.features = FeatureMask()
+                            .with(Feature::lens, lens)
+                            .with(Feature::orthographic, camera.orthographic != 0u) |
+                        compiled.material_features | compiled.triangle_features |
+                        shape_features(scene.shapes) | compiled.light_features |
+                        compiled.opacity_features;
     return former;
 }
 

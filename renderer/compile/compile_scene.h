@@ -126,7 +126,8 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
 /// that shows 1/512 of the scene.
 float camera_start_distance(const CameraRecord &camera, const SceneExtent &extent);
 
-/// Moves the start of the rays of a camera that is far from the scene.
+/// Moves the start of the rays of a camera that is far from the scene, or the film of an
+/// orthographic one.
 void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExtent &extent,
                       CameraRecord &camera);
 

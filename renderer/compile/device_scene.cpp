@@ -13,7 +13,7 @@ namespace {
 bool are_equal(const CameraArrays &a, size_t i, const CameraArrays &b, size_t j) {
     return i < a.name.size() && a.world_from_camera[i] == b.world_from_camera[j] &&
            a.fov[i] == b.fov[j] && a.fov_axis[i] == b.fov_axis[j] &&
-           a.aperture_radius[i] == b.aperture_radius[j] &&
+           a.view_size[i] == b.view_size[j] && a.aperture_radius[i] == b.aperture_radius[j] &&
            a.focus_distance[i] == b.focus_distance[j];
 }
 

@@ -74,6 +74,7 @@ void compile_distances(CompiledScene &compiled) {
         (Eigen::Vector3f(compiled.camera.position).cast<double>() - extent.centre).norm();
     compiled.lighting.far_distance = static_cast<float>(0x1p20 * (extent.radius + camera));
     compiled.lighting.camera_start_distance = camera_start_distance(compiled.camera, extent);
+    compiled.lighting.orthographic_camera = compiled.camera.orthographic;
 }
 
 }  // namespace rtrays

@@ -54,6 +54,7 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"bump_map", "the export to Cycles does not support normal and bump maps"},
         {"normal_map", "the export to Cycles does not support normal and bump maps"},
         {"opacity", "the export to Cycles does not support an opacity"},
+        {"orthographic", "the export to Cycles does not support orthographic cameras"},
         {"oren_nayar_079", "its Oren-Nayar model differs"},
         {"plane",
          "'ground': Cycles supports only triangles, which cannot represent this unbounded plane"},

@@ -144,6 +144,12 @@ class SceneWriter {
     Json write_camera() const {
         const CameraArrays &cameras = arrays_.cameras;
         const auto i = static_cast<size_t>(scene_.active_camera());
+        if (cameras.is_orthographic(i)) {
+            throw input_error(
+                fmt::format("camera '{}': the export to Cycles does not support orthographic "
+                            "cameras",
+                            cameras.name[i]));
+        }
         using Axis = CameraArrays::FovAxis;
         const bool wide = scene_.film_width() >= scene_.film_height();
         const Axis axis = cameras.fov_axis[i];

@@ -138,12 +138,18 @@ class SceneWriter {
         const CameraArrays &cameras = arrays_.cameras;
         const auto camera = static_cast<size_t>(scene_.active_camera());
         const bool lens = cameras.aperture_radius[camera] > 0;
-        const pugi::xml_node sensor =
-            add_object(root_, "sensor", lens ? "thinlens" : "perspective", cameras.name[camera]);
-        constexpr const char *axes[] = {"x", "y", "smaller", "larger"};
-        add_property(sensor, "string", "fov_axis",
-                     axes[static_cast<size_t>(cameras.fov_axis[camera])]);
-        add_number(sensor, "fov", cameras.fov[camera] / degree);
+        const bool parallel = cameras.is_orthographic(camera);
+        const pugi::xml_node sensor = add_object(root_, "sensor",
+                                                 parallel ? "orthographic"
+                                                 : lens   ? "thinlens"
+                                                          : "perspective",
+                                                 cameras.name[camera]);
+        if (!parallel) {
+            constexpr const char *axes[] = {"x", "y", "smaller", "larger"};
+            add_property(sensor, "string", "fov_axis",
+                         axes[static_cast<size_t>(cameras.fov_axis[camera])]);
+            add_number(sensor, "fov", cameras.fov[camera] / degree);
+        }
         if (lens) {
             add_number(sensor, "aperture_radius", cameras.aperture_radius[camera]);
             add_number(sensor, "focus_distance", cameras.focus_distance[camera]);
@@ -159,7 +165,9 @@ class SceneWriter {
             add_number(sensor, "near_clip", 1e-5 * extent);
             add_number(sensor, "far_clip", 1e3 * extent);
         }
-        add_transform(sensor, world * scaling({-1, 1, -1}));  // Mitsuba's cameras look along +z
+        // Mitsuba's cameras look along +z. The width of an orthographic view is 2, times its scale.
+        const double scale = parallel ? 0.5 * view_width(cameras, camera) : 1;
+        add_transform(sensor, world * scaling({-scale, scale, -1}));
         add_property(add_object(sensor, "sampler", "independent"), "integer", "sample_count",
                      "$spp");
         const pugi::xml_node film = add_object(sensor, "film", "hdrfilm");
@@ -168,6 +176,16 @@ class SceneWriter {
         add_property(film, "string", "pixel_format", "rgb");
         add_property(film, "string", "component_format", "float32");
         add_object(film, "rfilter", "box");
+    }
+
+    /// Returns the width of the view of an orthographic camera.
+    double view_width(const CameraArrays &cameras, size_t camera) const {
+        using Axis = CameraArrays::FovAxis;
+        const double width = scene_.film_width(), height = scene_.film_height();
+        const Axis axis = cameras.fov_axis[camera];
+        const bool along_x = axis == Axis::x || (axis == Axis::smaller && width <= height) ||
+                             (axis == Axis::larger && width >= height);
+        return cameras.view_size[camera] * (along_x ? 1 : width / height);
     }
 
     /// Appends a shape with its BSDF (which precedes it) and its emitter.

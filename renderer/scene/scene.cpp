@@ -297,6 +297,10 @@ std::string Scene::hash() const {
     collector.add(lights().kind);
     collector.add(lights().radiance);
     collector.add(lights().mesh);
+    if (cameras().is_orthographic(camera)) {
+        collector.begin("orthographic");
+        collector.add(cameras().view_size[camera]);
+    }
     add_sections(arrays(), collector);
     return content_hash(collector.bytes());
 }

@@ -260,6 +260,24 @@ void write_text(const std::string &name, const std::string &content) {
     std::ofstream(testing::TempDir() + name, std::ios::binary) << content;
 }
 
+TEST(Cameras, OrthographicViewsGrowWithTheirNodes) {
+    const auto scene = [](const char *size) {
+        return parse(std::string(R"({"name": "plan", "transform": [{"scale": [2, 2, 2]}],
+            "camera": {"type": "orthographic", "size_axis": "y", "size": )") +
+                         size + "}}",
+                     R"("camera": "eye", )");
+    };
+    Scene plan = scene("3");
+    EXPECT_EQ(plan.cameras().view_size, (std::vector<double>{0, 6}));
+    EXPECT_FALSE(plan.cameras().is_orthographic(0));
+    plan.set_active_camera("plan");
+    const std::string hash = plan.hash();
+    plan.set_property("plan.size", "4");
+    plan.update(0);
+    EXPECT_EQ(plan.cameras().view_size[1], 8);
+    EXPECT_NE(plan.hash(), hash);
+}
+
 TEST_F(Textures, AreSharedByMaterialsAndFilesByTextures) {
     write_text("two.ppm", std::string("P6 2 1 255\n") + "\x10\x20\x30\x40\x50\x60");
     Scene scene = parse(

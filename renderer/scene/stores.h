@@ -26,17 +26,22 @@ using Triangle = std::array<uint32_t, 3>;
 
 constexpr uint32_t no_index = 0xffffffffu;
 
-/// Perspective cameras: pinholes, or thin lenses if the aperture radius is positive. In camera
-/// space the view is along -z, +y is up and +x is right.
+/// Perspective cameras (pinholes, or thin lenses if the aperture radius is positive) and
+/// orthographic cameras. In camera space the view is along -z, +y is up and +x is right.
 struct CameraArrays {
     enum class FovAxis { x, y, smaller, larger };
     std::vector<std::string> name;                   ///< name of the node
     std::vector<Eigen::Matrix4d> world_from_camera;  ///< rigid
     std::vector<double> fov;                         ///< full angle in radians along `fov_axis`
     std::vector<FovAxis> fov_axis;
+    /// Orthographic cameras: extent of the view along `fov_axis`, scene units. Rays are parallel to
+    /// the axis and begin at z = 0. 0, or no entry, for perspective cameras.
+    std::vector<double> view_size;
     std::vector<double> aperture_radius;  ///< radius of the lens, scene units; 0 for a pinhole
     /// Distance of the plane in focus from the lens, along -z, scene units.
     std::vector<double> focus_distance;
+
+    bool is_orthographic(size_t i) const { return i < view_size.size() && view_size[i] > 0; }
 };
 
 /// The texels of an image: three channels, rows from the top, either 8 bits or float.

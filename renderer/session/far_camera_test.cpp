@@ -16,14 +16,20 @@
 namespace rtrays {
 namespace {
 
-/// Renders a box, a ball and a sun from `distance`, with a field of view that shows two units.
+/// Renders a box, a ball and a sun from `distance`, with a view that shows three units. A distance
+/// of 0 means an orthographic camera.
 Image render(double distance, const Algorithm &algorithm) {
+    const double from = distance > 0 ? distance : 10;
+    const std::string camera =
+        distance > 0 ? fmt::format(R"("type": "pinhole", "fov": {}, "fov_axis": "smaller")",
+                                   2 * std::atan(1.5 / distance) * 180 / pi)
+                     : R"("type": "orthographic", "size": 3, "size_axis": "smaller")";
     static DeviceContext device;
-    const Scene scene = parse_scene_json(
-        fmt::format(
-            R"({{"version": 1, "film": {{"width": 32, "height": 32}},
+    const Scene scene =
+        parse_scene_json(fmt::format(
+                             R"({{"version": 1, "film": {{"width": 32, "height": 32}},
             "materials": {{"white": {{"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}}}}, "nodes": [
-            {{"name": "camera", "camera": {{"type": "pinhole", "fov": {}, "fov_axis": "smaller"}},
+            {{"name": "camera", "camera": {{{}}},
               "transform": [{{"look_at": {{"origin": [0, {}, {}], "target": [0, 0, 0], "up": [0, 1, 0]}}}}]}},
             {{"name": "box", "material": "white", "geometry": {{"type": "box"}},
               "transform": [{{"rotate": {{"axis": [0, 1, 0], "degrees": 30}}}}, {{"scale": [0.6, 0.6, 0.6]}}]}},
@@ -31,8 +37,8 @@ Image render(double distance, const Algorithm &algorithm) {
               "transform": [{{"translate": [0.9, 0.8, 0.2]}}]}},
             {{"name": "sun", "light": {{"type": "directional", "irradiance": [3, 3, 3]}},
               "transform": [{{"rotate": {{"axis": [1, 0, 0], "degrees": -40}}}}]}}]}})",
-            2 * std::atan(1.5 / distance) * 180 / pi, distance * 0.6, distance * 0.8),
-        "test", "test");
+                             camera, from * 0.6, from * 0.8),
+                         "test", "test");
     RenderSettings settings;
     settings.algorithm = &algorithm;
     RenderSession session(scene, settings, device);
@@ -62,6 +68,8 @@ TEST(FarCamera, RendersTheImageOfANearerOne) {
             EXPECT_LT(difference(near, render(distance, *algorithm)), 1e-3)
                 << algorithm->name << " at " << distance;
         }
+        EXPECT_LT(difference(render(3e6, *algorithm), render(0, *algorithm)), 1e-3)
+            << algorithm->name << ", orthographic";
         // Below the limit of distance, rays begin on the lens.
         EXPECT_LT(difference(render(1e3, *algorithm), near), 0.02) << algorithm->name;
     }

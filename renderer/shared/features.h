@@ -85,6 +85,7 @@
     X(dome, "uniform radiance from infinity")                                                 \
     X(environment, "radiance from infinity by an image")                                      \
     /* camera and film */                                                                     \
+    X(orthographic, "the rays of the camera are parallel")                                    \
     X(lens, "the camera has an aperture, or is far from the scene")                           \
     X(convergence, "converged pixels receive no further camera paths (biased)")               \
     X(variance, "the film holds second moments")                                              \

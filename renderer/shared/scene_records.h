@@ -7,11 +7,14 @@
 
 #define NO_EMITTER 0xffffffffu
 
-/// A perspective camera: pinhole or thin lens. The ray through film position (x, y), in pixels from
-/// the top left corner, has the direction corner + x * step_x + y * step_y before normalisation.
+/// A perspective camera (pinhole or thin lens) or an orthographic one. The ray through film
+/// position (x, y), in pixels from the top left corner, has the direction corner + x * step_x + y *
+/// step_y before normalisation. The ray of an orthographic camera begins there, relative to the
+/// position.
 typedef struct CameraRecord {
     float position[3];
-    float pixel_area;  ///< area of a pixel on the plane at unit distance along the axis
+    /// Area of a pixel on the plane at unit distance along the axis; orthographic: of the film.
+    float pixel_area;
     float corner[3];
     uint width;  ///< pixels
     float step_x[3];
@@ -25,8 +28,8 @@ typedef struct CameraRecord {
     /// (compile_scene.h). Nothing is nearer to the lens. Float could not resolve the scene in
     /// coordinates of the lens.
     float start_distance;
-    float start[3];  ///< position + start_distance * forward, rounded after the sum
-    float padding0;
+    float start[3];         ///< position + start_distance * forward, rounded after the sum
+    uint orthographic;      ///< 1: all rays have the direction of the axis; otherwise 0
     float start_corner[3];  ///< `corner` without its component along the axis
     float padding1;
 } CameraRecord;
@@ -266,7 +269,7 @@ typedef struct LightingRecord {
     float scene_centre[3];        ///< centre of that sphere
     uint plane_end;               ///< no shape from this index on is a plane
     float camera_start_distance;  ///< CameraRecord::start_distance
-    uint padding;
+    uint orthographic_camera;     ///< CameraRecord::orthographic
 } LightingRecord;
 
 /// Value of `light_index` by which stage sample_light selects a light at random.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Conversion of sensors to cameras. Parameters and defaults are those of Mitsuba 3.9,
-// src/sensors/{perspective,thinlens}.cpp and src/render/sensor.cpp.
+// src/sensors/{perspective,thinlens,orthographic}.cpp and src/render/sensor.cpp.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -122,6 +122,23 @@ void read_pose(Object &sensor, PlacedCamera &placed) {
     placed.world_from_camera = pose.rigid;
 }
 
+/// Reads the pose of an orthographic camera and sets its size. The view of Mitsuba's is 2 wide,
+/// times the scale of x and y. Its scale of z moves the clipping planes only.
+void read_orthographic_pose(Object &sensor, PlacedCamera &placed, ParameterValues &values) {
+    Eigen::Matrix4d to_world = sensor.transform();
+    const Eigen::Vector3d x = to_world.col(0).head<3>(), y = to_world.col(1).head<3>();
+    if (!(std::abs(x.stableNorm() / y.stableNorm() - 1) < 1e-3)) {
+        throw sensor.property("to_world")
+            .error("scales x and y differently, but pixels are square; use one scale for both");
+    }
+    to_world.col(2).head<3>() *= x.stableNorm() / to_world.col(2).head<3>().stableNorm();
+    const Pose pose =
+        pose_of(nearest_similarity(to_world, "a camera") * scaling({-1, 1, -1}), "a camera");
+    placed.world_from_camera = pose.rigid;
+    values["size"] = 2 * pose.scale;
+    values["size_axis"] = std::string("x");
+}
+
 void read_clipping(Object &sensor, PlacedCamera &placed) {
     const double near_clip = sensor.number("near_clip", 0.01);
     const double far_clip = sensor.number("far_clip", 10000);
@@ -142,15 +159,18 @@ void read_sampler(Object &sensor, const Document &document, PlacedCamera &placed
 
 PlacedCamera read_camera(Object &sensor, const Document &document) {
     const bool has_lens = sensor.type() == "thinlens";
-    if (!has_lens && sensor.type() != "perspective") {
+    const bool is_parallel = sensor.type() == "orthographic";
+    if (!has_lens && !is_parallel && sensor.type() != "perspective") {
         throw sensor.element().error(
-            "unsupported sensor type; supported types are: perspective, thinlens");
+            "unsupported sensor type; supported types are: perspective, thinlens, orthographic");
     }
     return sensor.element().located([&] {
         PlacedCamera placed;
         read_film(sensor, document, placed);
         ParameterValues values;
-        read_angle(sensor, placed.width, placed.height, values);
+        if (!is_parallel) {
+            read_angle(sensor, placed.width, placed.height, values);
+        }
         if (has_lens) {
             const std::optional<double> radius = sensor.number("aperture_radius");
             if (!radius.has_value()) {
@@ -160,7 +180,7 @@ PlacedCamera read_camera(Object &sensor, const Document &document) {
             values["focus_distance"] =
                 sensor.number("focus_distance", sensor.number("far_clip", 10000));
         } else {
-            sensor.ignore("focus_distance");  // unused by a pinhole
+            sensor.ignore("focus_distance");  // unused without a lens
         }
         for (const char *name : {"principal_point_offset_x", "principal_point_offset_y"}) {
             if (sensor.number(name, 0) != 0) {
@@ -170,12 +190,19 @@ PlacedCamera read_camera(Object &sensor, const Document &document) {
         }
         sensor.ignore("shutter_open");  // nothing moves
         sensor.ignore("shutter_close");
-        read_pose(sensor, placed);
+        if (is_parallel) {
+            read_orthographic_pose(sensor, placed, values);
+        } else {
+            read_pose(sensor, placed);
+        }
         read_clipping(sensor, placed);
         read_sampler(sensor, document, placed);
         sensor.finish();
-        placed.camera =
-            std::make_shared<CameraCore>(sensor.id(), has_lens ? "thin_lens" : "pinhole", values);
+        placed.camera = std::make_shared<CameraCore>(sensor.id(),
+                                                     is_parallel ? "orthographic"
+                                                     : has_lens  ? "thin_lens"
+                                                                 : "pinhole",
+                                                     values);
         return placed;
     });
 }

@@ -375,8 +375,8 @@ TEST(MitsubaErrors, OfSensors) {
     };
     expect_input_error("in.xml: the scene has no sensor",
                        [] { parse_mitsuba("<scene version=\"3.0.0\"/>"); });
-    expect_input_error("in.xml:2: <sensor type=\"orthographic\">: unsupported sensor type",
-                       sensor("orthographic", ""));
+    expect_input_error("in.xml:2: <sensor type=\"irradiancemeter\">: unsupported sensor type",
+                       sensor("irradiancemeter", ""));
     expect_input_error("needs an aperture_radius", sensor("thinlens", ""));
     expect_input_error("in.xml:2: <sensor type=\"perspective\">: fov: 180 is not within",
                        sensor("perspective", "<float name=\"fov\" value=\"180\"/>"));

@@ -194,6 +194,28 @@ TEST(MitsubaBsdfs, ThinDielectricsDoNotBendLight) {
     }
 }
 
+TEST(MitsubaCameras, MayBeOrthographic) {
+    const auto camera = [](const std::string &scale) {
+        return parse_mitsuba(
+            "<scene version=\"3.0.0\"><sensor type=\"orthographic\">"
+            "<transform name=\"to_world\">" +
+            scale +
+            "<lookat origin=\"0,0,4\" target=\"0,0,0\" up=\"0,1,0\"/></transform>"
+            "<film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>"
+            "<integer name=\"height\" value=\"4\"/></film></sensor></scene>");
+    };
+    // Examples of Mitsuba scale x and y alone.
+    for (const char *scale : {"<scale x=\"3\" y=\"3\"/>", "<scale value=\"3\"/>"}) {
+        const Scene scene = camera(scale);
+        EXPECT_NEAR(scene.cameras().view_size.at(0), 6, 1e-12);
+        EXPECT_EQ(scene.cameras().fov_axis.at(0), CameraArrays::FovAxis::x);
+        const Vector3d position = scene.cameras().world_from_camera[0].topRightCorner<3, 1>();
+        EXPECT_LT((position - Vector3d(0, 0, 4)).norm(), 1e-12);
+        EXPECT_NEAR(scene.cameras().world_from_camera[0](2, 2), 1, 1e-12);
+    }
+    expect_input_error("scales x and y differently", [&] { camera("<scale x=\"3\" y=\"2\"/>"); });
+}
+
 TEST(MitsubaTexturedEmitters, AreMaterialsWithATextureOfEmission) {
     const std::string texture =
         R"(<texture type="checkerboard" name="radiance"><rgb name="color0" value="4,2,0"/>

@@ -326,6 +326,16 @@ TEST(Gltf, HonoursTheWrapModesOfTheSampler) {
     }
 }
 
+TEST(Gltf, CamerasMayBeOrthographic) {
+    Json model = document();
+    model["cameras"][0] = {
+        {"type", "orthographic"},
+        {"orthographic", {{"xmag", 3}, {"ymag", 1.5}, {"znear", 0.1}, {"zfar", 10}}}};
+    const LoadedModel read = loaded(model);
+    EXPECT_EQ(read.scene.cameras().view_size.at(0), 6);
+    EXPECT_EQ(read.scene.film_width(), 2 * read.scene.film_height());
+}
+
 TEST(Gltf, NamesWhatIsDropped) {
     Json model = document();
     model["scenes"].push_back(model["scenes"][0]);

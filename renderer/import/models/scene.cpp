@@ -418,18 +418,23 @@ class SceneWriter {
         const std::string name = source_.name(camera.mName);
         const double fov = source_.fov(camera);
         const Vector3d direction = vector(camera.mLookAt);
-        if (camera.mOrthographicWidth > 0 || !(fov > 0 && fov < pi) || !(direction.norm() > 0)) {
-            notes_.add(
-                "orthographic cameras and cameras without direction or angle of view are "
-                "ignored",
-                name);
+        const bool is_parallel = camera.mOrthographicWidth > 0;
+        if ((!is_parallel && !(fov > 0 && fov < pi)) || !(direction.norm() > 0)) {
+            notes_.add("cameras without direction or angle of view are ignored", name);
             return;
         }
         Node &node = placed(camera.mName, "camera",
                             pose(source_.position(camera), direction, vector(camera.mUp)));
-        node.set_core(std::make_shared<CameraCore>(
-            node.name(), "pinhole",
-            ParameterValues{{"fov", fov * 180 / pi}, {"fov_axis", std::string("x")}}));
+        // Assimp states half the width of the view.
+        const double width = 2 * source_.metres * static_cast<double>(camera.mOrthographicWidth);
+        node.set_core(
+            is_parallel
+                ? std::make_shared<CameraCore>(
+                      node.name(), "orthographic",
+                      ParameterValues{{"size", width}, {"size_axis", std::string("x")}})
+                : std::make_shared<CameraCore>(
+                      node.name(), "pinhole",
+                      ParameterValues{{"fov", fov * 180 / pi}, {"fov_axis", std::string("x")}}));
         if (has_camera_) {
             notes_.add("only the first camera is used; the others remain in the scene", name);
         } else if (camera.mAspect > 0) {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The perspective camera: rays through the film, their densities, and connections to the lens.
+// The perspective camera: rays through the film, their densities, and connections to the lens. Its
+// functions also serve orthographic cameras (orthographic.h).
 #pragma once
 
+#include "renderer/kernels/camera/orthographic.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/shared/compat.h"
 #include "renderer/shared/scene_records.h"
-
-/// A camera ray.
-typedef struct CameraRay {
-    float3 origin;
-    float3 direction;  ///< unit
-} CameraRay;
 
 /// Returns the point of the lens that (u, v) samples, relative to its centre.
 DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
@@ -18,13 +14,6 @@ DEVICE float3 point_on_lens(CameraRecord camera, float u, float v) {
     return (make_float3(camera.axis_x[0], camera.axis_x[1], camera.axis_x[2]) * disc.x +
             make_float3(camera.axis_y[0], camera.axis_y[1], camera.axis_y[2]) * disc.y) *
            camera.aperture_radius;
-}
-
-/// Returns the unit viewing direction. The scene rejects cameras that mirror, so up x right points
-/// forward.
-DEVICE float3 camera_forward(CameraRecord camera) {
-    return cross(make_float3(camera.axis_y[0], camera.axis_y[1], camera.axis_y[2]),
-                 make_float3(camera.axis_x[0], camera.axis_x[1], camera.axis_x[2]));
 }
 
 /// Returns the point of a ray of `camera_ray` at camera.start_distance from the lens.
@@ -54,6 +43,9 @@ DEVICE float3 start_near_scene(CameraRecord camera, float x, float y, float3 on_
 /// position meet in one point of the plane in focus. The ray through the centre of the lens, which
 /// is not refracted, determines this point.
 DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, float v) {
+    if (FEATURE_orthographic && camera.orthographic != 0u) {
+        return orthographic_ray(camera, x, y);
+    }
     float3 towards = make_float3(camera.corner[0] + x * camera.step_x[0] + y * camera.step_y[0],
                                  camera.corner[1] + x * camera.step_x[1] + y * camera.step_y[1],
                                  camera.corner[2] + x * camera.step_x[2] + y * camera.step_y[2]);
@@ -80,23 +72,24 @@ DEVICE CameraRay camera_ray(CameraRecord camera, float x, float y, float u, floa
 /// and the plane in focus, and dw = cos^3 dA there. With the box filter of one pixel, it also
 /// equals the importance times the cosine at the lens, over the density of the lens point (Veach
 /// 1997, section 8.2). The measured radiance thus has weight 1.
+///
+/// The density of an orthographic ray is per area perpendicular to it.
 DEVICE float camera_pdf_w(CameraRecord camera, float3 direction) {
+    if (FEATURE_orthographic && camera.orthographic != 0u) {
+        return 1.0f / camera.pixel_area;
+    }
     const float cosine = dot(direction, camera_forward(camera));
     return 1.0f / (camera.pixel_area * cosine * cosine * cosine);
 }
-
-/// A connection of a scene point to the camera.
-typedef struct CameraConnection {
-    float3 lens_point;
-    float2 raster;  ///< film position in pixels from the top left corner; valid if pdf_w is not 0
-    float pdf_w;  ///< `camera_pdf_w` of the ray to the point; 0 behind the lens or outside the film
-} CameraConnection;
 
 /// Connects a point to the point of the lens that (u, v) samples; the inverse of `camera_ray`. Let
 /// radiance L arrive at the lens point from an area dA around the point, at distance d, with `cos`
 /// the cosine at the area. It adds L cos pdf_w / d^2 dA to the mean radiance of the pixel at
 /// `raster`.
 DEVICE CameraConnection camera_connection(CameraRecord camera, float3 point, float u, float v) {
+    if (FEATURE_orthographic && camera.orthographic != 0u) {
+        return orthographic_connection(camera, point);
+    }
     CameraConnection connection;
     connection.lens_point = make_float3(camera.position[0], camera.position[1], camera.position[2]);
     connection.raster = make_float2(0.0f, 0.0f);

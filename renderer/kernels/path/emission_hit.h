@@ -95,6 +95,9 @@ DEVICE void set_camera_path_arrival(Path path, PRIVATE const SceneView *scene,
             const float distance = scene->lighting.camera_start_distance + sqrt(squared);
             squared = distance * distance;
         }
+        if (FEATURE_orthographic && first && scene->lighting.orthographic_camera != 0u) {
+            squared = 1.0f;  // the density is per area perpendicular to the ray
+        }
         const float cosine = fabs(dot(hit.normal, get_ray_direction(path)));
         // R_0 = A_1 = n_L / P_1 with P_1 of MIS (6), and A_i = 1 / E_i.
         const float paths = first ? (float)settings.light_paths : 1.0f;

@@ -29,8 +29,18 @@ const std::vector<CoreType> &camera_types() {
                          Need::required, ranges::positive});
         return table;
     }();
-    static const std::vector<CoreType> types = {{"pinhole", pinhole, {}},
-                                                {"thin_lens", thin_lens, {}}};
+    static const ParameterTable orthographic = {
+        {"size", "extent of the view along size_axis, scene units", 0.0, Need::required,
+         ranges::positive},
+        {"size_axis",
+         "image axis of the extent",
+         std::string(),
+         Need::required,
+         ranges::any,
+         {"x", "y", "smaller", "larger"}},
+    };
+    static const std::vector<CoreType> types = {
+        {"pinhole", pinhole, {}}, {"thin_lens", thin_lens, {}}, {"orthographic", orthographic, {}}};
     return types;
 }
 
