@@ -43,16 +43,21 @@ Error damaged(const std::filesystem::path &path, const std::string &what) {
 
 Json make_config(const std::string &scene_name, const std::string &scene_hash,
                  const ReferenceSettings &settings, const std::string &engine) {
-    return {{"scene", scene_name},
-            {"scene_hash", scene_hash},
-            {"width", settings.width},
-            {"height", settings.height},
-            {"camera", settings.camera},
-            {"seed", settings.seed},
-            {"strategies", name_of(settings.strategies)},
-            {"max_depth", settings.max_depth},
-            {"engine", engine},
-            {"sampling_version", sampling_version}};
+    Json config = {{"scene", scene_name},
+                   {"scene_hash", scene_hash},
+                   {"width", settings.width},
+                   {"height", settings.height},
+                   {"camera", settings.camera},
+                   {"seed", settings.seed},
+                   {"strategies", name_of(settings.strategies)},
+                   {"max_depth", settings.max_depth},
+                   {"engine", engine},
+                   {"sampling_version", sampling_version}};
+    if (settings.full_width > 0) {
+        config["crop"] = {settings.crop_x, settings.crop_y, settings.full_width,
+                          settings.full_height};
+    }
+    return config;
 }
 
 void save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &path) {

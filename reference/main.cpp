@@ -205,6 +205,19 @@ ExitCode run(int argc, char **argv) {
     if (options.settings.width == 0) {
         options.settings.width = scene.film_width();
         options.settings.height = scene.film_height();
+        if (const auto &crop = scene.crop()) {
+            if (!options.manifest.empty() || options.engine != "embree") {
+                throw input_error(fmt::format(
+                    "{}: the scene crops its film, which --manifest and other engines exclude",
+                    options.scene));
+            }
+            options.settings.full_width = std::exchange(options.settings.width, crop->width);
+            options.settings.full_height = std::exchange(options.settings.height, crop->height);
+            options.settings.crop_x = crop->x;
+            options.settings.crop_y = crop->y;
+        }
+    } else if (scene.crop()) {
+        throw input_error(fmt::format("--size: {} crops its film; remove the crop", options.scene));
     }
     options.settings.camera = static_cast<size_t>(scene.active_camera());
     return options.engine == "embree" ? render_by_embree(options, scene)

@@ -77,7 +77,9 @@ class FirstFault {
 struct ReferenceRenderer::State {
     State(const SceneArrays &scene, const ReferenceSettings &wanted)
         : settings(wanted),
-          camera(scene.cameras, wanted.camera, wanted.width, wanted.height),
+          full_width(wanted.full_width > 0 ? wanted.full_width : wanted.width),
+          camera(scene.cameras, wanted.camera, full_width,
+                 wanted.full_width > 0 ? wanted.full_height : wanted.height),
           geometry(scene.meshes, scene.shapes, make_opacities(scene.materials, scene.textures)),
           bsdfs(make_bsdfs(scene.materials, scene.textures)),
           tilts(make_normal_tilts(scene.materials, scene.textures)),
@@ -95,6 +97,7 @@ struct ReferenceRenderer::State {
     void render_batch(uint64_t begin, uint64_t end);
 
     ReferenceSettings settings;
+    int full_width;  ///< of the full picture
     Camera camera;
     Geometry geometry;
     std::vector<Bsdf> bsdfs;
@@ -115,11 +118,14 @@ void ReferenceRenderer::State::render_tile(const tbb::blocked_range2d<uint64_t> 
     for (uint64_t y = tile.rows().begin(); y != tile.rows().end(); ++y) {
         for (uint64_t x = tile.cols().begin(); x != tile.cols().end(); ++x) {
             const uint64_t pixel = y * static_cast<uint64_t>(settings.width) + x;
+            // A pixel has the random numbers that it has in the full picture.
+            const uint64_t column = x + static_cast<uint64_t>(settings.crop_x);
+            const uint64_t row = y + static_cast<uint64_t>(settings.crop_y);
             PixelMoments moments = film.pixels[pixel];
             for (uint64_t sample = begin; sample < end; ++sample) {
-                Rng rng(settings.seed, pixel, sample);
-                const double film_x = static_cast<double>(x) + rng.uniform();
-                const double film_y = static_cast<double>(y) + rng.uniform();
+                Rng rng(settings.seed, row * static_cast<uint64_t>(full_width) + column, sample);
+                const double film_x = static_cast<double>(column) + rng.uniform();
+                const double film_y = static_cast<double>(row) + rng.uniform();
                 const Spectrum radiance =
                     integrator.radiance(camera.ray(film_x, film_y, rng), rng, tile_counts);
                 if (!radiance.allFinite()) {
@@ -202,7 +208,10 @@ std::vector<FirstHit> ReferenceRenderer::first_hits() const {
     const auto classify_rows = [&](const tbb::blocked_range<uint64_t> &rows) {
         for (uint64_t y = rows.begin(); y != rows.end(); ++y) {
             for (uint64_t x = 0; x < width; ++x) {
-                classes[y * width + x] = classifier.of_pixel(x, y, y * width + x);
+                const uint64_t column = x + static_cast<uint64_t>(state.settings.crop_x);
+                const uint64_t row = y + static_cast<uint64_t>(state.settings.crop_y);
+                classes[y * width + x] = classifier.of_pixel(
+                    column, row, row * static_cast<uint64_t>(state.full_width) + column);
             }
         }
     };

@@ -48,7 +48,10 @@ struct JoinableLight {
 struct ReferenceSettings {
     int width = 0;
     int height = 0;
-    size_t camera = 0;  ///< index into CameraArrays
+    /// The full picture of which the image is a window; without a width, the image is all of it.
+    int full_width = 0, full_height = 0;
+    int crop_x = 0, crop_y = 0;  ///< pixel of the full picture with which the image begins
+    size_t camera = 0;           ///< index into CameraArrays
     uint64_t seed = 1;
     Strategies strategies = Strategies::mis;
     /// Maximum number of scattering events; 1 is direct light, 0 means no limit.

@@ -34,7 +34,7 @@ struct Options {
     std::vector<std::string> outputs;
     double exposure = 0;
     std::string exported;
-    std::string size;
+    std::string size, crop;
     std::string samples;
     std::optional<uint64_t> spp;
     std::optional<double> seconds;
@@ -274,18 +274,40 @@ void apply_options(Options &options, Scene &scene) {
     options.settings.separate_strategies = requested(options.layers, "strategies");
 }
 
-/// Sets the size of the image: --size, or that of the scene's film.
-void set_size(Options &options, const Scene &scene) {
-    options.settings.width = scene.film_width();
-    options.settings.height = scene.film_height();
+/// Sets the window of the picture to render: --crop, or that of the scene's film.
+void set_crop(const Options &options, Scene &scene) {
+    if (options.crop == "none") {
+        scene.set_film_size(scene.film_width(), scene.film_height());
+    } else if (!options.crop.empty()) {
+        const size_t last = options.crop.rfind(',');
+        const auto begin = parse_pair(options.crop.substr(0, last), ',', "--crop");
+        const auto size = parse_pair(options.crop.substr(last + 1), 'x', "--crop");
+        const auto side = [](uint64_t value) {
+            return static_cast<int>(std::min<uint64_t>(value, 1 << 16));
+        };
+        scene.set_crop(
+            {side(begin.first), side(begin.second), side(size.first), side(size.second)});
+    }
+}
+
+/// Sets the size of the scene's film: --size, or that of the scene. The image is its window.
+void set_size(Options &options, Scene &scene) {
     if (!options.size.empty()) {
+        if (scene.crop() && options.crop.empty()) {
+            throw input_error("--size: the scene crops its film; give --crop, too, or --crop none");
+        }
         const auto [width, height] = parse_pair(options.size, 'x', "--size");
         if (width < 1 || height < 1 || width > 65536 || height > 65536) {
             throw input_error(
                 fmt::format("--size {}: sides must be from 1 to 65536 pixels", options.size));
         }
-        options.settings.width = static_cast<int>(width);
-        options.settings.height = static_cast<int>(height);
+        scene.set_film_size(static_cast<int>(width), static_cast<int>(height));
+    }
+    set_crop(options, scene);
+    options.settings.width = scene.film_width();
+    options.settings.height = scene.film_height();
+    if (scene.crop()) {
+        set_window(options.settings, *scene.crop(), scene.film_width(), scene.film_height());
     }
 }
 
@@ -370,7 +392,6 @@ ExitCode run(Options &options) {
     }
     set_size(options, scene);
     if (!options.exported.empty()) {
-        scene.set_film_size(options.settings.width, options.settings.height);
         export_scene(scene, options.exported,
                      {options.spp.value_or(64), options.settings.max_depth});
         return ExitCode::ok;
@@ -461,6 +482,10 @@ void add_options(CLI::App &app, Options &options) {
                    "render only the samples BEGIN:END of every pixel");
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")
         ->capture_default_str();
+    app.add_option(
+        "--crop", options.crop,
+        "window X,Y,WxH of the picture to render, in pixels from its top left corner, or "
+        "none (default: the scene's)");
     app.add_option("--size", options.size, "image size WxH in pixels (default: the scene's film)");
     app.add_option("--at", options.scene_time, "scene time in seconds")->capture_default_str();
     app.add_option("--device", options.device,

@@ -190,6 +190,8 @@ class Program(unittest.TestCase):
     def test_bad_numbers(self):
         for message, arguments in (("from 1 to 65536", ["--size", "0x5"]),
                                    ("separated by 'x'", ["--size", "5"]),
+                                   ("separated by ','", ["--crop", "5"]),
+                                   ("is not in the film", ["--crop", "250,0,7x7"]),
                                    ("below END", ["--samples", "5:5"]),
                                    ("separated by ':'", ["--samples", "a:b"]),
                                    ("--spp excludes --samples", ["--samples", "0:4", "--spp", "4"]),
@@ -197,6 +199,12 @@ class Program(unittest.TestCase):
                                    ("--state", ["--resume"]),
                                    ("path_tracing", ["--algorithm", "magic"])):
             self.expect_error(2, [message], CORNELL, "-o", self.output(), *arguments)
+
+    def test_another_size_needs_another_crop(self):
+        window = '"film": {"crop": {"x": 1, "y": 2, "width": 9, "height": 7}, '
+        scene = self.scene(lambda text: text.replace('"film": {', window, 1))
+        self.expect_error(2, ["--size: the scene crops its film", "--crop none"],
+                          scene, "-o", self.output(), *SMALL)
 
     def test_usage_errors_exit_with_2(self):
         for arguments in (["--no-such-option"], [], [CORNELL],

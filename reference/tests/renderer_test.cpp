@@ -103,5 +103,28 @@ TEST(ReferenceRenderer, refuses_materials_out_of_range) {
     EXPECT_THROW(scene.renderer(small_settings(8, 1)), Error);
 }
 
+TEST(ReferenceRenderer, windows_have_the_bits_of_the_full_picture) {
+    const TestScene scene = cornell_like_box();
+    ReferenceSettings settings = small_settings(12, 3);
+    auto full = scene.renderer(settings);
+    full.render(0, 3);
+    settings.full_width = settings.full_height = 12;
+    settings.width = 5;
+    settings.height = 4;
+    settings.crop_x = 6;
+    settings.crop_y = 7;
+    auto part = scene.renderer(settings);
+    part.render(0, 3);
+    const std::vector<FirstHit> hits = full.first_hits(), hits_of_part = part.first_hits();
+    for (size_t y = 0; y < 4; ++y) {
+        for (size_t x = 0; x < 5; ++x) {
+            EXPECT_TRUE((part.film().pixels[5 * y + x].mean(3) ==
+                         full.film().pixels[12 * (y + 7) + x + 6].mean(3))
+                            .all());
+            EXPECT_EQ(hits_of_part[5 * y + x], hits[12 * (y + 7) + x + 6]);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rtrays::reference

@@ -96,6 +96,8 @@ CameraRecord compile_camera(const CameraArrays &cameras, size_t index, int width
     CameraRecord camera{};
     camera.width = static_cast<uint32_t>(width);
     camera.height = static_cast<uint32_t>(height);
+    camera.full_width = camera.width;
+    camera.full_height = camera.height;
     camera.pixel_area = static_cast<float>(pixel * pixel);
     copy3(Eigen::Vector3d(world.block<3, 1>(0, 3)), camera.position);
     const Eigen::Vector3d to_plane = orthographic ? Eigen::Vector3d(0, 0, 0) : forward;
@@ -151,8 +153,8 @@ void set_camera_start(const CameraArrays &cameras, size_t index, const SceneExte
                           static_cast<double>(camera.start_distance) * forward),
           camera.start);
     const double pixel = std::sqrt(static_cast<double>(camera.pixel_area));
-    copy3(Eigen::Vector3d(-0.5 * pixel * camera.width * world.block<3, 1>(0, 0) +
-                          0.5 * pixel * camera.height * world.block<3, 1>(0, 1)),
+    copy3(Eigen::Vector3d(-0.5 * pixel * camera.full_width * world.block<3, 1>(0, 0) +
+                          0.5 * pixel * camera.full_height * world.block<3, 1>(0, 1)),
           camera.start_corner);
 }
 

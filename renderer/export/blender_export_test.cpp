@@ -168,6 +168,13 @@ TEST_F(BlenderExport, ResolvesTheAxisOfTheField) {
     EXPECT_EQ(axis("larger", 4, 8), "y");
 }
 
+TEST_F(BlenderExport, CropsAreErrors) {
+    Scene box = load_scene(scenes + "/cornell_box/scene.json");
+    box.set_crop({10, 20, 30, 40});
+    expect_input_error("film: the export to Cycles does not support a crop",
+                       [&] { exported(box); });
+}
+
 TEST_F(BlenderExport, ListsTheEndings) {
     const Scene box = load_scene(scenes + "/cornell_box/scene.json");
     for (const char *name : {"out.json", "out.blend", ".xml", "xml"}) {

@@ -144,6 +144,9 @@ class SceneWriter {
     Json write_camera() const {
         const CameraArrays &cameras = arrays_.cameras;
         const auto i = static_cast<size_t>(scene_.active_camera());
+        if (scene_.crop()) {
+            throw input_error("film: the export to Cycles does not support a crop");
+        }
         if (cameras.is_orthographic(i)) {
             throw input_error(
                 fmt::format("camera '{}': the export to Cycles does not support orthographic "

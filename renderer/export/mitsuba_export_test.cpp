@@ -296,6 +296,18 @@ TEST_F(MitsubaExport, ShapesThatMitsubaLacksComeBackAsMeshes) {
     }
 }
 
+TEST_F(MitsubaExport, CropsComeBack) {
+    Scene scene = load_scene(scenes + "/cornell_box/scene.json");
+    scene.set_crop({10, 20, 30, 40});
+    const Scene back = through_mitsuba(scene);
+    EXPECT_EQ(back.film_width(), scene.film_width());
+    ASSERT_TRUE(back.crop());
+    EXPECT_EQ(back.crop()->x, 10);
+    EXPECT_EQ(back.crop()->y, 20);
+    EXPECT_EQ(back.crop()->width, 30);
+    EXPECT_EQ(back.crop()->height, 40);
+}
+
 TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
     const Scene scene =
         parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [

@@ -173,6 +173,15 @@ class SceneWriter {
         const pugi::xml_node film = add_object(sensor, "film", "hdrfilm");
         add_property(film, "integer", "width", fmt::format("{}", scene_.film_width()));
         add_property(film, "integer", "height", fmt::format("{}", scene_.film_height()));
+        if (const auto &crop = scene_.crop()) {
+            const std::pair<const char *, int> window[] = {{"crop_offset_x", crop->x},
+                                                           {"crop_offset_y", crop->y},
+                                                           {"crop_width", crop->width},
+                                                           {"crop_height", crop->height}};
+            for (const auto &[name, value] : window) {
+                add_property(film, "integer", name, fmt::format("{}", value));
+            }
+        }
         add_property(film, "string", "pixel_format", "rgb");
         add_property(film, "string", "component_format", "float32");
         add_object(film, "rfilter", "box");

@@ -206,6 +206,19 @@ void Scene::set_film_size(int width, int height) {
     }
     film_width_ = width;
     film_height_ = height;
+    crop_.reset();
+}
+
+void Scene::set_crop(const FilmCrop &crop) {
+    const auto fits = [](int first, int size, int all) {
+        return first >= 0 && size >= 1 && size <= all && first <= all - size;
+    };
+    if (!fits(crop.x, crop.width, film_width_) || !fits(crop.y, crop.height, film_height_)) {
+        throw input_error(fmt::format(
+            "crop: the window of {} x {} pixels at ({}, {}) is not in the film of {} x {}",
+            crop.width, crop.height, crop.x, crop.y, film_width_, film_height_));
+    }
+    crop_ = crop;
 }
 
 void Scene::set_property(const std::string &address, const std::string &text) {

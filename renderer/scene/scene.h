@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "renderer/scene/stores.h"
@@ -25,6 +26,11 @@ struct SceneRevision {
     uint64_t lights = 0;
 };
 
+/// A window of a picture, in pixels from its top left corner.
+struct FilmCrop {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
 /// A loaded scene: the graph and the arrays it serializes into.
 class Scene {
   public:
@@ -40,7 +46,14 @@ class Scene {
 
     int film_width() const { return film_width_; }
     int film_height() const { return film_height_; }
+    /// Sets the size of the full picture, without a crop. Throws `Error` (bad input) if it is out
+    /// of range.
     void set_film_size(int width, int height);
+
+    /// Returns the window of the picture to render, if not all of it.
+    const std::optional<FilmCrop> &crop() const { return crop_; }
+    /// Throws `Error` (bad input) if the window is not in the picture.
+    void set_crop(const FilmCrop &crop);
 
     SceneGraph &graph() { return *graph_; }
     const SceneGraph &graph() const { return *graph_; }
@@ -92,6 +105,7 @@ class Scene {
     std::string camera_node_;  ///< empty for the first camera
     int film_width_ = 256;
     int film_height_ = 256;
+    std::optional<FilmCrop> crop_;
 };
 
 }  // namespace rtrays

@@ -278,6 +278,23 @@ TEST(Cameras, OrthographicViewsGrowWithTheirNodes) {
     EXPECT_NE(plan.hash(), hash);
 }
 
+TEST(Films, MayBeCropped) {
+    const auto film = [](const std::string &crop) {
+        return parse_scene_json(
+            R"({"version": 1, "film": {"width": 8, "height": 4, "crop": )" + crop +
+                R"(}, "nodes": [{"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}}]})",
+            "in.json", "in");
+    };
+    Scene scene = film(R"({"x": 2, "y": 1, "width": 6, "height": 3})");
+    ASSERT_TRUE(scene.crop());
+    EXPECT_EQ(scene.crop()->x, 2);
+    EXPECT_EQ(scene.crop()->height, 3);
+    EXPECT_THROW(film(R"({"x": 3, "y": 1, "width": 6, "height": 3})"), Error);
+    EXPECT_THROW(film(R"({"x": 2, "y": 2, "width": 6, "height": 3})"), Error);
+    scene.set_film_size(8, 4);
+    EXPECT_FALSE(scene.crop());
+}
+
 TEST_F(Textures, AreSharedByMaterialsAndFilesByTextures) {
     write_text("two.ppm", std::string("P6 2 1 255\n") + "\x10\x20\x30\x40\x50\x60");
     Scene scene = parse(

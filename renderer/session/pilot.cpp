@@ -66,6 +66,19 @@ Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene
     const double shrink = std::min(1.0, std::sqrt(pilot_pixels / pixels));
     small.width = std::max(1, static_cast<int>(settings.width * shrink));
     small.height = std::max(1, static_cast<int>(settings.height * shrink));
+    if (settings.window.full_width > 0) {
+        // The same part of a smaller picture.
+        const auto scaled = [](int size, int from, int to) {
+            return static_cast<int>(static_cast<int64_t>(size) * to / from);
+        };
+        RenderSettings::Window &window = small.window;
+        window.full_width = scaled(window.full_width, settings.width, small.width);
+        window.full_height = scaled(window.full_height, settings.height, small.height);
+        window.x = std::min(scaled(window.x, settings.width, small.width),
+                            window.full_width - small.width);
+        window.y = std::min(scaled(window.y, settings.height, small.height),
+                            window.full_height - small.height);
+    }
     const double small_pixels = static_cast<double>(small.width) * small.height;
 
     Pilot pilot;

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Conversion of settings for the scene compiler, the BVH builder and the stages.
 #include "renderer/bvh/builder.h"
+#include "renderer/scene/scene.h"
 #include "renderer/session/settings.h"
 
 namespace rtrays {
+
+void set_window(RenderSettings &settings, const FilmCrop &crop, int full_width, int full_height) {
+    settings.width = crop.width;
+    settings.height = crop.height;
+    settings.window = {crop.x, crop.y, full_width, full_height};
+}
 
 bool has_light_pass(const RenderSettings &settings) {
     return settings.algorithm->traces_light_paths() && settings.light_paths != 0;
@@ -39,6 +46,12 @@ IntegratorSettings integrator_settings(const RenderSettings &settings) {
     converted.max_continuation = settings.max_continuation;
     converted.roulette_start = settings.roulette_start;
     converted.adaptive_threshold = settings.adaptive_threshold;
+    const RenderSettings::Window &window = settings.window;
+    converted.film_width = static_cast<uint32_t>(settings.width);
+    converted.full_width =
+        window.full_width > 0 ? static_cast<uint32_t>(window.full_width) : converted.film_width;
+    converted.first_pixel =
+        static_cast<uint32_t>(window.y) * converted.full_width + static_cast<uint32_t>(window.x);
     return converted;
 }
 
@@ -67,6 +80,7 @@ FeatureMask settings_features(const RenderSettings &settings) {
         .with(Feature::adaptive, settings.termination == Termination::adaptive)
         .with(Feature::sobol, settings.sampler != Sampler::independent)
         .with(Feature::depth_limit, settings.max_depth != 0)
+        .with(Feature::crop, settings.window.full_width > 0)
         .with(Feature::convergence, has_convergence_control(settings))
         .with(Feature::variance, settings.variance);
 }

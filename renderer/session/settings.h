@@ -31,6 +31,11 @@ struct RenderSettings {
     const Algorithm *algorithm = &algorithms::path_tracing;
     int width = 0;   ///< image width in pixels, 0: from the scene's film
     int height = 0;  ///< image height in pixels, 0: from the scene's film
+    /// The full picture of which the image is a window; without a width, the image is all of it.
+    struct Window {
+        int x = 0, y = 0;  ///< pixel of the full picture with which the image begins
+        int full_width = 0, full_height = 0;
+    } window;
     uint32_t seed = 1;
     /// Whether the film stores second moments, for the layers variance.R, .G, .B.
     bool variance = true;
@@ -114,6 +119,9 @@ std::vector<std::string> changed_settings(const RenderSettings &settings);
 std::string describe_settings();
 
 // The functions below expect consistent settings.
+
+/// Makes the image the window `crop` of a picture of the given size.
+void set_window(RenderSettings &settings, const FilmCrop &crop, int full_width, int full_height);
 
 /// Returns whether paths from the lights are traced, which splat to any pixel.
 bool has_light_pass(const RenderSettings &settings);

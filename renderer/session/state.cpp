@@ -68,6 +68,9 @@ void require_film_size(int width, int height) {
 RenderSettings complete(RenderSettings settings, const Scene &scene) {
     require_consistent(settings);
     settings = with_fixed_choices(std::move(settings));
+    if (settings.width <= 0 && settings.height <= 0 && scene.crop()) {
+        set_window(settings, *scene.crop(), scene.film_width(), scene.film_height());
+    }
     settings.width = settings.width > 0 ? settings.width : scene.film_width();
     settings.height = settings.height > 0 ? settings.height : scene.film_height();
     require_film_size(settings.width, settings.height);
@@ -156,7 +159,12 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
 }
 
 void RenderSession::State::set_config() {
-    config = content_hash(scene->hash() + image_settings(settings).dump());
+    const RenderSettings::Window &window = settings.window;
+    const std::string crop = window.full_width == 0
+                                 ? ""
+                                 : fmt::format("crop {} {} {} {}", window.x, window.y,
+                                               window.full_width, window.full_height);
+    config = content_hash(scene->hash() + image_settings(settings).dump() + crop);
 }
 
 bool RenderSession::State::update(const Scene &graph) {
@@ -182,6 +190,9 @@ void RenderSession::State::resize(int width, int height) {
     RenderSettings resized = settings;
     resized.width = width;
     resized.height = height;
+    if (settings.window.full_width > 0) {
+        throw input_error("a window of a picture cannot be resized; start a new session");
+    }
     if (!pilot.trials.empty()) {
         const double ratio = static_cast<double>(width) * height / static_cast<double>(pixels());
         resized.light_paths = static_cast<uint32_t>(std::lround(settings.light_paths * ratio));
@@ -198,6 +209,7 @@ void RenderSession::State::resize(int width, int height) {
 void RenderSession::State::begin_film(const RenderSettings &sized) {
     settings = sized;
     integrator.light_paths = light_paths_per_sample(settings);
+    integrator.film_width = integrator.full_width = static_cast<uint32_t>(settings.width);
     set_config();
     allocate_film();
     bind();
@@ -277,7 +289,15 @@ void RenderSession::State::bind() {
 
 StageArguments RenderSession::State::scene_arguments() const {
     StageArguments arguments = scene->arguments(features);
-    arguments[StageInput::camera] = {scene->camera(settings.width, settings.height)};
+    const RenderSettings::Window &window = settings.window;
+    const bool is_full = window.full_width == 0;
+    CameraRecord camera = scene->camera(is_full ? settings.width : window.full_width,
+                                        is_full ? settings.height : window.full_height);
+    camera.width = static_cast<uint32_t>(settings.width);
+    camera.height = static_cast<uint32_t>(settings.height);
+    camera.crop_x = static_cast<uint32_t>(window.x);
+    camera.crop_y = static_cast<uint32_t>(window.y);
+    arguments[StageInput::camera] = {camera};
     return arguments;
 }
 

@@ -87,6 +87,7 @@
     /* camera and film */                                                                     \
     X(orthographic, "the rays of the camera are parallel")                                    \
     X(lens, "the camera has an aperture, or is far from the scene")                           \
+    X(crop, "the film is a window of the full picture")                                       \
     X(convergence, "converged pixels receive no further camera paths (biased)")               \
     X(variance, "the film holds second moments")                                              \
     X(int64_atomics, "the device has 64-bit integer atomics")

@@ -39,6 +39,10 @@ typedef struct IntegratorSettings {
     /// Number of vertices stored per light path, if they are connected to camera paths.
     uint light_vertices;
     uint sampler;  ///< SAMPLER_*
+    // The film as a window of the full picture, whose pixels have the random numbers.
+    uint film_width;   ///< pixels
+    uint full_width;   ///< pixels
+    uint first_pixel;  ///< index in the full picture of the film's first pixel
 } IntegratorSettings;
 
 /// Returns whether all strategies of full bidirectional path tracing exist for paths of `events`
@@ -49,5 +53,5 @@ DEVICE bool all_strategies(IntegratorSettings settings, uint events) {
 }
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(IntegratorSettings) == 44, "layout shared with the device");
+static_assert(sizeof(IntegratorSettings) == 56, "layout shared with the device");
 #endif

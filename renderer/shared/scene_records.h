@@ -16,7 +16,7 @@ typedef struct CameraRecord {
     /// Area of a pixel on the plane at unit distance along the axis; orthographic: of the film.
     float pixel_area;
     float corner[3];
-    uint width;  ///< pixels
+    uint width;  ///< of the film, pixels
     float step_x[3];
     uint height;  ///< pixels
     float step_y[3];
@@ -31,7 +31,11 @@ typedef struct CameraRecord {
     float start[3];         ///< position + start_distance * forward, rounded after the sum
     uint orthographic;      ///< 1: all rays have the direction of the axis; otherwise 0
     float start_corner[3];  ///< `corner` without its component along the axis
-    float padding1;
+    uint crop_x;            ///< column of the full picture with which the film begins
+    uint crop_y;            ///< row of the full picture with which the film begins
+    /// Size of the full picture in pixels. Film positions are those of the full picture.
+    uint full_width, full_height;
+    uint padding;
 } CameraRecord;
 
 /// Triangle data for shading, in the scene's triangle order.
@@ -284,7 +288,7 @@ typedef struct EmitterTriangle {
 } EmitterTriangle;
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(CameraRecord) == 128, "layout shared with the device");
+static_assert(sizeof(CameraRecord) == 144, "layout shared with the device");
 static_assert(sizeof(SurfaceTriangle) == 64, "layout shared with the device");
 static_assert(sizeof(MaterialRecord) == 16, "layout shared with the device");
 static_assert(sizeof(BxdfRecord) == 64, "layout shared with the device");

@@ -36,6 +36,12 @@ class SceneReader {
     void read() {
         const Json &film = document_.at("film");
         scene_.set_film_size(film.at("width"), film.at("height"));
+        if (film.contains("crop")) {
+            const Json &crop = film.at("crop");
+            source_.located("/film/crop", [&] {
+                scene_.set_crop({crop.at("x"), crop.at("y"), crop.at("width"), crop.at("height")});
+            });
+        }
         read_section("textures", textures_,
                      [this](const Json &value, const std::string &name, const std::string &path) {
                          return read_texture(value, name, source_, path, files_);

@@ -23,15 +23,20 @@ int pixels(Object &film, const char *name, int initial) {
     return static_cast<int>(value);
 }
 
-/// Throws unless the crop window is the full film.
-void check_crop(Object &film, int width, int height) {
-    const std::pair<const char *, int> full[] = {
-        {"crop_width", width}, {"crop_height", height}, {"crop_offset_x", 0}, {"crop_offset_y", 0}};
-    for (const auto &[name, value] : full) {
-        if (film.number(name, value) != value) {
+/// Reads the crop of a film, unless it is the full film.
+void read_crop(Object &film, PlacedCamera &placed) {
+    const auto integer = [&](const char *name, int initial) {
+        const double value = film.number(name, initial);
+        if (value != std::floor(value) || value < 0 || value > (1 << 16)) {
             throw film.property(name).error(
-                "film crops are unsupported; remove them and render the full film");
+                fmt::format("expected an integer from 0 to 65536, got {}", value));
         }
+        return static_cast<int>(value);
+    };
+    const FilmCrop crop{integer("crop_offset_x", 0), integer("crop_offset_y", 0),
+                        integer("crop_width", placed.width), integer("crop_height", placed.height)};
+    if (crop.x != 0 || crop.y != 0 || crop.width != placed.width || crop.height != placed.height) {
+        placed.crop = crop;
     }
 }
 
@@ -57,7 +62,7 @@ void read_film(Object &sensor, const Document &document, PlacedCamera &placed) {
         }
         placed.width = pixels(film, "width", placed.width);
         placed.height = pixels(film, "height", placed.height);
-        check_crop(film, placed.width, placed.height);
+        read_crop(film, placed);
         // Settings of output files, and settings of filters wider than ours.
         for (const char *name :
              {"file_format", "pixel_format", "component_format", "banner", "attach_log",

@@ -9,6 +9,7 @@
 #include "renderer/import/mitsuba/object.h"
 #include "renderer/scene/cores/camera.h"
 #include "renderer/scene/cores/light.h"
+#include "renderer/scene/scene.h"
 
 namespace rtrays::mitsuba {
 
@@ -33,6 +34,7 @@ struct PlacedCamera {
     Eigen::Matrix4d world_from_camera;
     int width;
     int height;
+    std::optional<FilmCrop> crop;
     /// Settings of film, sampler and clipping planes that this renderer replaces by its own.
     std::vector<std::string> replaced;
 };

@@ -402,9 +402,12 @@ TEST(MitsubaErrors, OfSensors) {
         sensor("perspective", "<transform name=\"to_world\"><scale x=\"-1\"/></transform>"));
     for (const char *name : {"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"}) {
         const std::string property = "<integer name=\"" + std::string(name) + "\"";
-        expect_input_error("in.xml:4: " + property + ">: film crops are unsupported",
-                           film(property + " value=\"3\"/>"));
+        expect_input_error("in.xml:4: " + property + ">: expected an integer from 0 to 65536",
+                           film(property + " value=\"-3\"/>"));
     }
+    // As in Mitsuba, the size of the crop is by default that of the film.
+    expect_input_error("in.xml:2: <sensor type=\"perspective\">: crop: the window of",
+                       film("<integer name=\"crop_offset_x\" value=\"1\"/>"));
     expect_input_error("in.xml:4: <integer name=\"width\">: expected an integer from 1 to 65536",
                        film("<integer name=\"width\" value=\"0\"/>"));
     expect_input_error("unsupported film type", sensor("perspective", "<film type=\"specfilm\"/>"));

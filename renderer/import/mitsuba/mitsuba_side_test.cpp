@@ -216,6 +216,25 @@ TEST(MitsubaCameras, MayBeOrthographic) {
     expect_input_error("scales x and y differently", [&] { camera("<scale x=\"3\" y=\"2\"/>"); });
 }
 
+TEST(MitsubaFilms, MayBeCropped) {
+    const auto film = [](const std::string &crop) {
+        return parse_mitsuba(
+            "<scene version=\"3.0.0\"><sensor type=\"perspective\"><film type=\"hdrfilm\">"
+            "<integer name=\"width\" value=\"8\"/><integer name=\"height\" value=\"4\"/>" +
+            crop + "</film></sensor></scene>");
+    };
+    const Scene scene = film(
+        "<integer name=\"crop_offset_x\" value=\"5\"/><integer name=\"crop_offset_y\" value=\"1\"/>"
+        "<integer name=\"crop_width\" value=\"3\"/><integer name=\"crop_height\" value=\"2\"/>");
+    EXPECT_EQ(scene.film_width(), 8);
+    ASSERT_TRUE(scene.crop());
+    EXPECT_EQ(scene.crop()->x, 5);
+    EXPECT_EQ(scene.crop()->y, 1);
+    EXPECT_EQ(scene.crop()->width, 3);
+    EXPECT_EQ(scene.crop()->height, 2);
+    EXPECT_FALSE(film("<integer name=\"crop_width\" value=\"8\"/>").crop());
+}
+
 TEST(MitsubaTexturedEmitters, AreMaterialsWithATextureOfEmission) {
     const std::string texture =
         R"(<texture type="checkerboard" name="radiance"><rgb name="color0" value="4,2,0"/>

@@ -269,6 +269,9 @@ class SceneReader {
         node.set_core(placed.camera);
         if (cameras_.empty()) {
             scene_.set_film_size(placed.width, placed.height);
+            if (placed.crop) {
+                element.located([&] { scene_.set_crop(*placed.crop); });
+            }
             replaced_.insert(replaced_.end(), placed.replaced.begin(), placed.replaced.end());
         }
         cameras_.push_back(node.name());

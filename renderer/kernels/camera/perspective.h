@@ -3,6 +3,7 @@
 // functions also serve orthographic cameras (orthographic.h).
 #pragma once
 
+#include "renderer/kernels/camera/camera_ray.h"
 #include "renderer/kernels/camera/orthographic.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/shared/compat.h"
@@ -122,13 +123,8 @@ DEVICE CameraConnection camera_connection(CameraRecord camera, float3 point, flo
         seen = across / depth;
         seen += on_lens / camera.focus_distance;
     }
-    const float3 step_x = make_float3(camera.step_x[0], camera.step_x[1], camera.step_x[2]);
-    const float3 step_y = make_float3(camera.step_y[0], camera.step_y[1], camera.step_y[2]);
-    const float width = (float)camera.width, height = (float)camera.height;
-    // The steps have the length of a pixel, so a division by its area gives pixels.
-    const float2 raster = make_float2(0.5f * width + dot(seen, step_x) / camera.pixel_area,
-                                      0.5f * height + dot(seen, step_y) / camera.pixel_area);
-    if (raster.x >= 0.0f && raster.x < width && raster.y >= 0.0f && raster.y < height) {
+    float2 raster;
+    if (set_raster(camera, seen, &raster)) {
         const float square = dot(slope, slope);  // 1 / cos^2
         connection.raster = raster;
         connection.pdf_w = square * sqrt(square) / camera.pixel_area;

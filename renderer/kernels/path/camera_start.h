@@ -12,8 +12,13 @@
 DEVICE void start_camera_path(Path path, CameraRecord camera, IntegratorSettings settings,
                               ulong first_sample, uint pixel, uint sample) {
     const uint4 words = path_sample(settings, pixel, first_sample + sample, BLOCK_CAMERA);
-    const float x = (float)(pixel % camera.width) + uniform_float(words.x);
-    const float y = (float)(pixel / camera.width) + uniform_float(words.y);
+    uint column = pixel % camera.width, row = pixel / camera.width;
+    if (FEATURE_crop) {
+        column += camera.crop_x;
+        row += camera.crop_y;
+    }
+    const float x = (float)column + uniform_float(words.x);
+    const float y = (float)row + uniform_float(words.y);
     set_pixel(path, pixel);
     set_sample(path, sample);
     set_depth(path, 0u);

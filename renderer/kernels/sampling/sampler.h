@@ -8,9 +8,14 @@
 
 /// Returns the four words of block `block`. Each is uniform, and independent of those of all other
 /// blocks, pixels and streams. Successive samples are either independent or points of a stratified
-/// sequence. Regular samples are not random: they are the same in all pixels, whatever the seed.
+/// sequence. Regular samples are not random: they are the same in all pixels, whatever the seed. A
+/// pixel has the words that it has in the full picture.
 DEVICE uint4 sample_words(IntegratorSettings settings, uint stream, uint pixel, ulong sample,
                           uint block) {
+    if (FEATURE_crop && !FEATURE_from_light) {
+        pixel = pixel / settings.film_width * settings.full_width + pixel % settings.film_width +
+                settings.first_pixel;
+    }
     if (FEATURE_sobol && settings.sampler == SAMPLER_SOBOL) {
         // A sequence has 2^32 points, after which the next sequence starts.
         const ulong sequence = (sample >> 32) << 1;
