@@ -53,15 +53,21 @@ def measure(file, folder):
     return result_of(compare(ours, theirs))
 
 
+def first_error(lines, folder):
+    """Returns the first error among the lines of a program, preferably one with a line number,
+    without the remedy and the folder of the file."""
+    errors = [line for line in lines if not line.startswith("notice")]
+    placed = [line for line in errors if re.search(r":\d+: ", line)] or errors
+    return re.sub(r"^rtrays-render: |;.*$", "", placed[0].replace(f"{folder}/", ""))
+
+
 def load(file, folder):
     """Loads a file and renders a few pixels. Returns the first error of the import, if any."""
     small = ["-o", folder / "small.exr", "--spp", 1, "--size", "16x16", "--quiet"]
     done = start(["rtrays-render", file, *small], None, capture_output=True, text=True)
     if done.returncode == 0:
         return {}
-    errors = [line for line in done.stderr.splitlines() if not line.startswith("notice")]
-    placed = [line for line in errors if re.search(r":\d+: ", line)] or errors
-    return {"missing": re.sub(r"^.*/|;.*$", "", placed[0].replace(f"{file.parent}/", ""))}
+    return {"missing": first_error(done.stderr.splitlines(), file.parent)}
 
 
 def rows_of(files, state, work, produce):

@@ -4,7 +4,8 @@
 import unittest
 
 from rtrays.documents.document import read_json
-from rtrays.peers.corpus import FILES, PAGE, STORED, agrees, stored_table, uses, what, with_table
+from rtrays.peers.corpus import (FILES, PAGE, STORED, agrees, first_error, stored_table, uses, what,
+                                 with_table)
 
 
 class Corpus(unittest.TestCase):
@@ -27,6 +28,12 @@ class Corpus(unittest.TestCase):
         )
         self.assertEqual(what(text), "A pane.")
         self.assertEqual(uses(text), ["thindielectric"])
+
+    def test_errors_keep_the_names_of_missing_files(self):
+        lines = ["notice: grey", "rtrays-render: /a/b/s.xml: 2 errors",
+                 "/a/b/s.xml:7: <shape type=\"ply\">: cannot find 'x/y.ply'; searched: '/a/b'"]
+        self.assertEqual(first_error(lines, "/a/b"),
+                         "s.xml:7: <shape type=\"ply\">: cannot find 'x/y.ply'")
 
 
 if __name__ == "__main__":
