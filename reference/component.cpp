@@ -115,6 +115,12 @@ Component::Component(const BxdfComponent &component, const TextureArrays &textur
     if (component.texture != no_index) {
         texture_.emplace(textures, component.texture);
     }
+    if (component.roughness_texture != no_index) {
+        require(component.roughness_texture < textures.image.size(), what,
+                "the texture of the roughness does not exist");
+        roughness_texture_.emplace(textures, component.roughness_texture);
+        textured_ = component;
+    }
     if (component.kind == Kind::coated_lambert) {
         coat_.emplace(component);
     }
@@ -126,6 +132,15 @@ Component::Component(const BxdfComponent &component, const TextureArrays &textur
             rough_ = !delta_ && !std::is_same_v<Model, OrenNayarLobe>;
         },
         lobe_);
+}
+
+Component::Lobe Component::textured_lobe(const Eigen::Vector2d &uv) const {
+    const double factor = luminance(roughness_texture_->evaluate(uv));
+    BxdfComponent scaled = textured_;
+    scaled.alpha *= scaled.roughness_squared ? factor * factor : factor;
+    scaled.alpha = scaled.alpha.cwiseMax(BxdfComponent::least_alpha);
+    scaled.disney_roughness *= factor;
+    return make_lobe(scaled);
 }
 
 double Component::half_cosine(const Vec3 &wi, const Viewpoint &view) const {
@@ -149,40 +164,34 @@ Spectrum Component::fresnel_factor(const Vec3 &wi, const Viewpoint &view) const 
 }
 
 Spectrum Component::evaluate(const Vec3 &wi, const Viewpoint &view) const {
-    const double f = std::visit(
-        [&](const auto &lobe) {
-            if constexpr (is_delta_lobe<std::decay_t<decltype(lobe)>>) {
-                return 0.0;
-            } else {
-                return lobe.evaluate(wi, view.wo, eta(view));
-            }
-        },
-        lobe_);
+    const double f = with_lobe(view, [&](const auto &lobe) {
+        if constexpr (is_delta_lobe<std::decay_t<decltype(lobe)>>) {
+            return 0.0;
+        } else {
+            return lobe.evaluate(wi, view.wo, eta(view));
+        }
+    });
     return f > 0.0 ? Spectrum(colour(view) * fresnel_factor(wi, view) * f) : Spectrum::Zero();
 }
 
 double Component::pdf_w(const Vec3 &wi, const Viewpoint &view) const {
-    return std::visit(
-        [&](const auto &lobe) {
-            if constexpr (is_delta_lobe<std::decay_t<decltype(lobe)>>) {
-                return 0.0;
-            } else {
-                return lobe.pdf_w(wi, view.wo, eta(view));
-            }
-        },
-        lobe_);
+    return with_lobe(view, [&](const auto &lobe) {
+        if constexpr (is_delta_lobe<std::decay_t<decltype(lobe)>>) {
+            return 0.0;
+        } else {
+            return lobe.pdf_w(wi, view.wo, eta(view));
+        }
+    });
 }
 
 std::optional<Vec3> Component::sample(const Viewpoint &view, Rng &rng) const {
-    return std::visit(
-        [&](const auto &lobe) -> std::optional<Vec3> {
-            if constexpr (is_delta_lobe<std::decay_t<decltype(lobe)>>) {
-                return std::nullopt;
-            } else {
-                return lobe.sample(view.wo, eta(view), rng);
-            }
-        },
-        lobe_);
+    return with_lobe(view, [&](const auto &lobe) -> std::optional<Vec3> {
+        if constexpr (is_delta_lobe<std::decay_t<decltype(lobe)>>) {
+            return std::nullopt;
+        } else {
+            return lobe.sample(view.wo, eta(view), rng);
+        }
+    });
 }
 
 std::optional<DeltaEvent> Component::scatter(const Viewpoint &view) const {

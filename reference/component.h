@@ -67,6 +67,14 @@ class Component {
                               MicrofacetRefractionLobe, IdealReflectionLobe, IdealRefractionLobe>;
     static Lobe make_lobe(const BxdfComponent &component);
 
+    /// Calls `visit` with the lobe at the point.
+    template <class Visit>
+    auto with_lobe(const Viewpoint &view, const Visit &visit) const {
+        return roughness_texture_ ? std::visit(visit, textured_lobe(view.uv))
+                                  : std::visit(visit, lobe_);
+    }
+    Lobe textured_lobe(const Eigen::Vector2d &uv) const;
+
     /// Returns the cosine at which the Fresnel term of a rough component is evaluated.
     double half_cosine(const Vec3 &wi, const Viewpoint &view) const;
     Spectrum fresnel_factor(const Vec3 &wi, const Viewpoint &view) const;
@@ -83,6 +91,9 @@ class Component {
 
     Spectrum weight_;
     std::optional<Texture> texture_;
+    /// Roughness is scaled by the luminance of this texture, and the lobe made for each point.
+    std::optional<Texture> roughness_texture_;
+    BxdfComponent textured_;  ///< what to scale, if roughness_texture_
     Fresnel fresnel_;
     double eta_;
     bool delta_;

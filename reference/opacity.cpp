@@ -17,9 +17,7 @@ Opacity::Opacity(const MaterialOpacity &opacity, const TextureArrays &textures)
 double Opacity::at(const Eigen::Vector2d &uv) const {
     double opacity = value_;
     if (texture_) {
-        const Spectrum colour = texture_->evaluate(uv);
-        const bool grey = colour[0] == colour[1] && colour[1] == colour[2];
-        opacity *= grey ? colour[0] : 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+        opacity *= luminance(texture_->evaluate(uv));
     }
     return cutoff_ > 0.0 ? (opacity >= cutoff_ ? 1.0 : 0.0) : opacity;
 }

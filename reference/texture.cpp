@@ -127,14 +127,16 @@ Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
     return (1.0 - c.up) * below + c.up * above;
 }
 
+double luminance(const Spectrum &colour) {
+    const bool is_grey = colour[0] == colour[1] && colour[1] == colour[2];
+    return is_grey ? colour[0] : 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+}
+
 Eigen::Vector2d Texture::luminance_gradient(const Eigen::Vector2d &uv) const {
     if (filter_ == TextureArrays::Filter::nearest) {
         return Eigen::Vector2d::Zero();
     }
     const Cell c = cell(uv);
-    const auto luminance = [](const Spectrum &s) {
-        return 0.2126 * s[0] + 0.7152 * s[1] + 0.0722 * s[2];
-    };
     const double by_column = (1.0 - c.up) * luminance(c.lower_right - c.lower_left) +
                              c.up * luminance(c.upper_right - c.upper_left);
     const double by_row = (1.0 - c.right) * luminance(c.upper_left - c.lower_left) +

@@ -13,6 +13,9 @@ namespace rtrays::reference {
 /// image.
 Spectrum texel(const TextureImage &image, int column, int row);
 
+/// Returns the Rec. 709 luminance of a linear colour. For a grey, this is exactly its value.
+double luminance(const Spectrum &colour);
+
 /// A colour over the (u, v) plane (conventions: renderer/scene/stores.h). Bytes are decoded before
 /// interpolation.
 class Texture {

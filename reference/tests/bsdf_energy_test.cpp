@@ -301,6 +301,33 @@ TEST(Bsdf, smooth_glass_obeys_snell_and_fresnel) {
     EXPECT_EQ(holm_rejected(suite), std::vector<std::string>{});
 }
 
+TEST(Bsdf, a_texture_of_roughness_scales_it) {
+    auto image = std::make_shared<TextureImage>();
+    image->width = image->height = 1;
+    image->floats = {0.5f, 0.5f, 0.5f};
+    TextureArrays textures;
+    textures.name = {"roughness"};
+    textures.image = {image};
+    textures.filter = {TextureArrays::Filter::bilinear};
+    textures.wrap = {TextureArrays::Wrap::repeat};
+    textures.uv_scale = {{1, 1}};
+    textures.uv_offset = {{0, 0}};
+    const Vec3 wo = Vec3(0.3, 0.2, 0.8).normalized(), wi = Vec3(-0.5, 0.1, 0.7).normalized();
+    const auto value = [&](BxdfComponent component, bool textured, bool squared) {
+        if (textured) {
+            component.roughness_texture = 0;
+            component.roughness_squared = squared;
+        }
+        return make_bsdf({component}, true, textures).evaluate(wi, wo, {0.5, 0.5})[0];
+    };
+    const auto ggx = BxdfComponent::Distribution::ggx;
+    const double expected = value(microfacet(ggx, 0.1, 0.2), false, false);
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(value(microfacet(ggx, 0.2, 0.4), true, false), expected, 1e-9 * expected);
+    EXPECT_NEAR(value(microfacet(ggx, 0.4, 0.8), true, true), expected, 1e-9 * expected);
+    EXPECT_NEAR(value(ward(0.2, 0.4), true, false), value(ward(0.1, 0.2), false, false), 1e-9);
+}
+
 TEST(Bsdf, refuses_parameters_out_of_range) {
     BxdfComponent component = lambert(1.5);
     EXPECT_THROW(make_bsdf({component}), Error);

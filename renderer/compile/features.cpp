@@ -51,6 +51,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::fresnel_thin_dielectric, Feature::fresnel},
     {Feature::component_sides, Feature::scattering},
     {Feature::tangents, Feature::scattering},
+    {Feature::roughness_textures, Feature::textures},
     {Feature::normal_maps, Feature::textures},
     {Feature::normal_maps, Feature::smooth_normals},
     {Feature::normal_maps, Feature::tangents},

@@ -73,7 +73,7 @@ void compile_coat(const BxdfComponent &component, BxdfRecord &record, CoatTables
     }
     const auto [table, is_new] = tables.emplace(
         std::make_tuple(coat.eta, coat.alpha, coat.distribution), transmittances.size());
-    record.coat = static_cast<uint32_t>(table->second);
+    record.coat_or_roughness = static_cast<uint32_t>(table->second);
     for (uint32_t i = 0; is_new && i < COAT_NODES; ++i) {
         const double root = static_cast<double>(i) / (COAT_NODES - 1);
         transmittances.push_back(static_cast<float>(coat_transmittance(coat, root * root)));
@@ -128,6 +128,12 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
     }
     if (record.texture != NO_TEXTURE) {
         features = features.with(Feature::textures);
+    }
+    if (component.roughness_texture != no_index) {
+        record.flags |= BXDF_FLAG_ROUGHNESS_TEXTURE |
+                        (component.roughness_squared ? BXDF_FLAG_ROUGHNESS_SQUARED : 0u);
+        record.coat_or_roughness = component.roughness_texture;
+        features = features.with(Feature::textures).with(Feature::roughness_textures);
     }
     return record;
 }
@@ -209,7 +215,8 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
                 continue;  // a component without reflectance needs no code
             }
             BxdfRecord compiled_component = compile_component(component, features);
-            if (is_mirrored(scene.textures, component.texture)) {
+            if (is_mirrored(scene.textures, component.texture) ||
+                is_mirrored(scene.textures, component.roughness_texture)) {
                 features = features.with(Feature::texture_mirror);
             }
             if (component.kind == BxdfComponent::Kind::coated_lambert) {

@@ -52,6 +52,9 @@ std::string missing_in_cycles(const BxdfComponent &part) {
                 return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF evaluates "
                        "the term at the normal instead of the half vector";
             }
+            if (part.roughness_texture != no_index) {
+                return "the export writes no texture of a roughness";
+            }
             if (part.alpha[0] != part.alpha[1]) {
                 return "its tangents on meshes differ";
             }

@@ -38,20 +38,6 @@ bool is_rough(const BxdfComponent &part) {
     return part.kind == Kind::microfacet_reflection || part.kind == Kind::microfacet_refraction;
 }
 
-void write_roughness(pugi::xml_node bsdf, const BxdfComponent &part) {
-    if (!is_rough(part)) {
-        return;
-    }
-    add_property(bsdf, "string", "distribution",
-                 part.distribution == BxdfComponent::Distribution::ggx ? "ggx" : "beckmann");
-    if (part.alpha[0] == part.alpha[1]) {
-        add_number(bsdf, "alpha", part.alpha[0]);
-    } else {
-        add_number(bsdf, "alpha_u", part.alpha[0]);
-        add_number(bsdf, "alpha_v", part.alpha[1]);
-    }
-}
-
 }  // namespace
 
 const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
@@ -97,7 +83,7 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
         materials.normal_map[material].kind != NormalMap::Kind::none ||
         std::any_of(parts, parts + materials.component_count[material],
                     [](const BxdfComponent &part) {
-                        return part.texture != no_index ||
+                        return part.texture != no_index || part.roughness_texture != no_index ||
                                (is_rough(part) && part.alpha[0] != part.alpha[1]);
                     });
     if (depends_on_uv && uv == UvConvention::none) {
@@ -246,7 +232,7 @@ void BsdfWriter::write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts
         add_colour(bsdf, "eta", parts[0].eta);
         add_colour(bsdf, "k", parts[0].k);
     }
-    write_roughness(bsdf, parts[0]);
+    write_roughness(bsdf, parts[0], uv);
     write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture,
                  uv);
 }
@@ -254,6 +240,7 @@ void BsdfWriter::write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts
 void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts,
                                   UvConvention uv) {
     if (parts[0].eta != parts[1].eta || parts[0].alpha != parts[1].alpha ||
+        parts[0].roughness_texture != parts[1].roughness_texture ||
         parts[0].distribution != parts[1].distribution) {
         throw input_error(
             "the reflecting and the refracting component must have the same eta, roughness and "
@@ -261,7 +248,7 @@ void BsdfWriter::write_dielectric(pugi::xml_node bsdf, const BxdfComponent *part
     }
     add_number(bsdf, "int_ior", parts[0].eta[0]);
     add_number(bsdf, "ext_ior", 1);
-    write_roughness(bsdf, parts[0]);
+    write_roughness(bsdf, parts[0], uv);
     write_weight(bsdf, "specular_reflectance", parts[0].weight.cast<double>(), parts[0].texture,
                  uv);
     write_weight(bsdf, "specular_transmittance", parts[1].weight.cast<double>(), parts[1].texture,
@@ -308,6 +295,9 @@ void BsdfWriter::write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, U
             "the coat and the component below it must have the same eta, roughness and "
             "distribution");
     }
+    if (surface.roughness_texture != no_index) {
+        throw input_error("Mitsuba's coat takes no texture of its roughness");
+    }
     const Coat coat{base.eta[0], base.alpha[0], base.distribution};
     const double inner = plastic_inner_reflectance(coat);
     const double own =
@@ -325,9 +315,30 @@ void BsdfWriter::write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, U
     add_number(bsdf, "int_ior", coat.eta);
     add_number(bsdf, "ext_ior", 1);
     add_boolean(bsdf, "nonlinear", base.nonlinear);
-    write_roughness(bsdf, surface);
+    write_roughness(bsdf, surface, uv);
     write_weight(bsdf, "specular_reflectance", surface.weight.cast<double>(), surface.texture, uv);
     write_weight(bsdf, "diffuse_reflectance", weight, base.texture, uv);
+}
+
+void BsdfWriter::write_roughness(pugi::xml_node bsdf, const BxdfComponent &part, UvConvention uv) {
+    if (!is_rough(part)) {
+        return;
+    }
+    add_property(bsdf, "string", "distribution",
+                 part.distribution == BxdfComponent::Distribution::ggx ? "ggx" : "beckmann");
+    if (part.roughness_texture != no_index) {
+        if (part.roughness_squared || part.alpha[0] != part.alpha[1]) {
+            throw input_error(
+                "Mitsuba has no texture whose square scales the roughness, or that scales an "
+                "anisotropic one; set roughness_squared to false, and one roughness");
+        }
+        write_weight(bsdf, "alpha", Vector3d::Constant(part.alpha[0]), part.roughness_texture, uv);
+    } else if (part.alpha[0] == part.alpha[1]) {
+        add_number(bsdf, "alpha", part.alpha[0]);
+    } else {
+        add_number(bsdf, "alpha_u", part.alpha[0]);
+        add_number(bsdf, "alpha_v", part.alpha[1]);
+    }
 }
 
 void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vector3d &weight,

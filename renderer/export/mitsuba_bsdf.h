@@ -64,6 +64,8 @@ class BsdfWriter {
     void write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
 
+    /// Writes the distribution and the roughness of a rough component.
+    void write_roughness(pugi::xml_node bsdf, const BxdfComponent &part, UvConvention uv);
     /// Writes a colour, or a texture whose texels are multiplied by `weight`. `offset` is added to
     /// the texels then, equally in the first two channels.
     void write_weight(pugi::xml_node bsdf, const char *name, const Eigen::Vector3d &weight,

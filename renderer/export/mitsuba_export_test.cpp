@@ -328,6 +328,31 @@ TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {
     }
 }
 
+TEST_F(MitsubaExport, RoughnessGoesIntoTheTexels) {
+    const auto scene = [](const char *squared) {
+        return parse_scene_json(
+            R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "tile", "geometry": {"type": "rectangle"}, "material": {"type": "metal", "preset": "gold", "model": "ggx",
+         "roughness": 0.5, "roughness_squared": )" +
+                std::string(squared) +
+                R"(, "roughness_texture": {"file": "assets/checker.png", "encoding": "linear"}}}]})",
+            "in.json", "in", scenes + "/features");
+    };
+    const Scene there = scene("false"), back = through_mitsuba(there);
+    const BxdfComponent &after = back.materials().component[0];
+    EXPECT_EQ(after.alpha, Eigen::Vector2d(1, 1));
+    ASSERT_NE(after.roughness_texture, no_index);
+    const TextureImage &bytes = *there.arrays().textures.image[0];
+    const TextureImage &floats = *back.arrays().textures.image[after.roughness_texture];
+    ASSERT_EQ(floats.floats.size(), bytes.bytes.size());
+    for (size_t i = 0; i < floats.floats.size(); ++i) {
+        EXPECT_NEAR(floats.floats[i], 0.5 * bytes.bytes[i] / 255, 1e-6);
+    }
+    expect_input_error("no texture whose square scales the roughness",
+                       [&] { through_mitsuba(scene("true")); });
+}
+
 TEST_F(MitsubaExport, CoatedBasesComeBackAsPlastics) {
     const Scene scene =
         parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [

@@ -161,6 +161,15 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
             collector.add(component.flatness);
         }
     }
+    if (std::any_of(components.begin(), components.end(), [](const BxdfComponent &component) {
+            return component.roughness_texture != no_index;
+        })) {
+        collector.begin("roughness_textures");
+        for (const BxdfComponent &component : components) {
+            collector.add(component.roughness_texture);
+            collector.add(component.roughness_squared);
+        }
+    }
     const ShapeArrays &shapes = arrays.shapes;
     if (!shapes.kind.empty()) {
         collector.begin("shapes");

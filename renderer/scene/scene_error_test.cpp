@@ -225,6 +225,26 @@ TEST_F(TexturedMaterials, OpacityIsAtMostOne) {
     expect_input_error("opacity", [&] { parse(textured("1.5")); });
 }
 
+TEST_F(TexturedMaterials, RoughnessIsAtMostOne) {
+    std::ofstream(testing::TempDir() + "rough.pfm", std::ios::binary)
+        << "PF\n1 1\n-1.0\n"
+        << std::string("\0\0\0\x40\0\0\0\x40\0\0\0\x40", 12);  // 2, 2, 2
+    const auto textured = [](const std::string &keys) {
+        return R"({"name": "a", "geometry": {"type": "sphere"}, "material": {"type": "glass", "eta": 1.5, )" +
+               keys + R"("roughness_texture": {"file": "rough.pfm", "encoding": "linear"}}})";
+    };
+    expect_input_error("a smooth surface takes no texture of its roughness",
+                       [&] { parse(textured("")); });
+    expect_input_error("the roughness 0.6 times that of the brightest texel of its texture, 2",
+                       [&] { parse(textured(R"("roughness": 0.6, )")); });
+    expect_input_error(
+        "the roughness 0.5 times that of the brightest texel of its texture, 4",
+        [&] { parse(textured(R"("roughness": 0.5, "roughness_squared": true, )")); });
+    Scene scene = parse(textured(R"("roughness": 0.5, )"));
+    EXPECT_EQ(scene.materials().component[1].roughness_texture, 0u);
+    expect_input_error("exceeds 1", [&] { scene.set_property("a.roughness", "0.75"); });
+}
+
 TEST_F(TexturedMaterials, NormalAndBumpMapsNeedTriangles) {
     std::ofstream(testing::TempDir() + "one.ppm", std::ios::binary) << "P6 1 1 255\n"
                                                                     << "abc";

@@ -119,6 +119,8 @@ struct BxdfComponent {
         thin_dielectric,
     };
     enum class Distribution { ggx, beckmann };
+    /// Rounding of the half vector in float matters below it (1e-7 / 1e-4).
+    static constexpr double least_alpha = 1e-4;
     /// The side of the surface on which the component scatters light.
     enum class Side { both, front, back };
 
@@ -138,7 +140,11 @@ struct BxdfComponent {
     double exponent = 0;          ///< Blinn's exponent, positive
     Eigen::Vector2d alpha{0, 0};  ///< roughness along the tangent and across it, (0, 1]
     Distribution distribution = Distribution::ggx;
-    Side side = Side::both;  ///< both if the component refracts
+    /// Index into TextureArrays: the luminance of its colours scales `alpha` and
+    /// `disney_roughness`. An alpha below `least_alpha` becomes that.
+    uint32_t roughness_texture = no_index;
+    bool roughness_squared = false;  ///< the square of the luminance scales `alpha`
+    Side side = Side::both;          ///< both if the component refracts
     /// Light between base and coat is coloured by every reflection.
     bool nonlinear = false;
     double disney_roughness = 0;  ///< Burley's roughness, [0, 1]

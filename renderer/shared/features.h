@@ -65,6 +65,7 @@
     X(textures, "a weight or an emission has a texture")                                      \
     X(normal_maps, "a map of normals or heights tilts shading normals")                       \
     X(bump_maps, "such a map has heights")                                                    \
+    X(roughness_textures, "a roughness has a texture")                                        \
     X(texture_mirror, "a texture is mirrored beyond its edges")                               \
     X(opacity, "rays may pass a surface: hits are accepted with its opacity")                 \
     /* lights */                                                                              \

@@ -85,7 +85,9 @@ typedef struct BxdfRecord {
     /// Extinction coefficient of a conductor; BXDF_COATED_LAMBERT: factor of the colour
     /// (kernels/bsdf/coat.h); BXDF_DISNEY_DIFFUSE: flatness
     float k[3];
-    uint coat;  ///< BXDF_COATED_LAMBERT, if rough: first of its COAT_NODES transmittances
+    /// BXDF_COATED_LAMBERT, if rough: first of its COAT_NODES transmittances. With
+    /// BXDF_FLAG_ROUGHNESS_TEXTURE: index of that texture
+    uint coat_or_roughness;
 } BxdfRecord;
 
 #define NO_TEXTURE 0xffffffffu
@@ -104,6 +106,8 @@ typedef struct BxdfRecord {
 #define BXDF_DISNEY_SHEEN 11u
 #define BXDF_DISNEY_CLEARCOAT 12u
 
+#define LEAST_ALPHA 1e-4f  ///< alpha where a texture scales it to less (renderer/scene/stores.h)
+
 #define COAT_NODES 128u  ///< transmittances of a rough coat, at cosines (i / (COAT_NODES - 1))^2
 
 #define FRESNEL_MASK 7u
@@ -113,11 +117,13 @@ typedef struct BxdfRecord {
 #define FRESNEL_CONDUCTOR_APPROXIMATE 3u
 #define FRESNEL_SCHLICK 4u
 #define FRESNEL_THIN_DIELECTRIC 5u
-#define BXDF_FLAG_COMPLEMENT 8u      ///< uses 1 - F instead of F
-#define BXDF_FLAG_FRESNEL_OF_WO 16u  ///< Fresnel term of wo alone: not symmetric in wi and wo
-#define BXDF_FLAG_BECKMANN 32u       ///< Beckmann distribution, otherwise GGX
-#define BXDF_FLAG_FRONT_ONLY 64u     ///< black from behind
-#define BXDF_FLAG_BACK_ONLY 128u     ///< black from the front
+#define BXDF_FLAG_COMPLEMENT 8u           ///< uses 1 - F instead of F
+#define BXDF_FLAG_FRESNEL_OF_WO 16u       ///< Fresnel term of wo alone: not symmetric in wi and wo
+#define BXDF_FLAG_BECKMANN 32u            ///< Beckmann distribution, otherwise GGX
+#define BXDF_FLAG_FRONT_ONLY 64u          ///< black from behind
+#define BXDF_FLAG_BACK_ONLY 128u          ///< black from the front
+#define BXDF_FLAG_ROUGHNESS_TEXTURE 256u  ///< the luminance of a texture scales the roughness
+#define BXDF_FLAG_ROUGHNESS_SQUARED 512u  ///< its square scales alpha
 
 /// A texture: a range of the texel buffer. 8-bit texels have one word each, with R in the lowest
 /// byte; float texels have three words.

@@ -28,6 +28,8 @@ struct TestMaterial {
     std::vector<BxdfRecord> components;
     uint flags = 0;
     std::vector<float> coat_transmittances{};
+    std::vector<TextureRecord> textures{};
+    std::vector<uint> texels{};
 
     MaterialRecord record() const { return {0, static_cast<uint>(components.size()), flags, 0}; }
     BsdfValue evaluate(const SurfaceFrame &frame, float3 wi) const {
@@ -53,6 +55,8 @@ struct TestMaterial {
         view.materials = &material;
         view.components = components.data();
         view.coat_transmittances = coat_transmittances.data();
+        view.textures = textures.data();
+        view.texels = texels.data();
         return view;
     }
 };

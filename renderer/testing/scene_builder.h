@@ -159,6 +159,7 @@ inline void expect_consistent(const SceneGraph &graph) {
     };
     for (const BxdfComponent &component : arrays.materials.component) {
         mark(component.texture);
+        mark(component.roughness_texture);
     }
     ASSERT_EQ(arrays.materials.opacity.size(), arrays.materials.name.size());
     for (const MaterialOpacity &opacity : arrays.materials.opacity) {

@@ -39,9 +39,15 @@ void add_component(const MaterialComponent &component, const std::string &prefix
     if (component.texture != nullptr) {
         composite.textures[prefix + "weight"] = component.texture;
     }
+    if (component.roughness_texture != nullptr) {
+        const bool is_diffuse = bxdf.kind == Kind::disney_diffuse;
+        composite.textures[prefix + (is_diffuse ? "roughness" : "alpha")] =
+            component.roughness_texture;
+    }
     if (bxdf.kind == Kind::microfacet_reflection || bxdf.kind == Kind::microfacet_refraction) {
         const bool is_ggx = bxdf.distribution == BxdfComponent::Distribution::ggx;
         values[prefix + "alpha"] = bxdf.alpha;
+        values[prefix + "roughness_squared"] = bxdf.roughness_squared;
         values[prefix + "distribution"] = std::string(is_ggx ? "ggx" : "beckmann");
     }
     if (bxdf.kind == Kind::ideal_refraction || bxdf.kind == Kind::microfacet_refraction) {

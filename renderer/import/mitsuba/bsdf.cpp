@@ -456,6 +456,9 @@ void MaterialReader::read_plastic(Object &object, Draft &draft) {
             throw object.element().error(
                 "alpha_u and alpha_v differ, which is an error in Mitsuba; give one alpha");
         }
+        if (draft.textures.count("roughness") != 0) {
+            throw object.element().error("alpha: a texture is an error in Mitsuba; give a number");
+        }
         draft.values["roughness"] = alpha[0];
     }
 }
@@ -469,7 +472,12 @@ void MaterialReader::read_principled(Object &object, Draft &draft) {
         p.base_texture = found->second;
         draft.textures.erase(found);
     }
-    p.roughness = read_share(object, "roughness", 0.5, draft);
+    if (const auto textures = object.objects("texture", "roughness"); !textures.empty()) {
+        p.roughness = 1;
+        p.roughness_texture = texture(textures[0], draft);
+    } else {
+        p.roughness = read_share(object, "roughness", 0.5, draft);
+    }
     p.anisotropic = read_share(object, "anisotropic", 0, draft);
     p.metallic = read_share(object, "metallic", 0, draft);
     p.spec_trans = read_share(object, "spec_trans", 0, draft);
@@ -503,7 +511,11 @@ void MaterialReader::read_principled(Object &object, Draft &draft) {
         draft.values = {{"two_sided", true},
                         {"eta", std::max(p.eta, 1.001)},
                         {"roughness", p.alpha()},
+                        {"roughness_squared", p.roughness_texture != nullptr},
                         {"transmittance", Vector3d(p.base_color.cwiseSqrt())}};
+        if (p.roughness_texture != nullptr) {
+            draft.textures["roughness"] = p.roughness_texture;
+        }
         return;
     }
     Composite composite =
@@ -539,7 +551,15 @@ void MaterialReader::read_roughness(Object &object, Draft &draft) {
     if (!both && object.has("alpha_u") != object.has("alpha_v")) {
         throw object.element().error("needs both alpha_u and alpha_v, or alpha");
     }
-    const double alpha = object.number("alpha", 0.1);
+    const std::vector<Element> textures = object.objects("texture", "alpha");
+    const bool numbers = both || object.has("alpha_u") || object.has("alpha_v");
+    if (textures.size() > 1 || (!textures.empty() && numbers)) {
+        throw object.element().error("alpha: give one texture, or numbers");
+    }
+    if (!textures.empty()) {
+        draft.textures["roughness"] = texture(textures[0], draft);
+    }
+    const double alpha = textures.empty() ? object.number("alpha", 0.1) : 1;
     const Vector2d roughness(object.number("alpha_u", alpha), object.number("alpha_v", alpha));
     object.ignore("sample_visible");  // affects noise only
     const std::vector<std::string> names = {"beckmann", "ggx"};

@@ -292,8 +292,8 @@ INSTANTIATE_TEST_SUITE_P(
             bsdf("roughdielectric",
                  "<float name=\"int_ior\" value=\"1\"/><float name=\"ext_ior\" value=\"1\"/>"),
             "in.xml:4: <bsdf type=\"roughdielectric\">: eta: 1 does not refract"},
-        BadElement{bsdf("roughdielectric", "<texture type=\"bitmap\" name=\"alpha\"/>"),
-                   "in.xml:4: <bsdf type=\"roughdielectric\">: 'alpha' must be a number"},
+        BadElement{bsdf("roughdielectric", "<texture type=\"bitmap\" name=\"alpha_u\"/>"),
+                   "in.xml:4: <bsdf type=\"roughdielectric\">: 'alpha_u' must be a number"},
         BadElement{
             bsdf("roughconductor", "<float name=\"alpha\" value=\"0\"/>"),
             "alpha: [0, 0] is not within [0.0001, 1]; for a smooth surface use type conductor"},

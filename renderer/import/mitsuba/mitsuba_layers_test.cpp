@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests the import of Mitsuba's BSDFs of several layers. Expected values are from Mitsuba 3.9.
 #include <cmath>
+#include <fstream>
 
 #include "renderer/testing/mitsuba_scenes.h"
 
@@ -95,6 +96,48 @@ TEST(MitsubaBsdfs, PrincipledIsASumOfItsLobes) {
     ASSERT_EQ(glass.size(), 2u);
     EXPECT_EQ(glass[1].kind, Kind::microfacet_refraction);
     EXPECT_NEAR(glass[1].weight[0], 0.5f, 1e-6);
+}
+
+class MitsubaRoughness : public WithImages {};
+
+TEST_F(MitsubaRoughness, MayBeATexture) {
+    std::ofstream(testing::TempDir() + "half.ppm", std::ios::binary) << "P6 1 1 255\n\x80\x80\x80";
+    const auto texture = [](const std::string &name) {
+        return R"(<texture type="bitmap" name=")" + name +
+               R"("><string name="filename" value="half.ppm"/><boolean name="raw" value="true"/></texture>)";
+    };
+    const auto components = [](const std::string &bsdf) {
+        return parse_mitsuba_xml(
+                   mitsuba_scene(R"(<shape type="rectangle">)" + bsdf + "</shape>"), "in.xml", "in",
+                   testing::TempDir())
+            .materials()
+            .component;
+    };
+    const auto metal =
+        components(R"(<bsdf type="roughconductor">)" + texture("alpha") + "</bsdf>");
+    EXPECT_EQ(metal[0].alpha, Vector2d(1, 1));
+    EXPECT_EQ(metal[0].roughness_texture, 0u);
+    EXPECT_FALSE(metal[0].roughness_squared);
+
+    // The principled BSDF squares its roughness, but not that of its diffuse lobe.
+    const auto principled =
+        components(R"(<bsdf type="principled">)" + texture("roughness") + "</bsdf>");
+    EXPECT_EQ(principled[0].alpha, Vector2d(1, 1));
+    EXPECT_EQ(principled[0].roughness_texture, 0u);
+    EXPECT_TRUE(principled[0].roughness_squared);
+    EXPECT_EQ(principled[1].kind, Kind::disney_diffuse);
+    EXPECT_EQ(principled[1].disney_roughness, 1);
+    EXPECT_EQ(principled[1].roughness_texture, 0u);
+    const auto glass = components(
+        R"(<bsdf type="principled"><float name="spec_trans" value="1"/>)" + texture("roughness") +
+        "</bsdf>");
+    EXPECT_EQ(glass[1].kind, Kind::microfacet_refraction);
+    EXPECT_EQ(glass[1].roughness_texture, 0u);
+    EXPECT_TRUE(glass[1].roughness_squared);
+
+    expect_input_error("alpha: a texture is an error in Mitsuba", [&] {
+        components(R"(<bsdf type="roughplastic">)" + texture("alpha") + "</bsdf>");
+    });
 }
 
 }  // namespace

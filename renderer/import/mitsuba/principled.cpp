@@ -37,6 +37,8 @@ MaterialComponent main_lobe(const Principled &p, double weight, Fresnel fresnel,
                             const Vector3d &eta) {
     MaterialComponent made = component(Kind::microfacet_reflection, weight);
     made.bxdf.alpha = p.alpha();
+    made.bxdf.roughness_squared = p.roughness_texture != nullptr;
+    made.roughness_texture = p.roughness_texture;
     made.bxdf.fresnel = fresnel;
     made.bxdf.eta = eta;
     return made;
@@ -98,7 +100,11 @@ Components principled_components(const Principled &p) {
             "spec_trans: a surface that is only partly transparent looks different from behind, "
             "which is unsupported; use 0, or 1 with metallic 0");
     }
-    if (p.alpha().maxCoeff() > 1) {
+    const double brightest =
+        p.roughness_texture != nullptr
+            ? static_cast<double>(p.roughness_texture->largest_texel().maxCoeff())
+            : 1;
+    if (p.alpha().maxCoeff() * brightest * brightest > 1 + 1e-6) {
         throw input_error(
             "anisotropic: the roughness along the tangent exceeds 1; lower roughness "
             "or anisotropic");
@@ -116,6 +122,7 @@ Components principled_components(const Principled &p) {
     if (diffuse > 0) {
         MaterialComponent base = coloured(component(Kind::disney_diffuse, diffuse), p);
         base.bxdf.disney_roughness = p.roughness;
+        base.roughness_texture = p.roughness_texture;
         base.bxdf.flatness = p.flatness;
         components.push_back(base);
     }

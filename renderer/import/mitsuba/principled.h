@@ -15,6 +15,7 @@ struct Principled {
     Eigen::Vector3d base_color = Eigen::Vector3d::Constant(0.5);
     std::shared_ptr<Texture> base_texture;  ///< factor of base_color
     double roughness = 0.5;
+    std::shared_ptr<Texture> roughness_texture;  ///< its luminance is a factor of roughness
     double anisotropic = 0;
     double metallic = 0;
     double spec_trans = 0;

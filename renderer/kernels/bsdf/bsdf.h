@@ -95,7 +95,7 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
     GLOBAL const BxdfRecord *component = scene->components + material.first_component;
     const float eta = component_eta(component, material.flags, frame.front);
     const float3 colour = component_colour(scene, component, frame.front, frame.uv);
-    const Lobe lobe = component_evaluate(component, eta, wo, wi);
+    const Lobe lobe = component_evaluate(scene, component, eta, frame.uv, wo, wi);
     value.pdf_w = lobe.pdf_w;
     value.f_cos = colour *
                   component_fresnel(scene, component, eta, lobe.cosine,
@@ -104,14 +104,15 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
     // A material of one component needs no selection. It ends here with the same bits as in a scene
     // without composite materials.
     if (FEATURE_composite && material.component_count > 1u) {
-        float shares = component_share(scene, component, eta, wo, colour);
+        float shares = component_share(scene, component, eta, frame.uv, wo, colour);
         value.pdf_w *= shares;
         for (uint i = 1u; i < material.component_count; ++i) {
             GLOBAL const BxdfRecord *other = component + i;
             const float other_eta = component_eta(other, material.flags, frame.front);
             const float3 other_colour = component_colour(scene, other, frame.front, frame.uv);
-            const float share = component_share(scene, other, other_eta, wo, other_colour);
-            const Lobe other_lobe = component_evaluate(other, other_eta, wo, wi);
+            const float share =
+                component_share(scene, other, other_eta, frame.uv, wo, other_colour);
+            const Lobe other_lobe = component_evaluate(scene, other, other_eta, frame.uv, wo, wi);
             shares += share;
             value.pdf_w += share * other_lobe.pdf_w;
             value.f_cos += other_colour *
@@ -206,8 +207,9 @@ DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord mate
         const uint index = material.first_component + i;
         GLOBAL const BxdfRecord *component = scene->components + index;
         const float eta = component_eta(component, material.flags, frame.front);
-        const float candidate = component_share(
-            scene, component, eta, wo, component_colour(scene, component, frame.front, frame.uv));
+        const float candidate =
+            component_share(scene, component, eta, frame.uv, wo,
+                            component_colour(scene, component, frame.front, frame.uv));
         if (candidate > 0.0f) {
             shares += candidate;
             const float take_over = candidate / shares;
@@ -259,7 +261,7 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
                                    float v) {
     GLOBAL const BxdfRecord *component = scene->components + sample.component;
     const float eta = component_eta(component, record.flags, frame.front);
-    const float3 wi = component_direction(component, eta, wo, u, v);
+    const float3 wi = component_direction(scene, component, eta, frame.uv, wo, u, v);
     // Normalised, because rounding errors would otherwise grow along the path.
     const float3 world = frame.x * wi.x + frame.y * wi.y + frame.ns * wi.z;
     const float length2 = dot(world, world);

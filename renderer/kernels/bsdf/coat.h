@@ -21,7 +21,7 @@ DEVICE float coat_transmittance(PRIVATE const SceneView *scene, GLOBAL const Bxd
     }
     const float at = sqrt(cosine) * (float)(COAT_NODES - 1u);
     const uint node = min((uint)at, COAT_NODES - 2u);
-    GLOBAL const float *table = scene->coat_transmittances + component->coat;
+    GLOBAL const float *table = scene->coat_transmittances + component->coat_or_roughness;
     return table[node] + (table[node + 1u] - table[node]) * (at - (float)node);
 }
 

@@ -55,17 +55,36 @@ DEVICE bool is_refracting(uint kind) {
            (FEATURE_microfacet_refraction && kind == BXDF_MICROFACET_REFRACTION);
 }
 
-DEVICE Roughness component_roughness(GLOBAL const BxdfRecord *component) {
+/// Returns the factor of the roughness at `uv`: the luminance of its texture.
+DEVICE float roughness_factor(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
+                              float2 uv) {
+    if (!FEATURE_roughness_textures || (component->flags & BXDF_FLAG_ROUGHNESS_TEXTURE) == 0u) {
+        return 1.0f;
+    }
+    return rec709_luminance(
+        texture_lookup(scene->textures + component->coat_or_roughness, scene->texels, uv));
+}
+
+DEVICE Roughness component_roughness(PRIVATE const SceneView *scene,
+                                     GLOBAL const BxdfRecord *component, float2 uv) {
     Roughness r;
     r.alpha_x = component->alpha_x;
     r.alpha_y = component->alpha_y;
     r.beckmann = component->flags & BXDF_FLAG_BECKMANN;
+    if (FEATURE_roughness_textures && (component->flags & BXDF_FLAG_ROUGHNESS_TEXTURE) != 0u) {
+        // The host bounds the product by 1.
+        const float factor = roughness_factor(scene, component, uv);
+        const bool squared = (component->flags & BXDF_FLAG_ROUGHNESS_SQUARED) != 0u;
+        const float scale = squared ? factor * factor : factor;
+        r.alpha_x = max(r.alpha_x * scale, LEAST_ALPHA);
+        r.alpha_y = max(r.alpha_y * scale, LEAST_ALPHA);
+    }
     return r;
 }
 
-/// Evaluates the model of a component. Returns zero for delta components.
-DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, float3 wo,
-                               float3 wi) {
+/// Evaluates the model of a component at `uv`. Returns zero for delta components.
+DEVICE Lobe component_evaluate(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
+                               float eta, float2 uv, float3 wo, float3 wi) {
     const uint kind = component->kind;
     if ((FEATURE_lambert && kind == BXDF_LAMBERT) ||
         (FEATURE_coated_lambert && kind == BXDF_COATED_LAMBERT)) {
@@ -78,19 +97,21 @@ DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, fl
         return blinn_evaluate(wo, wi, component->parameter);
     }
     if (FEATURE_ward && kind == BXDF_WARD) {
-        return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, true);
+        return ward_evaluate(wo, wi, component_roughness(scene, component, uv), true);
     }
     if (FEATURE_ward_original && kind == BXDF_WARD_ORIGINAL) {
-        return ward_evaluate(wo, wi, component->alpha_x, component->alpha_y, false);
+        return ward_evaluate(wo, wi, component_roughness(scene, component, uv), false);
     }
     if (FEATURE_microfacet_reflection && kind == BXDF_MICROFACET_REFLECTION) {
-        return microfacet_reflection_evaluate(wo, wi, component_roughness(component));
+        return microfacet_reflection_evaluate(wo, wi, component_roughness(scene, component, uv));
     }
     if (FEATURE_microfacet_refraction && kind == BXDF_MICROFACET_REFRACTION) {
-        return microfacet_refraction_evaluate(wo, wi, component_roughness(component), eta);
+        return microfacet_refraction_evaluate(wo, wi, component_roughness(scene, component, uv),
+                                              eta);
     }
     if (FEATURE_disney_diffuse && kind == BXDF_DISNEY_DIFFUSE) {
-        return disney_diffuse_evaluate(wo, wi, component->parameter, component->k[0]);
+        return disney_diffuse_evaluate(
+            wo, wi, component->parameter * roughness_factor(scene, component, uv), component->k[0]);
     }
     if (FEATURE_disney_sheen && kind == BXDF_DISNEY_SHEEN) {
         return disney_sheen_evaluate(wo, wi);
@@ -103,21 +124,23 @@ DEVICE Lobe component_evaluate(GLOBAL const BxdfRecord *component, float eta, fl
 
 /// Samples a direction by the component's model from u, v in [0, 1). If there is none, it is on the
 /// wrong side of the surface or has z = 0.
-DEVICE float3 component_direction(GLOBAL const BxdfRecord *component, float eta, float3 wo, float u,
-                                  float v) {
+DEVICE float3 component_direction(PRIVATE const SceneView *scene,
+                                  GLOBAL const BxdfRecord *component, float eta, float2 uv,
+                                  float3 wo, float u, float v) {
     const uint kind = component->kind;
     if (FEATURE_blinn && kind == BXDF_BLINN) {
         return blinn_direction(wo, component->parameter, u, v);
     }
     if ((FEATURE_ward && kind == BXDF_WARD) ||
         (FEATURE_ward_original && kind == BXDF_WARD_ORIGINAL)) {
-        return ward_direction(wo, component->alpha_x, component->alpha_y, u, v);
+        return ward_direction(wo, component_roughness(scene, component, uv), u, v);
     }
     if (FEATURE_microfacet_reflection && kind == BXDF_MICROFACET_REFLECTION) {
-        return microfacet_reflection_direction(wo, component_roughness(component), u, v);
+        return microfacet_reflection_direction(wo, component_roughness(scene, component, uv), u, v);
     }
     if (FEATURE_microfacet_refraction && kind == BXDF_MICROFACET_REFRACTION) {
-        return microfacet_refraction_direction(wo, component_roughness(component), eta, u, v);
+        return microfacet_refraction_direction(wo, component_roughness(scene, component, uv), eta,
+                                               u, v);
     }
     if (FEATURE_ideal_reflection && kind == BXDF_IDEAL_REFLECTION) {
         return ideal_reflection_direction(wo);
@@ -165,7 +188,7 @@ DEVICE float3 component_fresnel(PRIVATE const SceneView *scene, GLOBAL const Bxd
 /// with the root of the angle near total internal reflection. Thus no direction is selected far too
 /// rarely, and contributions remain bounded.
 DEVICE float component_share(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
-                             float eta, float3 wo, float3 colour) {
+                             float eta, float2 uv, float3 wo, float3 colour) {
     const bool glossy = FEATURE_blinn || FEATURE_ward || FEATURE_ward_original ||
                         FEATURE_microfacet_reflection || FEATURE_microfacet_refraction ||
                         FEATURE_disney_clearcoat;
@@ -174,9 +197,10 @@ DEVICE float component_share(PRIVATE const SceneView *scene, GLOBAL const BxdfRe
         if (glossy && (component->flags & FRESNEL_MASK) != FRESNEL_IDEAL &&
             component->kind >= BXDF_BLINN) {
             // Blinn's cos^e is as wide as a Gaussian of roughness sqrt(2 / (e + 2)).
+            const Roughness r = component_roughness(scene, component, uv);
             const float alpha = component->kind == BXDF_BLINN
                                     ? sqrt(2.0f / (component->parameter + 2.0f))
-                                    : min(max(component->alpha_x, component->alpha_y), 1.0f);
+                                    : min(max(r.alpha_x, r.alpha_y), 1.0f);
             const float s = sqrt(alpha);
             f = f * (1.0f - s) + make_float3(0.5f * s, 0.5f * s, 0.5f * s);
         }

@@ -16,19 +16,19 @@
 /// Returns the density of the slopes of the half vector h = wo + wi (not normalised): exp(-tan^2
 /// (cos^2(phi) / alpha_x^2 + sin^2(phi) / alpha_y^2)) / (pi alpha_x alpha_y). Slopes computed from
 /// x, y and z of h have full precision near the pole.
-DEVICE float ward_slope_density(float3 h, float alpha_x, float alpha_y) {
-    const float x = h.x / h.z / alpha_x;
-    const float y = h.y / h.z / alpha_y;
-    return exp(-(x * x + y * y)) * INV_PI / (alpha_x * alpha_y);
+DEVICE float ward_slope_density(float3 h, Roughness r) {
+    const float x = h.x / h.z / r.alpha_x;
+    const float y = h.y / h.z / r.alpha_y;
+    return exp(-(x * x + y * y)) * INV_PI / (r.alpha_x * r.alpha_y);
 }
 
 /// Evaluates the model: the form of 2010 if `bounded`, else the original.
-DEVICE Lobe ward_evaluate(float3 wo, float3 wi, float alpha_x, float alpha_y, bool bounded) {
+DEVICE Lobe ward_evaluate(float3 wo, float3 wi, Roughness r, bool bounded) {
     if (!(wi.z > 0.0f)) {
         return no_lobe();
     }
     const float3 h = wo + wi;
-    const float density = ward_slope_density(h, alpha_x, alpha_y);
+    const float density = ward_slope_density(h, r);
     if (!(density > 0.0f)) {
         // The exponential is 0. Otherwise tan^2 < 104 alpha^2, and the following is finite.
         return no_lobe();
@@ -42,9 +42,9 @@ DEVICE Lobe ward_evaluate(float3 wo, float3 wi, float alpha_x, float alpha_y, bo
 }
 
 /// Samples a direction from u, v in [0, 1). A direction below the horizon is invalid.
-DEVICE float3 ward_direction(float3 wo, float alpha_x, float alpha_y, float u, float v) {
+DEVICE float3 ward_direction(float3 wo, Roughness r, float u, float v) {
     const float slope = sqrt(-log1p(-u));
     const float2 around = point_on_circle(v);
-    return reflect_about(
-        wo, normalize(make_float3(alpha_x * slope * around.x, alpha_y * slope * around.y, 1.0f)));
+    return reflect_about(wo, normalize(make_float3(r.alpha_x * slope * around.x,
+                                                   r.alpha_y * slope * around.y, 1.0f)));
 }

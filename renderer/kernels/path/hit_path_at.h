@@ -52,6 +52,9 @@ DEVICE void prefetch_texels(PRIVATE const SceneView *scene, uint material, float
         if (component->texture != NO_TEXTURE) {
             prefetch_texture(scene->textures + component->texture, scene->texels, uv);
         }
+        if (FEATURE_roughness_textures && (component->flags & BXDF_FLAG_ROUGHNESS_TEXTURE) != 0u) {
+            prefetch_texture(scene->textures + component->coat_or_roughness, scene->texels, uv);
+        }
     }
     if (FEATURE_normal_maps && (scene->materials[material].flags & MATERIAL_MAPPED) != 0u) {
         GLOBAL const NormalMapRecord *map =

@@ -20,6 +20,10 @@ DEVICE float3 texture_texel(GLOBAL const TextureRecord *texture, GLOBAL const ui
     return make_float3((float)r, (float)g, (float)b) / 255.0f;
 }
 
+DEVICE float rec709_luminance(float3 colour) {
+    return dot(colour, make_float3(0.2126f, 0.7152f, 0.0722f));
+}
+
 /// Returns the derivatives of the luminance by u and v at `uv`. They are zero for a texture of the
 /// nearest texel.
 DEVICE float2 texture_gradient(GLOBAL const TextureRecord *texture, GLOBAL const uint *texels,
@@ -33,11 +37,14 @@ DEVICE float2 texture_gradient(GLOBAL const TextureRecord *texture, GLOBAL const
     const TexelPair columns = texel_pair(at.x, width, clamped);
     const TexelPair rows = texel_pair(at.y, height, clamped);
     const uint upper = rows.first * width, lower = rows.second * width;
-    const float3 weights = make_float3(0.2126f, 0.7152f, 0.0722f);  // luminance of Rec. 709
-    const float upper_left = dot(texture_texel(texture, texels, upper + columns.first), weights);
-    const float upper_right = dot(texture_texel(texture, texels, upper + columns.second), weights);
-    const float lower_left = dot(texture_texel(texture, texels, lower + columns.first), weights);
-    const float lower_right = dot(texture_texel(texture, texels, lower + columns.second), weights);
+    const float upper_left =
+        rec709_luminance(texture_texel(texture, texels, upper + columns.first));
+    const float upper_right =
+        rec709_luminance(texture_texel(texture, texels, upper + columns.second));
+    const float lower_left =
+        rec709_luminance(texture_texel(texture, texels, lower + columns.first));
+    const float lower_right =
+        rec709_luminance(texture_texel(texture, texels, lower + columns.second));
     const float by_column =
         (upper_right - upper_left) * (1.0f - rows.t) + (lower_right - lower_left) * rows.t;
     const float by_row =

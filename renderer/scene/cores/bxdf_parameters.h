@@ -3,14 +3,15 @@
 #pragma once
 
 #include "renderer/scene/parameters.h"
+#include "renderer/scene/stores.h"
 
 namespace rtrays::rows {
 
 using Need = Parameter::Need;
 
-/// Range of a roughness: not so smooth that the half vector's rounding in float matters (1e-7 /
-/// 1e-4), and not beyond the validity of the models.
-inline constexpr Range roughness{1e-4, 1, true, true};
+/// Range of a roughness: not so smooth that rounding matters, and not beyond the validity of the
+/// models.
+inline constexpr Range roughness{BxdfComponent::least_alpha, 1, true, true};
 inline constexpr Range index_of_refraction{0.01, 100, true, true};
 
 inline Parameter colour(const std::string &name, const std::string &help,
@@ -32,8 +33,17 @@ inline Parameter exponent(const std::string &name, Need need = Need::required) {
 
 /// Roughness of a surface that cannot be smooth.
 inline Parameter alpha(const std::string &name, Need need = Need::required) {
-    return {name, "roughness along the tangent and across it", Eigen::Vector2d(1, 1), need,
-            roughness};
+    return {name,
+            "roughness along the tangent and across it",
+            Eigen::Vector2d(1, 1),
+            need,
+            roughness,
+            {},
+            true};
+}
+
+inline Parameter roughness_squared(const std::string &name) {
+    return {name, "whether the square of the texture scales the roughness", false};
 }
 
 inline Parameter distribution(const std::string &name) {

@@ -10,7 +10,6 @@
 
 #include "renderer/scene/cores/bxdf_parameters.h"
 #include "renderer/scene/cores/coat.h"
-#include "renderer/scene/cores/material_energy.h"
 
 namespace rtrays {
 
@@ -62,13 +61,19 @@ void add_bxdf_rows(const Part &part, ParameterTable &table) {
     }
     if (part.has_alpha()) {
         table.push_back(rows::alpha(part.prefix + "alpha"));
+        table.push_back(rows::roughness_squared(part.prefix + "roughness_squared"));
     }
     if (part.has_distribution() || part.is_coated()) {
         table.push_back(rows::distribution(part.prefix + "distribution"));
     }
     if (part.kind == Kind::disney_diffuse) {
-        table.push_back(
-            {part.prefix + "roughness", "Burley's roughness", 0.5, Need::required, ranges::unit});
+        table.push_back({part.prefix + "roughness",
+                         "Burley's roughness",
+                         0.5,
+                         Need::required,
+                         ranges::unit,
+                         {},
+                         true});
         table.push_back({part.prefix + "flatness", "share of the flat diffuse reflection", 0.0,
                          Need::defaulted, ranges::unit});
     }
@@ -188,10 +193,13 @@ MaterialComponent expand_part(const Part &part, const ParameterSet &p) {
     }
     if (part.has_alpha()) {
         bxdf.alpha = p.get<Eigen::Vector2d>(part.prefix + "alpha");
+        made.roughness_texture = p.texture(part.prefix + "alpha");
+        bxdf.roughness_squared = p.get<bool>(part.prefix + "roughness_squared");
     }
     if (part.kind == Kind::disney_diffuse) {
         bxdf.disney_roughness = p.number(part.prefix + "roughness");
         bxdf.flatness = p.number(part.prefix + "flatness");
+        made.roughness_texture = p.texture(part.prefix + "roughness");
     }
     if (part.kind == Kind::disney_clearcoat) {
         bxdf.alpha.setConstant(p.number(part.prefix + "alpha"));
@@ -319,7 +327,7 @@ std::shared_ptr<const MaterialType> composite_type(const std::vector<CompositePa
             check_part(part, p);
         }
         check_common_parameters(p);
-        check_energy(expand(p));
+        check_components(expand(p));
     };
     return type;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/base/error.h"
+#include "renderer/scene/cores/material_energy.h"
 
 namespace rtrays {
 
@@ -65,6 +66,29 @@ void check_common_parameters(const ParameterSet &parameters) {
     if (parameters.texture("normal_map") != nullptr && parameters.texture("bump_map") != nullptr) {
         throw input_error("has normal_map_texture and bump_map_texture; remove one of them");
     }
+}
+
+void check_components(const std::vector<MaterialComponent> &components) {
+    for (const MaterialComponent &component : components) {
+        if (component.roughness_texture == nullptr) {
+            continue;
+        }
+        const BxdfComponent &bxdf = component.bxdf;
+        const double roughness = std::max(bxdf.alpha.maxCoeff(), bxdf.disney_roughness);
+        if (roughness == 0) {
+            throw input_error("a smooth surface takes no texture of its roughness; set roughness");
+        }
+        const auto brightest =
+            static_cast<double>(component.roughness_texture->largest_texel().maxCoeff());
+        const double factor = bxdf.roughness_squared ? brightest * brightest : brightest;
+        if (roughness * factor > 1 + 1e-6) {
+            throw input_error(
+                fmt::format("the roughness {} times that of the brightest texel of its texture, "
+                            "{:.6g}, exceeds 1; lower it",
+                            roughness, factor));
+        }
+    }
+    check_energy(components);
 }
 
 MaterialCore::MaterialCore(std::string name, const std::string &type, const ParameterValues &values,

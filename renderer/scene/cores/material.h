@@ -28,6 +28,7 @@ struct MaterialComponent {
     BxdfComponent bxdf;
     std::string parameter;                       ///< name of the colour that became the weight
     std::shared_ptr<Texture> texture = nullptr;  ///< texture of that colour
+    std::shared_ptr<Texture> roughness_texture = nullptr;
 };
 
 /// A type of material. The number of components depends only on the type.
@@ -81,6 +82,10 @@ class MaterialCore : public ParameterCore {
 
 /// Returns the parameters that every material has.
 const ParameterTable &common_material_parameters();
+
+/// Throws `Error` (bad input) for a texture of the roughness of a smooth component, or one that
+/// scales it beyond 1, and like `check_energy`.
+void check_components(const std::vector<MaterialComponent> &components);
 
 /// Throws `Error` (bad input) if the opacity of a material exceeds 1 at a texel, or if it has both
 /// a map of normals and one of heights.

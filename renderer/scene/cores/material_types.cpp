@@ -9,7 +9,6 @@
 #include "renderer/scene/cores/bxdf_parameters.h"
 #include "renderer/scene/cores/coat.h"
 #include "renderer/scene/cores/material.h"
-#include "renderer/scene/cores/material_energy.h"
 #include "renderer/scene/cores/metals.h"
 
 namespace rtrays {
@@ -51,6 +50,8 @@ MaterialComponent surface(bool refracts, const ParameterSet &p, const std::strin
                   p, parameter);
     made.bxdf.alpha = alpha;
     made.bxdf.distribution = p.choice<Distribution>("distribution");
+    made.bxdf.roughness_squared = p.get<bool>("roughness_squared");
+    made.roughness_texture = p.texture("roughness");
     return made;
 }
 
@@ -79,8 +80,13 @@ void check_rough_refraction(const ParameterSet &p) {
 }
 
 Parameter smooth_or_rough() {
-    return {"roughness", "roughness along the tangent and across it; 0 is ideally smooth",
-            Vector2d(0, 0), Need::defaulted, ranges::unit};
+    return {"roughness",
+            "roughness along the tangent and across it; 0 is ideally smooth",
+            Vector2d(0, 0),
+            Need::defaulted,
+            ranges::unit,
+            {},
+            true};
 }
 
 Components expand_glass(const ParameterSet &p) {  // thesis (3.53)
@@ -142,6 +148,7 @@ ParameterTable metal_parameters() {
         {"model", "microfacet model of the surface", std::string("ideal"), Need::defaulted,
          ranges::any, names(metal_models)},
         rows::alpha("roughness", Need::optional),
+        rows::roughness_squared("roughness_squared"),
         rows::exponent("exponent", Need::optional),
         {"fresnel",
          "Fresnel term: exact, approximate by thesis (3.28), or ideal, which is 1",
@@ -188,6 +195,8 @@ Components expand_metal(const ParameterSet &p) {
     }
     if (p.has("roughness")) {
         made.bxdf.alpha = p.get<Vector2d>("roughness");
+        made.bxdf.roughness_squared = p.get<bool>("roughness_squared");
+        made.roughness_texture = p.texture("roughness");
     }
     if (p.has("exponent")) {
         made.bxdf.exponent = p.number("exponent");
@@ -248,7 +257,7 @@ MaterialType material(const char *name, ParameterTable parameters,
             check(p);
         }
         check_common_parameters(p);
-        check_energy(expand(p));
+        check_components(expand(p));
     };
     return type;
 }
@@ -272,7 +281,8 @@ const std::vector<MaterialType> &material_types() {
                  {dielectric_eta("eta"),
                   colour("reflectance", "factor of the reflected light", Need::defaulted),
                   colour("transmittance", "factor of the refracted light", Need::defaulted),
-                  smooth_or_rough(), distribution("distribution")},
+                  smooth_or_rough(), roughness_squared("roughness_squared"),
+                  distribution("distribution")},
                  expand_glass, check_rough_refraction),
         material("thin_glass",
                  {dielectric_eta("eta"),
@@ -286,7 +296,8 @@ const std::vector<MaterialType> &material_types() {
         material("plastic",
                  {colour("reflectance", "albedo of the base"),
                   colour("specular", "factor of the light reflected by the coat", Need::defaulted),
-                  dielectric_eta("eta"), smooth_or_rough(), distribution("distribution")},
+                  dielectric_eta("eta"), smooth_or_rough(), roughness_squared("roughness_squared"),
+                  distribution("distribution")},
                  expand_plastic, check_roughness),
         material("coated_diffuse",
                  {colour("reflectance", "albedo of the base"),

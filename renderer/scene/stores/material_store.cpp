@@ -41,6 +41,7 @@ void TextureStore::keep_used(MaterialArrays &materials) {
     const auto for_each_use = [&](const auto &visit) {
         for (BxdfComponent &component : materials.component) {
             visit(component.texture);
+            visit(component.roughness_texture);
         }
         for (MaterialOpacity &opacity : materials.opacity) {
             visit(opacity.texture);
@@ -108,6 +109,7 @@ void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &)
     for (const MaterialComponent &component : material.components()) {
         arrays.component[at] = component.bxdf;
         arrays.component[at].texture = textures_.record(component.texture);
+        arrays.component[at].roughness_texture = textures_.record(component.roughness_texture);
         ++at;
     }
     arrays.two_sided[slot] = material.two_sided() ? 1 : 0;
