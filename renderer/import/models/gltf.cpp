@@ -84,13 +84,7 @@ GltfTextureTransform transform_of(const Json &extension) {
     return made;
 }
 
-/// The placement of a texture of a material.
-struct Placement {
-    unsigned uv_set = 0;
-    GltfTextureTransform transform;
-};
-
-Placement placement_of(const Json &texture) {
+GltfPlacement placement_of(const Json &texture) {
     const Json &transform = member(member(texture, "extensions"), "KHR_texture_transform");
     // Casting a number that no unsigned integer holds would be undefined.
     const double uv_set =
@@ -101,21 +95,23 @@ Placement placement_of(const Json &texture) {
 /// Reads the placements of base colour, normals and emission. Without a base colour the normals
 /// have the texture coordinates for themselves, and without both the emission has.
 void read_placements(const Json &material, GltfMaterial &made) {
-    const Json &base_texture = member(member(material, "pbrMetallicRoughness"), "baseColorTexture");
+    const Json &physical = member(material, "pbrMetallicRoughness");
+    const Json &base_texture = member(physical, "baseColorTexture");
     const Json &normal_texture = member(material, "normalTexture");
-    const Placement normals = placement_of(normal_texture);
-    const Placement emission = placement_of(member(material, "emissiveTexture"));
-    const Placement base = base_texture.is_object()     ? placement_of(base_texture)
-                           : normal_texture.is_object() ? normals
-                                                        : emission;
+    const Json &emission_texture = member(material, "emissiveTexture");
+    const GltfPlacement normals = placement_of(normal_texture);
+    made.emission = placement_of(emission_texture);
+    made.roughness = placement_of(member(physical, "metallicRoughnessTexture"));
+    const GltfPlacement base = base_texture.is_object()       ? placement_of(base_texture)
+                               : normal_texture.is_object()   ? normals
+                               : emission_texture.is_object() ? made.emission
+                                                              : made.roughness;
     made.base_uv_set = base.uv_set;
     made.base_transform = base.transform;
     made.normal_scale = number(normal_texture, "scale", 1);
     made.normals_use_base_uv =
         normals.uv_set == base.uv_set && !normals.transform.rotates() && !base.transform.rotates();
     made.normal_transform = normals.transform;
-    made.emission_uv_set = emission.uv_set;
-    made.emission_transform = emission.transform;
 }
 
 /// Notes textures of extensions, which are not read.

@@ -22,6 +22,12 @@ struct GltfTextureTransform {
     bool rotates() const { return linear(0, 1) != 0 || linear(1, 0) != 0; }
 };
 
+/// The texture coordinates of a map.
+struct GltfPlacement {
+    unsigned uv_set = 0;
+    GltfTextureTransform transform;
+};
+
 /// The properties of a material that Assimp loses, with the defaults of glTF.
 struct GltfMaterial {
     std::string name;
@@ -41,8 +47,8 @@ struct GltfMaterial {
     /// rotates them.
     bool normals_use_base_uv = true;
     GltfTextureTransform normal_transform;
-    unsigned emission_uv_set = 0;  ///< texture coordinates of the emission
-    GltfTextureTransform emission_transform;
+    GltfPlacement emission;
+    GltfPlacement roughness;
 };
 
 /// A .gltf or .glb file.

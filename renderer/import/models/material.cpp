@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "renderer/base/error.h"
@@ -116,6 +117,36 @@ double coat_index(const GltfMaterial &material) {
     }
     const double amplitude = std::sqrt(scale) * std::abs(material.ior - 1) / (material.ior + 1);
     return (1 + amplitude) / (1 - amplitude);
+}
+
+/// Returns the transform of a map from the texture coordinates of meshes: those of the base colour,
+/// turned if they are. Returns nothing if a texture cannot have it.
+std::optional<GltfTextureTransform> from_mesh(const GltfMaterial &material,
+                                              const GltfPlacement &map) {
+    GltfTextureTransform placed = map.transform;
+    if (material.base_transform.rotates()) {
+        placed.linear = placed.linear * material.base_transform.linear.inverse();
+        placed.offset -= placed.linear * material.base_transform.offset;
+    }
+    constexpr double rounding = 1e-9;
+    const bool turns = !(std::abs(placed.linear(0, 1)) + std::abs(placed.linear(1, 0)) < rounding);
+    if (turns || map.uv_set != material.base_uv_set) {
+        return std::nullopt;
+    }
+    placed.linear = Eigen::Matrix2d(placed.linear.diagonal().asDiagonal());
+    return placed;
+}
+
+/// Returns the green channel of an image as a grey image.
+std::shared_ptr<const TextureImage> green_of(const TextureImage &image) {
+    auto green = std::make_shared<TextureImage>(image);
+    for (size_t i = 0; i + 2 < green->bytes.size(); i += 3) {
+        green->bytes[i] = green->bytes[i + 2] = green->bytes[i + 1];
+    }
+    for (size_t i = 0; i + 2 < green->floats.size(); i += 3) {
+        green->floats[i] = green->floats[i + 2] = green->floats[i + 1];
+    }
+    return green;
 }
 
 /// Returns the properties of a material of a format other than glTF.
@@ -267,23 +298,38 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
         placement.scale = transform->linear.diagonal();
         placement.offset = transform->offset;
     }
-    const std::shared_ptr<const TextureImage> image = load(file.C_Str(), encoding);
-    const std::string suffix = encoding == TextureEncoding::alpha ? "_alpha" : "";
+    std::shared_ptr<const TextureImage> image = load(file.C_Str(), encoding);
+    std::string suffix = encoding == TextureEncoding::alpha ? "_alpha" : "";
+    if (type == aiTextureType_METALNESS) {
+        std::shared_ptr<const TextureImage> &green = greens_[image.get()];
+        green = green != nullptr ? green : green_of(*image);
+        image = green;
+        suffix = "_roughness";
+    }
     return image != nullptr ? textures_.texture(image, file.C_Str() + suffix, placement) : nullptr;
 }
 
-void ModelMaterials::read_physical(const aiMaterial &source, const GltfMaterial &extended,
+void ModelMaterials::read_physical(const aiMaterial &source, const GltfMaterial *gltf,
                                    const std::string &name, ModelSurface &surface) {
+    const GltfMaterial extended = gltf != nullptr ? *gltf : without_extensions(source);
     surface.is_physical = true;
     surface.diffuse = colour(source, "$clr.base", surface.diffuse);
     surface.metalness = number(source, metalness_key, 0);
     double roughness = number(source, roughness_key, 1);
     if (has_map(source, aiTextureType_METALNESS)) {
-        notes_.add("metalness and roughness maps are replaced by their mean", name);
         // glTF stores roughness in the green channel and metalness in the blue one.
         const Vector3d mean = mean_of_map(source, aiTextureType_METALNESS, false);
-        roughness *= mean.y();
         surface.metalness *= mean.z();
+        const std::optional<GltfTextureTransform> placed =
+            gltf != nullptr ? from_mesh(*gltf, gltf->roughness) : std::nullopt;
+        if (placed.has_value()) {
+            notes_.add("metalness maps are replaced by their mean", name);
+            surface.roughness_texture =
+                texture(source, aiTextureType_METALNESS, &*placed, name, TextureEncoding::linear);
+        } else {
+            notes_.add("metalness and roughness maps are replaced by their mean", name);
+            roughness *= mean.y();
+        }
     }
     surface.alpha = roughness * roughness;
     surface.transmission = extended.transmission;
@@ -381,15 +427,8 @@ void ModelMaterials::read_emission_map(const aiMaterial &source, const GltfMater
         surface.emission_texture = texture(source, type, nullptr, name);
         return;
     }
-    // A mesh has the coordinates of the base colour, turned if these are.
-    GltfTextureTransform placed = gltf->emission_transform;
-    if (gltf->base_transform.rotates()) {
-        placed.linear = placed.linear * gltf->base_transform.linear.inverse();
-        placed.offset -= placed.linear * gltf->base_transform.offset;
-    }
-    constexpr double rounding = 1e-9;
-    const bool turns = !(std::abs(placed.linear(0, 1)) + std::abs(placed.linear(1, 0)) < rounding);
-    if (turns || gltf->emission_uv_set != gltf->base_uv_set) {
+    const std::optional<GltfTextureTransform> placed = from_mesh(*gltf, gltf->emission);
+    if (!placed.has_value()) {
         notes_.add(
             "emission maps with other texture coordinates than the base colour are replaced by "
             "their mean",
@@ -397,8 +436,7 @@ void ModelMaterials::read_emission_map(const aiMaterial &source, const GltfMater
         surface.emission = surface.emission.cwiseProduct(mean_of_map(source, type, true));
         return;
     }
-    placed.linear = Eigen::Matrix2d(placed.linear.diagonal().asDiagonal());
-    surface.emission_texture = texture(source, type, &placed, name);
+    surface.emission_texture = texture(source, type, &*placed, name);
 }
 
 ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
@@ -411,7 +449,7 @@ ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     surface.exponent = number(source, "$mat.shininess", 0);
     surface.eta = number(source, "$mat.refracti", 1);
     if (has_number(source, metalness_key) && has_number(source, roughness_key)) {
-        read_physical(source, gltf != nullptr ? *gltf : without_extensions(source), name, surface);
+        read_physical(source, gltf, name, surface);
     }
     read_opacity(source, gltf, name, surface);
     read_normals(source, gltf, name, surface);

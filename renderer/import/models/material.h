@@ -51,8 +51,8 @@ class ModelMaterials {
     /// Returns an image, or null for an alpha channel that is missing or opaque everywhere.
     std::shared_ptr<const TextureImage> load(const std::string &file, TextureEncoding encoding);
     Eigen::Vector3d mean_of_map(const aiMaterial &source, int type, bool is_colour);
-    /// Returns the texture of a map, or null. `transform` is that of a glTF file. Without it, the
-    /// material has the placement.
+    /// Returns the texture of a map, or null; of the map of metalness and roughness, the latter.
+    /// `transform` is that of a glTF file. Without it, the material has the placement.
     std::shared_ptr<Texture> texture(const aiMaterial &source, int type,
                                      const GltfTextureTransform *transform, const std::string &name,
                                      TextureEncoding encoding = TextureEncoding::srgb);
@@ -62,8 +62,8 @@ class ModelMaterials {
                       ModelSurface &surface);
     void read_emission_map(const aiMaterial &source, const GltfMaterial *gltf,
                            const std::string &name, ModelSurface &surface);
-    void read_physical(const aiMaterial &source, const GltfMaterial &extended,
-                       const std::string &name, ModelSurface &surface);
+    void read_physical(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
+                       ModelSurface &surface);
     ModelSurface read(unsigned index, const std::string &name);
 
     std::shared_ptr<const aiScene> model_;
@@ -73,6 +73,7 @@ class ModelMaterials {
     ModelTextures textures_;
     std::map<std::pair<std::string, TextureEncoding>, std::shared_ptr<const TextureImage>>
         embedded_;
+    std::map<const TextureImage *, std::shared_ptr<const TextureImage>> greens_;
 };
 
 }  // namespace rtrays

@@ -31,14 +31,25 @@ class CompositeBuilder {
         return prefix;
     }
 
+    /// Sets the roughness of a component, which the square of a texture may scale.
+    void set_roughness(const std::string &prefix, double alpha,
+                       const std::shared_ptr<Texture> &texture) {
+        values[prefix + "alpha"] = Vector2d(alpha, alpha);
+        if (texture != nullptr) {
+            textures[prefix + "alpha"] = texture;
+            values[prefix + "roughness_squared"] = true;
+        }
+    }
+
     /// Adds an ideal or a microfacet reflection, depending on `alpha`.
-    std::string add_reflection(double alpha, const char *fresnel, const Vector3d &weight,
+    std::string add_reflection(double alpha, const std::shared_ptr<Texture> &roughness,
+                               const char *fresnel, const Vector3d &weight,
                                const std::shared_ptr<Texture> &texture = nullptr) {
         if (alpha < smooth_alpha) {
             return add("ideal_reflection", fresnel, weight, texture);
         }
         const std::string prefix = add("microfacet_reflection", fresnel, weight, texture);
-        values[prefix + "alpha"] = Vector2d(alpha, alpha);
+        set_roughness(prefix, alpha, roughness);
         return prefix;
     }
 
@@ -102,6 +113,10 @@ std::shared_ptr<MaterialCore> make_glass(const ModelSurface &s, const std::strin
         {"roughness", Vector2d(alpha, alpha)}};
     ParameterTextures textures;
     set_common(s, values, textures);
+    if (alpha > 0 && s.roughness_texture != nullptr) {
+        values["roughness_squared"] = true;
+        textures["roughness"] = s.roughness_texture;
+    }
     set_texture("transmittance", s.is_physical ? s.diffuse_texture : nullptr, textures);
     return std::make_shared<MaterialCore>(name, "glass", values, textures);
 }
@@ -137,7 +152,7 @@ void add_base(const ModelSurface &s, double share, CompositeBuilder &composite) 
         composite.values[part + "eta"] = s.eta;
         composite.values[part + "fresnel_complement"] = true;
         if (is_rough) {
-            composite.values[part + "alpha"] = Vector2d(s.alpha, s.alpha);
+            composite.set_roughness(part, s.alpha, s.roughness_texture);
         }
     }
 }
@@ -147,14 +162,14 @@ void add_physical(const ModelSurface &s, CompositeBuilder &composite) {
     const double metal = std::min(std::max(s.metalness, 0.0), 1.0);
     if (metal > 0) {
         const std::string part = composite.add_reflection(
-            s.alpha, "schlick", Vector3d::Constant(metal), s.diffuse_texture);
+            s.alpha, s.roughness_texture, "schlick", Vector3d::Constant(metal), s.diffuse_texture);
         composite.values[part + "fresnel_reflectance"] = s.diffuse;
     }
     if (metal < 1) {
         const double share = 1 - metal;
         if (s.eta != 1) {
-            const std::string coat =
-                composite.add_reflection(s.alpha, "dielectric", Vector3d::Constant(share));
+            const std::string coat = composite.add_reflection(
+                s.alpha, s.roughness_texture, "dielectric", Vector3d::Constant(share));
             composite.values[coat + "fresnel_eta"] = s.eta;
         }
         add_base(s, share, composite);
@@ -168,8 +183,8 @@ std::shared_ptr<MaterialCore> make_composite(const ModelSurface &s, const std::s
         add_physical(s, composite);
     } else {
         // An exponent of zero means a mirror. The material requests reflections, not a highlight.
-        const std::string part = composite.add_reflection(s.exponent > 0 ? s.alpha : 0, "schlick",
-                                                          Vector3d::Ones(), s.specular_texture);
+        const std::string part = composite.add_reflection(
+            s.exponent > 0 ? s.alpha : 0, nullptr, "schlick", Vector3d::Ones(), s.specular_texture);
         composite.values[part + "fresnel_reflectance"] = s.specular;
     }
     return composite.build(name);

@@ -25,6 +25,7 @@ struct ModelSurface {
     std::shared_ptr<Texture> diffuse_texture;
     std::shared_ptr<Texture> specular_texture;
     std::shared_ptr<Texture> opacity_texture;
+    std::shared_ptr<Texture> roughness_texture;  ///< its square scales `alpha`
     std::shared_ptr<Texture> normal_texture;
     std::shared_ptr<Texture> bump_texture;
     double map_scale = 1;  ///< factor of x and y of the normals, or of the heights
