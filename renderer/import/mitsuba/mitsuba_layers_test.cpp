@@ -107,14 +107,12 @@ TEST_F(MitsubaRoughness, MayBeATexture) {
                R"("><string name="filename" value="half.ppm"/><boolean name="raw" value="true"/></texture>)";
     };
     const auto components = [](const std::string &bsdf) {
-        return parse_mitsuba_xml(
-                   mitsuba_scene(R"(<shape type="rectangle">)" + bsdf + "</shape>"), "in.xml", "in",
-                   testing::TempDir())
+        return parse_mitsuba_xml(mitsuba_scene(R"(<shape type="rectangle">)" + bsdf + "</shape>"),
+                                 "in.xml", "in", testing::TempDir())
             .materials()
             .component;
     };
-    const auto metal =
-        components(R"(<bsdf type="roughconductor">)" + texture("alpha") + "</bsdf>");
+    const auto metal = components(R"(<bsdf type="roughconductor">)" + texture("alpha") + "</bsdf>");
     EXPECT_EQ(metal[0].alpha, Vector2d(1, 1));
     EXPECT_EQ(metal[0].roughness_texture, 0u);
     EXPECT_FALSE(metal[0].roughness_squared);
@@ -128,9 +126,9 @@ TEST_F(MitsubaRoughness, MayBeATexture) {
     EXPECT_EQ(principled[1].kind, Kind::disney_diffuse);
     EXPECT_EQ(principled[1].disney_roughness, 1);
     EXPECT_EQ(principled[1].roughness_texture, 0u);
-    const auto glass = components(
-        R"(<bsdf type="principled"><float name="spec_trans" value="1"/>)" + texture("roughness") +
-        "</bsdf>");
+    const auto glass =
+        components(R"(<bsdf type="principled"><float name="spec_trans" value="1"/>)" +
+                   texture("roughness") + "</bsdf>");
     EXPECT_EQ(glass[1].kind, Kind::microfacet_refraction);
     EXPECT_EQ(glass[1].roughness_texture, 0u);
     EXPECT_TRUE(glass[1].roughness_squared);

@@ -33,7 +33,8 @@ void expect_same(const TestMaterial &a, const TestMaterial &b) {
         const SurfaceFrame frame = tilted_frame(degrees);
         for (uint32_t i = 0; i < 200; ++i) {
             const uint4 words = bsdf_words(i, 0);
-            const float select = uniform_float(words.x), u = uniform_float(words.y), v = uniform_float(words.z);
+            const float select = uniform_float(words.x), u = uniform_float(words.y),
+                        v = uniform_float(words.z);
             const BsdfSample p = a.sample(frame, select, u, v), q = b.sample(frame, select, u, v);
             ASSERT_NEAR(p.pdf_w, q.pdf_w, 1e-4f * q.pdf_w) << a.name << ' ' << degrees;
             ASSERT_NEAR(p.weight.x, q.weight.x, 1e-4f * q.weight.x) << a.name << ' ' << degrees;
