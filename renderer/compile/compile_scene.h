@@ -4,8 +4,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "renderer/base/named.h"
@@ -66,6 +69,15 @@ struct SceneExtent {
     bool encloses = true;  ///< false: the scene has planes, which the sphere does not enclose
 };
 
+/// Index of refraction, roughness and distribution.
+using CoatKey = std::tuple<double, double, BxdfComponent::Distribution>;
+
+/// Integrals of a coat. Each is computed when a component first needs it.
+struct CoatIntegrals {
+    std::optional<double> inner_reflectance;
+    std::vector<float> transmittances;
+};
+
 /// A scene in the form that the device reads. Arrays have the names of shared/scene_buffers.h.
 struct CompiledScene {
     CameraRecord camera{};  ///< for the film size of the scene
@@ -97,6 +109,8 @@ struct CompiledScene {
     TextureArrays texture_sources;
     std::vector<MaterialOpacity> opacity_sources;
     std::vector<uint32_t> emission_sources;
+    /// By the parameters of the coat. Each takes milliseconds, so that edits keep them.
+    std::map<CoatKey, CoatIntegrals> coat_integrals;
     bool has_headlight = false;
     std::shared_ptr<const TextureImage> environment_image;  ///< source of the environment's arrays
     double environment_integral = 0;                        ///< `compile_environment` of that image

@@ -2,8 +2,6 @@
 // Compiles materials and textures into records, and collects the features that they use.
 #include <array>
 #include <cstring>
-#include <map>
-#include <tuple>
 
 #include "renderer/compile/compile_scene.h"
 #include "renderer/scene/cores/coat.h"
@@ -34,8 +32,8 @@ constexpr std::array<KindRow, 13> kinds = {{
     {BXDF_DISNEY_CLEARCOAT, Feature::disney_clearcoat},
 }};
 
-/// First transmittances of coats, by index of refraction, roughness and distribution.
-using CoatTables = std::map<std::tuple<double, double, BxdfComponent::Distribution>, size_t>;
+/// First transmittances of coats.
+using CoatTables = std::map<CoatKey, size_t>;
 
 struct FresnelRow {
     uint32_t flag;
@@ -61,22 +59,35 @@ bool refracts(uint32_t kind) {
 
 /// Compiles the fields of a base below a coat. Coats with the same parameters share a table.
 void compile_coat(const BxdfComponent &component, BxdfRecord &record, CoatTables &tables,
-                  std::vector<float> &transmittances) {
+                  CompiledScene &compiled) {
     const Coat coat{component.eta[0], component.alpha[0], component.distribution};
-    const double inner = component.inner_reflectance >= 0 ? component.inner_reflectance
-                                                          : coat_diffuse_reflectance(coat);
+    const CoatKey key(coat.eta, coat.alpha, coat.distribution);
+    CoatIntegrals &integrals = compiled.coat_integrals[key];
+    double inner = component.inner_reflectance;
+    if (inner < 0) {
+        if (!integrals.inner_reflectance.has_value()) {
+            integrals.inner_reflectance = coat_diffuse_reflectance(coat);
+        }
+        inner = *integrals.inner_reflectance;
+    }
     const double factor = 1 / (coat.eta * coat.eta);
     record.parameter = static_cast<float>(component.nonlinear ? inner : 0);
     record.k[0] = static_cast<float>(component.nonlinear ? factor : factor / (1 - inner));
     if (coat.alpha == 0) {
         return;
     }
-    const auto [table, is_new] = tables.emplace(
-        std::make_tuple(coat.eta, coat.alpha, coat.distribution), transmittances.size());
+    if (integrals.transmittances.empty()) {
+        for (uint32_t i = 0; i < COAT_NODES; ++i) {
+            const double root = static_cast<double>(i) / (COAT_NODES - 1);
+            integrals.transmittances.push_back(
+                static_cast<float>(coat_transmittance(coat, root * root)));
+        }
+    }
+    std::vector<float> &all = compiled.coat_transmittances;
+    const auto [table, is_new] = tables.emplace(key, all.size());
     record.coat_or_roughness = static_cast<uint32_t>(table->second);
-    for (uint32_t i = 0; is_new && i < COAT_NODES; ++i) {
-        const double root = static_cast<double>(i) / (COAT_NODES - 1);
-        transmittances.push_back(static_cast<float>(coat_transmittance(coat, root * root)));
+    if (is_new) {
+        all.insert(all.end(), integrals.transmittances.begin(), integrals.transmittances.end());
     }
 }
 
@@ -220,7 +231,7 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
                 features = features.with(Feature::texture_mirror);
             }
             if (component.kind == BxdfComponent::Kind::coated_lambert) {
-                compile_coat(component, compiled_component, coats, compiled.coat_transmittances);
+                compile_coat(component, compiled_component, coats, compiled);
             }
             record.flags |= refracts(compiled_component.kind) ? MATERIAL_BOUNDARY : 0u;
             record.flags |=
