@@ -56,8 +56,8 @@ class ReferenceRenderer {
     /// the mean) and samples, and the attributes samplesPerPixel and renderTimeSeconds.
     Image develop() const;
 
-    /// Returns the class of every pixel, row by row from the top. It takes about as long as four
-    /// samples per pixel, and does not change the film.
+    /// Returns the class of every pixel, row by row from the top (first_hit_classifier.h). Does not
+    /// change the film.
     std::vector<FirstHit> first_hits() const;
 
     double seconds() const;    ///< wall time spent in `render`, plus that of a restored film
