@@ -8,6 +8,7 @@
 #include "renderer/base/angles.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/kernels/sampling/sampler.h"
+#include "renderer/kernels/sampling/select.h"
 
 #include <gtest/gtest.h>
 
@@ -246,6 +247,20 @@ TEST(SelectionTable, ProbabilitiesAreThoseOfTheWords) {
     EXPECT_EQ(sum, 1.0);
     EXPECT_EQ(table.probability[0], 0.0);
     EXPECT_NEAR(table.probability[4], 5.0 / 8.0, 1e-9);
+}
+
+// Words are counted exactly, also those of a last entry that has few.
+TEST(SelectionTable, RangesHaveTheWordsOfTheirProbabilities) {
+    const std::vector<double> lists[] = {
+        {1.0}, {1.0, 1.0}, {1.0, 1e-8}, {1.0, 3.0, 1e-20}, {0.0, 1.0, 0.0}};
+    for (const std::vector<double> &weights : lists) {
+        const SelectionTable table = selection_table(weights);
+        const auto count = static_cast<uint>(weights.size());
+        for (uint i = 0; i < count; ++i) {
+            EXPECT_NEAR(static_cast<double>(selection_range(table.end.data(), 0, count, i).count),
+                        table.probability[i] * 0x1p32, table.probability[i] * 0x1p32 * 0x1p-24);
+        }
+    }
 }
 
 }  // namespace

@@ -37,7 +37,9 @@ DEVICE WordRange selection_range(GLOBAL const uint *ends, uint first, uint count
     WordRange range;
     range.begin = i == first ? 0u : ends[i - 1u];
     // The difference of two words is exact; its conversion to float has a relative rounding error.
-    range.count = i + 1u == first + count ? 4294967296.0f - (float)range.begin
-                                          : (float)(ends[i] - range.begin);
+    // The last end is 2^32, which is 0 in the arithmetic of words.
+    const bool is_last = i + 1u == first + count;
+    const uint words = (is_last ? 0u : ends[i]) - range.begin;
+    range.count = is_last && range.begin == 0u ? 4294967296.0f : (float)words;
     return range;
 }
