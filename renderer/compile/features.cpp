@@ -77,6 +77,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::infinite_lights, Feature::lights},
     {Feature::dome, Feature::infinite_lights},
     {Feature::environment, Feature::infinite_lights},
+    {Feature::guided_emission, Feature::lights},
 };
 
 /// Features that only serve others. Each is off unless one of the features that it serves is on.
@@ -151,6 +152,9 @@ FeatureMask FeatureMask::closed() const {
                                          (mask.has(Feature::delta) && mask.has(Feature::lights)))))
         .with(Feature::emission_density, from_light && strategy)
         .with(Feature::arrival_density, connects || (from_light && strategy))
+        .with(Feature::shadow_origin, from_light && mask.has(Feature::guided_emission) &&
+                                          mask.has(Feature::shape_lights) &&
+                                          (!strategy || mask.has(Feature::light_emitters)))
         .with(Feature::roulette_scale,
               mask.has(Feature::roulette) && (mask.has(Feature::refraction) || from_light));
 }

@@ -12,6 +12,7 @@
 #include "renderer/base/angles.h"
 #include "renderer/base/error.h"
 #include "renderer/compile/compile_scene.h"
+#include "renderer/kernels/sampling/hemisphere.h"
 
 namespace rtrays {
 
@@ -50,6 +51,14 @@ TriangleWeights triangle_weights(const MeshArrays &meshes, uint32_t mesh,
     return made;
 }
 
+/// Sets the axes of a flat light: those about its normal.
+void set_axes(float3 normal, LightRecord &light) {
+    const Frame frame = frame_from_z(normal);
+    copy3(Eigen::Vector3f(frame.x.x, frame.x.y, frame.x.z), light.axis_x);
+    copy3(Eigen::Vector3f(frame.y.x, frame.y.y, frame.y.z), light.axis_y);
+    copy3(Eigen::Vector3f(normal.x, normal.y, normal.z), light.axis_z);
+}
+
 void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, const TriangleWeights &weights,
                         LightRecord &light, CompiledScene &compiled) {
     const std::vector<double> &areas = weights.area;
@@ -57,6 +66,11 @@ void compile_mesh_light(const MeshArrays &meshes, uint32_t mesh, const TriangleW
     light.kind = LIGHT_MESH;
     light.first_triangle = static_cast<uint32_t>(compiled.emitter_triangles.size());
     light.triangle_count = meshes.triangle_count[mesh];
+    const auto with_area =
+        static_cast<size_t>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+    const float *normal =
+        compiled.surface_triangles[meshes.first_triangle[mesh] + with_area].normal;
+    set_axes(make_float3(normal[0], normal[1], normal[2]), light);
     for (uint32_t i = 0; i < areas.size(); ++i) {
         const uint32_t triangle = meshes.first_triangle[mesh] + i;
         compiled.surface_triangles[triangle].emitter =
@@ -112,6 +126,13 @@ double compile_area_light(const SceneArrays &scene, size_t i, SphereSampling sph
                                                             : LIGHT_SPHERE;
     record.first_triangle = lights.shape[i];
     record.area = static_cast<float>(lights.area[i]);
+    if (is_disc) {
+        // The normal of `shape_point`, to the last bit.
+        const auto &row = compiled.shapes[record.first_triangle].object_from_world[2];
+        const float3 gradient = make_float3(row[0], row[1], row[2]);
+        const float3 scaled = gradient / (std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]));
+        set_axes(scaled / length(scaled), record);
+    }
     compiled.shapes[lights.shape[i]].light = static_cast<uint32_t>(compiled.lights.size());
     features = features.with(Feature::shape_lights);
     return power;

@@ -91,7 +91,8 @@ void SceneBuffers::update(DeviceContext &device, const CompiledScene &former,
 
 // The lists are in the order of the parameters in kernels/scene_view.h.
 StageArguments SceneBuffers::arguments(const CompiledScene &compiled, const Bvh &bvh,
-                                       FeatureMask features) const {
+                                       FeatureMask features,
+                                       const Buffer<uint32_t> &emission_guide_) const {
     RTRAYS_FEATURES(FEATURE_VARIABLE)
     using Arguments = std::vector<KernelArgument>;
     Arguments hierarchy, opacity, shapes, shading;
@@ -109,6 +110,7 @@ StageArguments SceneBuffers::arguments(const CompiledScene &compiled, const Bvh 
     OPACITY_BUFFERS(OPACITY_ROW)
     SHAPE_BUFFERS(SHAPE_ROW)
     SHADING_BUFFERS(SHADING_ROW)
+    GUIDE_BUFFERS(SHADING_ROW)
 #undef SHADING_ROW
 #undef SHAPE_ROW
 #undef OPACITY_ROW

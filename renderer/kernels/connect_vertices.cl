@@ -5,7 +5,7 @@
 // STAGE(connect_vertices,
 //       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_inverse_arrival,
 //             log_strategies, vertices),
-//       writes(ray_origin, shadow_vector, shadow_radiance),
+//       writes(ray_origin, shadow_origin, shadow_vector, shadow_radiance),
 //       to(shadow))
 
 #include "renderer/kernels/path/hit_path_at.h"

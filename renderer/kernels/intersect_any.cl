@@ -3,7 +3,7 @@
 // blocks.
 //
 // STAGE(intersect_any,
-//       reads(shadow, ray_origin, radiance, shadow_vector, shadow_radiance),
+//       reads(shadow, ray_origin, radiance, shadow_origin, shadow_vector, shadow_radiance),
 //       writes(radiance))
 
 #include "renderer/kernels/path/path_at.h"

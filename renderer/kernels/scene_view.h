@@ -22,6 +22,7 @@ typedef struct SceneView {
     OPACITY_BUFFERS(X)
     SHAPE_BUFFERS(X)
     SHADING_BUFFERS(X)
+    GUIDE_BUFFERS(X)
 #undef X
     uint shape_count;
     LightingRecord lighting;
@@ -34,9 +35,10 @@ typedef struct SceneView {
 #define TRACING_PARAMETERS         \
     HIERARCHY_BUFFERS(X_PARAMETER) \
     OPACITY_BUFFERS(X_PARAMETER) SHAPE_BUFFERS(X_PARAMETER) uint shape_count
-#define SHADING_PARAMETERS     \
-    SHAPE_BUFFERS(X_PARAMETER) \
-    SHADING_BUFFERS(X_PARAMETER) uint shape_count, LightingRecord lighting
+#define SHADING_PARAMETERS       \
+    SHAPE_BUFFERS(X_PARAMETER)   \
+    SHADING_BUFFERS(X_PARAMETER) \
+    GUIDE_BUFFERS(X_PARAMETER) uint shape_count, LightingRecord lighting
 #define SCENE_PARAMETERS           \
     HIERARCHY_BUFFERS(X_PARAMETER) \
     OPACITY_BUFFERS(X_PARAMETER)   \
@@ -44,9 +46,10 @@ typedef struct SceneView {
 
 #define BUFFER_INITIALISER(type, name) .name = name,
 #define X_INITIALISER(feature, type, name) WHEN(feature)(BUFFER_INITIALISER(type, name))
-#define SHADING_MEMBERS          \
-    SHAPE_BUFFERS(X_INITIALISER) \
-    SHADING_BUFFERS(X_INITIALISER).shape_count = shape_count, .lighting = lighting
+#define SHADING_MEMBERS            \
+    SHAPE_BUFFERS(X_INITIALISER)   \
+    SHADING_BUFFERS(X_INITIALISER) \
+    GUIDE_BUFFERS(X_INITIALISER).shape_count = shape_count, .lighting = lighting
 #define TRACING_MEMBERS HIERARCHY_BUFFERS(X_INITIALISER) OPACITY_BUFFERS(X_INITIALISER)
 // clang-format off
 #define TRACING_VIEW \

@@ -3,7 +3,7 @@
 // camera to the film.
 //
 // STAGE(splat_unblocked,
-//       reads(shadow, ray_origin, shadow_vector, shadow_radiance, splat_pixel),
+//       reads(shadow, ray_origin, shadow_origin, shadow_vector, shadow_radiance, splat_pixel),
 //       writes(film))
 
 #include "renderer/kernels/path/path_at.h"

@@ -407,8 +407,10 @@ TEST(Features, AreNamedAndClosed) {
     const FeatureMask from_light =
         FeatureMask::all().with(Feature::from_camera, false).with(Feature::convergence, false);
     EXPECT_TRUE(FeatureMask::all().closed() == from_light);
-    const FeatureMask from_camera =
-        FeatureMask::all().with(Feature::from_light, false).with(Feature::emission_density, false);
+    const FeatureMask from_camera = FeatureMask::all()
+                                        .with(Feature::from_light, false)
+                                        .with(Feature::emission_density, false)
+                                        .with(Feature::shadow_origin, false);
     EXPECT_TRUE(from_camera.closed() == from_camera);
     EXPECT_TRUE(FeatureMask().closed() == FeatureMask().with(Feature::from_camera));
     const FeatureMask dark = FeatureMask::all().with(Feature::lights, false).closed();

@@ -126,6 +126,7 @@ void RenderSession::State::report_buffers(Json &report) const {
         }
     };
     scene->visit_buffers(add);
+    add(emission_guide);
     add(path_words);
     add(vertex_words);
     add(branch_vertices);

@@ -16,6 +16,11 @@ bool has_light_pass(const RenderSettings &settings) {
     return settings.algorithm->traces_light_paths() && settings.light_paths != 0;
 }
 
+bool has_guided_emission(const RenderSettings &settings) {
+    return has_light_pass(settings) &&
+           (settings.guided_emission != GuidedEmission::off || settings.emission_guide != nullptr);
+}
+
 bool has_convergence_control(const RenderSettings &settings) {
     return settings.convergence_error > 0;
 }
@@ -76,6 +81,7 @@ FeatureMask settings_features(const RenderSettings &settings) {
               algorithm.traces_camera_paths && settings.strategies != PathStrategies::implicit_only)
         .with(Feature::light_strategy, traces_both)
         .with(Feature::light_emitters, traces_both && settings.seen_emitters == SeenEmitters::mis)
+        .with(Feature::guided_emission, has_guided_emission(settings))
         .with(Feature::roulette, settings.termination == Termination::roulette)
         .with(Feature::adaptive, settings.termination == Termination::adaptive)
         .with(Feature::sobol, settings.sampler != Sampler::independent)

@@ -54,6 +54,11 @@ void require_consistent_light_paths(const RenderSettings &settings) {
             "integrator.light_paths=0: {} needs light paths; use pixels or a number above 0",
             algorithm.name));
     }
+    if (!algorithm.traces_light_paths() && settings.guided_emission != GuidedEmission::off) {
+        throw input_error(
+            fmt::format("integrator.guided_emission={}: {} traces no light paths; use off",
+                        name_in(guided_emissions, settings.guided_emission), algorithm.name));
+    }
     if (algorithm.light_paths == LightPaths::one_per_camera_path && settings.only_pass) {
         throw input_error(
             fmt::format("passes={}: the passes of {} share their light paths; use all",

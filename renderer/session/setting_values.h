@@ -33,6 +33,12 @@ enum class SeenEmitters { mis, camera };
 inline constexpr Named<SeenEmitters> seen_emitters_choices[] = {{SeenEmitters::mis, "mis"},
                                                                 {SeenEmitters::camera, "camera"}};
 
+/// Directions in which light paths start: those of the light alone, or by tables whose bins are all
+/// equal.
+enum class GuidedEmission { off, flat };
+inline constexpr Named<GuidedEmission> guided_emissions[] = {{GuidedEmission::off, "off"},
+                                                             {GuidedEmission::flat, "flat"}};
+
 /// How paths end.
 enum class Termination : uint32_t {
     roulette = TERMINATION_ROULETTE,

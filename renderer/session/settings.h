@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "renderer/bvh/bvh.h"
 #include "renderer/compile/compile_scene.h"
+#include "renderer/compile/emission_guide.h"
 #include "renderer/device/source.h"
 #include "renderer/integrators/algorithm.h"
 #include "renderer/session/setting_values.h"
@@ -50,6 +52,10 @@ struct RenderSettings {
     SeenEmitters seen_emitters = SeenEmitters::mis;
     /// Light paths per sample of the image, or LIGHT_PATHS_LIKE_PIXELS or LIGHT_PATHS_AUTO.
     uint32_t light_paths = LIGHT_PATHS_LIKE_PIXELS;
+    GuidedEmission guided_emission = GuidedEmission::off;
+    /// The tables that guide emission, made for the lights of the scene; null: none. A session sets
+    /// it for `GuidedEmission::flat`.
+    std::shared_ptr<const EmissionGuide> emission_guide;
     /// Vertices of each light path that bdpt stores. All strategies sample paths of at most one
     /// scattering event more than that.
     uint32_t bdpt_vertices = 8;
@@ -125,6 +131,9 @@ void set_window(RenderSettings &settings, const FilmCrop &crop, int full_width, 
 
 /// Returns whether paths from the lights are traced, which splat to any pixel.
 bool has_light_pass(const RenderSettings &settings);
+
+/// Returns whether tables guide the directions of light paths.
+bool has_guided_emission(const RenderSettings &settings);
 
 /// Returns whether pixels stop when they have converged, which biases the image.
 bool has_convergence_control(const RenderSettings &settings);

@@ -150,6 +150,7 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
                               to_string(*settings.only_pass))
                 : fmt::format("{}: the scene has no light", settings.algorithm->name));
     }
+    set_guide();
     set_config();
     scene->require(graph, features);
     allocate_streams();
@@ -158,13 +159,27 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
     warm_up();
 }
 
+void RenderSession::State::set_guide() {
+    if (!has_guided_emission(settings)) {
+        return;
+    }
+    if (settings.guided_emission == GuidedEmission::flat) {
+        settings.emission_guide =
+            std::make_shared<const EmissionGuide>(flat_guide(scene->compiled()));
+    }
+    require_guide_for(scene->compiled(), *settings.emission_guide);
+    emission_guide = Buffer<uint32_t>(device, "emission_guide", settings.emission_guide->words);
+}
+
 void RenderSession::State::set_config() {
     const RenderSettings::Window &window = settings.window;
     const std::string crop = window.full_width == 0
                                  ? ""
                                  : fmt::format("crop {} {} {} {}", window.x, window.y,
                                                window.full_width, window.full_height);
-    config = content_hash(scene->hash() + image_settings(settings).dump() + crop);
+    const std::string guide =
+        has_guided_emission(settings) ? hash_of(*settings.emission_guide) : "";
+    config = content_hash(scene->hash() + image_settings(settings).dump() + crop + guide);
 }
 
 bool RenderSession::State::update(const Scene &graph) {
@@ -173,14 +188,15 @@ bool RenderSession::State::update(const Scene &graph) {
         scene->compiled().lighting.light_count != light_count) {
         return false;
     }
-    set_config();
     if (scene_version != scene->version()) {
+        set_guide();
         scene_version = scene->version();
         const StageArguments arguments = scene_arguments();
         for (CompiledPass &pass : passes) {
             pass.stages.bind(arguments);
         }
     }
+    set_config();
     reset_film();
     return true;
 }
@@ -288,7 +304,7 @@ void RenderSession::State::bind() {
 }
 
 StageArguments RenderSession::State::scene_arguments() const {
-    StageArguments arguments = scene->arguments(features);
+    StageArguments arguments = scene->arguments(features, emission_guide);
     const RenderSettings::Window &window = settings.window;
     const bool is_full = window.full_width == 0;
     CameraRecord camera = scene->camera(is_full ? settings.width : window.full_width,

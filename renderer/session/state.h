@@ -109,6 +109,10 @@ struct RenderSession::State {
     /// Returns what the stages read of the scene, and the camera.
     StageArguments scene_arguments() const;
 
+    /// Makes the flat guide if the settings ask for it, and copies the guide to the device. Throws
+    /// `Error` (bad input) if the guide does not fit the scene.
+    void set_guide();
+
     void set_config();
 
     /// Throws `Error` (bad input) if the scene has changed since the last update of this session.
@@ -217,6 +221,7 @@ struct RenderSession::State {
     std::vector<CompiledPass> passes;
     std::string config;  ///< hash of scene and settings
 
+    Buffer<uint32_t> emission_guide;
     Buffer<uint32_t> path_words;
     Buffer<uint32_t> vertex_words;
     Buffer<uint32_t> branch_vertices;

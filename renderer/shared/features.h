@@ -73,6 +73,7 @@
     X(direction_density, "paths store the density of their direction")                        \
     X(emission_density, "light paths store the density of their start")                       \
     X(arrival_density, "paths store the density of their arrival at a vertex")                \
+    X(shadow_origin, "the shadow ray of a light path does not begin where its ray does")      \
     X(many_lights, "more than one light: a selection table is searched")                      \
     X(independent_lights, "every vertex is connected to every light, one after the other")    \
     X(area_lights, "emitting triangles")                                                      \
@@ -85,6 +86,7 @@
     X(infinite_lights, "radiance from infinity (dome, environment): misses are lit")          \
     X(dome, "uniform radiance from infinity")                                                 \
     X(environment, "radiance from infinity by an image")                                      \
+    X(guided_emission, "tables guide the directions in which light paths start")              \
     /* camera and film */                                                                     \
     X(orthographic, "the rays of the camera are parallel")                                    \
     X(lens, "the camera has an aperture, or is far from the scene")                           \

@@ -34,7 +34,8 @@
     X(FEATURE_vertex_connections, float, log_strategies)   /* log2 S at the last event */         \
     X(FEATURE_emission_density, uint, light)               /* index of the light at the start */  \
     X(FEATURE_branches, uint, pending)                     /* size of the stack of branch.h */    \
-    X(FEATURE_shadow_rays, float3, shadow_vector)          /* from ray_origin to the other end */ \
+    X(FEATURE_shadow_origin, float3, shadow_origin)        /* else it is ray_origin */            \
+    X(FEATURE_shadow_rays, float3, shadow_vector)          /* from its origin to the other end */ \
     X(FEATURE_shadow_rays, float3, shadow_radiance)        /* added unless the ray is blocked */  \
     X(FEATURE_from_light, uint, splat_pixel)               /* pixel to which it is added */
 

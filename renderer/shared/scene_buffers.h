@@ -42,3 +42,7 @@
     X(FEATURE_area_lights, EmitterTriangle, emitter_triangles)   \
     X(FEATURE_environment, float, environment_texels)            \
     X(FEATURE_environment, uint, environment_ends)
+
+/// The emission guide (shared/emission_guide.h), which belongs to a session. It is null if emission
+/// is not guided.
+#define GUIDE_BUFFERS(X) X(FEATURE_guided_emission, uint, emission_guide)

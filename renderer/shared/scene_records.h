@@ -243,8 +243,10 @@ typedef struct LightRecord {
     uint kind;            ///< LIGHT_*
     uint first_triangle;  ///< mesh: first of its emitter triangles; shape: index of the shape
     uint triangle_count;
-    float axis_x[3];  ///< x, y and z axes of light space, unit
-    float area;       ///< area of a shape
+    /// x, y and z axes of light space, unit. Of discs and meshes: axes about the normal of the disc
+    /// or of the largest triangle.
+    float axis_x[3];
+    float area;  ///< area of a shape
     float axis_y[3];
     float versine_outer;  ///< spot: 1 - cos(outer angle)
     float axis_z[3];
@@ -254,7 +256,9 @@ typedef struct LightRecord {
     float angle_scale;         ///< spot: 1 / (outer angle - inner angle)
     float emission_selection;  ///< probability that a light path starts here
     uint texture;              ///< area lights: index of the factor of `radiance`, or NO_TEXTURE
-    float padding;
+    /// First word of its table in the emission guide, or NO_GUIDE_TABLE. `light_at` sets it
+    /// (kernels/light/emission_guide.h); in memory it is 0.
+    uint guide_table;
 } LightRecord;
 
 #define LIGHT_MESH 0u

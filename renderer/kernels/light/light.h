@@ -5,6 +5,7 @@
 
 #include "renderer/kernels/geometry/surface_hit.h"
 #include "renderer/kernels/light/area_light.h"
+#include "renderer/kernels/light/emission_guide.h"
 #include "renderer/kernels/light/environment.h"
 #include "renderer/kernels/light/shape_light.h"
 #include "renderer/kernels/light/spot.h"
@@ -183,7 +184,7 @@ DEVICE void look_at_infinity(PRIVATE const SceneView *scene, float3 from, LightR
     }
 }
 
-/// Samples a direction from point `from` towards a given light.
+/// Samples a direction from point `from` towards a light, as `light_at` returns it.
 DEVICE LightSample sample_one_light(PRIVATE const SceneView *scene, LightRecord light, float3 from,
                                     uint4 words) {
     LightSample sample;
@@ -208,6 +209,9 @@ DEVICE LightSample sample_one_light(PRIVATE const SceneView *scene, LightRecord 
     } else if (FEATURE_infinite_lights || FEATURE_directional_lights) {
         look_at_infinity(scene, from, light, words, &sample);
     }
+    if (FEATURE_light_strategy && has_guide_table(light)) {
+        sample.arrival_pdf_a *= guide_density(scene, light, -sample.wi);
+    }
     sample.pdf_w *= light.selection;
     return sample;
 }
@@ -225,7 +229,7 @@ DEVICE LightSample sample_lights(PRIVATE const SceneView *scene, uint light_inde
             index = selected;
         }
     }
-    return sample_one_light(scene, scene->lights[index], from, words);
+    return sample_one_light(scene, light_at(scene, index), from, words);
 }
 
 /// Returns whether the emitter of a hit is a shape, not a triangle.
@@ -247,11 +251,12 @@ DEVICE float light_pdf_a(PRIVATE const SceneView *scene, LightRecord light, uint
                                   : scene->emitter_triangles[emitter].pdf_a);
 }
 
-// Densities of emission (EmissionSample) for paths sampled as camera paths or light samples.
+// Densities of emission (EmissionSample) for paths sampled as camera paths or light samples. Lights
+// are as `light_at` returns them.
 
 /// Returns the density per area, with the selection probability, with which a light path starts at
 /// a point of this emitter (of SurfaceHit). Multiplied by 1 / pi, the cosine-weighted density per
-/// projected solid angle, it is the density of the ray from there.
+/// projected solid angle, it is the density of the ray from there, unless a table guides it.
 DEVICE float emission_pdf_a(PRIVATE const SceneView *scene, LightRecord light, uint primitive,
                             uint emitter) {
     return is_emitting_shape(primitive)
@@ -260,16 +265,17 @@ DEVICE float emission_pdf_a(PRIVATE const SceneView *scene, LightRecord light, u
 }
 
 /// Returns the density per area and projected solid angle, with the selection probability, of a
-/// light path along a ray that hits this emitter: pdf_origin pdf_direction / cos.
+/// light path in direction `d` (unit) from this emitter: pdf_origin pdf_direction / cos.
 DEVICE float emission_line_pdf(PRIVATE const SceneView *scene, LightRecord light, uint primitive,
-                               uint emitter) {
-    return INV_PI * emission_pdf_a(scene, light, primitive, emitter);
+                               uint emitter, float3 d) {
+    return INV_PI * emission_pdf_a(scene, light, primitive, emitter) *
+           guide_density(scene, light, d);
 }
 
 /// Returns the density, with the selection probability, of a light path from infinity that arrives
 /// at `point` from direction d: pdf_origin pdf_direction, per solid angle and area of the disc.
 DEVICE float infinite_line_pdf(PRIVATE const SceneView *scene, float3 point, float3 d) {
-    return scene->lights[scene->lighting.infinite_light].emission_selection *
+    return light_at(scene, scene->lighting.infinite_light).emission_selection *
            infinite_pdf_w(scene, d) * disc_pdf_a(scene->lighting, point, d);
 }
 

@@ -3,7 +3,7 @@
 // of the host, which runs the same source. Other tests check the distributions on the host.
 #include <gtest/gtest.h>
 
-#include "renderer/testing/light_paths.h"
+#include "renderer/testing/guided_lights.h"
 
 #include "renderer/compile/scene_buffers.h"
 #include "renderer/device/buffer.h"
@@ -83,10 +83,8 @@ void append(std::vector<float> &list, float3 v) {
     list.insert(list.end(), {v.x, v.y, v.z});
 }
 
-std::vector<float> host_samples(const CompiledScene &scene, const CameraRecord &camera,
-                                uint count) {
+std::vector<float> host_samples(const SceneView &view, const CameraRecord &camera, uint count) {
     std::vector<float> list;
-    const SceneView view = view_of(scene);
     for (uint i = 0; i < count; ++i) {
         const uint4 a = random_words(5, 0, 1, i, 0), b = random_words(5, 0, 1, i, 1),
                     c = random_words(5, 0, 1, i, 2);
@@ -122,8 +120,14 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
     constexpr uint count = 20'000, word_count = 26;
     DeviceContext device;
     Kernel kernel(build(device, FeatureMask::all()), "test", 64);
-    for (const auto infinite : {LightArrays::Kind::dome, LightArrays::Kind::environment}) {
-        const CompiledScene scene = compile_light_scene(infinite);
+    for (const bool guided : {false, true}) {
+        const CompiledScene scene =
+            compile_light_scene(guided ? LightArrays::Kind::dome : LightArrays::Kind::environment);
+        const EmissionGuide guide = make_guide(scene, random_moments(scene, 3));
+        const Buffer<uint32_t> guide_words =
+            guided ? Buffer<uint32_t>(device, "guide", guide.words) : Buffer<uint32_t>();
+        SceneView view = view_of(scene);
+        view.emission_guide = guided ? guide.words.data() : nullptr;
         CameraRecord camera = scene.camera;
         camera.aperture_radius = 0.1f;
         camera.focus_distance = 5.0f;
@@ -131,13 +135,14 @@ TEST(LightDevice, SamplesAreThoseOfTheHost) {
         buffers.require(device, scene, FeatureMask::all());
         const Buffer<float> samples(device, "samples", count * word_count);
         std::vector<KernelArgument> arguments =
-            buffers.arguments(scene, Bvh(), FeatureMask::all()).at(StageInput::shading);
+            buffers.arguments(scene, Bvh(), FeatureMask::all(), guide_words)
+                .at(StageInput::shading);
         arguments.insert(arguments.end(), {camera, samples, count});
         kernel.bind(arguments);
         kernel.enqueue(count);
         device.finish();
         const std::vector<float> found = samples.read(),
-                                 expected = host_samples(scene, camera, count);
+                                 expected = host_samples(view, camera, count);
         ASSERT_EQ(found.size(), expected.size());
         size_t off = 0;
         for (size_t i = 0; i < found.size(); ++i) {

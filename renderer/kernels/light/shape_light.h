@@ -59,6 +59,30 @@ DEVICE float shape_light_pdf_a(LightRecord light, GLOBAL const ShapeRecord *shap
     return 1.0f / light.area;
 }
 
+/// Returns the point of a sphere, in object space, with the given normal in world space.
+DEVICE float3 sphere_object_point(GLOBAL const ShapeRecord *sphere, float3 normal) {
+    const float3 scaled = vector_to_object(sphere, normal);
+    // Its length is 1 / radius. Squares stay in range for radii in [1e-12, 1e12].
+    return scaled / length(scaled);
+}
+
+/// Returns the sample, without its density, at a point in object space. `from` is the point for
+/// which the light is sampled.
+DEVICE ShapeLightSample shape_light_sample(GLOBAL const ShapeRecord *shape, float3 object_point,
+                                           float3 from) {
+    ShapeLightSample sample;
+    sample.point = shape_point(shape, object_point);
+    sample.pdf_a = 0.0f;
+    sample.uv = FEATURE_emission_textures ? shape_uv(shape, object_point) : make_float2(0.0f, 0.0f);
+    // A shadow ray is the rounded difference of its ends. Over the distance D its end is off by u D
+    // per axis, and the t at which it meets the light is off by a few u. The offset of that end
+    // must exceed both. Otherwise lights would block themselves from 100 radii on.
+    const float3 distance = fabs(from - sample.point.position);
+    const float rounding = 16.0f * HALF_ULP * max(distance.x, max(distance.y, distance.z));
+    sample.point.error += make_float3(rounding, rounding, rounding);
+    return sample;
+}
+
 /// Samples a point on a disc or a sphere from uniform u and v in [0, 1). A LIGHT_SPHERE is sampled
 /// by its cone where possible.
 ///
@@ -91,22 +115,12 @@ DEVICE ShapeLightSample sample_shape_light(LightRecord light, GLOBAL const Shape
         const float2 around = point_on_circle(v);
         const float3 normal =
             to_world(frame, make_float3(sin_alpha * around.x, sin_alpha * around.y, cos_alpha));
-        const float3 scaled = vector_to_object(shape, normal);
-        // Its length is 1 / radius. Squares stay in range for radii in [1e-12, 1e12].
-        object_point = scaled / length(scaled);
+        object_point = sphere_object_point(shape, normal);
     } else {
         const float2 on_disc = sample_disc(u, v);
         object_point = make_float3(on_disc.x, on_disc.y, 0.0f);
     }
-    ShapeLightSample sample;
-    sample.point = shape_point(shape, object_point);
+    ShapeLightSample sample = shape_light_sample(shape, object_point, from);
     sample.pdf_a = shape_light_pdf_a(light, shapes, from, sample.point);
-    sample.uv = FEATURE_emission_textures ? shape_uv(shape, object_point) : make_float2(0.0f, 0.0f);
-    // A shadow ray is the rounded difference of its ends. Over the distance D its end is off by u D
-    // per axis, and the t at which it meets the light is off by a few u. The offset of that end
-    // must exceed both. Otherwise lights would block themselves from 100 radii on.
-    const float3 distance = fabs(from - sample.point.position);
-    const float rounding = 16.0f * HALF_ULP * max(distance.x, max(distance.y, distance.z));
-    sample.point.error += make_float3(rounding, rounding, rounding);
     return sample;
 }

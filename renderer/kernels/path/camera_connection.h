@@ -21,7 +21,7 @@
 /// density per area with which the path arrives: p_d in its measure of `pdf_direction`, times the
 /// cosine, over the squared distance unless the light is at infinity.
 DEVICE float first_inverse_arrival(Path path, PRIVATE const SceneView *scene, SurfaceHit hit) {
-    const LightRecord light = scene->lights[get_light(path)];
+    const LightRecord light = light_at(scene, get_light(path));
     SurfacePoint start;
     start.position = get_ray_origin(path);
     start.normal = get_ray_direction(path);
@@ -122,8 +122,9 @@ DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, Cam
 }
 
 /// Connects the start of a light path to the camera and prepares the shadow ray. Returns false if
-/// the camera does not see it or light paths do not show it. The origin of the shadow ray is that
-/// of the path, so ray_origin is not written.
+/// the camera does not see it or light paths do not show it. Only spheres with a table show another
+/// point than the path starts from. Otherwise the shadow ray has the origin of the path, which is
+/// not written.
 DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, CameraRecord camera,
                                     IntegratorSettings settings, ulong first_sample) {
     const uint index = get_pixel(path);
@@ -134,7 +135,7 @@ DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, C
     if (get_depth(path) > 0u || seen_by_camera_alone) {
         return false;
     }
-    const EmissionSample start = light_path_start(scene, settings, index, sample);
+    const EmissionSample start = seen_light_path_start(scene, settings, index, sample);
     if (start.is_delta != 0u || start.at_infinity != 0u) {
         return false;
     }
@@ -157,6 +158,7 @@ DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, C
         // p_I / p_L = P_1 / (n_L p_o) for k = 1, the inverse of MIS (17).
         radiance *= power_heuristic_of_log(log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
     }
+    set_shadow_origin(path, start.origin);
     set_shadow_vector(path, connection.lens_point - start.origin);
     set_shadow_radiance(path, radiance);
     set_splat_pixel(path, (uint)connection.raster.y * camera.width + (uint)connection.raster.x);

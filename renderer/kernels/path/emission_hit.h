@@ -53,7 +53,7 @@ DEVICE bool surface_emission(Path path, PRIVATE const SceneView *scene, bool by_
     if (hit.emitter == NO_EMITTER || !(dot(hit.point.normal, get_ray_direction(path)) < 0.0f)) {
         return false;
     }
-    const LightRecord light = scene->lights[light_of_hit(scene, primitive, hit.emitter)];
+    const LightRecord light = light_at(scene, light_of_hit(scene, primitive, hit.emitter));
     met->radiance = surface_radiance(scene, light, hit.uv);
     if (by_light_sampling) {
         const float3 from = get_ray_origin(path);
@@ -61,9 +61,10 @@ DEVICE bool surface_emission(Path path, PRIVATE const SceneView *scene, bool by_
                               solid_angle_per_area(hit.point.position - from, hit.point.normal);
     }
     if (FEATURE_light_strategy && by_light_path) {
-        met->line_pdf = get_depth(path) > 0u
-                            ? emission_line_pdf(scene, light, primitive, hit.emitter)
-                            : emission_pdf_a(scene, light, primitive, hit.emitter);
+        met->line_pdf =
+            get_depth(path) > 0u
+                ? emission_line_pdf(scene, light, primitive, hit.emitter, -get_ray_direction(path))
+                : emission_pdf_a(scene, light, primitive, hit.emitter);
     }
     return true;
 }

@@ -16,6 +16,14 @@ DEVICE EmissionSample light_path_start(PRIVATE const SceneView *scene, Integrato
                            path_sample(settings, index, sample, BLOCK_EMISSION(1u)));
 }
 
+/// Returns the start that light path `index` of sample `sample` shows to the camera. No table
+/// guides it: light paths with k = 1 have no direction, and p_o of MIS (17) is uniform by area.
+DEVICE EmissionSample seen_light_path_start(PRIVATE const SceneView *scene,
+                                            IntegratorSettings settings, uint index, ulong sample) {
+    return sample_seen_emission(scene, path_sample(settings, index, sample, BLOCK_EMISSION(0u)),
+                                path_sample(settings, index, sample, BLOCK_EMISSION(1u)));
+}
+
 /// Starts light path `index` of sample `sample` of the batch.
 DEVICE void start_light_path(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
                              ulong first_sample, uint index, uint sample) {
@@ -28,9 +36,9 @@ DEVICE void start_light_path(Path path, PRIVATE const SceneView *scene, Integrat
     set_throughput(path, emission.weight);
     set_roulette_scale(path, max(emission.weight.x, max(emission.weight.y, emission.weight.z)));
     set_light(path, emission.light);
-    // Surfaces emit in proportion to the cosine, so p_d per projected solid angle is 1 / pi there.
+    // Surfaces emit in proportion to the cosine, so p_d per projected solid angle is g / pi there.
     // A delta light cannot be hit by an implicit path.
-    const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : INV_PI;
+    const float p_d = emission.at_infinity != 0u ? emission.pdf_direction : emission.guide * INV_PI;
     const float log_s =
         emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
     set_log_running_ratio(path, log_s);  // begins Q of MIS (15)

@@ -8,14 +8,19 @@
 
 /// Sets the shadow ray of a path and the radiance that it adds unless it is blocked.
 DEVICE void aim_shadow_ray(Path path, float3 origin, float3 target, float3 radiance) {
-    set_ray_origin(path, origin);
+    if (FEATURE_shadow_origin) {
+        set_shadow_origin(path, origin);
+    } else {
+        set_ray_origin(path, origin);
+    }
     set_shadow_vector(path, target - origin);
     set_shadow_radiance(path, radiance);
 }
 
 /// Returns whether the shadow ray of a path is blocked.
 DEVICE bool is_shadowed(Path path, PRIVATE const SceneView *scene) {
-    return is_blocked(scene, get_ray_origin(path), get_shadow_vector(path));
+    const float3 origin = FEATURE_shadow_origin ? get_shadow_origin(path) : get_ray_origin(path);
+    return is_blocked(scene, origin, get_shadow_vector(path));
 }
 
 /// Adds the shadow radiance of a camera path unless its shadow ray is blocked.
