@@ -160,6 +160,19 @@ DEVICE float3 &operator*=(float3 &a, float s) {
     return a = a * s;
 }
 
+DEVICE uint4 operator<<(uint4 a, uint n) {
+    return {a.x << n, a.y << n, a.z << n, a.w << n};
+}
+DEVICE uint4 operator>>(uint4 a, uint n) {
+    return {a.x >> n, a.y >> n, a.z >> n, a.w >> n};
+}
+DEVICE uint4 operator&(uint4 a, uint mask) {
+    return {a.x & mask, a.y & mask, a.z & mask, a.w & mask};
+}
+DEVICE uint4 operator|(uint4 a, uint4 b) {
+    return {a.x | b.x, a.y | b.y, a.z | b.z, a.w | b.w};
+}
+
 DEVICE float dot(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

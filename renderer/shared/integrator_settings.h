@@ -23,6 +23,15 @@
 #define SAMPLER_SOBOL 1u
 #define SAMPLER_REGULAR 2u
 
+// Sobol points: sample i belongs to sequence i % SOBOL_SEQUENCES. The sequences have independent
+// scramblings, so that the scatter of their means shows the error. Each further sequence would cost
+// more of what stratification gains.
+#define SOBOL_SEQUENCES 2u
+// Number of samples after which all sequences are others.
+#define SOBOL_PERIOD (SOBOL_SEQUENCES * 0x100000000ul)
+// Number of events of a path, from its start on, that have Sobol points.
+#define SOBOL_EVENTS 2u
+
 #define UNLIMITED_DEPTH 0xffffffffu
 
 /// The settings of an integrator.

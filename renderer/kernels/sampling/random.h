@@ -29,6 +29,15 @@ DEVICE uint4 random_words(uint seed, uint stream, uint pixel, ulong sample, uint
     return make_uint4(words.v[0], words.v[1], words.v[2], words.v[3]);
 }
 
+/// Returns four uniform words of other numbers, which serve as seeds, at two thirds of the cost of
+/// random_words: seven rounds, the fewest that pass all tests of the authors.
+DEVICE uint4 seed_words(uint seed, uint stream, uint pixel, ulong sequence, uint block) {
+    const philox4x32_ctr_t counter = {{pixel, (uint)sequence, (uint)(sequence >> 32), block}};
+    const philox4x32_key_t key = {{seed, stream}};
+    const philox4x32_ctr_t words = philox4x32_R(7u, counter, key);
+    return make_uint4(words.v[0], words.v[1], words.v[2], words.v[3]);
+}
+
 /// Returns a uniform number in [0, 1). It is a multiple of 2^-24, so rounding never gives 1.
 DEVICE float uniform_float(uint word) {
     return (float)(word >> 8) * 0x1p-24f;

@@ -13,7 +13,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <tuple>
 
 #include "renderer/compile/compile_scene.h"
 #include "renderer/testing/chi_square.h"
@@ -92,17 +94,18 @@ TEST(Circle, PointsAreThoseOfTheirAngles) {
     EXPECT_EQ(std::pair(round.x, round.y), std::pair(1.0f, 0.0f));
 }
 
-// Compares the direction numbers with those computed from the primitive polynomials and initial
-// values in the table of Joe & Kuo (new-joe-kuo-6).
-TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
+/// Returns the direction numbers of the dimensions 1 to 4, computed from the primitive polynomials
+/// and initial values in the table of Joe & Kuo (new-joe-kuo-6).
+std::array<std::array<uint32_t, 32>, 4> direction_numbers() {
     struct Row {
         uint32_t degree, coefficients;
         std::vector<uint64_t> m;
     };
+    std::array<std::array<uint32_t, 32>, 4> numbers{};
     for (uint32_t i = 0; i < 32; ++i) {
-        EXPECT_EQ(plain_sobol_point(1u << i).x, 1u << (31 - i));
+        numbers[0].at(i) = 1u << (31 - i);
     }
-    uint32_t dimension = 0;
+    size_t dimension = 1;
     for (Row row : {Row{1, 0, {1}}, Row{2, 1, {1, 3}}, Row{3, 1, {1, 3, 1}}}) {
         for (uint32_t i = row.degree; i < 32; ++i) {
             uint64_t m = row.m[i - row.degree] ^ (row.m[i - row.degree] << row.degree);
@@ -112,51 +115,86 @@ TEST(Sobol, DirectionNumbersFollowFromTheirPolynomials) {
             row.m.push_back(m);
         }
         for (uint32_t i = 0; i < 32; ++i) {
-            EXPECT_EQ(SOBOL_DIRECTIONS[dimension][i], static_cast<uint32_t>(row.m[i] << (31 - i)));
+            numbers.at(dimension).at(i) = static_cast<uint32_t>(row.m[i] << (31 - i));
         }
         ++dimension;
     }
+    return numbers;
 }
 
-uint4 stratified_words(uint32_t sampler, uint32_t seed, uint32_t pixel, uint64_t sample,
-                       uint32_t block) {
+// The points are by definition the sums modulo 2 of the direction numbers of the index' bits.
+TEST(Sobol, PointsAreSumsOfDirectionNumbers) {
+    const auto numbers = direction_numbers();
+    for (uint32_t i = 0; i < 20'000; ++i) {
+        const uint32_t index = i < 32 ? 1u << i : words(i).x >> (i % 32);
+        std::array<uint32_t, 4> expected{};
+        for (size_t dimension = 0; dimension < 4; ++dimension) {
+            for (uint32_t bit = 0; bit < 32; ++bit) {
+                expected.at(dimension) ^=
+                    (index >> bit & 1u) != 0 ? numbers.at(dimension).at(bit) : 0u;
+            }
+        }
+        const uint4 point = reversed_sobol_point(index);
+        ASSERT_EQ((std::array<uint32_t, 4>{reverse_bits(point.x), reverse_bits(point.y),
+                                           reverse_bits(point.z), reverse_bits(point.w)}),
+                  expected)
+            << index;
+    }
+}
+
+IntegratorSettings settings_of(uint32_t sampler, uint32_t seed) {
     IntegratorSettings settings{};
     settings.seed = seed;
     settings.sampler = sampler;
-    return sample_words(settings, STREAM_CAMERA, pixel, sample, block);
+    return settings;
 }
-uint4 sobol_words(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
+uint4 stratified_words(uint32_t sampler, uint32_t seed, uint32_t pixel, uint64_t sample,
+                       uint32_t block) {
+    return sample_words(settings_of(sampler, seed), STREAM_CAMERA, pixel, sample, block);
+}
+uint4 sobol_sample(uint32_t seed, uint32_t pixel, uint64_t sample, uint32_t block) {
     return stratified_words(SAMPLER_SOBOL, seed, pixel, sample, block);
+}
+
+/// Tests whether 2^`log_count` points lie in different elementary intervals, of every shape in the
+/// first two dimensions, and in each other dimension.
+void expect_stratified(const std::vector<uint4> &points, uint32_t log_count) {
+    const auto count = static_cast<long>(points.size());
+    ASSERT_EQ(count, 1 << log_count);
+    for (uint32_t split = 0; split <= log_count; ++split) {
+        std::vector<int> cells(points.size());
+        for (const uint4 &w : points) {
+            const uint32_t x = split > 0 ? w.x >> (32 - split) : 0;
+            const uint32_t y = split < log_count ? w.y >> (32 - (log_count - split)) : 0;
+            ++cells[(y << split) + x];
+        }
+        EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), count) << "2^" << split << " columns";
+    }
+    std::vector<int> z(points.size()), w(points.size());
+    for (const uint4 &words : points) {
+        ++z[words.z >> (32 - log_count)];
+        ++w[words.w >> (32 - log_count)];
+    }
+    EXPECT_EQ(std::count(z.begin(), z.end(), 1), count);
+    EXPECT_EQ(std::count(w.begin(), w.end(), 1), count);
 }
 
 class Stratified : public testing::TestWithParam<uint32_t> {};
 
-TEST_P(Stratified, EveryRunOfSamplesIs) {
-    // Tests elementary intervals of every shape in the first two dimensions, and each dimension
-    // separately.
+TEST_P(Stratified, EveryRunOfSamplesOfASequenceIs) {
+    const uint64_t sequences = GetParam() == SAMPLER_SOBOL ? SOBOL_SEQUENCES : 1;
     for (const uint32_t log_count : {4u, 8u}) {
         const uint32_t count = 1u << log_count;
         for (const uint64_t first :
              {uint64_t{0}, uint64_t{3} * count, (uint64_t{1} << 32) + count}) {
-            for (uint32_t split = 0; split <= log_count; ++split) {
-                std::vector<int> cells(count);
+            for (uint64_t sequence = 0; sequence < sequences; ++sequence) {
+                std::vector<uint4> points;
                 for (uint32_t i = 0; i < count; ++i) {
-                    const uint4 w = stratified_words(GetParam(), 5, 77, first + i, 3);
-                    const uint32_t x = split > 0 ? w.x >> (32 - split) : 0;
-                    const uint32_t y = split < log_count ? w.y >> (32 - (log_count - split)) : 0;
-                    ++cells[(y << split) + x];
+                    points.push_back(
+                        stratified_words(GetParam(), 5, 77, (first + i) * sequences + sequence, 3));
                 }
-                EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), count)
-                    << "2^" << split << " columns";
+                expect_stratified(points, log_count);
             }
-            std::vector<int> z(count), w(count);
-            for (uint32_t i = 0; i < count; ++i) {
-                const uint4 words = stratified_words(GetParam(), 5, 77, first + i, 3);
-                ++z[words.z >> (32 - log_count)];
-                ++w[words.w >> (32 - log_count)];
-            }
-            EXPECT_EQ(std::count(z.begin(), z.end(), 1), count);
-            EXPECT_EQ(std::count(w.begin(), w.end(), 1), count);
         }
     }
 }
@@ -188,8 +226,59 @@ TEST(Regular, BeginsInTheCentreAndIsTheSameEverywhere) {
               level);
 }
 
-TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
-    // Pairs of the same sample in different pixels, blocks and seeds must be uniform.
+// Light paths of a sample, and of the next samples of its sequence, are one run of points.
+TEST(Sobol, AllLightPathsOfASequenceAreStratified) {
+    constexpr uint32_t paths = 16;
+    const IntegratorSettings settings = settings_of(SAMPLER_SOBOL, 5);
+    for (uint64_t sequence = 0; sequence < SOBOL_SEQUENCES; ++sequence) {
+        for (const uint32_t block : {BLOCK_EMISSION(0u), BLOCK_EMISSION(1u), BLOCK_LIGHT(0u)}) {
+            std::vector<uint4> points;
+            for (uint64_t sample = 0; sample < 4; ++sample) {
+                for (uint32_t path = 0; path < paths; ++path) {
+                    points.push_back(words_of_path(settings, STREAM_LIGHT_PATHS, 0,
+                                                   sample * SOBOL_SEQUENCES + sequence, paths, path,
+                                                   block));
+                }
+            }
+            expect_stratified(points, 6);
+        }
+    }
+}
+
+TEST(Sobol, LaterEventsAreIndependent) {
+    const auto is_independent = [](uint32_t block) {
+        const uint4 here = sobol_sample(1, 2, 3, block), plain = random_words(1, 0, 2, 3, block);
+        return std::tie(here.x, here.y, here.z, here.w) ==
+               std::tie(plain.x, plain.y, plain.z, plain.w);
+    };
+    for (const uint32_t block : {BLOCK_CAMERA, BLOCK_LIGHT(0u), BLOCK_LIGHT(SOBOL_EVENTS - 1u),
+                                 BLOCK_SCATTER(SOBOL_EVENTS - 1u), BLOCK_EMISSION(0u)}) {
+        EXPECT_FALSE(is_independent(block)) << block;
+    }
+    EXPECT_TRUE(is_independent(BLOCK_LIGHT(SOBOL_EVENTS)));
+    EXPECT_TRUE(is_independent(BLOCK_SCATTER(SOBOL_EVENTS + 7u)));
+}
+
+// One sample of each of many pixels must be uniform in all four dimensions together, although the
+// order of points follows from the seeds of the dimensions.
+TEST(Sobol, PointsOfDifferentPixelsAreUniform) {
+    constexpr uint32_t bins = 16, pixels = 4'000'000;
+    for (const uint64_t sample : {uint64_t{0}, uint64_t{5}, uint64_t{1'000'003}}) {
+        std::vector<uint64_t> observed(bins * bins * bins * bins);
+        for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
+            const uint4 w = sobol_sample(3, pixel, sample, 1);
+            ++observed[((w.x >> 28) * bins + (w.y >> 28)) * bins * bins + (w.z >> 28) * bins +
+                       (w.w >> 28)];
+        }
+        const auto cells = static_cast<double>(observed.size());
+        EXPECT_GT(chi_square_p(observed, std::vector<double>(observed.size(), pixels / cells)),
+                  level / 3);
+    }
+}
+
+TEST(Sobol, PixelsBlocksSequencesAndSeedsAreIndependent) {
+    // Pairs of the same sample in different pixels, blocks and seeds, and of the same point of
+    // different sequences, must be uniform.
     constexpr int bins = 32;
     constexpr uint32_t pairs = 200'000;
     const auto uniform = [&](const std::function<std::pair<uint32_t, uint32_t>(uint32_t)> &pair) {
@@ -203,21 +292,25 @@ TEST(Sobol, PixelsBlocksAndSeedsAreIndependent) {
                             std::vector<double>(bins * bins, pairs / double(bins * bins)));
     };
     EXPECT_GT(uniform([](uint32_t i) {
-                  return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i + 1, 6, 0).x);
+                  return std::pair(sobol_sample(1, i, 6, 0).x, sobol_sample(1, i + 1, 6, 0).x);
               }),
-              level / 4);
+              level / 5);
     EXPECT_GT(uniform([](uint32_t i) {
-                  return std::pair(sobol_words(1, i, 6, 0).x, sobol_words(1, i, 6, 2).x);
+                  return std::pair(sobol_sample(1, i, 6, 0).x, sobol_sample(1, i, 6, 2).x);
               }),
-              level / 4);
+              level / 5);
     EXPECT_GT(uniform([](uint32_t i) {
-                  return std::pair(sobol_words(1, i, 6, 0).y, sobol_words(2, i, 6, 0).y);
+                  return std::pair(sobol_sample(1, i, 6, 0).y, sobol_sample(2, i, 6, 0).y);
               }),
-              level / 4);
+              level / 5);
     EXPECT_GT(uniform([](uint32_t i) {
-                  return std::pair(sobol_words(1, i, 6, 0).z, sobol_words(1, i, 6, 0).w);
+                  return std::pair(sobol_sample(1, i, 6, 0).z, sobol_sample(1, i, 6, 0).w);
               }),
-              level / 4);
+              level / 5);
+    EXPECT_GT(uniform([](uint32_t i) {
+                  return std::pair(sobol_sample(1, i, 4, 0).x, sobol_sample(1, i, 5, 0).x);
+              }),
+              level / 5);
 }
 
 TEST(Frame, IsOrthonormalInAllDirections) {
