@@ -62,12 +62,13 @@ enum class StageItems {
       In::streams)                                                                                 \
     X(connect_vertices, "kernels/connect_vertices.cl", entries, In::shading, In::settings,         \
       In::vertex_index, In::vertices, In::streams)                                                 \
-    X(splat_unblocked, "kernels/splat_unblocked.cl", entries, In::tracing, In::film, In::streams)  \
+    X(splat_unblocked, "kernels/splat_unblocked.cl", entries, In::tracing, In::film,               \
+      In::first_sample, In::streams)                                                               \
     X(extend_path, "kernels/extend_path.cl", entries, In::shading, In::film, In::half_film,        \
       In::settings, In::first_sample, In::streams)                                                 \
     X(follow_branches, "kernels/follow_branches.cl", entries, In::shading, In::film, In::settings, \
-      In::branches, In::streams)                                                                   \
-    X(retire_paths, "kernels/retire_paths.cl", entries, In::film, In::streams)                     \
+      In::first_sample, In::branches, In::streams)                                                 \
+    X(retire_paths, "kernels/retire_paths.cl", entries, In::film, In::first_sample, In::streams)   \
     X(trace_paths, "kernels/trace_paths.cl", paths, In::scene, In::camera, In::film,               \
       In::half_film, In::settings, In::first_sample, In::first_work, In::work, In::live_pixels,    \
       In::counters)                                                                                \

@@ -25,12 +25,10 @@ namespace {
 /// A film of some pixels, and the half film of the samples with even indices.
 struct Films {
     explicit Films(size_t pixels)
-        : film(pixels * FILM_PIXEL_WORDS(1)),
-          half(pixels * HALF_FILM_PIXEL_WORDS),
-          counts(pixels) {}
+        : film(pixels * PIXEL_WORDS), half(pixels * HALF_FILM_PIXEL_WORDS), counts(pixels) {}
 
     void add(size_t pixel, float3 sample) {
-        EXPECT_EQ(film_add_sample(film.data() + pixel * FILM_PIXEL_WORDS(1), sample), 0u);
+        EXPECT_EQ(film_add_sample(film.data() + pixel * PIXEL_WORDS, sample), 0u);
         EXPECT_EQ(half_film_add_sample(half.data(), pixel, counts[pixel]++, sample), 0u);
     }
 
@@ -38,7 +36,8 @@ struct Films {
     static void carry(std::vector<int64_t> &words, uint32_t stride) {
         for (size_t pixel = 0; pixel < words.size(); pixel += FILM_WORDS * stride) {
             for (uint32_t sum = 0; sum < stride; ++sum) {
-                film_carry_sum(words.data() + pixel, stride, sum);
+                film_carry_sum(words.data() + pixel, stride, sum,
+                               film_step(sum, stride > FILM_CHANNELS));
             }
         }
     }
@@ -47,8 +46,8 @@ struct Films {
         carry(film, PIXEL_SUMS);
         carry(half, HALF_FILM_SUMS);
         return has_converged(
-            film_colour_sum(film.data() + pixel * FILM_PIXEL_WORDS(1), PIXEL_SUMS),
-            film_colour_sum(half.data() + pixel * HALF_FILM_PIXEL_WORDS, HALF_FILM_SUMS), error);
+            film_colour_sum(film.data() + pixel * PIXEL_WORDS, PIXEL_SUMS, 1),
+            film_colour_sum(half.data() + pixel * HALF_FILM_PIXEL_WORDS, HALF_FILM_SUMS, 1), error);
     }
 
     std::vector<int64_t> film, half;
@@ -169,7 +168,10 @@ DeviceContext &device() {
 }
 
 ConvergenceControl control(uint32_t pixels, uint32_t group_size, float error = 0.05f) {
-    const FeatureMask features = FeatureMask::all().with(Feature::from_light, false).closed();
+    const FeatureMask features = FeatureMask::all()
+                                     .with(Feature::from_light, false)
+                                     .with(Feature::sequences, false)
+                                     .closed();
     return {device(), {error, 2, 2}, pixels, features, group_size, {}};
 }
 

@@ -61,8 +61,9 @@ FilmState render(const RenderSettings &settings, const std::vector<SampleRange> 
 }
 
 std::vector<int64_t> pixel_words(const FilmState &film, size_t pixel) {
-    const auto first = film.words.begin() + static_cast<long>(pixel * FILM_PIXEL_WORDS(true));
-    return {first, first + FILM_PIXEL_WORDS(true)};
+    const auto first =
+        film.words.begin() + static_cast<long>(pixel * FILM_PIXEL_WORDS(true, false));
+    return {first, first + FILM_PIXEL_WORDS(true, false)};
 }
 
 void expect_same(const FilmState &a, const FilmState &b, const std::string &what) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -17,11 +18,11 @@ namespace rtrays {
 
 namespace {
 
-constexpr int state_version = 3;
+constexpr int state_version = 4;
 const std::string magic = "RTRaysFilm";
 
 size_t pixel_words(const FilmState &film) {
-    return FILM_PIXEL_WORDS(film.variance);
+    return FILM_PIXEL_WORDS(film.variance, film.sequences);
 }
 
 /// Returns the number of words of one pass.
@@ -56,23 +57,80 @@ struct Means {
     std::vector<double> mean, variance;
 };
 
-/// Returns the means of one channel of a pass. The variances are 0 if the film has no squares.
+/// Returns the total of the sums of a channel, whose carries have been propagated. The total is
+/// exact before it is rounded.
+double total_value(const int64_t *words, size_t stride, size_t groups) {
+    std::array<int64_t, FILM_WORDS> total{};
+    for (size_t word = 0; word < FILM_WORDS; ++word) {
+        for (size_t group = 0; group < groups; ++group) {
+            total.at(word) += words[word * stride + group * FILM_CHANNELS];
+        }
+    }
+    film_carry_sum(total.data(), 1, 0, FILM_SUM_STEP);
+    return sum_value(total.data(), 1, FILM_SUM_LOWEST, FILM_SUM_STEP);
+}
+
+/// Numbers of samples of the Sobol sequences.
+using SequenceCounts = std::array<uint64_t, SOBOL_SEQUENCES>;
+
+/// Returns the numbers for the first `samples` samples of a film.
+SequenceCounts sequence_counts(const FilmState &film, uint64_t samples) {
+    SequenceCounts counts{};
+    for (const SampleRange &range : film.ranges) {
+        const uint64_t end = std::min(range.end, range.begin + samples);
+        for (uint64_t sequence = 0; sequence < SOBOL_SEQUENCES; ++sequence) {
+            const auto before = [&](uint64_t sample) {
+                return (sample + SOBOL_SEQUENCES - 1 - sequence) / SOBOL_SEQUENCES;
+            };
+            counts.at(sequence) += before(end) - before(range.begin);
+        }
+        samples -= end - range.begin;
+    }
+    return counts;
+}
+
+/// Returns the variance of the mean of one channel, from the scatter of the means of the Sobol
+/// sequences. A sequence with more samples than another has more weight, as if its samples were
+/// independent.
+double scatter_of_sequences(const int64_t *words, const SequenceCounts &counts, double mean) {
+    double squares = 0, used = 0, samples = 0;
+    for (size_t sequence = 0; sequence < SOBOL_SEQUENCES; ++sequence) {
+        if (counts.at(sequence) == 0) {
+            continue;
+        }
+        const auto n = static_cast<double>(counts.at(sequence));
+        const double own = sum_value(words + sequence * FILM_CHANNELS, FILM_PIXEL_SUMS(true, true),
+                                     FILM_SUM_LOWEST, FILM_SUM_STEP) /
+                           n;
+        squares += n * (own - mean) * (own - mean);
+        samples += n;
+        ++used;
+    }
+    return used > 1 ? squares / (used - 1) / samples : 0;
+}
+
+/// Returns the means of one channel of a pass. The variances are 0 if the film does not know them.
 Means pass_means(const FilmState &film, size_t pass, size_t channel) {
     // A sample of a camera pass is one path per pixel. A sample of a light pass is the sum over
     // `light_paths` paths.
     const bool splats = film.passes[pass] == PassKind::light;
     const double paths = splats ? static_cast<double>(film.light_paths) : 1.0;
     const bool stops = !splats && film.convergence;
-    const size_t sums = FILM_PIXEL_SUMS(film.variance);
+    const size_t sums = FILM_PIXEL_SUMS(film.variance, film.sequences);
     const int64_t *const first = film.words.data() + pass * word_count(film) + channel;
     Means means(word_count(film) / pixel_words(film));
+    SequenceCounts counts = sequence_counts(film, film.samples());
     for (size_t pixel = 0; pixel < means.mean.size(); ++pixel) {
         const int64_t *words = first + pixel * pixel_words(film);
-        const auto n = static_cast<double>(
-            stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples());
-        const double own = sum_value(words, sums, FILM_SUM_LOWEST, FILM_SUM_STEP) / n;
+        const uint64_t samples =
+            stops ? film.convergence->samples_of(pixel, film.samples()) : film.samples();
+        const auto n = static_cast<double>(samples);
+        const double own = total_value(words, sums, FILM_GROUPS(film.sequences)) / n;
         means.mean[pixel] = own;
-        if (film.variance && n * paths > 1) {
+        if (film.sequences) {
+            counts = stops ? sequence_counts(film, samples) : counts;
+            means.variance[pixel] = scatter_of_sequences(words, counts, own);
+        } else if (film.variance && n * paths > 1) {
             // Each square is rounded by up to 2^-21. If all samples are equal, the difference may
             // fall below zero by that fraction of the mean's square, and 0 is the nearest variance.
             const double square =
@@ -99,6 +157,7 @@ FilmState film_of_header(const Json &header, const Fail &fail) {
     film.width = header.at("width");
     film.height = header.at("height");
     film.variance = header.at("variance");
+    film.sequences = header.at("sequences");
     film.seed = header.at("seed");
     film.config = header.at("config");
     film.device_seconds = header.at("device_seconds");
@@ -220,7 +279,7 @@ void merge_film(FilmState &film, const FilmState &other) {
         }
     };
     require(film.width == other.width && film.height == other.height, "size");
-    require(film.variance == other.variance, "layers");
+    require(film.variance == other.variance && film.sequences == other.sequences, "layers");
     require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1),
             "passes");
     require(film.seed == other.seed, "seed");
@@ -256,10 +315,11 @@ void merge_film(FilmState &film, const FilmState &other) {
     for (size_t i = 0; i < merged.words.size(); ++i) {
         merged.words[i] += other.words[i];
     }
-    const uint32_t sums = FILM_PIXEL_SUMS(merged.variance);
+    const uint32_t sums = FILM_PIXEL_SUMS(merged.variance, merged.sequences);
+    const bool squares = merged.variance && !merged.sequences;
     for (size_t pixel = 0; pixel < merged.words.size(); pixel += pixel_words(merged)) {
         for (uint32_t sum = 0; sum < sums; ++sum) {
-            film_carry_sum(merged.words.data() + pixel, sums, sum);
+            film_carry_sum(merged.words.data() + pixel, sums, sum, film_step(sum, squares));
         }
     }
     film = std::move(merged);
@@ -270,6 +330,7 @@ void save_film(const FilmState &film, const std::filesystem::path &path) {
                    {"width", film.width},
                    {"height", film.height},
                    {"variance", film.variance},
+                   {"sequences", film.sequences},
                    {"seed", film.seed},
                    {"config", film.config},
                    {"ranges", Json::array()},

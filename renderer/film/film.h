@@ -29,7 +29,9 @@ struct SampleRange {
 struct FilmState {
     int width = 0;
     int height = 0;
-    bool variance = true;  ///< whether sums of squares are stored
+    bool variance = true;  ///< whether the variances of the means can be developed
+    /// Whether they follow from sums of each Sobol sequence, instead of sums of squares.
+    bool sequences = false;
     /// Rendered passes, whose images add up.
     std::vector<PassKind> passes = {PassKind::camera};
     /// Light paths per sample of the image, 0 without a light pass.
@@ -63,10 +65,15 @@ struct FilmState {
 /// film's range, if there are any.
 void require_valid(const FilmState &film);
 
-/// Returns an image with these channels: R, G, B; variance.R, .G, .B (variance of the mean, from
-/// the squares); samples (camera paths of each pixel); and the images of the passes (camera.R, ...,
+/// Returns an image with these channels: R, G, B; variance.R, .G, .B (estimates of the variance of
+/// the mean); samples (camera paths of each pixel); and the images of the passes (camera.R, ...,
 /// light.R, ...) if there are several. Means are computed in double from the exact integers, so
 /// that their relative error is that of the rounding to float.
+///
+/// The variances are unbiased estimates for both samplers, and 0 from a single sample. For
+/// independent samples they follow from the squares. For Sobol points they follow from the means of
+/// the sequences, which are independent and few: a variance has SOBOL_SEQUENCES - 1 degrees of
+/// freedom in each pass, so it is precise only as an average over pixels.
 ///
 /// A light path adds to many pixels. The variances of a light pass are those of single pixels;
 /// neighbouring pixels are correlated.

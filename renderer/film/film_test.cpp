@@ -24,7 +24,7 @@
 namespace rtrays {
 namespace {
 
-constexpr size_t pixel_words = FILM_PIXEL_WORDS(true);
+constexpr size_t pixel_words = FILM_PIXEL_WORDS(true, false);
 
 FilmState empty_film() {
     FilmState film;
@@ -37,7 +37,7 @@ FilmState empty_film() {
 
 void carry_pixel(std::vector<int64_t> &words) {
     for (uint32_t sum = 0; sum < PIXEL_SUMS; ++sum) {
-        film_carry_sum(words.data(), PIXEL_SUMS, sum);
+        film_carry_sum(words.data(), PIXEL_SUMS, sum, film_step(sum, HOLDS_SQUARES));
     }
 }
 
@@ -163,6 +163,56 @@ TEST(Film, VarianceOfTheMean) {
     EXPECT_EQ(develop_film(film_of(std::vector<float>(100, 0.25f))).channel("variance.R")[0], 0.0f);
 }
 
+/// Returns a film of Sobol sequences: `samples` are those of `ranges`, in order.
+FilmState film_of_sequences(const std::vector<float> &samples,
+                            const std::vector<SampleRange> &ranges) {
+    FilmState film = empty_film();
+    film.sequences = true;
+    film.words.assign(FILM_PIXEL_WORDS(true, true), 0);
+    constexpr uint32_t sums = FILM_PIXEL_SUMS(true, true);
+    size_t next = 0;
+    for (const SampleRange &range : ranges) {
+        film.add_range(range);
+        for (uint64_t i = range.begin; i < range.end; ++i) {
+            const float x = samples.at(next++);
+            film_add_colour(film.words.data() + i % SOBOL_SEQUENCES * FILM_CHANNELS, sums,
+                            make_float3(x, -x, 0.5f * x));
+        }
+    }
+    for (uint32_t sum = 0; sum < sums; ++sum) {
+        film_carry_sum(film.words.data(), sums, sum, FILM_SUM_STEP);
+    }
+    return film;
+}
+
+// The means of the sequences, not the samples, are independent.
+TEST(Film, VarianceOfSequencesIsTheScatterOfTheirMeans) {
+    ASSERT_EQ(SOBOL_SEQUENCES, 2u);
+    const Image even = develop_film(film_of_sequences({1, 2, 3, 6, 3, 4, 5, 8}, {{4, 12}}));
+    EXPECT_EQ(even.channel("R")[0], 4.0f);
+    EXPECT_EQ(even.channel("variance.R")[0], 1.0f) << "means 3 and 5";
+    EXPECT_EQ(even.channel("variance.B")[0], 0.25f);
+    // Sample 3 is of sequence 1, samples 4 and 8 are of sequence 0.
+    const Image uneven = develop_film(film_of_sequences({9, 1, 2}, {{3, 5}, {8, 9}}));
+    EXPECT_EQ(uneven.channel("R")[0], 4.0f);
+    EXPECT_EQ(uneven.channel("variance.R")[0], (25 + 2 * 2.5f * 2.5f) / 1 / 3) << "means 9, 1.5";
+    EXPECT_EQ(develop_film(film_of_sequences({7}, {{2, 3}})).channel("variance.R")[0], 0.0f);
+}
+
+TEST(Film, SequencesDoNotChangeTheMean) {
+    const std::vector<float> samples = heavy_tailed(1000, 6);
+    const Image sequences = develop_film(film_of_sequences(samples, {{0, 1000}}));
+    const Image squares = develop_film(film_of(samples));
+    for (const std::string &name : rgb_names()) {
+        EXPECT_EQ(sequences.channel(name)[0], squares.channel(name)[0]);
+    }
+    FilmState parts = film_of_sequences({samples.begin(), samples.begin() + 333}, {{0, 333}});
+    merge_film(parts, film_of_sequences({samples.begin() + 333, samples.end()}, {{333, 1000}}));
+    EXPECT_EQ(parts.words, film_of_sequences(samples, {{0, 1000}}).words);
+    FilmState other = film_of(samples);
+    expect_input_error("films differ in layers", [&] { merge_film(other, parts); });
+}
+
 TEST(Film, MergesExactlyInAnyOrder) {
     std::mt19937 generator(4);
     std::uniform_real_distribution<float> uniform(0.0f, 3.0f);
@@ -208,6 +258,9 @@ TEST(Film, SavesAndLoadsEveryBitAndNoticesDamage) {
     const auto path =
         std::filesystem::temp_directory_path() / ("rtrays_film_" + std::to_string(getpid()));
     FilmState film = film_of({0.5f, 1e-30f, 1e10f});
+    save_film(film_of_sequences({0.5f, 1e-30f, 1e10f}, {{0, 3}}), path);
+    EXPECT_TRUE(load_film(path).sequences);
+    EXPECT_EQ(load_film(path).words, film_of_sequences({0.5f, 1e-30f, 1e10f}, {{0, 3}}).words);
     film.ranges = {{0, 1}, {7, 9}};
     film.device_seconds = 1.5;
     film.wall_seconds = 0.1;
@@ -255,7 +308,9 @@ __kernel void test(__global const float *samples, __global long *film, uint coun
             continue;
         }
         const Program program(device, "kernels/test.cl",
-                              {{"FEATURE_variance", "1"}, {"FEATURE_int64_atomics", atomics}},
+                              {{"FEATURE_variance", "1"},
+                               {"FEATURE_sequences", "0"},
+                               {"FEATURE_int64_atomics", atomics}},
                               source);
         Kernel kernel(program, "test", 64);
         const Buffer<float> input(device, "samples", samples);

@@ -14,5 +14,6 @@ __kernel void carry_film(GLOBAL long *film, uint sums) {
         return;
     }
     const ulong pixel = i / PIXEL_SUMS;
-    film_carry_sum(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), PIXEL_SUMS, i % PIXEL_SUMS);
+    const uint sum = i % PIXEL_SUMS;
+    film_carry_sum(film + pixel * PIXEL_WORDS, PIXEL_SUMS, sum, film_step(sum, HOLDS_SQUARES));
 }

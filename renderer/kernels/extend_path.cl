@@ -21,7 +21,7 @@ __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL lo
                           IntegratorSettings settings, ulong first_sample, STREAM_PARAMETERS) {
     const SceneView scene = SHADING_VIEW;
     const Stream stream = STREAM_VIEW;
-    const FilmView film = {film_words, counters};
+    const FilmView film = {film_words, counters, first_sample};
     PushBuffer continued, ended;
     continued.count = 0u;
     ended.count = 0u;
@@ -36,7 +36,7 @@ __kernel void extend_path(SHADING_PARAMETERS, GLOBAL long *film_words, GLOBAL lo
     }
     // The first loop has prefetched the film words of these paths.
     for (uint i = 0u; i < ended.count; ++i) {
-        retire_path(path_in(stream, ended.slots[i]), film, half_film_words, first_sample);
+        retire_path(path_in(stream, ended.slots[i]), film, half_film_words);
     }
     append_continued(stream, &continued);
     append_free(stream, &ended);

@@ -3,9 +3,9 @@
 // last vertex that has components left.
 //
 // STAGE(follow_branches,
-//       reads(active, hit, pixel, depth, ray_direction, throughput, radiance, pending, branches),
-//       writes(depth, ray_origin, ray_direction, throughput, pdf_w, pending, branches, film),
-//       to(next, free))
+//       reads(active, hit, pixel, sample, depth, ray_direction, throughput, radiance, pending,
+//       branches), writes(depth, ray_origin, ray_direction, throughput, pdf_w, pending, branches,
+//       film), to(next, free))
 
 #include "renderer/kernels/path/branches.h"
 #include "renderer/kernels/path/path_at.h"
@@ -13,11 +13,11 @@
 #include "renderer/kernels/stream.h"
 
 __kernel void follow_branches(SHADING_PARAMETERS, GLOBAL long *film_words,
-                              IntegratorSettings settings, GLOBAL uint *branch_words,
-                              STREAM_PARAMETERS) {
+                              IntegratorSettings settings, ulong first_sample,
+                              GLOBAL uint *branch_words, STREAM_PARAMETERS) {
     const SceneView scene = SHADING_VIEW;
     const Stream stream = STREAM_VIEW;
-    const FilmView film = {film_words, counters};
+    const FilmView film = {film_words, counters, first_sample};
     PushBuffer continued, ended;
     continued.count = 0u;
     ended.count = 0u;

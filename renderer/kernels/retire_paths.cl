@@ -2,7 +2,7 @@
 // Stage retire_paths: ends all active paths and adds them to the film.
 //
 // STAGE(retire_paths,
-//       reads(active, pixel, radiance),
+//       reads(active, pixel, sample, radiance),
 //       writes(film),
 //       to(free))
 
@@ -10,9 +10,9 @@
 #include "renderer/kernels/path/retire.h"
 #include "renderer/kernels/stream.h"
 
-__kernel void retire_paths(GLOBAL long *film_words, STREAM_PARAMETERS) {
+__kernel void retire_paths(GLOBAL long *film_words, ulong first_sample, STREAM_PARAMETERS) {
     const Stream stream = STREAM_VIEW;
-    const FilmView film = {film_words, counters};
+    const FilmView film = {film_words, counters, first_sample};
     PushBuffer ended;
     ended.count = 0u;
     FOR_EACH_ENTRY(i, active_count(stream)) {

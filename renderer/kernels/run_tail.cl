@@ -55,7 +55,7 @@ __kernel void run_tail(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *film_
                        ulong first_sample, STREAM_PARAMETERS) {
     const SceneView scene = SCENE_VIEW;
     const Stream stream = STREAM_VIEW;
-    const FilmView film = {film_words, counters};
+    const FilmView film = {film_words, counters, first_sample};
     uint words[PATH_STATE_WORDS];
     const Path path = {words, 1u, 0u};
     RayCounts rays = {0u, 0u};
@@ -67,7 +67,7 @@ __kernel void run_tail(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *film_
             store_path(stream, path, slot);
             continue_path(stream, slot);
         } else {
-            retire_path(path, film, half_film_words, first_sample);
+            retire_path(path, film, half_film_words);
         }
         count_rays(counters, rays);
     }

@@ -20,11 +20,11 @@ __kernel void stop_converged(GLOBAL const long *film, GLOBAL long *half_film,
     const ulong pixel = live_pixels[i];
     GLOBAL long *half_words = half_film + pixel * HALF_FILM_PIXEL_WORDS;
     for (uint sum = 0; sum < HALF_FILM_SUMS; ++sum) {
-        film_carry_sum(half_words, HALF_FILM_SUMS, sum);
+        film_carry_sum(half_words, HALF_FILM_SUMS, sum, FILM_SUM_STEP);
     }
     const float3 all =
-        film_colour_sum(film + pixel * FILM_PIXEL_WORDS(FEATURE_variance), PIXEL_SUMS);
-    if (has_converged(all, film_colour_sum(half_words, HALF_FILM_SUMS), error)) {
+        film_colour_sum(film + pixel * PIXEL_WORDS, PIXEL_SUMS, FILM_GROUPS(FEATURE_sequences));
+    if (has_converged(all, film_colour_sum(half_words, HALF_FILM_SUMS, 1u), error)) {
         stopped_at[pixel] = samples;
     }
 }

@@ -23,7 +23,7 @@ __kernel void trace_paths(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *fi
                           GLOBAL const uint *live_pixels, uint live_count,
                           GLOBAL StreamCounters *counters) {
     const SceneView scene = SCENE_VIEW;
-    const FilmView film = {film_words, counters};
+    const FilmView film = {film_words, counters, first_sample};
     const LivePixels live = make_live_pixels(live_pixels, live_count, camera.width * camera.height);
     uint words[PATH_STATE_WORDS];
     const Path path = {words, 1u, 0u};
@@ -32,7 +32,7 @@ __kernel void trace_paths(SCENE_PARAMETERS, CameraRecord camera, GLOBAL long *fi
         start_camera_item(path, camera, settings, first_sample, live, first_work + i, work);
         while (advance_path(path, &scene, camera, film, settings, first_sample, &rays)) {
         }
-        retire_path(path, film, half_film_words, first_sample);
+        retire_path(path, film, half_film_words);
     }
     count_rays(counters, rays);
 }

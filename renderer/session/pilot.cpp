@@ -20,13 +20,15 @@ constexpr double most_per_pixel = 256;
 /// than they gain.
 constexpr double worth_going_on = 0.9;
 
-/// Renders one setting, sample by sample, and estimates its variance from the scatter of the
-/// samples. Adds the times to those of `pilot`.
+/// Renders one setting, sample by sample, and estimates its variance from the scatter of
+/// independent parts: of the samples, or of the sums of each Sobol sequence. Adds the times to
+/// those of `pilot`.
 PilotTrial attempt(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
                    const RenderSettings &settings, Pilot &pilot) {
     RenderSession session(shared, scene, settings);
     PilotTrial trial;
-    std::vector<double> sums, squares;
+    const uint64_t parts = settings.sampler == Sampler::sobol ? SOBOL_SEQUENCES : pilot_samples;
+    std::vector<std::vector<double>> sums(parts);
     for (uint64_t sample = 0; sample < pilot_samples; ++sample) {
         session.restart(settings.seed);
         session.render(sample, sample + 1);
@@ -34,22 +36,28 @@ PilotTrial attempt(const std::shared_ptr<DeviceScene> &shared, const Scene &scen
         pilot.seconds += session.stats().device_seconds;
         pilot.wall_seconds += session.stats().wall_seconds;
         const Image image = session.develop();
-        sums.resize(3 * image.pixel_count());
-        squares.resize(sums.size());
+        std::vector<double> &part = sums[sample % parts];
+        part.resize(3 * image.pixel_count());
         size_t i = 0;
         for (const std::string &name : rgb_names()) {
             for (const float value : image.channel(name)) {
-                sums[i] += static_cast<double>(value);
-                squares[i++] += static_cast<double>(value) * static_cast<double>(value);
+                part[i++] += static_cast<double>(value);
             }
         }
     }
-    const auto n = static_cast<double>(pilot_samples);
-    for (size_t i = 0; i < sums.size(); ++i) {
-        trial.variance += std::max(squares[i] - sums[i] * sums[i] / n, 0.0) / (n - 1);
+    const auto n = static_cast<double>(parts);
+    const size_t values = sums.front().size();
+    for (size_t i = 0; i < values; ++i) {
+        double sum = 0, squares = 0;
+        for (const std::vector<double> &part : sums) {
+            sum += part[i];
+            squares += part[i] * part[i];
+        }
+        trial.variance += std::max(squares - sum * sum / n, 0.0) / (n - 1);
     }
-    trial.variance /= static_cast<double>(sums.size());
-    trial.rays /= n * static_cast<double>(sums.size()) / 3;
+    // The variance of a part's sum, per sample.
+    trial.variance /= static_cast<double>(values) * (static_cast<double>(pilot_samples) / n);
+    trial.rays /= static_cast<double>(pilot_samples) * static_cast<double>(values) / 3;
     return trial;
 }
 

@@ -22,7 +22,7 @@ class DeviceScene;
 /// One number of light paths that the pilot rendered, and its cost.
 struct PilotTrial {
     double per_pixel = 0;  ///< light paths per pixel
-    double variance = 0;   ///< variance of one sample, mean over pixels and channels
+    double variance = 0;   ///< variance per sample, mean over pixels and channels
     double rays = 0;       ///< closest-hit and shadow rays of one sample, per pixel
 };
 
@@ -41,8 +41,10 @@ struct Pilot {
 /// of at most 128 x 128 pixels.
 ///
 /// The cost is variance times number of rays. Both are the same in every run on one device, and so
-/// is the choice. The pilot uses its own seed; its samples are discarded. All trials share their
-/// camera paths, so that rare bright camera paths weigh equally in all of them.
+/// is the choice. The variance of Sobol points is that of the means of their sequences, with 8
+/// samples each, so it includes what stratification gains. The pilot uses its own seed; its samples
+/// are discarded. All trials share their camera paths, so that rare bright camera paths weigh
+/// equally in all of them.
 Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
                          const RenderSettings &settings);
 

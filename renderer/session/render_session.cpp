@@ -46,6 +46,10 @@ uint64_t RenderSession::render(uint64_t begin, uint64_t end,
     return begin;
 }
 
+const RenderSettings &RenderSession::settings() const {
+    return state_->settings;
+}
+
 bool RenderSession::is_complete() const {
     return state_->live_paths_per_sample() == 0;
 }
@@ -104,7 +108,7 @@ void RenderSession::restore(const FilmState &film) {
     const FilmState header = state_->film_header();
     if (film.config != header.config || film.seed != header.seed || film.width != header.width ||
         film.height != header.height || film.variance != header.variance ||
-        film.passes != header.passes ||
+        film.sequences != header.sequences || film.passes != header.passes ||
         film.convergence.has_value() != (state_->convergence != nullptr)) {
         throw input_error(
             "the film state belongs to another scene, other settings, another seed or size; "
@@ -165,6 +169,9 @@ void describe_image(Image &image, const FilmState &film) {
     attributes["rtrays:seed"] = std::to_string(film.seed);
     attributes["rtrays:samples"] = ranges;
     attributes["rtrays:config"] = film.config;
+    if (film.sequences) {
+        attributes["rtrays:varianceFreedom"] = static_cast<int>(SOBOL_SEQUENCES) - 1;
+    }
     if (film.convergence) {
         attributes["rtrays:convergence"] = film.convergence->rule.describe();
     }

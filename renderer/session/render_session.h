@@ -98,6 +98,9 @@ class RenderSession {
     /// Returns the film so far.
     FilmState film() const;
 
+    /// Returns the settings, with the choices that algorithm, scene and pilot made.
+    const RenderSettings &settings() const;
+
     /// Replaces the film by a saved one. Throws `Error` (bad input) when it belongs to another
     /// scene, other settings, another seed or size.
     void restore(const FilmState &film);

@@ -25,6 +25,10 @@ bool has_convergence_control(const RenderSettings &settings) {
     return settings.convergence_error > 0;
 }
 
+bool has_sequence_sums(const RenderSettings &settings) {
+    return settings.variance && settings.sampler == Sampler::sobol;
+}
+
 uint32_t light_paths_per_sample(const RenderSettings &settings) {
     return settings.light_paths != LIGHT_PATHS_LIKE_PIXELS
                ? settings.light_paths
@@ -88,7 +92,8 @@ FeatureMask settings_features(const RenderSettings &settings) {
         .with(Feature::depth_limit, settings.max_depth != 0)
         .with(Feature::crop, settings.window.full_width > 0)
         .with(Feature::convergence, has_convergence_control(settings))
-        .with(Feature::variance, settings.variance);
+        .with(Feature::variance, settings.variance)
+        .with(Feature::sequences, has_sequence_sums(settings));
 }
 
 }  // namespace rtrays

@@ -39,7 +39,7 @@ struct RenderSettings {
         int full_width = 0, full_height = 0;
     } window;
     uint32_t seed = 1;
-    /// Whether the film stores second moments, for the layers variance.R, .G, .B.
+    /// Whether the film stores what the layers variance.R, .G, .B need.
     bool variance = true;
     /// The only pass that is rendered, if not all of them are.
     std::optional<PassKind> only_pass;
@@ -134,6 +134,9 @@ bool has_light_pass(const RenderSettings &settings);
 
 /// Returns whether tables guide the directions of light paths.
 bool has_guided_emission(const RenderSettings &settings);
+
+/// Returns whether the film holds a sum for each Sobol sequence, for the variance layer.
+bool has_sequence_sums(const RenderSettings &settings);
 
 /// Returns whether pixels stop when they have converged, which biases the image.
 bool has_convergence_control(const RenderSettings &settings);

@@ -49,6 +49,7 @@ FeatureMask select_features(const CompiledScene &compiled, const RenderSettings 
     FeatureMask features =
         FeatureMask::all()
             .with(Feature::variance, settings.variance)
+            .with(Feature::sequences, has_sequence_sums(settings))
             .with(Feature::convergence, has_convergence_control(settings))
             .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
     if (settings.features == CompiledFeatures::scene) {
@@ -357,6 +358,7 @@ FilmState RenderSession::State::film_header() const {
     header.width = settings.width;
     header.height = settings.height;
     header.variance = settings.variance;
+    header.sequences = has_sequence_sums(settings);
     header.passes.clear();
     for (const CompiledPass &pass : passes) {
         header.passes.push_back(pass.kind);

@@ -144,7 +144,9 @@ struct RenderSession::State {
         return features.has(Feature::branches) ? integrator.max_depth * branch_words(features) : 0;
     }
 
-    uint64_t film_words() const { return pixels() * FILM_PIXEL_WORDS(settings.variance); }
+    uint64_t film_words() const {
+        return pixels() * FILM_PIXEL_WORDS(settings.variance, has_sequence_sums(settings));
+    }
     uint64_t film_sums() const { return film_words() / FILM_WORDS; }
 
     /// Returns the number of paths of a pass in one sample of the image.

@@ -92,7 +92,8 @@
     X(lens, "the camera has an aperture, or is far from the scene")                           \
     X(crop, "the film is a window of the full picture")                                       \
     X(convergence, "converged pixels receive no further camera paths (biased)")               \
-    X(variance, "the film holds second moments")                                              \
+    X(variance, "the film holds what the variance of its means follows from")                 \
+    X(sequences, "that is one sum for each Sobol sequence, not second moments")               \
     X(int64_atomics, "the device has 64-bit integer atomics")
 
 #ifndef __OPENCL_VERSION__

@@ -17,6 +17,7 @@
 #pragma once
 
 #include "compat.h"
+#include "integrator_settings.h"
 
 #define FILM_WORDS 6
 #define FILM_CHANNELS 3
@@ -31,23 +32,34 @@
 /// Largest number of additions of one launch to a pixel (film_add_units).
 #define FILM_ADDITIONS_AT_ONCE (1u << 18)
 
-/// Number of sums of one pixel: R, G, B, and their squares if the film keeps them.
-#define FILM_PIXEL_SUMS(variance) (FILM_CHANNELS * ((variance) ? 2 : 1))
+/// Number of sums of one pixel: R, G, B, and whatever the variance of their mean follows from. For
+/// independent samples these are the squares. For Sobol points (`sequences`) there are no squares;
+/// instead each sequence has its own R, G, B.
+#define FILM_PIXEL_SUMS(variance, sequences) \
+    (FILM_CHANNELS * ((sequences) ? SOBOL_SEQUENCES : (variance) ? 2u : 1u))
+
+/// Number of sums whose total is that of a channel. They are FILM_CHANNELS apart.
+#define FILM_GROUPS(sequences) ((sequences) ? SOBOL_SEQUENCES : 1u)
 
 /// Number of words of one pixel. Word k of sum s is at k * FILM_PIXEL_SUMS + s. The sums of one
 /// magnitude, to which a sample adds together, thus share a cache line.
-#define FILM_PIXEL_WORDS(variance) (FILM_WORDS * FILM_PIXEL_SUMS(variance))
+#define FILM_PIXEL_WORDS(variance, sequences) (FILM_WORDS * FILM_PIXEL_SUMS(variance, sequences))
 
 /// Number of sums and words of a pixel of the half film, which holds every other sample
 /// (kernels/film/convergence.h) and no squares.
-#define HALF_FILM_SUMS FILM_PIXEL_SUMS(0)
-#define HALF_FILM_PIXEL_WORDS FILM_PIXEL_WORDS(0)
+#define HALF_FILM_SUMS FILM_PIXEL_SUMS(0, 0)
+#define HALF_FILM_PIXEL_WORDS FILM_PIXEL_WORDS(0, 0)
+
+/// Returns the step of sum `sum` of a pixel: that of squares, if the film keeps them, from the
+/// fourth sum on.
+DEVICE int film_step(uint sum, bool squares) {
+    return squares && sum >= FILM_CHANNELS ? FILM_SQUARE_STEP : FILM_SUM_STEP;
+}
 
 /// Propagates the carries of one sum, so that equal sums have equal words. Afterwards all words
 /// except the top one are in [0, 2^step), and the top word keeps the sign. `sum` is the index of
 /// the sum among the pixel's `sums` (FILM_PIXEL_SUMS).
-DEVICE void film_carry_sum(GLOBAL long *pixel_words, uint sums, uint sum) {
-    const int step = sum < FILM_CHANNELS ? FILM_SUM_STEP : FILM_SQUARE_STEP;
+DEVICE void film_carry_sum(GLOBAL long *pixel_words, uint sums, uint sum, int step) {
     for (uint word = 0; word + 1 < FILM_WORDS; ++word) {
         GLOBAL long *low = pixel_words + word * sums + sum;
         const long carry = *low >> step;  // arithmetic shift: rounds down

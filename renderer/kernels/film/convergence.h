@@ -9,9 +9,8 @@
 // stored for all later checks. Dammertz et al. 2010, "A hierarchical automatic stopping condition
 // for Monte Carlo global illumination", section 3, divide the samples in the same way.
 //
-// Sobol samples 2i and 2i + 1 are in different halves of every dimension. The means of the even and
-// the odd samples therefore differ as those of independent samples do, and stratification does not
-// stop pixels earlier.
+// Even and odd Sobol samples belong to different sequences (kernels/sampling/sampler.h), which are
+// independent. The two means therefore differ by their errors, as those of independent samples do.
 //
 // If I_N is black, which is 0/0 in the thesis, it says nothing about its error, however many
 // samples there are. Such a pixel continues. Its paths usually leave the scene at once and cost
@@ -31,22 +30,34 @@ DEVICE uint half_film_add_sample(volatile GLOBAL long *half_film, ulong pixel, u
                : 0u;
 }
 
-/// Returns a sum whose carries have been propagated, rounded to float. Words are added from the
-/// top, as on the host (film/film.cpp).
-DEVICE float film_sum(GLOBAL const long *words, uint sums) {
+/// Returns the total of a channel's sums in `groups` groups, rounded to float. Their carries have
+/// been propagated. The total is exact before it is rounded, so it does not depend on the groups.
+/// Words are added from the top, as on the host (film/film.cpp).
+DEVICE float film_total(GLOBAL const long *words, uint sums, uint groups) {
+    long total[FILM_WORDS];
+    long carry = 0;
+    for (uint word = 0u; word < FILM_WORDS; ++word) {
+        total[word] = carry;
+        for (uint group = 0u; group < groups; ++group) {
+            total[word] += words[word * sums + group * FILM_CHANNELS];
+        }
+        carry = word + 1u < FILM_WORDS ? total[word] >> FILM_SUM_STEP : 0;
+        total[word] -= carry * (1L << FILM_SUM_STEP);
+    }
     float value = 0.0f;
     for (uint above = FILM_WORDS; above > 0u; --above) {
         const uint word = above - 1u;
         const int unit = FILM_SUM_LOWEST + (int)word * FILM_SUM_STEP;
-        value += (float)words[word * sums] * as_float((uint)(127 + unit) << 23);
+        value += (float)total[word] * as_float((uint)(127 + unit) << 23);
     }
     return value;
 }
 
-/// Returns the first three sums of a pixel, rounded to float.
-DEVICE float3 film_colour_sum(GLOBAL const long *pixel_words, uint sums) {
-    return make_float3(film_sum(pixel_words, sums), film_sum(pixel_words + 1, sums),
-                       film_sum(pixel_words + 2, sums));
+/// Returns the totals of a pixel's channels over `groups` groups of sums, rounded to float.
+DEVICE float3 film_colour_sum(GLOBAL const long *pixel_words, uint sums, uint groups) {
+    return make_float3(film_total(pixel_words, sums, groups),
+                       film_total(pixel_words + 1, sums, groups),
+                       film_total(pixel_words + 2, sums, groups));
 }
 
 /// Returns whether a pixel has converged, given the sum `all` of 2N samples and the sum `half_sum`

@@ -59,7 +59,9 @@ DEVICE bool film_add_units(volatile GLOBAL long *words, uint sums, uint word, lo
     return false;
 }
 
-#define PIXEL_SUMS FILM_PIXEL_SUMS(FEATURE_variance)
+#define PIXEL_SUMS FILM_PIXEL_SUMS(FEATURE_variance, FEATURE_sequences)
+#define PIXEL_WORDS FILM_PIXEL_WORDS(FEATURE_variance, FEATURE_sequences)
+#define HOLDS_SQUARES (FEATURE_variance && !FEATURE_sequences)
 
 /// Returns the index of the word for the magnitude of a value.
 DEVICE uint film_word(float value, int lowest, int step) {
@@ -107,7 +109,7 @@ DEVICE uint film_add_sample(volatile GLOBAL long *pixel_words, float3 sample) {
         return FILM_OUT_OF_RANGE;
     }
     bool beyond = film_add_colour(pixel_words, PIXEL_SUMS, sample);
-    if (FEATURE_variance) {
+    if (HOLDS_SQUARES) {
         // Squares stay below 2^80, the limit of their top word.
         beyond |= film_add_value(pixel_words + 3, PIXEL_SUMS, sample.x * sample.x,
                                  FILM_SQUARE_LOWEST, FILM_SQUARE_STEP);

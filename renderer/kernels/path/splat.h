@@ -11,8 +11,8 @@
 DEVICE void splat(Path path, PRIVATE const SceneView *scene, FilmView film) {
     const uint pixel = get_splat_pixel(path);
     const float3 radiance = get_shadow_radiance(path);
-    prefetch_pixel(film, pixel, radiance);
+    prefetch_pixel(film, pixel, path, radiance);
     if (!is_shadowed(path, scene)) {
-        add_to_pixel(film, pixel, radiance);
+        add_to_pixel(film, pixel, path, radiance);
     }
 }
