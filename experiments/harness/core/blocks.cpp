@@ -15,7 +15,12 @@ using boost::math::statistics::mean;
 using boost::math::statistics::sample_variance;
 using boost::math::statistics::skewness;
 
-std::vector<double> block_sums(const Image &image, const std::string &channel, int size) {
+namespace {
+
+/// Sums term(value) over the pixels of every block and, last, of the full image.
+template <class Term>
+std::vector<double> sums_of_terms(const Image &image, const std::string &channel, int size,
+                                  const Term &term) {
     const int columns = (image.width() + size - 1) / size,
               rows = (image.height() + size - 1) / size;
     std::vector<double> sums(static_cast<size_t>(columns * rows) + 1);
@@ -29,10 +34,16 @@ std::vector<double> block_sums(const Image &image, const std::string &channel, i
                 "not be negative",
                 x, y, channel, value));
         }
-        sums[static_cast<size_t>(y / size * columns + x / size)] += value;
-        sums.back() += value;
+        sums[static_cast<size_t>(y / size * columns + x / size)] += term(value);
+        sums.back() += term(value);
     }
     return sums;
+}
+
+}  // namespace
+
+std::vector<double> block_sums(const Image &image, const std::string &channel, int size) {
+    return sums_of_terms(image, channel, size, [](double value) { return value; });
 }
 
 std::vector<double> block_pixels(const Image &image, int size) {
@@ -56,6 +67,18 @@ std::vector<NoisySum> sums_by_layer(const Image &image, size_t channel, int size
     for (size_t i = 0; i < values.size(); ++i) {
         sums[i].value = values[i];
         sums[i].variance = variances[i];
+    }
+    const auto stated = image.attributes().find("rtrays:varianceFreedom");
+    if (stated != image.attributes().end()) {
+        const double freedom = std::get<int>(stated->second);
+        const std::vector<double> squares =
+            sums_of_terms(image, rgb_names("variance")[channel], size,
+                          [](double variance) { return variance * variance; });
+        for (size_t i = 0; i < sums.size(); ++i) {
+            // For n pixels of equal expected variance, this has the expectation n `freedom`.
+            const double equal = squares[i] > 0 ? variances[i] * variances[i] / squares[i] : 1;
+            sums[i].freedom = (freedom + 2) * equal - 2;
+        }
     }
     return sums;
 }

@@ -31,7 +31,9 @@ std::vector<double> block_pixels(const Image &image, int size);
 std::string block_name(size_t block, const Image &image, int size);
 
 /// Sums every block and the full image for a channel, 0 to 2. The variances come from the layer
-/// variance.*, which is treated as exactly known (infinite degrees of freedom).
+/// variance.*, which is treated as exactly known (infinite degrees of freedom) unless the image
+/// states the degrees of freedom of each pixel (rtrays:varianceFreedom). Those of a block then
+/// follow from the variances of its pixels (Satterthwaite 1946).
 std::vector<NoisySum> sums_by_layer(const Image &image, size_t channel, int size);
 
 /// Sums every block and the full image for a channel, 0 to 2. The sums are means over the batches,

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "experiments/harness/core/agreement.h"
+#include "experiments/harness/core/blocks.h"
 #include "renderer/base/error.h"
 #include "renderer/testing/errors.h"
 
@@ -169,6 +170,48 @@ TEST(Agreement, RejectsATrueHypothesisAtMostAtItsLevel) {
     }
     // The family-wise level is 1 %, and 12 of 500 is the 99.9 % quantile of the binomial.
     EXPECT_LE(rejected, 12);
+}
+
+/// Returns an image like `noisy` whose variances are estimates from two values per pixel.
+Image roughly_known(double truth, double sigma, uint64_t seed) {
+    const Image a = noisy(truth, 0, sigma * std::sqrt(2.0), seed),
+                b = noisy(truth, 0, sigma * std::sqrt(2.0), seed + 1);
+    Image image = constant(a.width(), a.height(), 0);
+    for (size_t c = 0; c < 3; ++c) {
+        std::vector<float> &variances = image.add_channel(rgb_names("variance")[c]);
+        for (size_t i = 0; i < image.pixel_count(); ++i) {
+            const float x = a.channel(rgb_names()[c])[i], y = b.channel(rgb_names()[c])[i];
+            image.channel(rgb_names()[c])[i] = (x + y) / 2;
+            variances[i] = (x - y) * (x - y) / 4;
+        }
+    }
+    image.attributes()["rtrays:varianceFreedom"] = 1;
+    return image;
+}
+
+// Variances of pixels with one degree of freedom make those of small blocks uncertain, too.
+TEST(Agreement, CountsTheDegreesOfFreedomOfPixels) {
+    AgreementPolicy small;
+    small.block_size = 4;
+    int rejected = 0, rejected_as_exact = 0;
+    for (uint64_t i = 0; i < 500; ++i) {
+        Image a = roughly_known(1, 0.1, 4 * i), b = roughly_known(1, 0.1, 4 * i + 2);
+        rejected += test_agreement(a, b, small).agrees() ? 0 : 1;
+        a.attributes().clear();
+        b.attributes().clear();
+        rejected_as_exact += test_agreement(a, b, small).agrees() ? 0 : 1;
+    }
+    EXPECT_LE(rejected, 12) << "the 99.9 % quantile at the level of 1 %";
+    EXPECT_GT(rejected_as_exact, 24) << "without the degrees of freedom";
+
+    Image four = Image::rgb(2, 2);
+    for (const std::string &name : rgb_names("variance")) {
+        four.add_channel(name) = {3, 0, 0, 0};
+    }
+    four.attributes()["rtrays:varianceFreedom"] = 1;
+    EXPECT_EQ(sums_by_layer(four, 0, 2).front().freedom, 1) << "one pixel alone";
+    four.channel("variance.R") = {3, 3, 3, 3};
+    EXPECT_EQ(sums_by_layer(four, 0, 2).front().freedom, 3 * 4 - 2);
 }
 
 TEST(Agreement, FindsAHalfPercentBias) {

@@ -117,6 +117,9 @@ LadderResult render_ladders(const LadderTask &task) {
             result.batches.push_back(read_exr(batch_file(task, seed, batch)));
         }
     }
+    if (task.settings.sampler == Sampler::sobol) {
+        result.batches = result.images;
+    }
     for (const uint64_t spp : task.early_images) {
         result.early_images.push_back(read_exr(early_file(task, spp)));
     }

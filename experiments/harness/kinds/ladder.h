@@ -35,7 +35,8 @@ struct LadderTask {
 struct LadderResult {
     std::vector<Repetition> repetitions;
     std::vector<Image> images;  ///< image of each seed at the largest sample count
-    /// R, G, B of independent samples: `batches_per_seed` batches of equal size from each seed.
+    /// R, G, B of independent samples: `batches_per_seed` batches of equal size from each seed, or
+    /// with Sobol points, whose batches of one seed are not independent, the image of each seed.
     std::vector<Image> batches;
     std::vector<Image> early_images;  ///< images of the first seed at `LadderTask::early_images`
     nlohmann::json cost;              ///< {"compile_seconds", "bvh_seconds", "render_report"}

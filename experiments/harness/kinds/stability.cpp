@@ -51,8 +51,10 @@ Batches render(const SceneVariant &variant, const StabilityCase &tested,
     Batches result;
     for (uint64_t batch = 0; batch < batches; ++batch) {
         session.restart(renderer_seed);
-        render_whole(session, tested.first_sample + batch * tested.spp / batches,
-                     tested.first_sample + (batch + 1) * tested.spp / batches);
+        const uint64_t begin =
+            batch_begin(session, tested.first_sample, tested.spp, batches, batch);
+        render_whole(session, begin,
+                     begin + (batch + 1) * tested.spp / batches - batch * tested.spp / batches);
         const FilmState film = session.film();
         result.non_finite += film.non_finite;
         result.out_of_range += film.out_of_range;
