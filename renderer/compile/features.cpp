@@ -64,6 +64,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::explicit_light, Feature::scattering},
     {Feature::explicit_light, Feature::lights},
     {Feature::light_strategy, Feature::lights},
+    {Feature::light_path_trials, Feature::light_strategy},
     {Feature::vertex_connections, Feature::scattering},
     {Feature::vertex_connections, Feature::light_strategy},
     {Feature::light_emitters, Feature::light_strategy},
@@ -162,7 +163,8 @@ FeatureMask FeatureMask::closed() const {
 namespace {
 
 /// Words of the types of fields.
-constexpr uint32_t words_of_uint = 1, words_of_float = 1, words_of_float3 = 3;
+constexpr uint32_t words_of_uint = 1, words_of_float = 1, words_of_float3 = 3,
+                   words_of_trials = LIGHT_PATH_TRIALS;
 
 /// Fields of a record (shared/path_state.h, shared/light_vertex.h, shared/branch.h), in the order
 /// of their declaration.

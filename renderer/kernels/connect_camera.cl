@@ -6,7 +6,7 @@
 //       reads(active, hit, pixel, sample, depth, ray_origin, ray_direction, throughput, pdf_w,
 //             log_running_ratio, log_inverse_arrival, log_strategies, light),
 //       writes(ray_origin, log_inverse_arrival, shadow_origin, shadow_vector, shadow_radiance,
-//              splat_pixel),
+//              splat_pixel, trials),
 //       to(shadow))
 
 #include "renderer/kernels/path/camera_connection.h"

@@ -4,7 +4,7 @@
 //
 // STAGE(connect_emitter,
 //       reads(active, pixel, sample, depth),
-//       writes(shadow_origin, shadow_vector, shadow_radiance, splat_pixel),
+//       writes(shadow_origin, shadow_vector, shadow_radiance, splat_pixel, trials),
 //       to(shadow))
 
 #include "renderer/kernels/path/camera_connection.h"

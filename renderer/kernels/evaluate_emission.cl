@@ -4,8 +4,8 @@
 //
 // STAGE(evaluate_emission,
 //       reads(active, hit, depth, ray_origin, ray_direction, throughput, radiance, pdf_w,
-//             log_running_ratio, log_strategies),
-//       writes(radiance, log_running_ratio, log_inverse_arrival))
+//             log_running_ratio, log_strategies, trials),
+//       writes(radiance, log_running_ratio, log_inverse_arrival, trials))
 
 #include "renderer/kernels/path/emission_hit.h"
 #include "renderer/kernels/path/path_at.h"

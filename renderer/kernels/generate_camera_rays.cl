@@ -5,7 +5,7 @@
 // STAGE(generate_camera_rays,
 //       reads(free, live_pixels),
 //       writes(pixel, sample, depth, ray_origin, ray_direction, throughput, roulette_scale,
-//              radiance, pdf_w, log_strategies, pending),
+//              radiance, pdf_w, log_strategies, pending, trials),
 //       to(active))
 
 #include "renderer/kernels/path/camera_start.h"

@@ -5,12 +5,13 @@
 // STAGE(generate_light_paths,
 //       reads(free, pixel, sample),
 //       writes(pixel, sample, depth, ray_origin, ray_direction, throughput, roulette_scale,
-//              log_running_ratio, log_inverse_arrival, log_strategies, light, vertices),
+//              log_running_ratio, log_inverse_arrival, log_strategies, light, vertices, trials),
 //       to(active))
 
 #include "renderer/kernels/path/light_start.h"
 #include "renderer/kernels/path/path_at.h"
 #include "renderer/kernels/path/stored_vertex.h"
+#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/stream.h"
 
 __kernel void generate_light_paths(SHADING_PARAMETERS, IntegratorSettings settings,
@@ -27,6 +28,9 @@ __kernel void generate_light_paths(SHADING_PARAMETERS, IntegratorSettings settin
         start_light_path(path, &scene, settings, first_sample, item % settings.light_paths,
                          item / settings.light_paths);
         clear_vertices(path, vertex_words, settings);
+        if (FEATURE_light_path_trials) {
+            start_trials(path, item);
+        }
         push_slot(&started, path.slot);
     }
     append_started(stream, &started);

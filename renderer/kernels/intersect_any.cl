@@ -3,8 +3,8 @@
 // blocks.
 //
 // STAGE(intersect_any,
-//       reads(shadow, ray_origin, radiance, shadow_origin, shadow_vector, shadow_radiance),
-//       writes(radiance))
+//       reads(shadow, ray_origin, radiance, shadow_origin, shadow_vector, shadow_radiance, trials),
+//       writes(radiance, trials))
 
 #include "renderer/kernels/path/path_at.h"
 #include "renderer/kernels/path/shadow_ray.h"

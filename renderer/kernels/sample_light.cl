@@ -5,7 +5,7 @@
 // STAGE(sample_light,
 //       reads(active, hit, pixel, sample, depth, ray_direction, throughput, log_running_ratio,
 //             log_inverse_arrival, log_strategies),
-//       writes(ray_origin, shadow_origin, shadow_vector, shadow_radiance),
+//       writes(ray_origin, shadow_origin, shadow_vector, shadow_radiance, trials),
 //       to(shadow))
 
 #include "renderer/kernels/path/hit_path_at.h"

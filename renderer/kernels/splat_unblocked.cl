@@ -4,8 +4,8 @@
 //
 // STAGE(splat_unblocked,
 //       reads(shadow, sample, ray_origin, shadow_origin, shadow_vector, shadow_radiance,
-//             splat_pixel),
-//       writes(film))
+//             splat_pixel, trials),
+//       writes(film, trials))
 
 #include "renderer/kernels/path/path_at.h"
 #include "renderer/kernels/path/splat.h"

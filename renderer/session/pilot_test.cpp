@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "renderer/compile/device_scene.h"
@@ -45,12 +50,12 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
     const auto chosen = [](const std::string &scene) {
         const Pilot pilot =
             choose(load_scene(RTRAYS_SCENES + scene), settings_of(LIGHT_PATHS_AUTO));
-        EXPECT_GE(pilot.trials.size(), 4u);
+        EXPECT_EQ(pilot.trials.size(), LIGHT_PATH_TRIALS);
         const PilotTrial *best = &pilot.trials.front();
         for (const PilotTrial &trial : pilot.trials) {
             EXPECT_GT(trial.variance, 0);
-            EXPECT_GT(trial.rays, 1);
-            best = trial.variance * trial.rays < best->variance * best->rays ? &trial : best;
+            EXPECT_GT(trial.cost, 1);
+            best = trial.variance * trial.cost < best->variance * best->cost ? &trial : best;
         }
         EXPECT_EQ(pilot.light_paths, static_cast<uint32_t>(best->per_pixel * 32 * 32)) << scene;
         EXPECT_GT(pilot.seconds, 0);
@@ -61,6 +66,70 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
     // light.
     EXPECT_GT(chosen("/cornell_mirrors/scene.json"), 0u);
     EXPECT_EQ(chosen("/features/point_light.json"), 0u);
+}
+
+/// A mean with its standard error.
+struct Estimate {
+    explicit Estimate(const std::vector<double> &values) {
+        const auto n = static_cast<double>(values.size());
+        mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+        double scatter = 0;
+        for (const double value : values) {
+            scatter += (value - mean) * (value - mean);
+        }
+        error = std::sqrt(scatter / (n - 1) / n);
+    }
+    double mean, error;
+};
+
+/// Returns the mean over pixels of the variance of one sample's luminance, from 16 batches of 8
+/// renders of one sample.
+Estimate rendered_variance(const Scene &scene, const RenderSettings &settings) {
+    const int renders = 8;
+    RenderSession session(scene, settings, device());
+    std::vector<double> variances;
+    for (uint32_t batch = 0; batch < 16; ++batch) {
+        std::vector<double> sums(32 * 32), squares(sums.size());
+        for (uint32_t i = 0; i < renders; ++i) {
+            session.restart(batch * renders + i);
+            session.render(0, 1);
+            const Image image = session.develop();
+            for (size_t pixel = 0; pixel < sums.size(); ++pixel) {
+                const double luminance = 0.2126 * static_cast<double>(image.channel("R")[pixel]) +
+                                         0.7152 * static_cast<double>(image.channel("G")[pixel]) +
+                                         0.0722 * static_cast<double>(image.channel("B")[pixel]);
+                sums[pixel] += luminance;
+                squares[pixel] += luminance * luminance;
+            }
+        }
+        double variance = 0;
+        for (size_t pixel = 0; pixel < sums.size(); ++pixel) {
+            variance += (squares[pixel] - sums[pixel] * sums[pixel] / renders) / (renders - 1);
+        }
+        variances.push_back(variance / static_cast<double>(sums.size()));
+    }
+    return Estimate(variances);
+}
+
+// The estimates of all trials come from paths of one of them.
+TEST(Pilot, EstimatesTheVarianceOfEveryNumberOfLightPaths) {
+    const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+    std::map<double, std::vector<double>> of_pilots;
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+        RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
+        settings.seed = seed;
+        for (const PilotTrial &trial : choose(scene, settings).trials) {
+            of_pilots[trial.per_pixel].push_back(trial.variance);
+        }
+    }
+    for (const double per_pixel : {0.25, 1.0, 4.0}) {
+        const Estimate pilots(of_pilots.at(per_pixel));
+        const Estimate rendered =
+            rendered_variance(scene, settings_of(static_cast<uint32_t>(per_pixel * 32 * 32)));
+        EXPECT_NEAR(pilots.mean, rendered.mean, 4 * std::hypot(pilots.error, rendered.error))
+            << per_pixel;
+        EXPECT_LT(rendered.error, 0.15 * rendered.mean) << per_pixel;
+    }
 }
 
 // Path tracing renders the caustic of a point light black, without any variance.
@@ -83,7 +152,7 @@ TEST(Pilot, ChoosesTheSameWhateverTheStreams) {
     ASSERT_EQ(other.trials.size(), expected.trials.size());
     for (size_t i = 0; i < expected.trials.size(); ++i) {
         EXPECT_EQ(other.trials[i].variance, expected.trials[i].variance);
-        EXPECT_EQ(other.trials[i].rays, expected.trials[i].rays);
+        EXPECT_EQ(other.trials[i].cost, expected.trials[i].cost);
     }
 }
 

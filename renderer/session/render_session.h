@@ -6,10 +6,12 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "renderer/base/image.h"
 #include "renderer/film/film.h"
 #include "renderer/session/settings.h"
+#include "renderer/shared/light_path_trials.h"
 
 namespace rtrays {
 
@@ -36,6 +38,12 @@ struct RenderStats {
     uint64_t samples = 0;
     /// Closest-hit and shadow rays of `render` so far.
     uint64_t rays = 0;
+};
+
+/// What the paths of one pass of a pilot found.
+struct TrialPaths {
+    std::vector<PathTrials> paths;
+    double rays = 0;  ///< closest-hit and shadow rays of all of them
 };
 
 /// A render of one scene on one device. It compiles the scene and the kernels, accumulates ranges
@@ -94,6 +102,10 @@ class RenderSession {
     /// (bad input) below 1 and above 2^30 pixels, and (run failed) if the device has too little
     /// memory; the size then stays.
     void resize(int width, int height);
+
+    /// Traces the paths of one pass of a pilot and returns what each found. The settings must have
+    /// `light_path_trials`; such a session has no film.
+    TrialPaths trace_trials(PassKind pass);
 
     /// Returns the film so far.
     FilmState film() const;

@@ -23,7 +23,7 @@ Json pilot_report(const Pilot &pilot) {
     for (const PilotTrial &trial : pilot.trials) {
         report["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
                                     {"variance", trial.variance},
-                                    {"rays_per_pixel", trial.rays}});
+                                    {"cost", trial.cost}});
     }
     return report;
 }

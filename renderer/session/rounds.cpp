@@ -168,7 +168,7 @@ void RenderSession::State::run_batch(uint64_t first, uint64_t count) {
 }
 
 void RenderSession::State::carry_film(CompiledPass &pass) {
-    if (!pass.is_carried) {
+    if (!pass.is_carried && !settings.light_path_trials) {
         enqueue(pass, Stage::carry_film);
         collect_profile(pass);
         pass.is_carried = true;

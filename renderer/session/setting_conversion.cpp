@@ -86,6 +86,7 @@ FeatureMask settings_features(const RenderSettings &settings) {
         .with(Feature::light_strategy, traces_both)
         .with(Feature::light_emitters, traces_both && settings.seen_emitters == SeenEmitters::mis)
         .with(Feature::guided_emission, has_guided_emission(settings))
+        .with(Feature::light_path_trials, settings.light_path_trials)
         .with(Feature::roulette, settings.termination == Termination::roulette)
         .with(Feature::adaptive, settings.termination == Termination::adaptive)
         .with(Feature::sobol, settings.sampler != Sampler::independent)

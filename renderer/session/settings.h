@@ -43,6 +43,8 @@ struct RenderSettings {
     bool variance = true;
     /// The only pass that is rendered, if not all of them are.
     std::optional<PassKind> only_pass;
+    /// Whether paths are traced for a pilot and not for an image (session/pilot.h).
+    bool light_path_trials = false;
     /// Whether the image has a layer per strategy, with its contribution; this excludes `variance`.
     bool separate_strategies = false;
 

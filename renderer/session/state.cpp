@@ -51,6 +51,7 @@ FeatureMask select_features(const CompiledScene &compiled, const RenderSettings 
             .with(Feature::variance, settings.variance)
             .with(Feature::sequences, has_sequence_sums(settings))
             .with(Feature::convergence, has_convergence_control(settings))
+            .with(Feature::light_path_trials, settings.light_path_trials)
             .with(Feature::independent_lights, compiled.features.has(Feature::independent_lights));
     if (settings.features == CompiledFeatures::scene) {
         features = settings_features(settings) | compiled.features;
@@ -254,7 +255,34 @@ void RenderSession::State::allocate_streams() {
     counters.clear();
 }
 
+void RenderSession::State::allocate_trials() {
+    // A lattice of at most `largest` pixels, as fine as that allows.
+    constexpr uint64_t largest = 256 * 256;
+    const auto points = [](uint32_t size, uint32_t step) { return (size + step - 1) / step; };
+    const auto width = static_cast<uint32_t>(settings.width),
+               height = static_cast<uint32_t>(settings.height);
+    uint32_t step = 1;
+    while (uint64_t{points(width, step)} * points(height, step) > largest) {
+        ++step;
+    }
+    std::vector<uint32_t> pixels_of_lattice;
+    for (uint32_t y = 0; y < height; y += step) {
+        for (uint32_t x = 0; x < width; x += step) {
+            pixels_of_lattice.push_back(y * width + x);
+        }
+    }
+    trial_pixels = Buffer<uint32_t>(device, "trial_pixels", pixels_of_lattice);
+    for (CompiledPass &pass : passes) {
+        pass.film =
+            Buffer<int64_t>(device, "trials",
+                            2 * pixels_of_lattice.size() * (sizeof(PathTrials) / sizeof(int64_t)));
+    }
+}
+
 void RenderSession::State::allocate_film() {
+    if (settings.light_path_trials) {
+        return allocate_trials();
+    }
     for (CompiledPass &pass : passes) {
         pass.film =
             Buffer<int64_t>(device, std::string("film.") + to_string(pass.kind), film_words());
@@ -292,9 +320,9 @@ void RenderSession::State::bind() {
         arguments[In::settings] = {pass.own_settings(integrator)};
         arguments[In::film] = {pass.film};
         arguments[In::ray_counts] = {pass.ray_counts};
-        // Null pointers, which no kernel reads without convergence control.
+        // Null pointers, which no kernel reads without convergence control or a pilot.
         arguments[In::half_film] = {Buffer<int64_t>()};
-        arguments[In::live_pixels] = {Buffer<uint32_t>(), uint32_t{0}};
+        arguments[In::live_pixels] = {trial_pixels, static_cast<uint32_t>(trial_pixels.size())};
         if (pass.features.has(Feature::convergence)) {
             for (const auto &[input, list] : convergence->arguments()) {
                 arguments[input] = list;

@@ -73,7 +73,7 @@ struct CompiledPass : Pass {
     }
 
     StageSet stages;
-    Buffer<int64_t> film;
+    Buffer<int64_t> film;    ///< the words of the film; of a pilot, its PathTrials
     bool is_carried = true;  ///< no samples were added since the carries were propagated
     Buffer<int64_t> ray_counts;
     /// Values to which the index of a light or vertex is bound.
@@ -104,6 +104,7 @@ struct RenderSession::State {
 
     void allocate_streams();
     void allocate_film();
+    void allocate_trials();
     void bind();
 
     /// Returns what the stages read of the scene, and the camera.
@@ -229,6 +230,8 @@ struct RenderSession::State {
     Buffer<uint32_t> branch_vertices;
     Buffer<uint32_t> queues;
     Buffer<StreamCounters> counters;
+    /// Pixels in which the camera paths of a pilot start.
+    Buffer<uint32_t> trial_pixels;
     /// Convergence control of the camera pass, if it is on.
     std::unique_ptr<ConvergenceControl> convergence;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The live pixels, which convergence control has not stopped. Without convergence control there is
-// no list, and all pixels are live.
+// The live pixels, which convergence control has not stopped, or those of a pilot. Without either
+// there is no list, and all pixels are live.
 #pragma once
 
 #include "compat.h"
@@ -11,21 +11,24 @@
 
 #ifdef __OPENCL_VERSION__
 
+#define LISTS_PIXELS (FEATURE_convergence || FEATURE_light_path_trials)
+
 /// The pixels that receive camera paths.
 typedef struct LivePixels {
-    GLOBAL const uint *list;  ///< read only with FEATURE_convergence
+    GLOBAL const uint *list;  ///< read only with LISTS_PIXELS
     uint count;
 } LivePixels;
 
-/// Returns the live pixels among `pixels`; `list` and `count` are those of convergence control.
+/// Returns the live pixels among `pixels`; `list` and `count` are those of convergence control or
+/// of a pilot.
 DEVICE LivePixels make_live_pixels(GLOBAL const uint *list, uint count, uint pixels) {
-    const LivePixels live = {list, FEATURE_convergence ? count : pixels};
+    const LivePixels live = {list, LISTS_PIXELS ? count : pixels};
     return live;
 }
 
 /// Returns the pixel at an index among the live pixels.
 DEVICE uint live_pixel(LivePixels live, uint i) {
-    return FEATURE_convergence ? live.list[i] : i;
+    return LISTS_PIXELS ? live.list[i] : i;
 }
 
 #endif

@@ -10,11 +10,12 @@
 #include "compat.h"
 #include "declare.h"
 #include "hit_primitive.h"
+#include "light_path_trials.h"
 
-// X(feature, type, name): a field exists if its feature is on. Types are uint, float and float3
-// (three words). (hit_u, hit_v) are the barycentrics of a triangle; (hit_u, hit_v, hit_w) is the
-// hit on a shape in its object space. kernels/mis/truncated.h defines R (camera paths) and Q (light
-// paths), kernels/mis/bidirectional.h defines A and S.
+// X(feature, type, name): a field exists if its feature is on. Types are uint, float, float3 (three
+// words) and trials (a float for each trial). (hit_u, hit_v) are the barycentrics of a triangle;
+// (hit_u, hit_v, hit_w) is the hit on a shape in its object space. kernels/mis/truncated.h defines
+// R (camera paths) and Q (light paths), kernels/mis/bidirectional.h defines A and S.
 #define PATH_STATE_FIELDS(X)                                                                      \
     X(ALWAYS, uint, pixel)                   /* light path: index within the sample */            \
     X(ALWAYS, uint, sample)                  /* index within the batch */                         \
@@ -37,7 +38,10 @@
     X(FEATURE_shadow_origin, float3, shadow_origin)        /* else it is ray_origin */            \
     X(FEATURE_shadow_rays, float3, shadow_vector)          /* from its origin to the other end */ \
     X(FEATURE_shadow_rays, float3, shadow_radiance)        /* added unless the ray is blocked */  \
-    X(FEATURE_from_light, uint, splat_pixel)               /* pixel to which it is added */
+    X(FEATURE_from_light, uint, splat_pixel)               /* pixel to which it is added */       \
+    X(FEATURE_light_path_trials, uint, trial_item)         /* index of the path in the work */    \
+    X(FEATURE_light_path_trials, trials, trial_value)      /* shared/light_path_trials.h */       \
+    X(FEATURE_light_path_trials, trials, shadow_trial)     /* added unless the ray is blocked */
 
 #ifdef __OPENCL_VERSION__
 
@@ -62,6 +66,7 @@
 #define WORDS_uint 1
 #define WORDS_float 1
 #define WORDS_float3 3
+#define WORDS_trials LIGHT_PATH_TRIALS
 
 // Word offsets of the fields: one enumerator per field, which skips the words of the fields before
 // it.
@@ -87,8 +92,9 @@ typedef struct Path {
 // path are contiguous.
 #define PREFETCHES (HAS_PREFETCH && PATH_STATE_INTERLEAVED && !PATH_STATES_PRIVATE)
 
-// get_<name>(path) and set_<name>(path, value) for every field. Without the field's feature there
-// is no word: get returns 0 and set does nothing.
+// get_<name>(path) and set_<name>(path, value) for every field; those of trials have the trial as
+// second parameter. Without the field's feature there is no word: get returns 0 and set does
+// nothing.
 #define ACCESS_uint(name)                           \
     DEVICE uint get_##name(Path path) {             \
         return PATH_WORD(path, PATH_##name);        \
@@ -114,15 +120,32 @@ typedef struct Path {
         PATH_WORD(path, PATH_##name + 1) = as_uint(value.y);            \
         PATH_WORD(path, PATH_##name + 2) = as_uint(value.z);            \
     }
-#define ACCESS_NOTHING(type, name)                               \
+#define ACCESS_trials(name)                                      \
+    DEVICE float get_##name(Path path, uint trial) {             \
+        return as_float(PATH_WORD(path, PATH_##name + trial));   \
+    }                                                            \
+    DEVICE void set_##name(Path path, uint trial, float value) { \
+        PATH_WORD(path, PATH_##name + trial) = as_uint(value);   \
+    }
+#define ACCESS_NO_FIELD(type, name)                              \
     DEVICE type get_##name(MAYBE_UNUSED Path path) {             \
         return (type)(0);                                        \
     }                                                            \
     DEVICE void set_##name(MAYBE_UNUSED Path path, type value) { \
         (void)value;                                             \
     }
+#define ACCESS_NO_uint(name) ACCESS_NO_FIELD(uint, name)
+#define ACCESS_NO_float(name) ACCESS_NO_FIELD(float, name)
+#define ACCESS_NO_float3(name) ACCESS_NO_FIELD(float3, name)
+#define ACCESS_NO_trials(name)                                                             \
+    DEVICE float get_##name(MAYBE_UNUSED Path path, MAYBE_UNUSED uint trial) {             \
+        return 0.0f;                                                                       \
+    }                                                                                      \
+    DEVICE void set_##name(MAYBE_UNUSED Path path, MAYBE_UNUSED uint trial, float value) { \
+        (void)value;                                                                       \
+    }
 #define X(feature, type, name) \
-    WHEN(feature)(ACCESS_##type(name)) UNLESS(feature)(ACCESS_NOTHING(type, name))
+    WHEN(feature)(ACCESS_##type(name)) UNLESS(feature)(ACCESS_NO_##type(name))
 PATH_STATE_FIELDS(X)
 #undef X
 

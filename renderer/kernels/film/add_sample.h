@@ -6,7 +6,8 @@
 #include "renderer/shared/path_state.h"
 #include "renderer/shared/stream_counters.h"
 
-/// The film to which a stage adds samples, and the counters of rejected samples.
+/// The film to which a stage adds samples, and the counters of rejected samples. With
+/// FEATURE_light_path_trials the words are PathTrials instead.
 typedef struct FilmView {
     GLOBAL long *words;
     GLOBAL StreamCounters *counters;
@@ -26,7 +27,7 @@ DEVICE GLOBAL long *pixel_words(FilmView film, uint pixel, Path path) {
 /// Prefetches the words of a pixel that adding a path's contribution `sample` will change, judged
 /// by its largest channel.
 DEVICE void prefetch_pixel(FilmView film, uint pixel, Path path, float3 sample) {
-    if (!PREFETCHES) {
+    if (!PREFETCHES || FEATURE_light_path_trials) {
         return;
     }
     GLOBAL const long *words = pixel_words(film, pixel, path);

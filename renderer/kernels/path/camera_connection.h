@@ -12,6 +12,7 @@
 #include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/path/light_start.h"
 #include "renderer/kernels/path/shadow_ray.h"
+#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/shared/integrator_settings.h"
@@ -68,6 +69,34 @@ DEVICE float camera_connection_weight(Path path, IntegratorSettings settings, fl
                              settings.beta);  // MIS (16)
 }
 
+/// Sets what a connection to the camera adds in every trial. `radiance` has no weight yet, `log_f`
+/// and `log_p1_over_nl` are those of `camera_connection_weight`.
+DEVICE void set_connection_trials(Path path, IntegratorSettings settings, float3 radiance,
+                                  float log_f, float log_p1_over_nl) {
+    const float value = rec709_luminance(radiance);
+    set_shadow_trial(path, 0u, 0.0f);
+    for (uint trial = 1u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        const float log_factor = trial_log_factor(trial);
+        set_shadow_trial(
+            path, trial,
+            value * power_of_two(-log_factor) *
+                camera_connection_weight(path, settings, log_f, log_p1_over_nl - log_factor));
+    }
+}
+
+/// Sets what the connection of an emitter to the camera adds in every trial. `log_other` is log2
+/// of p_I / p_L for the light paths that are traced.
+DEVICE void set_start_trials(Path path, float3 radiance, float log_other, float beta) {
+    const float value = rec709_luminance(radiance);
+    set_shadow_trial(path, 0u, 0.0f);
+    for (uint trial = 1u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        const float log_factor = trial_log_factor(trial);
+        set_shadow_trial(path, trial,
+                         value * power_of_two(-log_factor) *
+                             power_heuristic_of_log(log_other - log_factor, beta));
+    }
+}
+
 /// Connects a hit to the camera and prepares the shadow ray. Returns false if the connection
 /// contributes nothing.
 DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, CameraRecord camera,
@@ -112,9 +141,12 @@ DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, Cam
     // MIS (9)
     float3 radiance = get_throughput(path) * bsdf.f_cos * (camera_pdf_a / cos_wi / light_paths);
     if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
-        // f_1 per projected solid angle, and P_1 / n_L.
-        radiance *= camera_connection_weight(path, settings, log2_quotient(bsdf.pdf_w, cos_wi),
-                                             log2_quotient(camera_pdf_a, light_paths));
+        const float log_f = log2_quotient(bsdf.pdf_w, cos_wi);  // per projected solid angle
+        const float log_p1_over_nl = log2_quotient(camera_pdf_a, light_paths);
+        if (FEATURE_light_path_trials) {
+            set_connection_trials(path, settings, radiance, log_f, log_p1_over_nl);
+        }
+        radiance *= camera_connection_weight(path, settings, log_f, log_p1_over_nl);
     }
     aim_shadow_ray(path, offset_ray_origin(hit.point, wo), connection.lens_point, radiance);
     set_splat_pixel(path, (uint)connection.raster.y * camera.width + (uint)connection.raster.x);
@@ -156,7 +188,11 @@ DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, C
                       (camera_pdf_a / light_pdf_a);
     if (FEATURE_light_emitters && (settings.strategies & STRATEGY_LIGHT) != 0u) {
         // p_I / p_L = P_1 / (n_L p_o) for k = 1, the inverse of MIS (17).
-        radiance *= power_heuristic_of_log(log2_quotient(camera_pdf_a, light_pdf_a), settings.beta);
+        const float log_other = log2_quotient(camera_pdf_a, light_pdf_a);
+        if (FEATURE_light_path_trials) {
+            set_start_trials(path, radiance, log_other, settings.beta);
+        }
+        radiance *= power_heuristic_of_log(log_other, settings.beta);
     }
     set_shadow_origin(path, start.origin);
     set_shadow_vector(path, connection.lens_point - start.origin);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/kernels/camera/perspective.h"
+#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/live_pixels.h"
@@ -50,4 +51,7 @@ DEVICE void start_camera_item(Path path, CameraRecord camera, IntegratorSettings
         sample = item % samples;
     }
     start_camera_path(path, camera, settings, first_sample, live_pixel(live, pixel), sample);
+    if (FEATURE_light_path_trials) {
+        start_trials(path, item);
+    }
 }

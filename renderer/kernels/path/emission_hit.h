@@ -6,6 +6,7 @@
 #include "renderer/kernels/math/logarithm.h"
 #include "renderer/kernels/mis/bidirectional.h"
 #include "renderer/kernels/mis/truncated.h"
+#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
@@ -149,13 +150,20 @@ DEVICE void add_emission(Path path, PRIVATE const SceneView *scene, IntegratorSe
     // p_E / p_I of MIS (7), thesis (2.73), both per solid angle. The density of a sampled direction
     // is positive.
     const float by_explicit = by_light_sampling ? met.explicit_pdf_w / get_pdf_w(path) : 0.0f;
+    float log_light = -INFINITY;
     if (FEATURE_light_strategy && by_light_path) {
         const bool all =
             FEATURE_vertex_connections && depth > 0u && all_strategies(settings, depth);
         // p_L / p_I of MIS (10), or of MIS (17) for k = 1. With light vertices, S instead of R is
         // the sum over all strategies with a light path.
-        const float log_light =
+        log_light =
             (all ? get_log_strategies(path) : get_log_running_ratio(path)) + log2_of(met.line_pdf);
+    }
+    if (FEATURE_light_path_trials) {
+        add_emission_trials(path, radiance, by_explicit, log_light, settings.beta);
+        return;
+    }
+    if (FEATURE_light_strategy && by_light_path) {
         radiance *= camera_path_weight(by_explicit, log_light, settings.beta);  // MIS (13)
     } else if (by_light_sampling) {
         radiance *= power_heuristic(by_explicit, settings.beta);  // MIS (8)

@@ -10,6 +10,7 @@
 #include "renderer/kernels/mis/bidirectional.h"
 #include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/path/shadow_ray.h"
+#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/sampling/sampler.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/shared/integrator_settings.h"
@@ -82,6 +83,9 @@ DEVICE bool connect_to_light(Path path, PRIVATE const SceneView *scene, Integrat
         if (FEATURE_light_strategy && (settings.strategies & STRATEGY_LIGHT) != 0u) {
             const float log_light =
                 light_over_explicit(path, scene, hit, frame.wo, light, settings);
+            if (FEATURE_light_path_trials) {
+                set_light_sample_trials(path, radiance, by_implicit, log_light, settings.beta);
+            }
             radiance *= camera_path_weight(by_implicit, log_light, settings.beta);  // MIS (13)
         } else if (by_hit) {
             radiance *= power_heuristic(by_implicit, settings.beta);  // MIS (8)

@@ -2,6 +2,7 @@
 // The shadow ray of a path: the segment between its hit and the other end of a connection.
 #pragma once
 
+#include "renderer/kernels/path/trials.h"
 #include "renderer/kernels/scene_view.h"
 #include "renderer/kernels/traversal/shadow_ray.h"
 #include "renderer/shared/path_state.h"
@@ -27,5 +28,8 @@ DEVICE bool is_shadowed(Path path, PRIVATE const SceneView *scene) {
 DEVICE void add_unblocked(Path path, PRIVATE const SceneView *scene) {
     if (!is_shadowed(path, scene)) {
         set_radiance(path, get_radiance(path) + get_shadow_radiance(path));
+        if (FEATURE_light_path_trials) {
+            add_light_sample_trials(path);
+        }
     }
 }

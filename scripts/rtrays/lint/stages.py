@@ -89,11 +89,13 @@ def without_comments(text):
 def path_fields():
     """Returns the names of the words of a path's state."""
     table = text_of("renderer/shared/path_state.h")
-    return set(re.findall(r"X\(\w+, (?:uint|float|float3), (\w+)\)", table))
+    return set(re.findall(r"X\(\w+, (?:uint|float|float3|trials), (\w+)\)", table))
 
 
 def resource(field):
     """Returns the name by which heads list a word."""
+    if "trial" in field:
+        return "trials"
     return "hit" if field.startswith("hit_") else field
 
 

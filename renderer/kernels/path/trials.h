@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What a path contributes in every trial of a pilot (shared/light_path_trials.h). Without
+// FEATURE_light_path_trials nothing here is called.
+#pragma once
+
+#include "renderer/kernels/mis/truncated.h"
+#include "renderer/kernels/texture/texture.h"
+#include "renderer/shared/light_path_trials.h"
+#include "renderer/shared/path_state.h"
+
+/// Starts the trials of path `item` of the work.
+DEVICE void start_trials(Path path, uint item) {
+    set_trial_item(path, item);
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        set_trial_value(path, trial, 0.0f);
+    }
+}
+
+/// Returns the weight of an implicit or explicit path in a trial, MIS (13), from what
+/// `camera_path_weight` has for the light paths that are traced. Without light paths it is MIS (8).
+DEVICE float camera_trial_weight(uint trial, float other_over_own, float log_light_over_own,
+                                 float beta) {
+    return trial == 0u ? power_heuristic(other_over_own, beta)
+                       : camera_path_weight(other_over_own,
+                                            log_light_over_own + trial_log_factor(trial), beta);
+}
+
+/// Adds emission to a camera path in every trial. `radiance` has no weight yet.
+DEVICE void add_emission_trials(Path path, float3 radiance, float by_explicit, float log_light,
+                                float beta) {
+    const float value = rec709_luminance(radiance);
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        set_trial_value(path, trial,
+                        get_trial_value(path, trial) +
+                            value * camera_trial_weight(trial, by_explicit, log_light, beta));
+    }
+}
+
+/// Sets what a connection to a light adds in every trial. `radiance` has no weight yet.
+DEVICE void set_light_sample_trials(Path path, float3 radiance, float by_implicit, float log_light,
+                                    float beta) {
+    const float value = rec709_luminance(radiance);
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        set_shadow_trial(path, trial,
+                         value * camera_trial_weight(trial, by_implicit, log_light, beta));
+    }
+}
+
+/// Adds an unblocked connection of a camera path to a light.
+DEVICE void add_light_sample_trials(Path path) {
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        set_trial_value(path, trial, get_trial_value(path, trial) + get_shadow_trial(path, trial));
+    }
+}
+
+/// Adds an unblocked connection of a light path to the camera. Its pixel is that of no other
+/// connection of the path, as a rule, so the squares add up to the second moment.
+DEVICE void add_splat_trials(Path path) {
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        const float value = get_shadow_trial(path, trial);
+        set_trial_value(path, trial, get_trial_value(path, trial) + value * value);
+    }
+}
+
+/// Writes what a path found to the list of all paths.
+DEVICE void store_trials(Path path, GLOBAL PathTrials *list) {
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        list[get_trial_item(path)].value[trial] = get_trial_value(path, trial);
+    }
+}
