@@ -43,9 +43,8 @@ struct Pilot {
 /// 65,536, and as many light paths. The variance of the camera pass is estimated from the two
 /// samples of a pixel. That of the light pass is the second moment of a path's contributions, for
 /// hardly any two paths meet in a pixel. Both are those of independent samples, whatever the
-/// sampler. The cost is counted in rays. Variance and cost are the
-/// same in every run on one device, and so is the choice. The pilot uses its own seed; its samples
-/// are discarded.
+/// sampler. The cost is counted in rays. Variance and cost are the same in every run on one device,
+/// and so is the choice. The pilot uses its own seed; its samples are discarded.
 Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
                          const RenderSettings &settings);
 

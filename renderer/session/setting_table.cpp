@@ -94,12 +94,12 @@ const std::vector<Setting> &image_setting_table() {
                       1u << 30,
                       {{"pixels", LIGHT_PATHS_LIKE_PIXELS}, {"auto", LIGHT_PATHS_AUTO}}},
          "number of light paths for one sample of every pixel; pixels: as many as the image has "
-         "pixels; auto (truncated_bdpt only): a short pilot render chooses the most efficient "
-         "number, possibly 0"},
+         "pixels; auto (truncated_bdpt only): a pilot chooses the most efficient number, "
+         "possibly 0"},
         {"integrator.guided_emission", choice(&S::guided_emission, guided_emissions),
          "how light paths select their light and direction; off: by power and cosine; flat: "
-         "through "
-         "tables of directions whose bins are all equal, to test the tables; at most 64 lights"},
+         "through tables of directions whose bins are all equal, to test the tables; at most 64 "
+         "lights"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
          "bdpt: number N of vertices stored per light path; paths of more than N + 1 scattering "
          "events are sampled by the strategies of truncated_bdpt only"},

@@ -11,12 +11,14 @@ void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext 
     render_whole(session, 0, 1);
 }
 
-uint64_t batch_begin(const RenderSession &session, uint64_t first, uint64_t spp, uint64_t batches,
-                     uint64_t batch) {
+SampleRange batch_range(const RenderSession &session, uint64_t first, uint64_t spp,
+                        uint64_t batches, uint64_t batch) {
+    const uint64_t begin = batch * spp / batches, end = (batch + 1) * spp / batches;
     if (session.settings().sampler == Sampler::sobol) {
-        return first + batch * SOBOL_PERIOD;
+        const uint64_t begin_of_sequence = first + batch * SOBOL_PERIOD;
+        return {begin_of_sequence, begin_of_sequence + end - begin};
     }
-    return first + batch * spp / batches;
+    return {first + begin, first + end};
 }
 
 std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_t spp,
@@ -24,8 +26,8 @@ std::vector<Image> render_batches(RenderSession &session, uint32_t seed, uint64_
     std::vector<Image> images;
     for (uint64_t batch = 0; batch < batches; ++batch) {
         session.restart(seed);
-        const uint64_t begin = batch_begin(session, 0, spp, batches, batch);
-        render_whole(session, begin, begin + (batch + 1) * spp / batches - batch * spp / batches);
+        const SampleRange range = batch_range(session, 0, spp, batches, batch);
+        render_whole(session, range.begin, range.end);
         images.push_back(session.develop());
     }
     return images;

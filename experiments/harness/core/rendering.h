@@ -28,11 +28,11 @@ void render_whole(Renderer &renderer, uint64_t begin, uint64_t end) {
 /// it uses the same kernels and takes time. Throws `Error` (interrupted).
 void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device);
 
-/// Returns the first sample of batch `batch`, of `batches` with `spp` samples together. Batches are
+/// Returns the samples of batch `batch`, of `batches` with `spp` samples together. Batches are
 /// parts of one range, which begins at `first`. Batches of Sobol points would be too similar for
 /// independent images; they are parts of different sequences instead.
-uint64_t batch_begin(const RenderSession &session, uint64_t first, uint64_t spp, uint64_t batches,
-                     uint64_t batch);
+SampleRange batch_range(const RenderSession &session, uint64_t first, uint64_t spp,
+                        uint64_t batches, uint64_t batch);
 
 /// Renders `spp` samples as `batches` independent images of equal parts. Variances are estimated
 /// from the scatter of these images: splats of a path fall on several pixels, and only the scatter

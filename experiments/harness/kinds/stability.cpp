@@ -51,10 +51,9 @@ Batches render(const SceneVariant &variant, const StabilityCase &tested,
     Batches result;
     for (uint64_t batch = 0; batch < batches; ++batch) {
         session.restart(renderer_seed);
-        const uint64_t begin =
-            batch_begin(session, tested.first_sample, tested.spp, batches, batch);
-        render_whole(session, begin,
-                     begin + (batch + 1) * tested.spp / batches - batch * tested.spp / batches);
+        const SampleRange range =
+            batch_range(session, tested.first_sample, tested.spp, batches, batch);
+        render_whole(session, range.begin, range.end);
         const FilmState film = session.film();
         result.non_finite += film.non_finite;
         result.out_of_range += film.out_of_range;
