@@ -78,19 +78,23 @@ TrialPaths RenderSession::trace_trials(PassKind kind) {
     return found;
 }
 
+RenderSettings pilot_settings(const RenderSettings &settings) {
+    RenderSettings pilot = settings;
+    pilot.seed = ~settings.seed;
+    pilot.light_paths = LIGHT_PATHS_LIKE_PIXELS;
+    pilot.light_path_trials = true;
+    pilot.only_pass.reset();
+    pilot.variance = pilot.separate_strategies = false;
+    pilot.convergence_error = 0;
+    return pilot;
+}
+
 Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
                          const RenderSettings &settings) {
     if (shared->compiled().lighting.light_count == 0) {
         return {};
     }
-    RenderSettings trial_settings = settings;
-    trial_settings.seed = ~settings.seed;
-    trial_settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
-    trial_settings.light_path_trials = true;
-    trial_settings.only_pass.reset();
-    trial_settings.variance = trial_settings.separate_strategies = false;
-    trial_settings.convergence_error = 0;
-    RenderSession session(shared, scene, trial_settings);
+    RenderSession session(shared, scene, pilot_settings(settings));
     const TrialPaths camera = session.trace_trials(PassKind::camera);
     const ByTrial of_camera = camera_variance(camera.paths);
 

@@ -36,6 +36,9 @@ struct Pilot {
     double wall_seconds = 0;  ///< wall time, without compilation
 };
 
+/// Returns the settings of the session that traces the paths of a pilot for `settings`.
+RenderSettings pilot_settings(const RenderSettings &settings);
+
 /// Chooses the number of light paths for `settings` among 0 and the powers of 4 from 1/64 to 64 per
 /// pixel, without 0 if only light paths see some light of the scene.
 ///

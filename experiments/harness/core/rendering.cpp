@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "experiments/harness/core/rendering.h"
 
+#include "renderer/session/pilot.h"
+
 namespace rtrays {
 
 void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device) {
     if (settings.light_paths == LIGHT_PATHS_AUTO) {
+        RenderSession(scene, pilot_settings(settings), device);
         settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
     }
     RenderSession session(scene, settings, device);
