@@ -3,7 +3,10 @@
 
 The mean squared error of an unbiased estimator falls as 1 / N, so that MSE x samples and MSE x
 seconds hardly depend on N. Curves are still compared at equal N: the last paths of a batch are a
-smaller share of the cost of many samples.
+smaller share of the cost of many samples, and the error of stratified samples falls faster.
+
+Seconds include the pilot of a curve. Its time does not grow with N, so a gain in equal time is that
+of a render of N samples: a longer render gains more.
 """
 
 import numpy
@@ -15,8 +18,8 @@ DRAWS = 2000
 
 
 class Cost:
-    """MSE and device seconds of a curve at its last point above the reference's noise, or at
-    `spp`."""
+    """MSE and device seconds of a curve, the pilot included, at its last point above the
+    reference's noise, or at the last one up to `spp`."""
 
     def __init__(self, curve, noise, spp=None):
         points = [
@@ -32,10 +35,7 @@ class Cost:
         self.pilot_seconds = pilot_seconds(curve)
         repetitions = value(point, "repetitions")
         self.mse = numpy.array([value(r, "mse") for r in repetitions]) - noise
-        self.seconds = (
-            float(numpy.median([value(r, "seconds_device") for r in repetitions]))
-            - self.pilot_seconds
-        )
+        self.seconds = float(numpy.median([value(r, "seconds_device") for r in repetitions]))
 
 
 def draws_of_mean(sample, generator):
@@ -67,7 +67,7 @@ def costs(base, curve, noise):
 
 def gain(base, curve, noise, key):
     """Returns how many times the samples ("spp") or the device time ("seconds") of `curve` are
-    needed by `base` for an equal error."""
+    needed by `base` for an equal error. Device time includes pilots; see the head of this file."""
     return ratio(*costs(base, curve, noise), key)
 
 

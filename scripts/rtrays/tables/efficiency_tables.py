@@ -37,8 +37,8 @@ def efficiency_table(run):
             "curve",
             "samples per pixel",
             "MSE minus reference noise",
-            "device time without pilot, s",
-            "pilot, s",
+            "device time with pilot, s",
+            "pilot alone, s",
             "gain in equal samples, times",
             "gain in equal device time, times",
         ],
@@ -46,7 +46,8 @@ def efficiency_table(run):
         [
             f"Gain in equal samples: how many times the samples {label(base)} needs for the same"
             " error. Gain in equal device time: how many times smaller the MSE is in the same"
-            " time. Light that an algorithm misses counts as error."
+            " time. The time of a pilot counts; it is the same for any number of samples, so a"
+            " longer render gains more. Light that an algorithm misses counts as error."
         ],
     )
 

@@ -14,15 +14,15 @@ class EfficiencyTables(RunFolder):
     def test_efficiency_compares_what_is_beyond_the_reference_noise(self):
         mis, other = self.document["curves"][1], self.document["curves"][0]
         # At 4 spp the MSE is 0.25, 0.01 of it that of the reference. The other curve has twice the
-        # rest in 1.5 times the time, without its pilot of 0.2 s.
+        # rest in twice the time of 0.4 s, of which its pilot is 0.2 s.
         for repetition in other["points"][2]["repetitions"]:
-            repetition.update(mse=0.01 + 2 * 0.24, seconds_device=1.5 * 0.4 + 0.2)
+            repetition.update(mse=0.01 + 2 * 0.24, seconds_device=0.6 + 0.2)
         other["render_report"]["pilot"] = {"seconds": 0.2}
         rows = {row[0]: row for row in efficiency_table(self.run_object()).rows}
         self.assertEqual(rows["path tracing (MIS)"][5:], ["1 (baseline)", "1 (baseline)"])
         self.assertEqual(
-            rows["path tracing (implicit)"][4:],
-            ["0.2", "0.5 [0.5, 0.5]", "0.3333 [0.3333, 0.3333]"],
+            rows["path tracing (implicit)"][3:],
+            ["0.8", "0.2", "0.5 [0.5, 0.5]", "0.25 [0.25, 0.25]"],
         )
         mis["points"][0]["noise_dominates"] = True
         with self.assertRaisesRegex(RunError, "path_tracing.mis has no point above"):
