@@ -317,7 +317,9 @@ ExitCode parse_and_render(int argc, char **argv) {
         "  rtrays-render develop IN.exr -o OUT     converts an image for display",
         "rtrays-render");
     app.set_version_flag("--version", program_version("rtrays-render"));
-    app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings() +
+    RenderSettings defaults;
+    defaults.sampler = default_sampler(*defaults.algorithm);
+    app.footer("Settings (--set NAME=VALUE) and their defaults:\n" + describe_settings(defaults) +
                "  scene.NODE.PROPERTY = ...  any property that --print-scene lists");
     Options options;
     add_options(app, options);

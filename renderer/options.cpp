@@ -108,6 +108,8 @@ void require_consistent(const Options &options) {
 }
 
 void apply_options(Options &options, Scene &scene) {
+    options.settings.algorithm = &algorithm_named(options.algorithm);
+    options.settings.sampler = default_sampler(*options.settings.algorithm);
     for (const std::string &assignment : options.assignments) {
         const std::string scene_prefix = "scene.";
         if (assignment.rfind(scene_prefix, 0) == 0) {
@@ -121,7 +123,6 @@ void apply_options(Options &options, Scene &scene) {
             apply_setting(options.settings, assignment);
         }
     }
-    options.settings.algorithm = &algorithm_named(options.algorithm);
     options.settings.only_pass = find_named(pass_kinds, options.passes);
     options.settings.variance = requested(options.layers, "variance");
     options.settings.separate_strategies = requested(options.layers, "strategies");

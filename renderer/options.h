@@ -64,7 +64,8 @@ void require_outputs(const std::vector<std::string> &outputs, const std::string 
 /// Throws `Error` (bad usage) if a film would be replaced without --overwrite.
 void require_new_film(const std::string &path, bool overwrite, const char *alternatives);
 
-/// Applies --set to the scene and the settings, and the other options that are settings.
+/// Applies --set to the scene and the settings, and the other options that are settings. The
+/// sampler that --set does not name is `default_sampler`.
 void apply_options(Options &options, Scene &scene);
 
 /// Sets the size of the scene's film: --size, or that of the scene. The image is its window.

@@ -304,6 +304,30 @@ class Program(unittest.TestCase):
         self.assertEqual(self.words(first), self.words(whole))
         self.expect_error(2, ["overlap"], "merge", whole, second, "-o", self.path / "none.exr")
 
+    def sampler(self, *arguments):
+        """Returns integrator.sampler of a dry run."""
+        result = self.run_program(CORNELL, "--dry-run", *SMALL, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)["settings"]["integrator.sampler"]
+
+    def test_samples_are_sobol_points_unless_told_otherwise(self):
+        for arguments, sampler in ((["--algorithm", "path_tracing"], "sobol"),
+                                   (["--algorithm", "whitted"], "regular"),
+                                   (["--set", "integrator.sampler=independent"], "independent")):
+            self.assertEqual(self.sampler(*arguments), sampler)
+        self.assertIn("integrator.sampler = sobol", self.run_program("--help").stdout)
+        default = self.film("default", "--spp", "2")
+        sobol = self.film("sobol", "--spp", "2", "--set", "integrator.sampler=sobol")
+        independent = self.film("independent", "--spp", "2",
+                                "--set", "integrator.sampler=independent")
+        self.assertEqual(self.words(default), self.words(sobol))
+        self.assertNotEqual(self.words(default), self.words(independent))
+        self.expect_error(2, ["other settings"], CORNELL, "-o", self.output(), "--spp", 4,
+                          "--resume", "--state", independent, *SMALL)
+        later = self.film("later", "--samples", "2:4")
+        self.expect_error(2, ["differ in integrator.sampler"],
+                          "merge", independent, later, "-o", self.output())
+
     def test_passes_of_two_devices_have_the_bits_of_one(self):
         environment = dict(os.environ, POCL_DEVICES="basic pthread")
         devices = self.run_program("--list-devices", env=environment).stdout.splitlines()

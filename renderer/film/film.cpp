@@ -279,7 +279,8 @@ void merge_film(FilmState &film, const FilmState &other) {
         }
     };
     require(film.width == other.width && film.height == other.height, "size");
-    require(film.variance == other.variance && film.sequences == other.sequences, "layers");
+    require(film.variance == other.variance, "layers");
+    require(film.sequences == other.sequences, "integrator.sampler");
     require(film.passes == other.passes || (film.passes.size() == 1 && other.passes.size() == 1),
             "passes");
     require(film.seed == other.seed, "seed");

@@ -210,7 +210,7 @@ TEST(Film, SequencesDoNotChangeTheMean) {
     merge_film(parts, film_of_sequences({samples.begin() + 333, samples.end()}, {{333, 1000}}));
     EXPECT_EQ(parts.words, film_of_sequences(samples, {{0, 1000}}).words);
     FilmState other = film_of(samples);
-    expect_input_error("films differ in layers", [&] { merge_film(other, parts); });
+    expect_input_error("films differ in integrator.sampler", [&] { merge_film(other, parts); });
 }
 
 TEST(Film, MergesExactlyInAnyOrder) {

@@ -158,4 +158,8 @@ RenderSettings with_fixed_choices(RenderSettings settings) {
     return settings;
 }
 
+Sampler default_sampler(const Algorithm &algorithm) {
+    return algorithm.is_random ? Sampler::sobol : Sampler::regular;
+}
+
 }  // namespace rtrays

@@ -83,8 +83,7 @@ std::vector<std::string> changed_settings(const RenderSettings &settings) {
     return changed;
 }
 
-std::string describe_settings() {
-    const RenderSettings defaults;
+std::string describe_settings(const RenderSettings &defaults) {
     std::string description;
     for (const Setting &setting : all_settings()) {
         const auto *named = std::get_if<ChoiceSetting>(&setting.kind);

@@ -115,6 +115,11 @@ void require_consistent(const RenderSettings &settings);
 /// concern ray_casting and whitted, which draw no random numbers (thesis 2.7.6).
 RenderSettings with_fixed_choices(RenderSettings settings);
 
+/// Returns the sampler of rtrays-render unless it is told another one: Sobol points, or the regular
+/// ones of an algorithm without random numbers. `RenderSettings` and thus experiments have the
+/// independent samples of the thesis.
+Sampler default_sampler(const Algorithm &algorithm);
+
 /// Returns all settings that decide the image (the algorithm and "integrator.*"), for provenance
 /// and for the hash of the configuration.
 nlohmann::json image_settings(const RenderSettings &settings);
@@ -122,9 +127,9 @@ nlohmann::json image_settings(const RenderSettings &settings);
 /// Returns the "integrator.*" settings that differ from the defaults, as "integrator.beta=1".
 std::vector<std::string> changed_settings(const RenderSettings &settings);
 
-/// Returns the names, defaults, values and meanings of all settings for --help, wrapped to 100
-/// columns.
-std::string describe_settings();
+/// Returns the names, values and meanings of all settings for --help, with their values in
+/// `defaults`, wrapped to 100 columns.
+std::string describe_settings(const RenderSettings &defaults);
 
 // The functions below expect consistent settings.
 

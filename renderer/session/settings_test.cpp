@@ -89,6 +89,20 @@ TEST(Settings, OfAlgorithmsWithoutRandomNumbersAreFixed) {
     EXPECT_EQ(fixed.light_selection, LightSelection::independent);
 }
 
+TEST(Settings, OfTheProgramHaveTheBestSamplerOfTheAlgorithm) {
+    for (const Algorithm *algorithm : all_algorithms()) {
+        RenderSettings settings;
+        settings.algorithm = algorithm;
+        EXPECT_EQ(settings.sampler, Sampler::independent) << "that of experiments";
+        settings.sampler = default_sampler(*algorithm);
+        EXPECT_EQ(settings.sampler, algorithm->is_random ? Sampler::sobol : Sampler::regular);
+        EXPECT_NO_THROW(require_consistent(settings)) << algorithm->name;
+    }
+    RenderSettings defaults;
+    defaults.sampler = Sampler::sobol;
+    EXPECT_NE(describe_settings(defaults).find("integrator.sampler = sobol "), std::string::npos);
+}
+
 TEST(Settings, NameTheAlternatives) {
     for (const auto &[assignment, fragment] :
          {std::pair("integrator.strategies=both", "implicit, explicit, mis"),

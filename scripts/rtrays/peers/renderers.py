@@ -56,8 +56,9 @@ def average(runs, output):
 
 
 def own_image(program, scene, output, *options):
-    """Renders a scene with rtrays-render or rtrays-reference."""
-    call([program, scene, "-o", output, "--quiet", *options])
+    """Renders a scene with rtrays-render or rtrays-reference, both with independent samples."""
+    sampler = ["--set", "integrator.sampler=independent"] if program == "rtrays-render" else []
+    call([program, scene, "-o", output, "--quiet", *sampler, *options])
 
 
 def mitsuba_version():

@@ -46,10 +46,10 @@ def measure(program, scene, size, folder, more, inclusive):
 
 def traversals(renderer, reference, scene, size, folder):
     """Yields the name of each traversal and its instructions per ray for each query."""
+    sampler = ["--set", "integrator.sampler=independent"]
     for layout in LAYOUTS:
-        counts, rays = measure(
-            renderer, scene, size, folder, ["--set", f"device.bvh_layout={layout}"], False
-        )
+        settings = [*sampler, "--set", f"device.bvh_layout={layout}"]
+        counts, rays = measure(renderer, scene, size, folder, settings, False)
         kernels = {
             match[1]: count for name, count in counts.items() if (match := KERNEL.fullmatch(name))
         }

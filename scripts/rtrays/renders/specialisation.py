@@ -27,6 +27,8 @@ def render(program, scene, features, spp, folder, caches):
         "--quiet",
         "--set",
         f"device.features={features}",
+        "--set",
+        "integrator.sampler=independent",
     ]
     environment = {
         "RTRAYS_CACHE_DIR": str(caches / "rtrays"),
