@@ -202,6 +202,9 @@ void compile_lights(const SceneArrays &scene, const CompileSettings &settings,
 /// Sets the fields of `lighting` that depend on the position of the camera. Reads `extent`.
 void compile_distances(CompiledScene &compiled);
 
+/// Returns the sphere around a bounded shape.
+SceneExtent extent_of_shape(const ShapeRecord &record);
+
 /// Returns the sphere around the bounded surfaces, with a margin for the rounding of points on them
 /// and a radius above 0. Reads `shapes` and `camera`.
 SceneExtent compile_extent(const SceneArrays &scene, const CompiledScene &compiled);

@@ -8,28 +8,27 @@
 
 namespace rtrays {
 
-namespace {
-
-/// Returns the sphere around a bounded shape.
-SceneExtent extent_of_shape(ShapeArrays::Kind kind, const ShapeRecord &record) {
+SceneExtent extent_of_shape(const ShapeRecord &record) {
     Eigen::Matrix<double, 3, 4> world;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 4; ++column) {
             world(row, column) = static_cast<double>(record.world_from_object[row][column]);
         }
     }
-    const bool flat = kind == ShapeArrays::Kind::disc;
+    const bool flat = record.uv_kind == SHAPE_UV_DISC;
     const double stretch =
         flat ? world.leftCols<2>().operatorNorm() : world.leftCols<3>().operatorNorm();
     return {world.col(3), stretch * std::sqrt(static_cast<double>(record.bound2))};
 }
+
+namespace {
 
 /// Returns the smallest sphere about the centre of the bounding box.
 SceneExtent tight_extent(const SceneArrays &scene, const CompiledScene &compiled) {
     std::vector<SceneExtent> shapes;
     for (size_t i = 0; i < scene.shapes.kind.size(); ++i) {
         if (scene.shapes.kind[i] != ShapeArrays::Kind::plane) {
-            shapes.push_back(extent_of_shape(scene.shapes.kind[i], compiled.shapes[i]));
+            shapes.push_back(extent_of_shape(compiled.shapes[i]));
         }
     }
     const bool encloses = shapes.size() == scene.shapes.kind.size();

@@ -45,8 +45,8 @@ enum class StageItems {
     X(reset_streams, "kernels/advance_streams.cl", slots, In::first_work, In::streams)             \
     X(generate_camera_rays, "kernels/generate_camera_rays.cl", entries, In::camera, In::settings,  \
       In::first_sample, In::work, In::live_pixels, In::streams)                                    \
-    X(generate_light_paths, "kernels/generate_light_paths.cl", entries, In::shading, In::settings, \
-      In::first_sample, In::work, In::vertices, In::streams)                                       \
+    X(generate_light_paths, "kernels/generate_light_paths.cl", entries, In::shading, In::camera,   \
+      In::settings, In::first_sample, In::work, In::vertices, In::streams)                         \
     X(begin_round, "kernels/advance_streams.cl", one, In::counters)                                \
     X(intersect_nearest, "kernels/intersect_nearest.cl", entries, In::tracing, In::streams)        \
     X(evaluate_emission, "kernels/evaluate_emission.cl", entries, In::shading, In::settings,       \
@@ -54,8 +54,6 @@ enum class StageItems {
     X(sample_light, "kernels/sample_light.cl", entries, In::shading, In::settings,                 \
       In::first_sample, In::light_index, In::streams)                                              \
     X(intersect_any, "kernels/intersect_any.cl", entries, In::tracing, In::streams)                \
-    X(connect_emitter, "kernels/connect_emitter.cl", entries, In::shading, In::camera,             \
-      In::settings, In::first_sample, In::streams)                                                 \
     X(connect_camera, "kernels/connect_camera.cl", entries, In::shading, In::camera, In::settings, \
       In::first_sample, In::streams)                                                               \
     X(store_vertex, "kernels/store_vertex.cl", entries, In::shading, In::settings, In::vertices,   \

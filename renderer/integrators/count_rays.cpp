@@ -10,7 +10,8 @@ std::vector<Pass> counting_passes(std::vector<Pass> passes) {
             if (stage.stage == Stage::begin_round) {
                 round.push_back({Stage::count_nearest_rays});
             } else if (stage.stage == Stage::end_shadow_rays) {
-                round.push_back({Stage::count_shadow_rays, stage.index, stage.rounds});
+                round.push_back(stage);
+                round.back().stage = Stage::count_shadow_rays;
             }
             round.push_back(stage);
         }

@@ -13,19 +13,21 @@ namespace {
 
 std::vector<RoundStage> light_round(FeatureMask features) {
     std::vector<RoundStage> round = {{Stage::generate_light_paths}, {Stage::begin_round}};
-    const auto connect = [&](Stage stage) {
-        round.push_back({stage});
+    const auto splat = [&](bool emitters) {
         round.push_back({Stage::splat_unblocked});
+        round.back().shows_emitters = emitters;
         round.push_back({Stage::end_shadow_rays});
+        round.back().shows_emitters = emitters;
     };
     const bool emitters = features.has(Feature::area_lights) || features.has(Feature::shape_lights);
     if (emitters &&
         (features.has(Feature::light_emitters) || !features.has(Feature::light_strategy))) {
-        connect(Stage::connect_emitter);  // emitters seen directly
+        splat(/*emitters=*/true);  // connected by generate_light_paths
     }
     if (features.has(Feature::scattering)) {
         round.push_back({Stage::intersect_nearest});
-        connect(Stage::connect_camera);
+        round.push_back({Stage::connect_camera});
+        splat(/*emitters=*/false);
     }
     round.push_back({Stage::extend_path});
     round.push_back({Stage::end_round});

@@ -19,6 +19,9 @@ struct RoundStage {
     uint32_t index = SELECT_LIGHT;
     /// The stage is launched in the first `rounds` rounds of a chunk of work, 0: in every round.
     uint32_t rounds = 0;
+    /// The stage serves connections of emitters to the camera, and is not launched if the camera
+    /// sees none directly.
+    bool shows_emitters = false;
 };
 
 /// A pass traces paths from one end, the camera or the lights. Each round advances every path in

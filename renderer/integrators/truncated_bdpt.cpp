@@ -14,8 +14,8 @@
 //   light   light     connect_camera: each hit, as x1, is  (4)      Q, (15)         (16)
 //                     connected to the lens; the
 //                     contribution is (9)
-//   light   light,    connect_emitter: the point on the    n_L p_o  none            (1) with (17)
-//           k = 1     light is connected to the lens
+//   light   light,    generate_light_paths: the point on   n_L p_o  none            (1) with (17)
+//           k = 1     the light is connected to the lens
 //
 // evaluate_emission sets R at the first hit. generate_light_paths and connect_camera set the start
 // of Q. extend_path continues R and Q at every vertex. The last strategy exists with

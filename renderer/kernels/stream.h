@@ -7,11 +7,12 @@
 #include "renderer/shared/stream_counters.h"
 
 // Indices of the queues in the buffer. Queues 0 and 1 are the active queues, used alternately. The
-// free queue and the shadow queue share an index because their lifetimes do not overlap. The free
-// queue is in use from the stage that ends paths to the next one that starts paths. The shadow
-// queue is in use from a stage that connects paths to the stage that traces the shadow rays.
+// free queue is in use from the stage that ends paths to the one that starts paths. The shadow
+// queue is in use from a stage that connects paths to the one that traces the shadow rays. They
+// share memory in passes from the camera. In passes from lights one stage starts and connects
+// paths.
 #define QUEUE_FREE 2u
-#define QUEUE_SHADOW 2u
+#define QUEUE_SHADOW (FEATURE_from_light ? LIGHT_QUEUES - 1u : CAMERA_QUEUES - 1u)
 
 /// Number of queue entries that one work-item processes, one after the other. It is 1 on a GPU and
 /// larger on a CPU, where one atomic operation then appends the results of all entries.

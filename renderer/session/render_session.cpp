@@ -56,9 +56,7 @@ bool RenderSession::is_complete() const {
 
 void RenderSession::restart(uint32_t seed) {
     state_->integrator.seed = state_->settings.seed = seed;
-    for (CompiledPass &pass : state_->passes) {
-        pass.stages.bind({{StageInput::settings, {pass.own_settings(state_->integrator)}}});
-    }
+    state_->bind_scene();
     state_->reset_film();
 }
 

@@ -58,8 +58,7 @@ constexpr auto word_bytes = static_cast<uint32_t>(sizeof(uint32_t));
 
 /// Returns the bytes of a path's state and of its entries in queues.
 uint32_t bytes_per_path(const CompiledPass &pass) {
-    return (pass.streams ? STREAM_QUEUES * word_bytes : 0) +
-           path_state_words(pass.features) * word_bytes;
+    return (pass.queues() + path_state_words(pass.features)) * word_bytes;
 }
 
 Json pass_report(const CompiledPass &pass, uint64_t paths_per_sample) {

@@ -231,6 +231,9 @@ void RenderSession::State::run_pass(CompiledPass &pass, uint64_t first, uint32_t
                     static_cast<uint32_t>(check * rounds_per_check + i) >= stage.rounds) {
                     continue;
                 }
+                if (stage.shows_emitters && !emitters_in_view) {
+                    continue;
+                }
                 bind_index(pass, stage);
                 enqueue(pass, stage.stage);
             }

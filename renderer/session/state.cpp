@@ -9,6 +9,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/files.h"
+#include "renderer/compile/emitter_view.h"
 #include "renderer/integrators/count_rays.h"
 #include "renderer/integrators/megakernel.h"
 #include "renderer/scene/scene.h"
@@ -193,10 +194,7 @@ bool RenderSession::State::update(const Scene &graph) {
     if (scene_version != scene->version()) {
         set_guide();
         scene_version = scene->version();
-        const StageArguments arguments = scene_arguments();
-        for (CompiledPass &pass : passes) {
-            pass.stages.bind(arguments);
-        }
+        bind_scene();
     }
     set_config();
     reset_film();
@@ -242,15 +240,16 @@ void RenderSession::State::require_current() const {
 
 void RenderSession::State::allocate_streams() {
     const uint64_t capacity = layout.capacity;
-    uint32_t words = 0;  // passes reuse the memory one after the other
+    uint32_t words = 0, queues_per_path = 0;  // passes reuse memory one after the other
     for (const CompiledPass &pass : passes) {
         words = std::max(words, path_state_words(pass.features));
+        queues_per_path = std::max(queues_per_path, pass.queues());
     }
     const bool streams = passes.front().streams;
     path_words = Buffer<uint32_t>(device, "path_states", streams ? capacity * words : 0);
     vertex_words = Buffer<uint32_t>(device, "light_vertices", capacity * vertex_words_per_path());
     branch_vertices = Buffer<uint32_t>(device, "branches", capacity * branch_words_per_path());
-    queues = Buffer<uint32_t>(device, "queues", streams ? capacity * STREAM_QUEUES : 0);
+    queues = Buffer<uint32_t>(device, "queues", capacity * queues_per_path);
     counters = Buffer<StreamCounters>(device, "counters", 1);
     counters.clear();
 }
@@ -303,7 +302,8 @@ void RenderSession::State::allocate_film() {
 
 void RenderSession::State::bind() {
     using In = StageInput;
-    StageArguments arguments = scene_arguments();
+    emitters_in_view = rtrays::emitters_in_view(scene->compiled(), camera());
+    StageArguments arguments;
     arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
     arguments[In::first_sample] = {uint64_t{0}};
     arguments[In::light_index] = arguments[In::vertex_index] = {uint32_t{SELECT_LIGHT}};
@@ -317,7 +317,6 @@ void RenderSession::State::bind() {
         for (auto &[input, bound] : pass.indices) {
             bound = SELECT_LIGHT;
         }
-        arguments[In::settings] = {pass.own_settings(integrator)};
         arguments[In::film] = {pass.film};
         arguments[In::ray_counts] = {pass.ray_counts};
         // Null pointers, which no kernel reads without convergence control or a pilot.
@@ -328,22 +327,38 @@ void RenderSession::State::bind() {
                 arguments[input] = list;
             }
         }
-        pass.stages.bind(arguments);
+        StageArguments all = scene_arguments(pass);
+        all.insert(arguments.begin(), arguments.end());
+        pass.stages.bind(all);
     }
 }
 
-StageArguments RenderSession::State::scene_arguments() const {
-    StageArguments arguments = scene->arguments(features, emission_guide);
+CameraRecord RenderSession::State::camera() const {
     const RenderSettings::Window &window = settings.window;
     const bool is_full = window.full_width == 0;
-    CameraRecord camera = scene->camera(is_full ? settings.width : window.full_width,
+    CameraRecord record = scene->camera(is_full ? settings.width : window.full_width,
                                         is_full ? settings.height : window.full_height);
-    camera.width = static_cast<uint32_t>(settings.width);
-    camera.height = static_cast<uint32_t>(settings.height);
-    camera.crop_x = static_cast<uint32_t>(window.x);
-    camera.crop_y = static_cast<uint32_t>(window.y);
-    arguments[StageInput::camera] = {camera};
+    record.width = static_cast<uint32_t>(settings.width);
+    record.height = static_cast<uint32_t>(settings.height);
+    record.crop_x = static_cast<uint32_t>(window.x);
+    record.crop_y = static_cast<uint32_t>(window.y);
+    return record;
+}
+
+StageArguments RenderSession::State::scene_arguments(const CompiledPass &pass) const {
+    IntegratorSettings common = integrator;
+    common.strategies |= emitters_in_view ? 0u : STRATEGY_EMITTERS_OUT_OF_VIEW;
+    StageArguments arguments = scene->arguments(features, emission_guide);
+    arguments[StageInput::camera] = {camera()};
+    arguments[StageInput::settings] = {pass.own_settings(common)};
     return arguments;
+}
+
+void RenderSession::State::bind_scene() {
+    emitters_in_view = rtrays::emitters_in_view(scene->compiled(), camera());
+    for (CompiledPass &pass : passes) {
+        pass.stages.bind(scene_arguments(pass));
+    }
 }
 
 void RenderSession::State::warm_up() {

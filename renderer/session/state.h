@@ -51,6 +51,14 @@ struct CompiledPass : Pass {
         return common;
     }
 
+    /// Returns the number of queue entries per path slot.
+    uint32_t queues() const {
+        if (!streams) {
+            return 0;
+        }
+        return features.has(Feature::from_light) ? LIGHT_QUEUES : CAMERA_QUEUES;
+    }
+
     /// Empties film, ray counts and profile.
     void clear() {
         film.fill(0);
@@ -107,8 +115,13 @@ struct RenderSession::State {
     void allocate_trials();
     void bind();
 
-    /// Returns what the stages read of the scene, and the camera.
-    StageArguments scene_arguments() const;
+    /// Returns what the stages of a pass read of the scene, the camera, and the settings.
+    StageArguments scene_arguments(const CompiledPass &pass) const;
+
+    /// Sets `emitters_in_view` and binds `scene_arguments`, for all passes.
+    void bind_scene();
+
+    CameraRecord camera() const;
 
     /// Makes the flat guide if the settings ask for it, and copies the guide to the device. Throws
     /// `Error` (bad input) if the guide does not fit the scene.
@@ -222,7 +235,8 @@ struct RenderSession::State {
     IntegratorSettings integrator;
     FeatureMask features;  ///< union over all passes
     std::vector<CompiledPass> passes;
-    std::string config;  ///< hash of scene and settings
+    std::string config;            ///< hash of scene and settings
+    bool emitters_in_view = true;  ///< `emitters_in_view` of the camera and the scene
 
     Buffer<uint32_t> emission_guide;
     Buffer<uint32_t> path_words;

@@ -14,6 +14,8 @@
 #define STRATEGY_LIGHT_EMITTERS 8u
 // Emission hit by paths has its MIS weight, but another pass adds it to the film.
 #define STRATEGY_HITS_ELSEWHERE 16u
+// The camera sees no emitter directly, whatever is in between.
+#define STRATEGY_EMITTERS_OUT_OF_VIEW 32u
 
 #define TERMINATION_FIXED 0u
 #define TERMINATION_ROULETTE 1u

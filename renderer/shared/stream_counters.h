@@ -6,8 +6,10 @@
 
 #include "compat.h"
 
-/// Number of queue entries allocated per path slot.
-#define STREAM_QUEUES 3u
+/// Numbers of queue entries per path slot in passes from the camera and from lights
+/// (kernels/stream.h).
+#define CAMERA_QUEUES 3u
+#define LIGHT_QUEUES 4u
 
 /// Counters of one stream.
 typedef struct StreamCounters {

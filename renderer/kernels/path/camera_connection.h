@@ -153,21 +153,29 @@ DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, Cam
     return true;
 }
 
+/// Whether light paths may show emitters that the camera sees directly.
+#define SHOWS_EMITTERS                                \
+    ((FEATURE_area_lights || FEATURE_shape_lights) && \
+     (FEATURE_light_emitters || !FEATURE_light_strategy))
+
 /// Connects the start of a light path to the camera and prepares the shadow ray. Returns false if
-/// the camera does not see it or light paths do not show it. Only spheres with a table show another
-/// point than the path starts from. Otherwise the shadow ray has the origin of the path, which is
-/// not written.
+/// the camera does not see it or light paths do not show it. Spheres with a table show another
+/// point than `start`. Otherwise the shadow ray has the origin of the path, which is not written.
 DEVICE bool connect_start_to_camera(Path path, PRIVATE const SceneView *scene, CameraRecord camera,
-                                    IntegratorSettings settings, ulong first_sample) {
+                                    IntegratorSettings settings, ulong first_sample,
+                                    EmissionSample start) {
     const uint index = get_pixel(path);
     const ulong sample = first_sample + get_sample(path);
     const bool seen_by_camera_alone =
         FEATURE_light_strategy &&
         (settings.strategies & (STRATEGY_LIGHT | STRATEGY_LIGHT_EMITTERS)) == STRATEGY_LIGHT;
-    if (get_depth(path) > 0u || seen_by_camera_alone) {
+    if (!SHOWS_EMITTERS || seen_by_camera_alone ||
+        (settings.strategies & STRATEGY_EMITTERS_OUT_OF_VIEW) != 0u) {
         return false;
     }
-    const EmissionSample start = seen_light_path_start(scene, settings, index, sample);
+    if (FEATURE_shadow_origin) {
+        start = seen_light_path_start(scene, settings, index, sample);
+    }
     if (start.is_delta != 0u || start.at_infinity != 0u) {
         return false;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The start of a light path. Two stages derive it from the path's random words.
+// The start of a light path.
 #pragma once
 
 #include "renderer/kernels/light/emission.h"
@@ -9,7 +9,7 @@
 #include "renderer/shared/integrator_settings.h"
 #include "renderer/shared/path_state.h"
 
-/// Returns the start of light path `index` of sample `sample`. It is the same on every call.
+/// Returns the start of light path `index` of sample `sample`.
 DEVICE EmissionSample light_path_start(PRIVATE const SceneView *scene, IntegratorSettings settings,
                                        uint index, ulong sample) {
     return sample_emission(scene, path_sample(settings, index, sample, BLOCK_EMISSION(0u)),
@@ -24,13 +24,15 @@ DEVICE EmissionSample seen_light_path_start(PRIVATE const SceneView *scene,
                                 path_sample(settings, index, sample, BLOCK_EMISSION(1u)));
 }
 
-/// Starts light path `index` of sample `sample` of the batch.
-DEVICE void start_light_path(Path path, PRIVATE const SceneView *scene, IntegratorSettings settings,
-                             ulong first_sample, uint index, uint sample) {
+/// Starts light path `item` of the batch, all paths of one sample after the other. Returns its
+/// start.
+DEVICE EmissionSample start_light_path(Path path, PRIVATE const SceneView *scene,
+                                       IntegratorSettings settings, ulong first_sample, uint item) {
+    const uint index = item % settings.light_paths, sample = item / settings.light_paths;
+    const EmissionSample emission = light_path_start(scene, settings, index, first_sample + sample);
     set_pixel(path, index);
     set_sample(path, sample);
     set_depth(path, 0u);
-    const EmissionSample emission = light_path_start(scene, settings, index, first_sample + sample);
     set_ray_origin(path, emission.origin);
     set_ray_direction(path, emission.direction);
     set_throughput(path, emission.weight);
@@ -46,4 +48,5 @@ DEVICE void start_light_path(Path path, PRIVATE const SceneView *scene, Integrat
     // A_{k-1} of MIS (20) without the distance and the cosine of the first hit, and without p_oe
     // and p_o. `set_light_path_arrival` completes it.
     set_log_inverse_arrival(path, log2_quotient(1.0f, emission.pdf_direction));
+    return emission;
 }
