@@ -127,6 +127,36 @@ std::vector<double> guided_selection(const std::vector<double> &usual,
     return selection;
 }
 
+/// Paths that the prior of a bin counts as.
+constexpr double prior_paths = 8;
+
+/// A sum of squares over a number of paths.
+struct PathSum {
+    double squares = 0, paths = 0;
+
+    void add(const PathSum &other, double weight) {
+        squares += other.squares * weight;
+        paths += other.paths * weight;
+    }
+    double mean() const { return squares / paths; }
+};
+
+/// Returns the sum over a bin and its eight neighbours, with the weights 1, 1/2 (edges) and 1/4
+/// (corners). The last column is a neighbour of the first.
+PathSum sum_around(const PathSum *bins, size_t bin) {
+    const auto row = static_cast<int>(bin / GUIDE_COLUMNS),
+               column = static_cast<int>(bin % GUIDE_COLUMNS);
+    constexpr auto rows = static_cast<int>(GUIDE_ROWS), columns = static_cast<int>(GUIDE_COLUMNS);
+    PathSum sum;
+    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows - 1); ++y) {
+        for (int x = column - 1; x <= column + 1; ++x) {
+            sum.add(bins[y * columns + (x + columns) % columns],
+                    (y == row ? 1.0 : 0.5) * (x == column ? 1.0 : 0.5));
+        }
+    }
+    return sum;
+}
+
 using Word = std::vector<uint32_t>::const_iterator;
 
 /// Returns whether `count` ends increase up to 2^32 - 1.
@@ -173,6 +203,50 @@ bool takes_guide_table(const CompiledScene &scene, size_t light) {
         }
         return same || zero;
     });
+}
+
+void require_trainable(const CompiledScene &scene) {
+    require_support(scene);
+    if (scene.lights.empty()) {
+        throw input_error(
+            "integrator.guided_emission=trained: the scene has no light to guide; use off");
+    }
+    if (scene.lights.size() == 1 && !takes_guide_table(scene, 0)) {
+        throw input_error(
+            "integrator.guided_emission=trained: the only light of the scene takes no table; "
+            "discs, "
+            "spheres, point lights and flat meshes do; use off");
+    }
+}
+
+EmissionMoments emission_moments(const CompiledScene &scene, const std::vector<PathTrials> &paths,
+                                 size_t trial) {
+    std::vector<PathSum> sums(scene.lights.size() * GUIDE_BINS);
+    for (const PathTrials &path : paths) {
+        const double value =
+            static_cast<double>(path.value[trial]) * static_cast<double>(path.start_density);
+        sums[path.start].add({std::isfinite(value) ? value * value : 0.0, 1}, 1);
+    }
+    EmissionMoments moments(scene.lights.size());
+    for (size_t light = 0; light < moments.size(); ++light) {
+        const PathSum *bins = &sums[light * GUIDE_BINS];
+        PathSum all;
+        for (size_t bin = 0; bin < GUIDE_BINS; ++bin) {
+            all.add(bins[bin], 1);
+        }
+        if (all.paths > 0 && takes_guide_table(scene, light)) {
+            for (size_t bin = 0; bin < GUIDE_BINS; ++bin) {
+                PathSum around = sum_around(bins, bin);
+                around.add(all, prior_paths / all.paths);
+                PathSum own = bins[bin];
+                own.add(around, prior_paths / around.paths);
+                moments[light].push_back(own.mean());
+            }
+        } else if (all.paths > 0) {
+            moments[light] = {all.mean()};
+        }
+    }
+    return moments;
 }
 
 EmissionGuide flat_guide(const CompiledScene &scene) {

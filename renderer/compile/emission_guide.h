@@ -12,6 +12,7 @@
 
 #include "renderer/compile/compile_scene.h"
 #include "renderer/shared/emission_guide.h"
+#include "renderer/shared/light_path_trials.h"
 
 namespace rtrays {
 
@@ -37,6 +38,17 @@ bool supports_guide(const CompiledScene &scene);
 /// Returns whether a light of `scene` takes a table: discs, spheres, point lights, and meshes whose
 /// triangles all have the same normal.
 bool takes_guide_table(const CompiledScene &scene, size_t light);
+
+/// Throws `Error` (bad input) unless training can improve a guide: the scene must have a light, at
+/// most as many as a guide supports, and a single light must take a table.
+void require_trainable(const CompiledScene &scene);
+
+/// Returns the second moments of light paths under a guide, in a trial. Few paths say little about
+/// a bin, so the mean of a prior counts as 8 more paths there: the mean over the bin and its eight
+/// neighbours, where the light's mean counts as 8 paths. A light without paths has no moments.
+/// Contributions that are not finite count as 0; renders report them.
+EmissionMoments emission_moments(const CompiledScene &scene, const std::vector<PathTrials> &paths,
+                                 size_t trial);
 
 /// Returns the guide with the emission's usual selection of lights, and a table of equal bins for
 /// every light that takes one. Throws `Error` (bad input) if there are too many lights.

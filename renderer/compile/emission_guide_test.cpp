@@ -126,6 +126,67 @@ TEST(EmissionGuide, IsFlatIfNothingArrives) {
     EXPECT_NEAR(selection(guide, 2, 0), 0.75 * 0.5 + 0.25 * 0.7, tolerance);
 }
 
+/// Returns a light path that found `value` in trial 2.
+PathTrials path_from(uint32_t light, uint32_t bin, float value, float density) {
+    PathTrials path{};
+    path.value[2] = value;
+    path.start = light * GUIDE_BINS + bin;
+    path.start_density = density;
+    return path;
+}
+
+TEST(EmissionGuide, IsTrainedByTheMeanSquaresOfPaths) {
+    CompiledScene scene = point_lights({0.4, 0.4, 0.2});
+    scene.lights[1].kind = LIGHT_SPOT;  // takes no table
+    const std::vector<PathTrials> found = {path_from(0, 7, 6, 0.5f), path_from(0, 7, 2, 0.5f),
+                                           path_from(0, 9, 0, 0.5f), path_from(1, 0, 3, 2)};
+    const EmissionMoments moments = emission_moments(scene, found, 2);
+    ASSERT_EQ(moments[0].size(), GUIDE_BINS);
+    // Squares 9 and 1 in bin 7, 0 in bin 9. Their mean counts as 8 paths, that around a bin as
+    // well.
+    const double mean = 10.0 / 3;
+    const auto expected = [&](double sum, double paths, double around, double paths_around) {
+        return (sum + 8 * (around + 8 * mean) / (paths_around + 8)) / (paths + 8);
+    };
+    EXPECT_DOUBLE_EQ(moments[0][7], expected(10, 2, 10, 2));
+    EXPECT_DOUBLE_EQ(moments[0][8], expected(0, 0, 5, 1.5));
+    EXPECT_DOUBLE_EQ(moments[0][9], expected(0, 1, 0, 1));
+    EXPECT_DOUBLE_EQ(moments[0][7 + GUIDE_COLUMNS - 1], expected(0, 0, 2.5, 0.5)) << "corner";
+    EXPECT_DOUBLE_EQ(moments[0][100], mean);
+    EXPECT_DOUBLE_EQ(moments[0][31], mean) << "no neighbours";
+    ASSERT_EQ(moments[1].size(), 1u);
+    EXPECT_DOUBLE_EQ(moments[1][0], 36);
+    EXPECT_TRUE(moments[2].empty()) << "nothing is known of it";
+    EXPECT_EQ(make_guide(scene, emission_moments(scene, found, 1)).words, flat_guide(scene).words)
+        << "paths that found nothing";
+    const EmissionMoments edge = emission_moments(scene, {path_from(0, 0, 3, 1)}, 2);
+    EXPECT_DOUBLE_EQ(edge[0][31], edge[0][1]) << "the last column is beside the first";
+    EXPECT_DOUBLE_EQ(edge[0][1], 9);
+    EXPECT_EQ(make_guide(scene, emission_moments(scene, {}, 2)).words, flat_guide(scene).words);
+}
+
+// The smallest and the largest numbers, and those that are not finite.
+TEST(EmissionGuide, IsTrainedByExtremePaths) {
+    const CompiledScene scene = point_lights(std::vector<double>(64, 1.0));
+    const auto guide_of = [&](float value) {
+        std::vector<PathTrials> paths;
+        for (uint32_t light = 0; light < 64; ++light) {
+            for (uint32_t bin = 0; bin < GUIDE_BINS; ++bin) {
+                paths.push_back(path_from(light, bin, light == 5 ? value : 0.0f, 0x1p-6f));
+            }
+        }
+        return make_guide(scene, emission_moments(scene, paths, 2));
+    };
+    const EmissionGuide guide = guide_of(1);
+    EXPECT_NEAR(selection(guide, 64, 5), 0.75 + 0.25 / 64, tolerance);
+    EXPECT_NEAR(selection(guide, 64, 6), 0.25 / 64, tolerance);
+    using Limits = std::numeric_limits<float>;
+    EXPECT_EQ(guide_of(Limits::max()).words, guide.words);
+    EXPECT_EQ(guide_of(Limits::denorm_min()).words, guide.words);
+    EXPECT_EQ(guide_of(Limits::infinity()).words, flat_guide(scene).words);
+    EXPECT_EQ(guide_of(Limits::quiet_NaN()).words, flat_guide(scene).words);
+}
+
 TEST(EmissionGuide, HasTablesForLightsThatTakeThem) {
     CompiledScene scene = point_lights({0.5, 0.5});
     scene.lights[0].kind = LIGHT_SPOT;

@@ -32,7 +32,7 @@ __kernel void generate_light_paths(SHADING_PARAMETERS, CameraRecord camera,
         const EmissionSample start = start_light_path(path, &scene, settings, first_sample, item);
         clear_vertices(path, vertex_words, settings);
         if (FEATURE_light_path_trials) {
-            start_trials(path, item);
+            start_light_trials(path, &scene, start, item);
         }
         push_slot(&started, path.slot);
         if (connect_start_to_camera(path, &scene, camera, settings, first_sample, start)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pilot that chooses the number of light paths of truncated bidirectional path tracing.
+// The pilot that chooses the number of light paths of truncated bidirectional path tracing, and
+// trains the guide of their emission.
 //
 // Light paths pay off where they find light that camera paths miss; elsewhere they only cost time.
 // One set of paths tells the variance for every number of light paths (P. Grittmann, O. Yazici,
@@ -27,20 +28,31 @@ struct PilotTrial {
     double cost = 0;
 };
 
-/// Trials of a pilot and its choice.
+/// What a pilot found.
 struct Pilot {
-    std::vector<PilotTrial> trials;
-    /// Light paths per sample of the image with the least variance times cost, possibly 0.
+    std::vector<PilotTrial> trials;  ///< empty if the settings have a number of light paths
+    /// Light paths per sample of the image: the number with the least variance times cost, possibly
+    /// 0, or that of the settings.
     uint32_t light_paths = 0;
+    /// The trained guide; null if the settings ask for none, or without light paths.
+    std::shared_ptr<const EmissionGuide> guide;
     double seconds = 0;       ///< device time
     double wall_seconds = 0;  ///< wall time, without compilation
 };
 
-/// Returns the settings of the session that traces the paths of a pilot for `settings`.
+/// Returns whether a guide must be trained: the settings ask for one and have none.
+bool trains_guide(const RenderSettings &settings);
+
+/// Returns whether the settings need a pilot, to choose the number of light paths or to train a
+/// guide.
+bool needs_pilot(const RenderSettings &settings);
+
+/// Returns the settings of the session that traces the paths of a pilot for `settings`. With a
+/// given number of light paths it has no camera pass. A guide that must be trained is flat there.
 RenderSettings pilot_settings(const RenderSettings &settings);
 
-/// Chooses the number of light paths for `settings` among 0 and the powers of 4 from 1/64 to 64 per
-/// pixel, without 0 if only light paths see some light of the scene.
+/// Chooses the number of light paths for `LIGHT_PATHS_AUTO` among 0 and the powers of 4 from 1/64
+/// to 64 per pixel, without 0 if only light paths see some light of the scene.
 ///
 /// The pilot traces two camera paths in every pixel, or in every pixel of a lattice of at most
 /// 65,536, and as many light paths. The variance of the camera pass is estimated from the two
@@ -48,7 +60,13 @@ RenderSettings pilot_settings(const RenderSettings &settings);
 /// hardly any two paths meet in a pixel. Both are those of independent samples, whatever the
 /// sampler. The cost is counted in rays. Variance and cost are the same in every run on one device,
 /// and so is the choice. The pilot uses its own seed; its samples are discarded.
-Pilot choose_light_paths(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
-                         const RenderSettings &settings);
+///
+/// For `GuidedEmission::trained`, a first set of light paths under a flat guide trains a guide. The
+/// pilot then traces its paths with that guide. Both sets of light paths train the final one. Their
+/// weights are those of the power of 4 nearest to the number of light paths. Sums are added in the
+/// order of the paths, so the guide is the same in every run on one device. Throws `Error` (bad
+/// input) if the scene has no light to guide, or too many.
+Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
+                const RenderSettings &settings);
 
 }  // namespace rtrays

@@ -43,7 +43,7 @@ std::vector<int64_t> render_words(const std::string &scene, const RenderSettings
 Pilot choose(const Scene &scene, const RenderSettings &settings) {
     const auto shared = std::make_shared<DeviceScene>(
         scene, device_scene_settings(settings, device().info()), device());
-    return choose_light_paths(shared, scene, settings);
+    return run_pilot(shared, scene, settings);
 }
 
 TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
@@ -82,13 +82,14 @@ struct Estimate {
     double mean, error;
 };
 
-/// Returns the mean over pixels of the variance of one sample's luminance, from 16 batches of 8
+/// Returns the mean over pixels of the variance of one sample's luminance, from 8 batches of 8
 /// renders of one sample.
-Estimate rendered_variance(const Scene &scene, const RenderSettings &settings) {
+Estimate rendered_variance(const Scene &scene, RenderSettings settings) {
+    settings.stream_capacity = 0;  // the device's, which takes less time
     const int renders = 8;
     RenderSession session(scene, settings, device());
     std::vector<double> variances;
-    for (uint32_t batch = 0; batch < 16; ++batch) {
+    for (uint32_t batch = 0; batch < 8; ++batch) {
         std::vector<double> sums(32 * 32), squares(sums.size());
         for (uint32_t i = 0; i < renders; ++i) {
             session.restart(batch * renders + i);
@@ -122,7 +123,7 @@ TEST(Pilot, EstimatesTheVarianceOfEveryNumberOfLightPaths) {
             of_pilots[trial.per_pixel].push_back(trial.variance);
         }
     }
-    for (const double per_pixel : {0.25, 1.0, 4.0}) {
+    for (const double per_pixel : {0.25, 4.0}) {
         const Estimate pilots(of_pilots.at(per_pixel));
         const Estimate rendered =
             rendered_variance(scene, settings_of(static_cast<uint32_t>(per_pixel * 32 * 32)));

@@ -74,10 +74,19 @@ void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
 
 void RenderSession::update(const Scene &scene) {
     if (!state_->update(scene)) {
-        // The settings have the number of light paths that the pilot chose.
-        const Pilot pilot = state_->pilot;
-        state_ = std::make_unique<State>(state_->scene, scene, RenderSettings(state_->settings));
-        state_->pilot = pilot;
+        // The settings have the number of light paths that the pilot chose. A guide is trained
+        // again.
+        const Pilot former = state_->pilot;
+        RenderSettings settings = state_->settings;
+        if (settings.guided_emission == GuidedEmission::trained) {
+            settings.emission_guide = nullptr;
+        }
+        state_ = std::make_unique<State>(state_->scene, scene, settings);
+        if (state_->pilot.guide != nullptr) {
+            state_->pilot.trials = former.trials;
+        } else {
+            state_->pilot = former;
+        }
     }
 }
 

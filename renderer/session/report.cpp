@@ -20,6 +20,9 @@ Json pilot_report(const Pilot &pilot) {
     Json report = {{"light_paths", pilot.light_paths},
                    {"seconds", pilot.seconds},
                    {"seconds_wall", pilot.wall_seconds}};
+    if (pilot.guide != nullptr) {
+        report["guide"] = hash_of(*pilot.guide);
+    }
     for (const PilotTrial &trial : pilot.trials) {
         report["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
                                     {"variance", trial.variance},
@@ -172,7 +175,7 @@ nlohmann::json RenderSession::report() const {
         {"rounds", counters.iterations},
         {"bvh", bvh_report(*s.scene, s.layout.bvh)},
     };
-    if (!s.pilot.trials.empty()) {
+    if (s.pilot.guide != nullptr || !s.pilot.trials.empty()) {
         report["pilot"] = pilot_report(s.pilot);
     }
     s.report_passes(report);

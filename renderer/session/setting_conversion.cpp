@@ -18,7 +18,7 @@ bool has_light_pass(const RenderSettings &settings) {
 
 bool has_guided_emission(const RenderSettings &settings) {
     return has_light_pass(settings) &&
-           (settings.guided_emission != GuidedEmission::off || settings.emission_guide != nullptr);
+           (settings.guided_emission == GuidedEmission::flat || settings.emission_guide != nullptr);
 }
 
 bool has_convergence_control(const RenderSettings &settings) {

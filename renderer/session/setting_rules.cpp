@@ -59,6 +59,17 @@ void require_consistent_light_paths(const RenderSettings &settings) {
             fmt::format("integrator.guided_emission={}: {} traces no light paths; use off",
                         name_in(guided_emissions, settings.guided_emission), algorithm.name));
     }
+    if (settings.guided_emission == GuidedEmission::trained &&
+        algorithm.light_paths != LightPaths::any) {
+        throw input_error(fmt::format(
+            "integrator.guided_emission=trained: not supported by {}; use off or truncated_bdpt",
+            algorithm.name));
+    }
+    if (settings.guided_emission == GuidedEmission::trained && settings.light_paths == 0) {
+        throw input_error(
+            "integrator.guided_emission=trained: integrator.light_paths=0 leaves nothing to guide; "
+            "use off, or light_paths=auto, pixels or a number above 0");
+    }
     if (algorithm.light_paths == LightPaths::one_per_camera_path && settings.only_pass) {
         throw input_error(
             fmt::format("passes={}: the passes of {} share their light paths; use all",

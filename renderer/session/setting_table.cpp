@@ -99,6 +99,8 @@ const std::vector<Setting> &image_setting_table() {
         {"integrator.guided_emission", choice(&S::guided_emission, guided_emissions),
          "how light paths select their light and direction; off: by power and cosine; flat: "
          "through tables of directions whose bins are all equal, to test the tables; at most 64 "
+         "lights; trained (truncated_bdpt only): through tables that a pilot trains, for at most "
+         "64 "
          "lights"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
          "bdpt: number N of vertices stored per light path; paths of more than N + 1 scattering "

@@ -34,10 +34,11 @@ inline constexpr Named<SeenEmitters> seen_emitters_choices[] = {{SeenEmitters::m
                                                                 {SeenEmitters::camera, "camera"}};
 
 /// Directions in which light paths start: those of the light alone, or by tables whose bins are all
-/// equal.
-enum class GuidedEmission { off, flat };
+/// equal, or by tables that a pilot trains.
+enum class GuidedEmission { off, flat, trained };
 inline constexpr Named<GuidedEmission> guided_emissions[] = {{GuidedEmission::off, "off"},
-                                                             {GuidedEmission::flat, "flat"}};
+                                                             {GuidedEmission::flat, "flat"},
+                                                             {GuidedEmission::trained, "trained"}};
 
 /// How paths end.
 enum class Termination : uint32_t {

@@ -56,7 +56,7 @@ struct RenderSettings {
     uint32_t light_paths = LIGHT_PATHS_LIKE_PIXELS;
     GuidedEmission guided_emission = GuidedEmission::off;
     /// The tables that guide emission, made for the lights of the scene; null: none. A session sets
-    /// it for `GuidedEmission::flat`.
+    /// it for `GuidedEmission::flat` and `trained`.
     std::shared_ptr<const EmissionGuide> emission_guide;
     /// Vertices of each light path that bdpt stores. All strategies sample paths of at most one
     /// scattering event more than that.

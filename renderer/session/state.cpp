@@ -80,15 +80,22 @@ RenderSettings complete(RenderSettings settings, const Scene &scene) {
     return settings;
 }
 
-/// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses. Returns the pilot, which is empty
-/// if none was needed.
+/// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses, and sets the guide that it trains.
+/// Without light paths there is no guide. Returns the pilot, which is empty if none was needed.
 Pilot settle_light_paths(RenderSettings &settings, const std::shared_ptr<DeviceScene> &scene,
                          const Scene &graph) {
-    if (settings.light_paths != LIGHT_PATHS_AUTO) {
+    if (!needs_pilot(settings)) {
         return {};
     }
-    Pilot pilot = choose_light_paths(scene, graph, settings);
-    settings.light_paths = pilot.light_paths;
+    Pilot pilot = run_pilot(scene, graph, settings);
+    if (pilot.guide != nullptr) {
+        settings.emission_guide = pilot.guide;
+    } else if (trains_guide(settings)) {
+        settings.guided_emission = GuidedEmission::off;
+    }
+    if (settings.light_paths == LIGHT_PATHS_AUTO) {
+        settings.light_paths = pilot.light_paths;
+    }
     return pilot;
 }
 
@@ -189,6 +196,9 @@ bool RenderSession::State::update(const Scene &graph) {
     scene->update(graph);
     if (scene->compiled().features != scene_features ||
         scene->compiled().lighting.light_count != light_count) {
+        return false;
+    }
+    if (settings.guided_emission == GuidedEmission::trained && scene_version != scene->version()) {
         return false;
     }
     if (scene_version != scene->version()) {

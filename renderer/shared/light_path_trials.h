@@ -18,7 +18,12 @@ DEVICE float trial_log_factor(uint trial) {
 
 /// What a path found.
 typedef struct PathTrials {
-    /// By trial: luminance of a camera path, sum of the squared luminances of a light path's
-    /// contributions.
+    /// By trial: luminance of a camera path, root of the sum of the squared luminances of a light
+    /// path's contributions.
     float value[LIGHT_PATH_TRIALS];
+    /// Light paths under a guide: light and bin of the start (shared/emission_guide.h), as light *
+    /// GUIDE_BINS + row * GUIDE_COLUMNS + column, with bin 0 for a light without a table.
+    uint start;
+    /// Light paths under a guide: the probability with which the light was selected, times g.
+    float start_density;
 } PathTrials;

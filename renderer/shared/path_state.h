@@ -40,6 +40,8 @@
     X(FEATURE_shadow_rays, float3, shadow_radiance)        /* added unless the ray is blocked */  \
     X(FEATURE_from_light, uint, splat_pixel)               /* pixel to which it is added */       \
     X(FEATURE_light_path_trials, uint, trial_item)         /* index of the path in the work */    \
+    X(FEATURE_light_path_trials, uint, trial_start)        /* PathTrials::start */                \
+    X(FEATURE_light_path_trials, float, trial_density)     /* PathTrials::start_density */        \
     X(FEATURE_light_path_trials, trials, trial_value)      /* shared/light_path_trials.h */       \
     X(FEATURE_light_path_trials, trials, shadow_trial)     /* added unless the ray is blocked */
 

@@ -6,8 +6,13 @@
 namespace rtrays {
 
 void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device) {
-    if (settings.light_paths == LIGHT_PATHS_AUTO) {
+    if (needs_pilot(settings)) {
         RenderSession(scene, pilot_settings(settings), device);
+    }
+    if (trains_guide(settings)) {
+        settings.guided_emission = GuidedEmission::flat;
+    }
+    if (settings.light_paths == LIGHT_PATHS_AUTO) {
         settings.light_paths = LIGHT_PATHS_LIKE_PIXELS;
     }
     RenderSession session(scene, settings, device);

@@ -3,6 +3,7 @@
 // FEATURE_light_path_trials nothing here is called.
 #pragma once
 
+#include "renderer/kernels/light/emission.h"
 #include "renderer/kernels/mis/truncated.h"
 #include "renderer/kernels/texture/texture.h"
 #include "renderer/shared/light_path_trials.h"
@@ -13,6 +14,22 @@ DEVICE void start_trials(Path path, uint item) {
     set_trial_item(path, item);
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
         set_trial_value(path, trial, 0.0f);
+    }
+}
+
+/// Starts the trials of a light path. Under a guide, stores the bin of its start and the density.
+DEVICE void start_light_trials(Path path, PRIVATE const SceneView *scene, EmissionSample start,
+                               uint item) {
+    start_trials(path, item);
+    if (FEATURE_guided_emission) {
+        const LightRecord light = light_at(scene, start.light);
+        uint place = start.light * GUIDE_BINS;
+        if (has_guide_table(light)) {
+            const GuideBin bin = guide_bin(light, start.direction);
+            place += bin.row * GUIDE_COLUMNS + bin.column;
+        }
+        set_trial_start(path, place);
+        set_trial_density(path, light.emission_selection * start.guide);
     }
 }
 
@@ -54,17 +71,21 @@ DEVICE void add_light_sample_trials(Path path) {
 }
 
 /// Adds an unblocked connection of a light path to the camera. Its pixel is that of no other
-/// connection of the path, as a rule, so the squares add up to the second moment.
+/// connection of the path, as a rule, so the squares add up to the second moment. Its root is kept,
+/// because squares may overflow or vanish.
 DEVICE void add_splat_trials(Path path) {
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
-        const float value = get_shadow_trial(path, trial);
-        set_trial_value(path, trial, get_trial_value(path, trial) + value * value);
+        set_trial_value(path, trial,
+                        hypot(get_trial_value(path, trial), get_shadow_trial(path, trial)));
     }
 }
 
 /// Writes what a path found to the list of all paths.
 DEVICE void store_trials(Path path, GLOBAL PathTrials *list) {
+    GLOBAL PathTrials *found = list + get_trial_item(path);
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
-        list[get_trial_item(path)].value[trial] = get_trial_value(path, trial);
+        found->value[trial] = get_trial_value(path, trial);
     }
+    found->start = get_trial_start(path);
+    found->start_density = get_trial_density(path);
 }
