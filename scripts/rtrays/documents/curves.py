@@ -39,7 +39,8 @@ SHARED = ("integrator.sampler", "integrator.light_selection", "integrator.sphere
 
 def base_for(run, curve):
     """Returns path tracing with both strategies under the curve's own sampler, light selection and
-    sphere sampling, or else the base curve of the run."""
+    sphere sampling, or else the base curve of the run. A curve is not its own base unless it is
+    that of the run."""
 
     def shared(other):
         return [value(other, "settings").get(key) for key in SHARED]
@@ -47,10 +48,16 @@ def base_for(run, curve):
     own = (
         other
         for other in run.curves
-        if (value(other, "algorithm"), value(other, "strategies")) == ("path_tracing", "mis")
+        if other is not curve
+        and (value(other, "algorithm"), value(other, "strategies")) == ("path_tracing", "mis")
         and shared(other) == shared(curve)
     )
     return next(own, base_curve(run))
+
+
+def has_several_bases(run):
+    """Whether a curve has another base than that of the run."""
+    return any(base_for(run, curve) is not base_curve(run) for curve in run.curves)
 
 
 def shown_curves(run):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Compares the curves of a run with its path tracing, for equal error and in equal time.
 
-The mean squared error of an unbiased estimator falls as 1 / N, so that MSE x samples and MSE x
-seconds hardly depend on N. Curves are still compared at equal N: the last paths of a batch are a
-smaller share of the cost of many samples, and the error of stratified samples falls faster.
+The mean squared error of independent samples falls as 1 / N, that of stratified ones faster, as
+N^-a. Curves are compared at equal N. Path tracing takes another number of samples in the time of a
+curve: there its MSE is multiplied by (seconds of path tracing / seconds of the curve)^a.
 
 Seconds include the pilot of a curve. Its time does not grow with N, so a gain in equal time is that
 of a render of N samples: a longer render gains more.
@@ -11,10 +11,16 @@ of a render of N samples: a longer render gains more.
 
 import numpy
 
-from rtrays.documents.curves import pilot_seconds, usable_points
+from rtrays.documents.curves import is_stratified, pilot_seconds, usable_points
 from rtrays.documents.document import RunError, value
 
 DRAWS = 2000
+
+
+def exponent(curve):
+    """Returns a of MSE ~ N^-a: 1 for independent samples, and twice the fitted slope of the RMSE
+    without the noise of the reference for stratified ones."""
+    return -2 * value(curve, "slope_unbiased.value") if is_stratified(curve) else 1.0
 
 
 class Cost:
@@ -33,6 +39,7 @@ class Cost:
         point = points[-1]
         self.spp = value(point, "spp")
         self.pilot_seconds = pilot_seconds(curve)
+        self.exponent = exponent(curve)
         repetitions = value(point, "repetitions")
         self.mse = numpy.array([value(r, "mse") for r in repetitions]) - noise
         self.seconds = float(numpy.median([value(r, "seconds_device") for r in repetitions]))
@@ -54,9 +61,11 @@ def ratio_of_means(over, under, scale=1.0):
 
 
 def ratio(base, curve, key):
-    """Returns MSE x key of `base` over that of `curve`, with the bootstrap's 95 % interval over
-    seeds."""
-    return ratio_of_means(base.mse, curve.mse, getattr(base, key) / getattr(curve, key))
+    """Returns the MSE of `base` over that of `curve` for equal samples ("spp") or in equal device
+    time ("seconds"), with the bootstrap's 95 % interval over seeds."""
+    return ratio_of_means(
+        base.mse, curve.mse, (getattr(base, key) / getattr(curve, key)) ** base.exponent
+    )
 
 
 def costs(base, curve, noise):
@@ -66,8 +75,9 @@ def costs(base, curve, noise):
 
 
 def gain(base, curve, noise, key):
-    """Returns how many times the samples ("spp") or the device time ("seconds") of `curve` are
-    needed by `base` for an equal error. Device time includes pilots; see the head of this file."""
+    """Returns how many times smaller the MSE of `curve` is than that of `base`, for equal samples
+    ("spp") or in equal device time ("seconds"); see the head of this file. If the samples of `base`
+    are independent, it needs as many times the samples or the time for an equal error."""
     return ratio(*costs(base, curve, noise), key)
 
 

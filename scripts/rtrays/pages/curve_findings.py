@@ -1,7 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Sentences that state the findings of a run of curves."""
 
-from rtrays.documents.curves import base_curve, curve_named, label
+from rtrays.documents.curves import (
+    base_curve,
+    base_for,
+    curve_named,
+    has_several_bases,
+    is_stratified,
+    label,
+)
 from rtrays.documents.document import value
 from rtrays.documents.efficiency import costs, gain, ratio, share_of_pass
 from rtrays.tables.cells import interval, verdict_of
@@ -51,14 +58,31 @@ def explanation(run):
     return text
 
 
-def gain_finding(run, curve):
-    """Returns the sentence that states the gain of a curve in equal device time."""
-    base = base_curve(run)
+def gain_over_base(run, curve):
+    """Returns the gain of a curve in equal device time over path tracing under its own settings, as
+    words."""
+    base = base_for(run, curve)
     measured = gain(base, curve, run.get("reference.noise_floor.mse"), "seconds")
-    return (
-        f"In equal device time {label(curve)} has {times(measured)} times the efficiency of"
-        f" {label(base)}; the thesis claims {run.get('experiment.expected_gain.time'):g}."
-    )
+    return f"{label(curve)} has {times(measured)} times the efficiency of {label(base)}"
+
+
+def gain_finding(run, curve):
+    """Returns the sentences that state the gain of a curve in equal device time, that of the same
+    algorithm with Sobol points on both sides, and that of the best setting."""
+    claimed = run.get("experiment.expected_gain.time")
+    sentences = [
+        f"In equal device time {gain_over_base(run, curve)}; the thesis claims {claimed:g}."
+    ]
+    sentences += [
+        f"With the same sampler on both sides, {gain_over_base(run, other)}."
+        for other in run.curves
+        if value(other, "algorithm") == value(curve, "algorithm")
+        and is_stratified(other)
+        and is_stratified(base_for(run, other))
+    ]
+    if has_several_bases(run):
+        sentences.append(most_efficient(run))
+    return " ".join(sentences)
 
 
 def counted(rows, what):
@@ -80,11 +104,14 @@ def most_efficient(run):
     if not gains:
         return ""
     best, measured = max(gains, key=lambda entry: value(entry[1], "value"))
+    name = label(base)
+    if any(map(is_stratified, run.curves)) and not is_stratified(base):
+        name += " with independent samples"
     if value(measured, "low") <= 1:
-        return f"No curve has a higher efficiency than {label(base)} in equal device time."
+        return f"No curve has a higher efficiency than {name} in equal device time."
     return (
         f"In equal device time {label(best)} has the highest efficiency,"
-        f" {times(measured)} times that of {label(base)}."
+        f" {times(measured)} times that of {name}."
     )
 
 

@@ -69,13 +69,28 @@ def draw_curve(axes, curve, index, line, below):
     axes.plot(
         *line,
         color=colour,
-        marker=MARKERS[index % len(MARKERS)],
+        marker=MARKERS[(index + index // len(COLOURS)) % len(MARKERS)],
         markersize=6 - 1.5 * covered,
         linewidth=2 - 0.4 * covered,
         linestyle=DASHES[covered - 1] if below else "-",
         label=f"{label(curve)}, slope {value(curve, 'slope.value'):.3f}{on}",
         markerfacecolor="white" if below else colour,
     )
+
+
+# Longest line of a legend in two columns, in characters.
+HALF_A_LINE = 60
+
+
+def add_legend(figure, axes):
+    """Adds the legend below the axes: in two columns, or in one if names are long. The figure then
+    becomes higher, so that the axes keep their size."""
+    names = axes.get_legend_handles_labels()[1]
+    lines = [line for name in names for line in name.splitlines()]
+    columns = 2 if max(map(len, lines)) <= HALF_A_LINE else 1
+    if columns == 1:
+        figure.set_size_inches(6.4, 4.2 + 0.16 * len(lines))
+    legend_below_axes(axes, 0.5, -0.12, columns)
 
 
 def curves_figure(run, x_key):
@@ -105,7 +120,7 @@ def curves_figure(run, x_key):
     )
     if x_key == "spp":
         axes.set_xscale("log", base=2)
-    legend_below_axes(axes, 0.5, -0.12, 2)
+    add_legend(figure, axes)
     return figure
 
 

@@ -23,7 +23,7 @@ OF_CLASS = dict(zip(CLASSES, (COLOURS[1], COLOURS[0], "#BBBBBB")))
 
 
 def parts_figure(run):
-    """Draws the shares of pixels and of the error of every curve as bars of 100 %."""
+    """Draws the shares of pixels and of every curve's mean squared error as bars of 100 %."""
     base, classes = base_curve(run), present_classes(run)
     bars = [("pixels", pixel_shares(run))]
     for curve in run.curves:
@@ -39,7 +39,7 @@ def parts_figure(run):
         axes.barh(range(len(bars)), widths, left=left, color=OF_CLASS[key], label=CLASSES[key])
         left += widths
     axes.set_yticks(range(len(bars)), [name for name, _ in bars])
-    axes.set(xlabel="% of pixels, % of the mean squared error", xlim=(0, 100))
+    axes.set(xlabel="share, %", xlim=(0, 100))
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     legend_below(figure, len(classes))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tables of a run of curves: what its samples cost and where its errors are."""
 
-from rtrays.documents.curves import base_curve, label
+from rtrays.documents.curves import base_curve, base_for, has_several_bases, label
 from rtrays.documents.document import value
 from rtrays.documents.edges import edges_document
 from rtrays.documents.efficiency import Cost, gain
@@ -9,18 +9,41 @@ from rtrays.tables.cells import BASELINE, NONE, interval, number
 from rtrays.tables.table import Table
 
 
+def gain_cells(base, curve, noise):
+    """Returns the gains of a curve over another one in equal samples and in equal time as text."""
+    return [interval(gain(base, curve, noise, key), digits=4) for key in ("spp", "seconds")]
+
+
+def own_cells(run, curve, noise):
+    """Returns the base of a curve under its own settings and the gains over it as text; dashes if
+    it is that of the run."""
+    own = base_for(run, curve)
+    if own is base_curve(run):
+        return [NONE] * 3
+    return [label(own), *gain_cells(own, curve, noise)]
+
+
+OWN_COLUMNS = (
+    "path tracing under the same settings",
+    "gain over it in equal samples, times",
+    "gain over it in equal device time, times",
+)
+OWN_NOTE = (
+    "The last columns compare with path tracing that has the sampler, light selection and sphere"
+    " sampling of the curve. The error of Sobol points falls faster than that of independent"
+    " samples, so gains of one over the other grow with the samples."
+)
+
+
 def efficiency_table(run):
-    """Every curve against path tracing: samples for the same error, error in the same time."""
+    """Every curve against path tracing: samples for the same error, error in the same time. A run
+    with several settings of path tracing has both gains over the one with the curve's settings,
+    too."""
     noise = run.get("reference.noise_floor.mse")
-    base = base_curve(run)
+    base, several = base_curve(run), has_several_bases(run)
     rows = []
     for curve in run.curves:
         cost = Cost(curve, noise)
-        gains = (
-            [BASELINE] * 2
-            if curve is base
-            else [interval(gain(base, curve, noise, key), digits=4) for key in ("spp", "seconds")]
-        )
         rows.append(
             [
                 label(curve),
@@ -28,7 +51,8 @@ def efficiency_table(run):
                 number(cost.mse.mean()),
                 number(cost.seconds, 4),
                 number(cost.pilot_seconds),
-                *gains,
+                *([BASELINE] * 2 if curve is base else gain_cells(base, curve, noise)),
+                *(own_cells(run, curve, noise) if several else []),
             ]
         )
     return Table(
@@ -41,13 +65,15 @@ def efficiency_table(run):
             "pilot alone, s",
             "gain in equal samples, times",
             "gain in equal device time, times",
+            *(OWN_COLUMNS if several else []),
         ],
         rows,
         [
             f"Gain in equal samples: how many times the samples {label(base)} needs for the same"
             " error. Gain in equal device time: how many times smaller the MSE is in the same"
             " time. The time of a pilot counts; it is the same for any number of samples, so a"
-            " longer render gains more. Light that an algorithm misses counts as error."
+            " longer render gains more. Light that an algorithm misses counts as error.",
+            *([OWN_NOTE] if several else []),
         ],
     )
 

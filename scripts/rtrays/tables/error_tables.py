@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tables that say where the error of a run of curves is, and under which settings."""
 
-from rtrays.documents.curves import base_curve, label
+from rtrays.documents.curves import base_curve, base_for, has_several_bases, label
 from rtrays.documents.document import value
 from rtrays.documents.error_parts import (
     CLASSES,
@@ -64,21 +64,24 @@ def parts_table(run):
 
 
 def gains_table(run):
-    """Gain of every curve over path tracing at equal samples, by class of pixel and metric."""
-    base = base_curve(run)
+    """Gain of every curve over path tracing at equal samples, by class of pixel and metric. A run
+    with several settings of path tracing names the one that has the curve's settings."""
+    base, several = base_curve(run), has_several_bases(run)
     others = [curve for curve in run.curves if curve is not base]
     if not has_parts(run) or not others:
         return Table(GAINS, [], [])
     keys = ["mse", *present_classes(run), "mse_clipped", "relmse"]
     rows = []
     for curve in others:
-        gains = [gain_in(run, base, curve, key) for key in keys]
+        own = base_for(run, curve)
+        gains = [gain_in(run, own, curve, key) for key in keys]
         rows.append(
-            [label(curve)] + [interval(gain, form="{:.2f}") if gain else NONE for gain in gains]
+            [label(curve), *([label(own)] if several else [])]
+            + [interval(gain, form="{:.2f}") if gain else NONE for gain in gains]
         )
     return Table(
-        f"{GAINS}, over {label(base)}",
-        ["curve", *({**CLASSES, **FULL}[key] for key in keys)],
+        GAINS if several else f"{GAINS}, over {label(base)}",
+        ["curve", *(["over"] if several else []), *({**CLASSES, **FULL}[key] for key in keys)],
         rows,
         ["A dash: the noise of the reference hides the error."],
     )

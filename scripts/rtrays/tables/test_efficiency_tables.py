@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Tests the tables of efficiency, memory and throughput."""
 
+import copy
 import csv
 import io
 import unittest
 
 from rtrays.documents.document import RunError
+from rtrays.pages.curve_findings import finding
 from rtrays.tables.efficiency_tables import efficiency_table, memory_table, throughput_table
 from rtrays.testing import RunFolder
 
@@ -27,6 +29,56 @@ class EfficiencyTables(RunFolder):
         mis["points"][0]["noise_dominates"] = True
         with self.assertRaisesRegex(RunError, "path_tracing.mis has no point above"):
             efficiency_table(self.run_object())
+
+    def add_sobol_curves(self):
+        """Adds path tracing and truncated BDPT with Sobol points, whose MSE falls as N^-1.5. At 4
+        spp truncated BDPT has a quarter of the MSE without noise, in twice the time."""
+        usual = self.document["curves"][-1]
+        for algorithm in ("path_tracing", "truncated_bdpt"):
+            curve = copy.deepcopy(usual)
+            curve.update(
+                id=f"{algorithm}.mis,sampler=sobol",
+                algorithm=algorithm,
+                settings={"integrator.sampler": "sobol"},
+                slope_unbiased={**curve["slope_unbiased"], "value": -0.75},
+            )
+            self.document["curves"].insert(0, curve)
+        for repetition in self.document["curves"][0]["points"][2]["repetitions"]:
+            repetition.update(mse=0.01 + 0.24 / 4, seconds_device=2 * 0.4)
+
+    def test_gains_are_also_over_path_tracing_with_the_same_sampler(self):
+        self.add_sobol_curves()
+        rows = {row[0]: row for row in efficiency_table(self.run_object()).rows}
+        self.assertEqual(
+            rows["truncated BDPT (MIS, sampler = sobol)"][5:],
+            ["4 [4, 4]", "2 [2, 2]", "path tracing (MIS, sampler = sobol)", "4 [4, 4]"]
+            # Twice the samples lower the error of path tracing by 2^1.5.
+            + ["1.414 [1.414, 1.414]"],
+        )
+        self.assertEqual(
+            rows["path tracing (MIS, sampler = sobol)"][5:], ["1 [1, 1]"] * 2 + ["–"] * 3
+        )
+        self.assertEqual(rows["path tracing (MIS)"][7:], ["–"] * 3)
+
+    def test_the_finding_has_the_gains_of_both_samplers_and_of_the_best_setting(self):
+        self.add_sobol_curves()
+        truncated = copy.deepcopy(self.document["curves"][-1])
+        truncated.update(id="truncated_bdpt.mis", algorithm="truncated_bdpt")
+        self.document["curves"].insert(0, truncated)
+        self.document["experiment"]["expected_gain"] = {
+            "algorithm": "truncated_bdpt",
+            "samples": 4,
+            "time": 2,
+        }
+        self.assertEqual(
+            finding(self.run_object()),
+            "In equal device time truncated BDPT (MIS) has 1.00 [1.00, 1.00] times the efficiency"
+            " of path tracing (MIS); the thesis claims 2. With the same sampler on both sides,"
+            " truncated BDPT (MIS, sampler = sobol) has 1.41 [1.41, 1.41] times the efficiency of"
+            " path tracing (MIS, sampler = sobol). In equal device time truncated BDPT (MIS,"
+            " sampler = sobol) has the highest efficiency, 2.00 [2.00, 2.00] times that of path"
+            " tracing (MIS) with independent samples.",
+        )
 
     def test_memory_is_what_the_run_reports(self):
         self.document["curves"][0]["algorithm"] = "bdpt"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests the tables that say where the error is, and under which settings."""
 
+import copy
 import unittest
 
 from rtrays.documents.error_parts import shares_of_error
@@ -48,6 +49,20 @@ class ErrorParts(RunFolder):
                 ["path tracing (implicit)", "1.00 [1.00, 1.00]", "1.00 [1.00, 1.00]"]
                 + ["4.00 [4.00, 4.00]"]
                 + ["1.00 [1.00, 1.00]"] * 3
+            ],
+        )
+
+    def test_gains_name_path_tracing_with_the_same_sampler(self):
+        sobol = {"settings": {"integrator.sampler": "sobol"}}
+        self.document["curves"][0].update(sobol)
+        curve = copy.deepcopy(self.document["curves"][1])
+        curve.update(id="path_tracing.mis,sampler=sobol", **sobol)
+        self.document["curves"].insert(0, curve)
+        self.assertEqual(
+            [row[:2] for row in gains_table(self.run_object()).rows],
+            [
+                ["path tracing (MIS, sampler = sobol)", "path tracing (MIS)"],
+                ["path tracing (implicit)", "path tracing (MIS, sampler = sobol)"],
             ],
         )
 
