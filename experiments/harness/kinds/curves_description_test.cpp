@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "experiments/harness/kinds/gate.h"
 #include "renderer/base/error.h"
@@ -69,9 +70,12 @@ TEST(Description, ShippedExperimentsLoadInEveryProfile) {
 }
 
 TEST(Description, LaddersEndWhereTheProfileSaysForTheCurve) {
-    const std::string good = read_file(shipped / "chapter4/door_ajar.json");
+    const nlohmann::json good =
+        nlohmann::json::parse(read_file(shipped / "chapter4/door_ajar.json"));
     const auto capped = [&](const std::string &most) {
-        return replaced(good, "{\"truncated_bdpt.mis,light_paths=auto\": 8}", "{" + most + "}");
+        nlohmann::json experiment = good;
+        experiment["profiles"]["quick"]["most_spp"] = nlohmann::json::parse("{" + most + "}");
+        return experiment.dump();
     };
     const auto ladder = [&](const std::string &most) {
         const fs::path path = fs::path(testing::TempDir()) / "capped_experiment.json";
