@@ -188,6 +188,10 @@ void notice_unseen_light(const Scene &scene, const RenderSettings &settings) {
          unseen_light(algorithm, scene.arrays(), settings.max_depth)) {
         notice(sentence);
     }
+    const std::string lights = lights_not_hit(scene.arrays());
+    if (settings.strategies == PathStrategies::implicit_only && !lights.empty()) {
+        notice("integrator.strategies=implicit: camera paths do not hit " + lights + "; use mis");
+    }
 }
 
 /// Writes the images, if the render is complete, and the statistics.

@@ -151,7 +151,8 @@ FeatureMask FeatureMask::closed() const {
             Feature::direction_density,
             connects || (!from_light && (mask.has(Feature::implicit_light) || strategy ||
                                          (mask.has(Feature::delta) && mask.has(Feature::lights)))))
-        .with(Feature::emission_density, from_light && strategy)
+        .with(Feature::emission_density,
+              from_light && strategy && mask.has(Feature::explicit_light))
         .with(Feature::arrival_density, connects || (from_light && strategy))
         .with(Feature::shadow_origin, from_light && mask.has(Feature::guided_emission) &&
                                           mask.has(Feature::shape_lights) &&

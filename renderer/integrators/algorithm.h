@@ -30,8 +30,9 @@ struct Algorithm {
     /// Whether it draws random numbers. Otherwise its samples use a fixed set of points, and every
     /// vertex is connected to every light.
     bool is_random = true;
-    /// Whether integrator.strategies selects its strategies.
-    bool selects_strategies = false;
+    /// Whether it may do without light samples (integrator.strategies=implicit), and without the
+    /// weighting of emission that paths hit (integrator.strategies=explicit).
+    bool may_be_implicit = false, may_be_explicit = false;
     /// Whether convergence control may stop its camera paths in a pixel.
     bool stops_pixels = false;
     /// Whether one kernel can trace complete paths (device.pipeline=megakernel).

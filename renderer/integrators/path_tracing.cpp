@@ -60,7 +60,7 @@ constexpr Algorithm algorithms::path_tracing = [] {
                  .without(PathClass::delta_light_caustics)
                  .without(PathClass::mirrored_delta_light_caustics)
                  .without(PathClass::mirrored_light_of_delta_light_caustics);
-    a.selects_strategies = true;
+    a.may_be_implicit = a.may_be_explicit = true;
     a.stops_pixels = true;
     a.has_megakernel = true;
     a.passes = camera_passes;

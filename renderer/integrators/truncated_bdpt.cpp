@@ -48,6 +48,7 @@ constexpr Algorithm algorithms::truncated_bdpt = [] {
     a.sees = Sight::everything()
                  .without(PathClass::mirrored_delta_light_caustics)
                  .without(PathClass::mirrored_light_of_delta_light_caustics);
+    a.may_be_implicit = true;
     a.light_paths = LightPaths::any;
     a.stops_pixels = true;
     a.passes = truncated_bdpt_passes;

@@ -164,4 +164,9 @@ std::vector<std::string> unseen_light(const Algorithm &algorithm, const SceneArr
     return sentences;
 }
 
+std::string lights_not_hit(const SceneArrays &scene) {
+    const Contents contents = contents_of(scene);
+    return contents.delta.empty() ? "" : listing(contents.delta);
+}
+
 }  // namespace rtrays

@@ -20,4 +20,8 @@ namespace rtrays {
 std::vector<std::string> unseen_light(const Algorithm &algorithm, const SceneArrays &scene,
                                       uint32_t max_depth);
 
+/// Returns the point, spot and directional lights of a scene as a list in words, empty without any.
+/// No path hits them; the implicit strategy alone does not see them.
+std::string lights_not_hit(const SceneArrays &scene);
+
 }  // namespace rtrays

@@ -26,14 +26,16 @@ std::string bulb_node(const std::string &name, const std::string &intensity = "[
            "}}";
 }
 
+Scene scene_of(const std::string &nodes) {
+    return parse_scene_json(R"({"version": 1, "film": {"width": 4, "height": 4}, "nodes": [
+        {"name": "camera", "camera": {"type": "pinhole", "fov": 40, "fov_axis": "x"}})" +
+                                nodes + "]}",
+                            "test", "test");
+}
+
 std::vector<std::string> unseen(const std::string &algorithm, const std::string &nodes,
                                 uint32_t max_depth = 0) {
-    const Scene scene =
-        parse_scene_json(R"({"version": 1, "film": {"width": 4, "height": 4}, "nodes": [
-        {"name": "camera", "camera": {"type": "pinhole", "fov": 40, "fov_axis": "x"}})" +
-                             nodes + "]}",
-                         "test", "test");
-    return unseen_light(algorithm_named(algorithm), scene.arrays(), max_depth);
+    return unseen_light(algorithm_named(algorithm), scene_of(nodes).arrays(), max_depth);
 }
 
 using Sentences = std::vector<std::string>;
@@ -51,6 +53,14 @@ TEST(UnseenLight, NamesCausticsThatCameraPathsCannotFind) {
         unseen("path_tracing", floor_node + ball_node + dome_node + bulb_node("off", "[0, 0, 0]")),
         Sentences())
         << "a light without power";
+}
+
+TEST(UnseenLight, ListsLightsThatNoPathHits) {
+    const std::string scene = floor_node + dome_node;
+    EXPECT_EQ(lights_not_hit(scene_of(scene).arrays()), "");
+    EXPECT_EQ(lights_not_hit(scene_of(scene + bulb_node("a") + bulb_node("b")).arrays()),
+              "'a' and 'b'");
+    EXPECT_EQ(lights_not_hit(scene_of(scene + bulb_node("off", "[0, 0, 0]")).arrays()), "");
 }
 
 TEST(UnseenLight, ListsAFewLights) {

@@ -355,7 +355,7 @@ TEST(Pipeline, RestartsWithAnotherDepthToTheSameBits) {
 
 // Closed forms: every pixel of a furnace is E / (1 - rho). Explicit paths alone are not tested here
 // but in experiments/harness/estimators_test.cpp. All walls emit, and cos cos / d^2 has no finite
-// variance where two walls meet. The 12 means and the 3 means of the emitter below share a
+// variance where two walls meet. The 13 means and the 3 means of the emitter below share a
 // family-wise level of 0.01, so each may be 3.5 standard errors off (two-sided, Bonferroni). The
 // standard errors are small enough to detect an error of 2 %.
 constexpr double bound = 3.5;
@@ -380,6 +380,19 @@ TEST(ClosedForm, FurnaceGivesEmissionOverOneMinusAlbedo) {
             }
         }
     }
+}
+
+// With 8 light paths per pixel the weights of both strategies matter.
+TEST(ClosedForm, FurnaceOfImplicitAndLightPaths) {
+    RenderSettings settings =
+        small({"integrator.strategies=implicit", "integrator.light_paths=8192"});
+    settings.algorithm = &algorithms::truncated_bdpt;
+    RenderSession session(load_scene(RTRAYS_SCENES "/analytic/furnace_050.json"), settings,
+                          device());
+    session.render(0, 32);
+    const Mean mean = mean_of(session.develop(), "R", 0, 32);
+    EXPECT_LT(std::abs(mean.value - 2), bound * mean.standard_error);
+    EXPECT_LT(mean.standard_error, 0.02 / (2 * bound) * 2) << "statistical power";
 }
 
 TEST(ClosedForm, IrradianceBelowASquareEmitter) {

@@ -13,10 +13,15 @@ namespace {
 
 void require_supported_choices(const RenderSettings &settings) {
     const Algorithm &algorithm = *settings.algorithm;
-    if (!algorithm.selects_strategies && settings.strategies != PathStrategies::mis) {
-        throw input_error(fmt::format(
-            "integrator.strategies={}: {} has fixed strategies; this setting is for path_tracing",
-            name_in(path_strategies, settings.strategies), algorithm.name));
+    const std::pair<PathStrategies, bool> choices[] = {
+        {PathStrategies::implicit_only, algorithm.may_be_implicit},
+        {PathStrategies::explicit_only, algorithm.may_be_explicit}};
+    for (const auto &[choice, is_possible] : choices) {
+        if (settings.strategies == choice && !is_possible) {
+            throw input_error(fmt::format(
+                "integrator.strategies={}: not supported by {}; use mis or path_tracing",
+                name_in(path_strategies, choice), algorithm.name));
+        }
     }
     if (algorithm.is_random && settings.sampler == Sampler::regular) {
         throw input_error(fmt::format(

@@ -78,8 +78,9 @@ T parse_number(const Setting &setting, const std::string &text, T low, T high, b
 const std::vector<Setting> &image_setting_table() {
     static const std::vector<Setting> table = {
         {"integrator.strategies", choice(&S::strategies, path_strategies),
-         "how path_tracing samples light; implicit: paths that hit emitters; explicit: next-event "
-         "estimation; mis: both, with multiple importance sampling"},
+         "how camera paths sample light; implicit: they hit emitters; explicit: next-event "
+         "estimation "
+         "(path_tracing); mis: both, with multiple importance sampling"},
         {"integrator.sampler", choice(&S::sampler, samplers),
          "random numbers; independent: pseudorandom; sobol: scrambled Sobol points, stratified "
          "over the samples of a pixel and over light paths; regular: the same points in every "

@@ -28,7 +28,7 @@ struct Path {
     double p_1 = 0;        ///< per area
     double n_l = 0;        ///< number of light paths
     double p_o = 0;        ///< of emission, per area
-    double p_oe = 0;       ///< of light sampling, per area
+    double p_oe = 0;       ///< of light sampling, per area; 0 without the explicit strategy
     double p_d = 0;        ///< per projected solid angle
     double g = 0;          ///< G_{k-1}, of the last edge
     bool hittable = true;  ///< whether paths can hit the light
@@ -53,6 +53,7 @@ Path random_path(Random &random) {
     path.n_l = std::floor(std::pow(10.0, 9 * uniform(random)));
     path.p_o = spread(3);
     path.p_oe = random() % 2 == 0 ? path.p_o : path.p_o * spread(2);
+    path.p_oe *= random() % 8 == 0 ? 0.0 : 1.0;
     path.p_d = spread(1);
     path.g = spread(3);
     path.hittable = random() % 4 != 0;
@@ -68,7 +69,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns the weights from the densities of the full path, using logarithms in double precision.
 Weights expected(const Path &p, double beta) {
-    const bool has_implicit = p.hittable, has_explicit = !p.delta[p.k - 1], has_light = !p.delta[1];
+    const bool has_implicit = p.hittable, has_explicit = !p.delta[p.k - 1] && p.p_oe > 0,
+               has_light = !p.delta[1];
     double camera = std::log2(p.p_1);  // x_1 ... x_{k-1}
     for (size_t i = 1; i + 1 < p.k; ++i) {
         camera += std::log2(p.f[i]);
@@ -103,7 +105,7 @@ Weights shipped(const Path &p, float beta) {
     float log_r = log2_of(p.n_l) - log2_of(p.p_1);
     for (size_t i = 1; i < p.k; ++i) {
         const uint depth = static_cast<uint>(i - 1);
-        if (i == p.k - 1 && !p.delta[i]) {
+        if (i == p.k - 1 && !p.delta[i] && p.p_oe > 0) {
             const float implicit_over_explicit =
                 p.hittable ? static_cast<float>(p.f[i] * p.g / p.p_oe) : 0.0f;
             const float log_light_over_explicit = log_r + log2_of(p.p_d * p.g) +

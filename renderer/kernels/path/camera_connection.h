@@ -39,10 +39,14 @@ DEVICE float first_inverse_arrival(Path path, PRIVATE const SceneView *scene, Su
 }
 
 /// Sets A_i of MIS (20) at a hit of a light path; without vertex connections, at the first hit
-/// alone.
-DEVICE void set_light_path_arrival(Path path, PRIVATE const SceneView *scene, SurfaceHit hit) {
-    if (FEATURE_emission_density && get_depth(path) == 0u) {
-        set_log_inverse_arrival(path, first_inverse_arrival(path, scene, hit));
+/// alone. There it is 0 without the explicit strategy, since p_oe is.
+DEVICE void set_light_path_arrival(Path path, PRIVATE const SceneView *scene,
+                                   IntegratorSettings settings, SurfaceHit hit) {
+    if (FEATURE_light_strategy && get_depth(path) == 0u) {
+        const bool is_explicit =
+            FEATURE_emission_density && (settings.strategies & STRATEGY_EXPLICIT) != 0u;
+        set_log_inverse_arrival(path,
+                                is_explicit ? first_inverse_arrival(path, scene, hit) : -INFINITY);
     } else if (FEATURE_vertex_connections) {
         const float3 to_hit = hit.point.position - get_ray_origin(path);
         const float cosine = fabs(dot(hit.point.normal, get_ray_direction(path)));
@@ -107,7 +111,7 @@ DEVICE bool connect_hit_to_camera(Path path, PRIVATE const SceneView *scene, Cam
         return false;
     }
     const SurfaceHit hit = surface_hit(scene, primitive, get_hit_at(path));
-    set_light_path_arrival(path, scene, hit);
+    set_light_path_arrival(path, scene, settings, hit);
     if ((FEATURE_depth_limit && depth >= settings.max_depth) ||
         is_delta_material(scene->materials[hit.material])) {
         return false;
