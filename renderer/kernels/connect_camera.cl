@@ -4,7 +4,7 @@
 //
 // STAGE(connect_camera,
 //       reads(active, hit, pixel, sample, depth, ray_origin, ray_direction, throughput, pdf_w,
-//             log_running_ratio, log_inverse_arrival, log_strategies, light),
+//             log_running_ratio, log_inverse_arrival, log_strategies, light, trials),
 //       writes(ray_origin, log_inverse_arrival, shadow_origin, shadow_vector, shadow_radiance,
 //              splat_pixel, trials),
 //       to(shadow))

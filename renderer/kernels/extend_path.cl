@@ -9,7 +9,7 @@
 //       reads(active, hit, pixel, sample, depth, ray_direction, throughput, roulette_scale,
 //             radiance, log_running_ratio, log_inverse_arrival, log_strategies, trials),
 //       writes(depth, ray_origin, ray_direction, throughput, roulette_scale, pdf_w,
-//              log_running_ratio, log_strategies, film, half_film),
+//              log_running_ratio, log_strategies, trials, film, half_film),
 //       to(next, free))
 
 #include "renderer/kernels/path/hit_path_at.h"

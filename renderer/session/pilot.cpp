@@ -31,32 +31,42 @@ constexpr double first_guide_paths = 0.25;
 
 /// Returns the number of light paths per pixel in a trial.
 double paths_per_pixel(size_t trial) {
-    return trial == 0 ? 0.0 : std::exp2(trial_log_factor(static_cast<uint32_t>(trial)));
+    const auto index = static_cast<uint32_t>(trial);
+    return trial_has_light_paths(index) ? std::exp2(trial_log_factor(index)) : 0.0;
 }
 
 /// Returns the trial with light paths that is nearest to a number of them per pixel.
-size_t nearest_trial(double per_pixel) {
+size_t nearest_trial(double per_pixel, bool is_explicit) {
     size_t nearest = 1;
-    for (size_t trial = 2; trial < LIGHT_PATH_TRIALS; ++trial) {
+    for (size_t trial = 2; trial < LIGHT_PATH_NUMBERS; ++trial) {
         // The numbers are powers of 4, so that the middle of two is half of the greater.
         nearest = per_pixel > paths_per_pixel(trial) / 2 ? trial : nearest;
     }
-    return nearest;
+    return nearest + (is_explicit ? 0 : LIGHT_PATH_NUMBERS);
 }
 
-/// Returns the variance of one sample of a pixel, mean over the pixels. The two samples of a pixel
-/// are neighbours in `paths`.
-ByTrial camera_variance(const std::vector<PathTrials> &paths) {
+/// Returns TRIAL_SAMPLES times the variance of the mean of that many samples of a pixel, mean over
+/// the pixels. The samples of a pixel are neighbours in `paths`, and those at a distance of
+/// `sequences` belong to one sequence of points. Only sequences are independent.
+ByTrial camera_variance(const std::vector<PathTrials> &paths, size_t sequences) {
     ByTrial sums{};
-    for (size_t i = 0; i + 1 < paths.size(); i += 2) {
+    const auto count = static_cast<double>(sequences);
+    for (size_t first = 0; first < paths.size(); first += TRIAL_SAMPLES) {
         for (size_t trial = 0; trial < sums.size(); ++trial) {
-            const double difference = static_cast<double>(paths[i].value[trial]) -
-                                      static_cast<double>(paths[i + 1].value[trial]);
-            sums[trial] += difference * difference / 2;
+            double total = 0, squares = 0;
+            for (size_t sequence = 0; sequence < sequences; ++sequence) {
+                double of_sequence = 0;
+                for (size_t i = sequence; i < TRIAL_SAMPLES; i += sequences) {
+                    of_sequence += static_cast<double>(paths[first + i].value[trial]);
+                }
+                total += of_sequence;
+                squares += of_sequence * of_sequence;
+            }
+            sums[trial] += (squares - total * total / count) / (count - 1);
         }
     }
     for (double &sum : sums) {
-        sum /= static_cast<double>(paths.size()) / 2;
+        sum *= count / static_cast<double>(paths.size());
     }
     return sums;
 }
@@ -85,27 +95,42 @@ TrialPaths trace(RenderSession &session, PassKind pass, Pilot &pilot) {
     return found;
 }
 
-/// Fills the trials, without 0 if only light paths see some light, and chooses the number of light
-/// paths.
+/// Returns whether a trial shows all light: path tracing does not see some caustics, and implicit
+/// paths do not hit some lights.
+bool shows_all(size_t trial, const Scene &scene, const RenderSettings &settings) {
+    const auto index = static_cast<uint32_t>(trial);
+    const bool misses_caustics =
+        !trial_has_light_paths(index) &&
+        !unseen_light(algorithms::path_tracing, scene.arrays(), settings.max_depth).empty();
+    const bool misses_lights = !trial_is_explicit(index) && !lights_not_hit(scene.arrays()).empty();
+    return !misses_caustics && !misses_lights;
+}
+
+/// Fills the trials that show all light and chooses among them.
 void choose_light_paths(Pilot &pilot, const TrialPaths &camera, const TrialPaths &light,
                         const Scene &scene, const RenderSettings &settings) {
-    const ByTrial of_camera = camera_variance(camera.paths);
+    const ByTrial of_camera = camera_variance(
+        camera.paths, settings.sampler == Sampler::sobol ? SOBOL_SEQUENCES : TRIAL_SAMPLES);
     const ByTrial of_light = light_variance(light.paths);
     const auto count = static_cast<double>(camera.paths.size());
     for (size_t trial = 0; trial < LIGHT_PATH_TRIALS; ++trial) {
+        const bool is_explicit = trial_is_explicit(static_cast<uint32_t>(trial));
+        if (!shows_all(trial, scene, settings) ||
+            (is_explicit && settings.strategies == PathStrategies::implicit_only)) {
+            continue;
+        }
         const double per_pixel = paths_per_pixel(trial);
-        pilot.trials.push_back({per_pixel, of_camera[trial] + of_light[trial],
-                                camera.rays / count * (trial == 0 ? 1.0 : weighting_cost) +
-                                    per_pixel * (light.rays / count + start_cost)});
-    }
-    // Without light paths, caustics that only they find would be missing without any variance.
-    if (!unseen_light(algorithms::path_tracing, scene.arrays(), settings.max_depth).empty()) {
-        pilot.trials.erase(pilot.trials.begin());
+        const double camera_rays = camera.nearest_rays + (is_explicit ? camera.shadow_rays : 0);
+        pilot.trials.push_back(
+            {per_pixel, is_explicit, of_camera[trial] + of_light[trial],
+             camera_rays / count * (per_pixel > 0 ? weighting_cost : 1.0) +
+                 per_pixel * ((light.nearest_rays + light.shadow_rays) / count + start_cost)});
     }
     const PilotTrial best = *std::min_element(pilot.trials.begin(), pilot.trials.end(),
                                               [](const PilotTrial &a, const PilotTrial &b) {
                                                   return a.variance * a.cost < b.variance * b.cost;
                                               });
+    pilot.is_explicit = best.is_explicit;
     pilot.light_paths = static_cast<uint32_t>(
         std::lround(best.per_pixel * static_cast<double>(settings.width) * settings.height));
 }
@@ -119,12 +144,14 @@ TrialPaths RenderSession::trace_trials(PassKind kind) {
     s.counters.clear();
     const auto start = SteadyClock::now();
     TrialPaths found;
-    found.paths.resize(2 * s.trial_pixels.size());
+    found.paths.resize(TRIAL_SAMPLES * s.trial_pixels.size());
     s.run_pass(*pass, 0, 0, static_cast<uint32_t>(found.paths.size()));
     const std::vector<int64_t> words = pass->film.read();
     std::memcpy(found.paths.data(), words.data(), pass->film.bytes());
     s.wall_seconds += seconds_since(start);
-    found.rays = static_cast<double>(stats().rays);
+    const StreamCounters counters = s.counters.read().front();
+    found.nearest_rays = static_cast<double>(counters.nearest_rays);
+    found.shadow_rays = static_cast<double>(counters.shadow_rays);
     return found;
 }
 
@@ -163,6 +190,7 @@ Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
     }
     Pilot pilot;
     pilot.light_paths = chooses ? 0 : light_paths_per_sample(settings);
+    pilot.is_explicit = settings.strategies != PathStrategies::implicit_only;
     if (compiled.lighting.light_count == 0) {
         return pilot;
     }
@@ -171,7 +199,8 @@ Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
     std::vector<PathTrials> training;
     const auto guide = [&](double light_paths) {
         return std::make_shared<const EmissionGuide>(make_guide(
-            compiled, emission_moments(compiled, training, nearest_trial(light_paths / pixels))));
+            compiled, emission_moments(compiled, training,
+                                       nearest_trial(light_paths / pixels, pilot.is_explicit))));
     };
     if (trains) {
         RenderSettings flat = own;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pilot that chooses the number of light paths of truncated bidirectional path tracing, and
-// trains the guide of their emission.
+// The pilot that chooses the number of light paths of truncated bidirectional path tracing and
+// whether it has explicit paths, and trains the guide of their emission.
 //
 // Light paths pay off where they find light that camera paths miss; elsewhere they only cost time.
 // One set of paths tells the variance for every number of light paths (P. Grittmann, O. Yazici,
@@ -20,10 +20,11 @@ namespace rtrays {
 class Scene;
 class DeviceScene;
 
-/// One number of light paths that the pilot compared.
+/// Settings that the pilot compared.
 struct PilotTrial {
-    double per_pixel = 0;  ///< light paths per pixel
-    double variance = 0;   ///< variance of one sample's luminance, mean over pixels
+    double per_pixel = 0;     ///< light paths per pixel
+    bool is_explicit = true;  ///< whether camera paths are connected to light samples
+    double variance = 0;      ///< variance of one sample's luminance, mean over pixels
     /// Time of one sample per pixel, in units of the time of a ray of a path tracer.
     double cost = 0;
 };
@@ -34,6 +35,7 @@ struct Pilot {
     /// Light paths per sample of the image: the number with the least variance times cost, possibly
     /// 0, or that of the settings.
     uint32_t light_paths = 0;
+    bool is_explicit = true;  ///< the same of explicit paths
     /// The trained guide; null if the settings ask for none, or without light paths.
     std::shared_ptr<const EmissionGuide> guide;
     double seconds = 0;       ///< device time
@@ -52,14 +54,16 @@ bool needs_pilot(const RenderSettings &settings);
 RenderSettings pilot_settings(const RenderSettings &settings);
 
 /// Chooses the number of light paths for `LIGHT_PATHS_AUTO` among 0 and the powers of 4 from 1/64
-/// to 64 per pixel, without 0 if only light paths see some light of the scene.
+/// to 64 per pixel, with and without explicit paths. Choices that miss some light of the scene are
+/// left out.
 ///
-/// The pilot traces two camera paths in every pixel, or in every pixel of a lattice of at most
-/// 65,536, and as many light paths. The variance of the camera pass is estimated from the two
-/// samples of a pixel. That of the light pass is the second moment of a path's contributions, for
-/// hardly any two paths meet in a pixel. Both are those of independent samples, whatever the
-/// sampler. The cost is counted in rays. Variance and cost are the same in every run on one device,
-/// and so is the choice. The pilot uses its own seed; its samples are discarded.
+/// The pilot traces `TRIAL_SAMPLES` camera paths in every pixel, or in every pixel of a lattice of
+/// at most 16,384, and as many light paths. The variance of the camera pass is estimated from the
+/// samples of a pixel; with Sobol points, from the means of its two sequences. That of the light
+/// pass is the second moment of a path's contributions, for hardly any two paths meet in a pixel.
+/// It is that of independent samples, whatever the sampler. The cost is counted in rays. Variance
+/// and cost are the same in every run on one device, and so is the choice. The pilot uses its own
+/// seed; its samples are discarded.
 ///
 /// For `GuidedEmission::trained`, a first set of light paths under a flat guide trains a guide. The
 /// pilot then traces its paths with that guide. Both sets of light paths train the final one. Their

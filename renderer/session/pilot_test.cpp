@@ -50,7 +50,8 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
     const auto chosen = [](const std::string &scene) {
         const Pilot pilot =
             choose(load_scene(RTRAYS_SCENES + scene), settings_of(LIGHT_PATHS_AUTO));
-        EXPECT_EQ(pilot.trials.size(), LIGHT_PATH_TRIALS);
+        const bool is_hit = scene != "/features/point_light.json";
+        EXPECT_EQ(pilot.trials.size(), is_hit ? LIGHT_PATH_TRIALS : LIGHT_PATH_NUMBERS);
         const PilotTrial *best = &pilot.trials.front();
         for (const PilotTrial &trial : pilot.trials) {
             EXPECT_GT(trial.variance, 0);
@@ -58,6 +59,7 @@ TEST(Pilot, ChoosesTheLeastVarianceTimesRays) {
             best = trial.variance * trial.cost < best->variance * best->cost ? &trial : best;
         }
         EXPECT_EQ(pilot.light_paths, static_cast<uint32_t>(best->per_pixel * 32 * 32)) << scene;
+        EXPECT_EQ(pilot.is_explicit, best->is_explicit) << scene;
         EXPECT_GT(pilot.seconds, 0);
         EXPECT_GT(pilot.wall_seconds, 0);
         return pilot.light_paths;
@@ -82,9 +84,9 @@ struct Estimate {
     double mean, error;
 };
 
-/// Returns the mean over pixels of the variance of one sample's luminance, from 8 batches of 8
-/// renders of one sample.
-Estimate rendered_variance(const Scene &scene, RenderSettings settings) {
+/// Returns the mean over pixels of the variance of `samples` samples' mean luminance, times that
+/// number, from 8 batches of 8 renders.
+Estimate rendered_variance(const Scene &scene, RenderSettings settings, uint32_t samples = 1) {
     settings.stream_capacity = 0;  // the device's, which takes less time
     const int renders = 8;
     RenderSession session(scene, settings, device());
@@ -93,7 +95,7 @@ Estimate rendered_variance(const Scene &scene, RenderSettings settings) {
         std::vector<double> sums(32 * 32), squares(sums.size());
         for (uint32_t i = 0; i < renders; ++i) {
             session.restart(batch * renders + i);
-            session.render(0, 1);
+            session.render(0, samples);
             const Image image = session.develop();
             for (size_t pixel = 0; pixel < sums.size(); ++pixel) {
                 const double luminance = 0.2126 * static_cast<double>(image.channel("R")[pixel]) +
@@ -105,31 +107,66 @@ Estimate rendered_variance(const Scene &scene, RenderSettings settings) {
         }
         double variance = 0;
         for (size_t pixel = 0; pixel < sums.size(); ++pixel) {
-            variance += (squares[pixel] - sums[pixel] * sums[pixel] / renders) / (renders - 1);
+            variance +=
+                samples * (squares[pixel] - sums[pixel] * sums[pixel] / renders) / (renders - 1);
         }
         variances.push_back(variance / static_cast<double>(sums.size()));
     }
     return Estimate(variances);
 }
 
+/// Returns the variances of the trials of 8 pilots, by number of light paths per pixel and whether
+/// there are explicit paths.
+std::map<std::pair<double, bool>, std::vector<double>> pilot_variances(const Scene &scene,
+                                                                       Sampler sampler) {
+    std::map<std::pair<double, bool>, std::vector<double>> variances;
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+        RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
+        settings.sampler = sampler;
+        settings.seed = seed;
+        for (const PilotTrial &trial : choose(scene, settings).trials) {
+            variances[{trial.per_pixel, trial.is_explicit}].push_back(trial.variance);
+        }
+    }
+    return variances;
+}
+
 // The estimates of all trials come from paths of one of them.
 TEST(Pilot, EstimatesTheVarianceOfEveryNumberOfLightPaths) {
     const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
-    std::map<double, std::vector<double>> of_pilots;
-    for (uint32_t seed = 0; seed < 8; ++seed) {
-        RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
-        settings.seed = seed;
-        for (const PilotTrial &trial : choose(scene, settings).trials) {
-            of_pilots[trial.per_pixel].push_back(trial.variance);
-        }
-    }
-    for (const double per_pixel : {0.25, 4.0}) {
-        const Estimate pilots(of_pilots.at(per_pixel));
-        const Estimate rendered =
-            rendered_variance(scene, settings_of(static_cast<uint32_t>(per_pixel * 32 * 32)));
+    const auto of_pilots = pilot_variances(scene, Sampler::independent);
+    for (const auto &[per_pixel, is_explicit] : {std::pair(0.25, true), std::pair(4.0, false)}) {
+        RenderSettings settings = settings_of(static_cast<uint32_t>(per_pixel * 32 * 32));
+        settings.strategies = is_explicit ? PathStrategies::mis : PathStrategies::implicit_only;
+        const Estimate pilots(of_pilots.at({per_pixel, is_explicit})),
+            rendered = rendered_variance(scene, settings);
         EXPECT_NEAR(pilots.mean, rendered.mean, 4 * std::hypot(pilots.error, rendered.error))
-            << per_pixel;
-        EXPECT_LT(rendered.error, 0.15 * rendered.mean) << per_pixel;
+            << per_pixel << " " << is_explicit;
+        EXPECT_LT(rendered.error, 0.15 * rendered.mean) << per_pixel << " " << is_explicit;
+    }
+}
+
+TEST(Pilot, EstimatesTheVarianceOfSobolPoints) {
+    const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+    RenderSettings settings = settings_of(0);
+    const Estimate independent = rendered_variance(scene, settings);
+    settings.sampler = Sampler::sobol;
+    const Estimate pilots(pilot_variances(scene, Sampler::sobol).at({0.0, true})),
+        rendered = rendered_variance(scene, settings, TRIAL_SAMPLES);
+    EXPECT_NEAR(pilots.mean, rendered.mean, 4 * std::hypot(pilots.error, rendered.error));
+    EXPECT_LT(pilots.mean, 0.6 * independent.mean) << "as large as that of independent samples";
+}
+
+// No light sample reaches a lamp in glass.
+TEST(Pilot, LeavesOutExplicitPathsThatFindNothing) {
+    const Pilot pilot =
+        choose(load_scene(RTRAYS_SCENES "/floor_lamps/scene.json"), settings_of(LIGHT_PATHS_AUTO));
+    EXPECT_FALSE(pilot.is_explicit);
+    for (size_t i = 0; i < LIGHT_PATH_NUMBERS; ++i) {
+        const PilotTrial &with = pilot.trials.at(i),
+                         &without = pilot.trials.at(i + LIGHT_PATH_NUMBERS);
+        EXPECT_NEAR(without.variance, with.variance, 1e-5 * with.variance);
+        EXPECT_LT(without.cost, with.cost);
     }
 }
 

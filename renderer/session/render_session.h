@@ -43,7 +43,7 @@ struct RenderStats {
 /// What the paths of one pass of a pilot found.
 struct TrialPaths {
     std::vector<PathTrials> paths;
-    double rays = 0;  ///< closest-hit and shadow rays of all of them
+    double nearest_rays = 0, shadow_rays = 0;  ///< of all of them
 };
 
 /// A render of one scene on one device. It compiles the scene and the kernels, accumulates ranges

@@ -18,6 +18,7 @@ Json device_report(const DeviceInfo &info) {
 
 Json pilot_report(const Pilot &pilot) {
     Json report = {{"light_paths", pilot.light_paths},
+                   {"explicit", pilot.is_explicit},
                    {"seconds", pilot.seconds},
                    {"seconds_wall", pilot.wall_seconds}};
     if (pilot.guide != nullptr) {
@@ -25,6 +26,7 @@ Json pilot_report(const Pilot &pilot) {
     }
     for (const PilotTrial &trial : pilot.trials) {
         report["trials"].push_back({{"light_paths_per_pixel", trial.per_pixel},
+                                    {"explicit", trial.is_explicit},
                                     {"variance", trial.variance},
                                     {"cost", trial.cost}});
     }

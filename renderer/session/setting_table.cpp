@@ -96,7 +96,7 @@ const std::vector<Setting> &image_setting_table() {
                       {{"pixels", LIGHT_PATHS_LIKE_PIXELS}, {"auto", LIGHT_PATHS_AUTO}}},
          "number of light paths for one sample of every pixel; pixels: as many as the image has "
          "pixels; auto (truncated_bdpt only): a pilot chooses the most efficient number, "
-         "possibly 0"},
+         "possibly 0, and whether light samples are worth their time"},
         {"integrator.guided_emission", choice(&S::guided_emission, guided_emissions),
          "how light paths select their light and direction; off: by power and cosine; flat: "
          "through tables of directions whose bins are all equal, to test the tables; at most 64 "

@@ -95,6 +95,9 @@ Pilot settle_light_paths(RenderSettings &settings, const std::shared_ptr<DeviceS
     }
     if (settings.light_paths == LIGHT_PATHS_AUTO) {
         settings.light_paths = pilot.light_paths;
+        if (!pilot.is_explicit) {
+            settings.strategies = PathStrategies::implicit_only;
+        }
     }
     return pilot;
 }
@@ -266,7 +269,7 @@ void RenderSession::State::allocate_streams() {
 
 void RenderSession::State::allocate_trials() {
     // A lattice of at most `largest` pixels, as fine as that allows.
-    constexpr uint64_t largest = 256 * 256;
+    constexpr uint64_t largest = 128 * 128;
     const auto points = [](uint32_t size, uint32_t step) { return (size + step - 1) / step; };
     const auto width = static_cast<uint32_t>(settings.width),
                height = static_cast<uint32_t>(settings.height);
@@ -282,9 +285,9 @@ void RenderSession::State::allocate_trials() {
     }
     trial_pixels = Buffer<uint32_t>(device, "trial_pixels", pixels_of_lattice);
     for (CompiledPass &pass : passes) {
-        pass.film =
-            Buffer<int64_t>(device, "trials",
-                            2 * pixels_of_lattice.size() * (sizeof(PathTrials) / sizeof(int64_t)));
+        pass.film = Buffer<int64_t>(
+            device, "trials",
+            TRIAL_SAMPLES * pixels_of_lattice.size() * (sizeof(PathTrials) / sizeof(int64_t)));
     }
 }
 

@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Trials: numbers of light paths that a pilot compares (session/pilot.h).
+// Trials: settings that a pilot compares (session/pilot.h). They are eight numbers of light paths
+// with explicit paths, then the same numbers without.
 //
 // A path knows the ratios of the densities of all its strategies. Another number of light paths
-// changes only the factor n_L in them (docs/mis-weights.md). Each path therefore finds what it
-// would have contributed in every trial.
+// changes only the factor n_L in them, and p_oe is 0 without explicit paths (docs/mis-weights.md).
+// Each path therefore finds what it would have contributed in every trial.
 #pragma once
 
 #include "compat.h"
 
-#define LIGHT_PATH_TRIALS 8u
+#define LIGHT_PATH_NUMBERS 8u
+#define LIGHT_PATH_TRIALS (2u * LIGHT_PATH_NUMBERS)
+
+/// Camera paths of a pixel in a pilot.
+#define TRIAL_SAMPLES 8u
+
+/// Returns whether light paths are traced in a trial.
+DEVICE bool trial_has_light_paths(uint trial) {
+    return trial % LIGHT_PATH_NUMBERS != 0u;
+}
+
+/// Returns whether camera paths are connected to light samples in a trial.
+DEVICE bool trial_is_explicit(uint trial) {
+    return trial < LIGHT_PATH_NUMBERS;
+}
 
 /// Returns log2 of the number of light paths in a trial over the number of those traced: 1/64,
-/// 1/16, ... 64. Trial 0 has no light paths and no such factor.
+/// 1/16, ... 64. Trials without light paths have no such factor.
 DEVICE float trial_log_factor(uint trial) {
-    return 2.0f * (float)trial - 8.0f;
+    return 2.0f * (float)(trial % LIGHT_PATH_NUMBERS) - 8.0f;
 }
 
 /// What a path found.

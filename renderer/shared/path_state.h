@@ -42,6 +42,7 @@
     X(FEATURE_light_path_trials, uint, trial_item)         /* index of the path in the work */    \
     X(FEATURE_light_path_trials, uint, trial_start)        /* PathTrials::start */                \
     X(FEATURE_light_path_trials, float, trial_density)     /* PathTrials::start_density */        \
+    X(FEATURE_light_path_trials, float, trial_ratio)       /* log2 Q without explicit paths */    \
     X(FEATURE_light_path_trials, trials, trial_value)      /* shared/light_path_trials.h */       \
     X(FEATURE_light_path_trials, trials, shadow_trial)     /* added unless the ray is blocked */
 

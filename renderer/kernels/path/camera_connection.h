@@ -78,13 +78,17 @@ DEVICE float camera_connection_weight(Path path, IntegratorSettings settings, fl
 DEVICE void set_connection_trials(Path path, IntegratorSettings settings, float3 radiance,
                                   float log_f, float log_p1_over_nl) {
     const float value = rec709_luminance(radiance);
-    set_shadow_trial(path, 0u, 0.0f);
-    for (uint trial = 1u; trial < LIGHT_PATH_TRIALS; ++trial) {
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
         const float log_factor = trial_log_factor(trial);
-        set_shadow_trial(
-            path, trial,
-            value * power_of_two(-log_factor) *
-                camera_connection_weight(path, settings, log_f, log_p1_over_nl - log_factor));
+        float weight = 0.0f;
+        if (trial_has_light_paths(trial)) {
+            weight =
+                trial_is_explicit(trial)
+                    ? camera_connection_weight(path, settings, log_f, log_p1_over_nl - log_factor)
+                    : light_path_weight(get_trial_ratio(path), -INFINITY, get_depth(path), log_f,
+                                        log_p1_over_nl - log_factor, settings.beta);
+        }
+        set_shadow_trial(path, trial, value * power_of_two(-log_factor) * weight);
     }
 }
 
@@ -92,12 +96,12 @@ DEVICE void set_connection_trials(Path path, IntegratorSettings settings, float3
 /// of p_I / p_L for the light paths that are traced.
 DEVICE void set_start_trials(Path path, float3 radiance, float log_other, float beta) {
     const float value = rec709_luminance(radiance);
-    set_shadow_trial(path, 0u, 0.0f);
-    for (uint trial = 1u; trial < LIGHT_PATH_TRIALS; ++trial) {
+    for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
         const float log_factor = trial_log_factor(trial);
-        set_shadow_trial(path, trial,
-                         value * power_of_two(-log_factor) *
-                             power_heuristic_of_log(log_other - log_factor, beta));
+        const float weight = trial_has_light_paths(trial)
+                                 ? power_heuristic_of_log(log_other - log_factor, beta)
+                                 : 0.0f;
+        set_shadow_trial(path, trial, value * power_of_two(-log_factor) * weight);
     }
 }
 

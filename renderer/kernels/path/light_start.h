@@ -44,7 +44,8 @@ DEVICE EmissionSample start_light_path(Path path, PRIVATE const SceneView *scene
     const float log_s =
         emission.is_delta != 0u ? -INFINITY : log2_quotient(1.0f / p_d, emission.pdf_origin);
     set_log_running_ratio(path, log_s);  // begins Q of MIS (15)
-    set_log_strategies(path, log_s);     // S_k of MIS (20)
+    set_trial_ratio(path, log_s);
+    set_log_strategies(path, log_s);  // S_k of MIS (20)
     // A_{k-1} of MIS (20) without the distance and the cosine of the first hit, and without p_oe
     // and p_o. `set_light_path_arrival` completes it.
     set_log_inverse_arrival(path, log2_quotient(1.0f, emission.pdf_direction));

@@ -67,6 +67,11 @@ DEVICE void continue_ratios(Path path, IntegratorSettings settings, uint depth, 
                                          event.log_reverse_ratio, settings.beta)
                   : continue_camera_ratio(log_r_or_q, depth, is_delta, event.log_forward,
                                           event.log_reverse_ratio));
+    if (FEATURE_light_path_trials && FEATURE_from_light) {
+        set_trial_ratio(
+            path, continue_light_ratio(get_trial_ratio(path), -INFINITY, depth, is_delta,
+                                       event.log_forward, event.log_reverse_ratio, settings.beta));
+    }
     if (FEATURE_vertex_connections) {
         set_log_strategies(
             path, continue_strategies(get_log_strategies(path), log_a, is_delta, event.log_forward,

@@ -37,9 +37,10 @@ DEVICE void start_light_trials(Path path, PRIVATE const SceneView *scene, Emissi
 /// `camera_path_weight` has for the light paths that are traced. Without light paths it is MIS (8).
 DEVICE float camera_trial_weight(uint trial, float other_over_own, float log_light_over_own,
                                  float beta) {
-    return trial == 0u ? power_heuristic(other_over_own, beta)
-                       : camera_path_weight(other_over_own,
-                                            log_light_over_own + trial_log_factor(trial), beta);
+    return trial_has_light_paths(trial)
+               ? camera_path_weight(other_over_own, log_light_over_own + trial_log_factor(trial),
+                                    beta)
+               : power_heuristic(other_over_own, beta);
 }
 
 /// Adds emission to a camera path in every trial. `radiance` has no weight yet.
@@ -47,9 +48,10 @@ DEVICE void add_emission_trials(Path path, float3 radiance, float by_explicit, f
                                 float beta) {
     const float value = rec709_luminance(radiance);
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        const float other = trial_is_explicit(trial) ? by_explicit : 0.0f;
         set_trial_value(path, trial,
                         get_trial_value(path, trial) +
-                            value * camera_trial_weight(trial, by_explicit, log_light, beta));
+                            value * camera_trial_weight(trial, other, log_light, beta));
     }
 }
 
@@ -58,8 +60,10 @@ DEVICE void set_light_sample_trials(Path path, float3 radiance, float by_implici
                                     float beta) {
     const float value = rec709_luminance(radiance);
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
-        set_shadow_trial(path, trial,
-                         value * camera_trial_weight(trial, by_implicit, log_light, beta));
+        const float weight = trial_is_explicit(trial)
+                                 ? camera_trial_weight(trial, by_implicit, log_light, beta)
+                                 : 0.0f;
+        set_shadow_trial(path, trial, value * weight);
     }
 }
 
