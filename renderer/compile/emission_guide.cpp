@@ -205,6 +205,11 @@ bool takes_guide_table(const CompiledScene &scene, size_t light) {
     });
 }
 
+bool is_trainable(const CompiledScene &scene) {
+    return supports_guide(scene) && !scene.lights.empty() &&
+           (scene.lights.size() > 1 || takes_guide_table(scene, 0));
+}
+
 void require_trainable(const CompiledScene &scene) {
     require_support(scene);
     if (scene.lights.empty()) {

@@ -39,8 +39,11 @@ bool supports_guide(const CompiledScene &scene);
 /// triangles all have the same normal.
 bool takes_guide_table(const CompiledScene &scene, size_t light);
 
-/// Throws `Error` (bad input) unless training can improve a guide: the scene must have a light, at
-/// most as many as a guide supports, and a single light must take a table.
+/// Returns whether training can improve a guide: the scene must have a light, at most as many as a
+/// guide supports, and a single light must take a table.
+bool is_trainable(const CompiledScene &scene);
+
+/// Throws `Error` (bad input) that says why, unless a guide `is_trainable`.
 void require_trainable(const CompiledScene &scene);
 
 /// Returns the second moments of light paths under a guide, in a trial. Few paths say little about

@@ -330,7 +330,7 @@ TEST(Whitted, RefusesWhatItDoesNotDo) {
          {std::tuple("whitted", "integrator.sampler=sobol", "draws no random numbers"),
           std::tuple("whitted", "integrator.light_selection=power",
                      "samples every light at every point"),
-          std::tuple("whitted", "integrator.strategies=implicit", "fixed strategies"),
+          std::tuple("whitted", "integrator.strategies=implicit", "not supported by whitted"),
           std::tuple("path_tracing", "integrator.sampler=regular", "needs random numbers")}) {
         expect_input_error(fragment, [&, a = algorithm, s = assignment] {
             const RenderSettings settings = settings_of(a, {s});

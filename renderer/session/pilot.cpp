@@ -53,16 +53,17 @@ ByTrial camera_variance(const std::vector<PathTrials> &paths, size_t sequences) 
     const auto count = static_cast<double>(sequences);
     for (size_t first = 0; first < paths.size(); first += TRIAL_SAMPLES) {
         for (size_t trial = 0; trial < sums.size(); ++trial) {
-            double total = 0, squares = 0;
-            for (size_t sequence = 0; sequence < sequences; ++sequence) {
-                double of_sequence = 0;
-                for (size_t i = sequence; i < TRIAL_SAMPLES; i += sequences) {
-                    of_sequence += static_cast<double>(paths[first + i].value[trial]);
-                }
-                total += of_sequence;
-                squares += of_sequence * of_sequence;
+            std::array<double, TRIAL_SAMPLES> of_sequence{};
+            double total = 0;
+            for (size_t i = 0; i < TRIAL_SAMPLES; ++i) {
+                const auto value = static_cast<double>(paths[first + i].value[trial]);
+                of_sequence[i % sequences] += value;
+                total += value;
             }
-            sums[trial] += (squares - total * total / count) / (count - 1);
+            for (size_t sequence = 0; sequence < sequences; ++sequence) {
+                const double difference = of_sequence[sequence] - total / count;
+                sums[trial] += difference * difference / (count - 1);
+            }
         }
     }
     for (double &sum : sums) {
@@ -86,6 +87,11 @@ ByTrial light_variance(const std::vector<PathTrials> &paths) {
     return sums;
 }
 
+/// Returns 1 / (variance x cost), and 0 where the variance is not finite.
+double efficiency(const PilotTrial &trial) {
+    return std::isfinite(trial.variance) ? 1 / (trial.variance * trial.cost) : 0.0;
+}
+
 /// Traces the paths of one pass and adds the times to those of `pilot`.
 TrialPaths trace(RenderSession &session, PassKind pass, Pilot &pilot) {
     const RenderStats before = session.stats();
@@ -95,30 +101,34 @@ TrialPaths trace(RenderSession &session, PassKind pass, Pilot &pilot) {
     return found;
 }
 
-/// Returns whether a trial shows all light: path tracing does not see some caustics, and implicit
-/// paths do not hit some lights.
-bool shows_all(size_t trial, const Scene &scene, const RenderSettings &settings) {
-    const auto index = static_cast<uint32_t>(trial);
-    const bool misses_caustics =
-        !trial_has_light_paths(index) &&
+/// Returns the trials to choose from. Those that miss some light are left out: path tracing does
+/// not see some caustics, and implicit paths alone do not hit some lights. So are those that lack a
+/// strategy whose layer is asked for.
+std::vector<size_t> candidates(const Scene &scene, const RenderSettings &settings) {
+    const bool needs_light_paths =
         !unseen_light(algorithms::path_tracing, scene.arrays(), settings.max_depth).empty();
-    const bool misses_lights = !trial_is_explicit(index) && !lights_not_hit(scene.arrays()).empty();
-    return !misses_caustics && !misses_lights;
+    const bool may_be_explicit = settings.strategies != PathStrategies::implicit_only;
+    const bool needs_explicit = may_be_explicit && (settings.separate_strategies ||
+                                                    !lights_not_hit(scene.arrays()).empty());
+    std::vector<size_t> trials;
+    for (uint32_t trial = 0; trial < LIGHT_PATH_TRIALS; ++trial) {
+        if ((trial_has_light_paths(trial) || !needs_light_paths) &&
+            (trial_is_explicit(trial) ? may_be_explicit : !needs_explicit)) {
+            trials.push_back(trial);
+        }
+    }
+    return trials;
 }
 
-/// Fills the trials that show all light and chooses among them.
+/// Fills the trials and chooses among them.
 void choose_light_paths(Pilot &pilot, const TrialPaths &camera, const TrialPaths &light,
                         const Scene &scene, const RenderSettings &settings) {
     const ByTrial of_camera = camera_variance(
         camera.paths, settings.sampler == Sampler::sobol ? SOBOL_SEQUENCES : TRIAL_SAMPLES);
     const ByTrial of_light = light_variance(light.paths);
     const auto count = static_cast<double>(camera.paths.size());
-    for (size_t trial = 0; trial < LIGHT_PATH_TRIALS; ++trial) {
+    for (const size_t trial : candidates(scene, settings)) {
         const bool is_explicit = trial_is_explicit(static_cast<uint32_t>(trial));
-        if (!shows_all(trial, scene, settings) ||
-            (is_explicit && settings.strategies == PathStrategies::implicit_only)) {
-            continue;
-        }
         const double per_pixel = paths_per_pixel(trial);
         const double camera_rays = camera.nearest_rays + (is_explicit ? camera.shadow_rays : 0);
         pilot.trials.push_back(
@@ -126,10 +136,9 @@ void choose_light_paths(Pilot &pilot, const TrialPaths &camera, const TrialPaths
              camera_rays / count * (per_pixel > 0 ? weighting_cost : 1.0) +
                  per_pixel * ((light.nearest_rays + light.shadow_rays) / count + start_cost)});
     }
-    const PilotTrial best = *std::min_element(pilot.trials.begin(), pilot.trials.end(),
-                                              [](const PilotTrial &a, const PilotTrial &b) {
-                                                  return a.variance * a.cost < b.variance * b.cost;
-                                              });
+    const PilotTrial best = *std::min_element(
+        pilot.trials.begin(), pilot.trials.end(),
+        [](const PilotTrial &a, const PilotTrial &b) { return efficiency(a) > efficiency(b); });
     pilot.is_explicit = best.is_explicit;
     pilot.light_paths = static_cast<uint32_t>(
         std::lround(best.per_pixel * static_cast<double>(settings.width) * settings.height));
@@ -177,17 +186,22 @@ RenderSettings pilot_settings(const RenderSettings &settings) {
         pilot.guided_emission = GuidedEmission::flat;
     }
     pilot.variance = pilot.separate_strategies = false;
+    pilot.count_rays = RayCounts::in_all;
     pilot.convergence_error = 0;
     return pilot;
 }
 
 Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
-                const RenderSettings &settings) {
+                RenderSettings settings) {
     const CompiledScene &compiled = shared->compiled();
-    const bool trains = trains_guide(settings), chooses = settings.light_paths == LIGHT_PATHS_AUTO;
-    if (trains) {
-        require_trainable(compiled);
+    const bool chooses = settings.light_paths == LIGHT_PATHS_AUTO;
+    if (trains_guide(settings) && !is_trainable(compiled)) {
+        if (!chooses) {
+            require_trainable(compiled);
+        }
+        settings.guided_emission = GuidedEmission::off;
     }
+    const bool trains = trains_guide(settings);
     Pilot pilot;
     pilot.light_paths = chooses ? 0 : light_paths_per_sample(settings);
     pilot.is_explicit = settings.strategies != PathStrategies::implicit_only;

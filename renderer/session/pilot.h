@@ -35,7 +35,8 @@ struct Pilot {
     /// Light paths per sample of the image: the number with the least variance times cost, possibly
     /// 0, or that of the settings.
     uint32_t light_paths = 0;
-    bool is_explicit = true;  ///< the same of explicit paths
+    /// Whether camera paths are connected to light samples: the pilot's choice, or the settings'.
+    bool is_explicit = true;
     /// The trained guide; null if the settings ask for none, or without light paths.
     std::shared_ptr<const EmissionGuide> guide;
     double seconds = 0;       ///< device time
@@ -68,9 +69,10 @@ RenderSettings pilot_settings(const RenderSettings &settings);
 /// For `GuidedEmission::trained`, a first set of light paths under a flat guide trains a guide. The
 /// pilot then traces its paths with that guide. Both sets of light paths train the final one. Their
 /// weights are those of the power of 4 nearest to the number of light paths. Sums are added in the
-/// order of the paths, so the guide is the same in every run on one device. Throws `Error` (bad
-/// input) if the scene has no light to guide, or too many.
+/// order of the paths, so the guide is the same in every run on one device. If the scene has no
+/// light to guide, or too many, there is no guide with `LIGHT_PATHS_AUTO`; otherwise `Error` (bad
+/// input) is thrown.
 Pilot run_pilot(const std::shared_ptr<DeviceScene> &shared, const Scene &scene,
-                const RenderSettings &settings);
+                RenderSettings settings);
 
 }  // namespace rtrays

@@ -13,6 +13,7 @@
 
 #include "renderer/compile/device_scene.h"
 #include "renderer/device/context.h"
+#include "renderer/import/json/scene_json.h"
 #include "renderer/import/load_scene.h"
 #include "renderer/session/render_session.h"
 #include "renderer/testing/errors.h"
@@ -143,6 +144,7 @@ TEST(Pilot, EstimatesTheVarianceOfEveryNumberOfLightPaths) {
         EXPECT_NEAR(pilots.mean, rendered.mean, 4 * std::hypot(pilots.error, rendered.error))
             << per_pixel << " " << is_explicit;
         EXPECT_LT(rendered.error, 0.15 * rendered.mean) << per_pixel << " " << is_explicit;
+        EXPECT_LT(pilots.error, 0.15 * pilots.mean) << per_pixel << " " << is_explicit;
     }
 }
 
@@ -154,6 +156,7 @@ TEST(Pilot, EstimatesTheVarianceOfSobolPoints) {
     const Estimate pilots(pilot_variances(scene, Sampler::sobol).at({0.0, true})),
         rendered = rendered_variance(scene, settings, TRIAL_SAMPLES);
     EXPECT_NEAR(pilots.mean, rendered.mean, 4 * std::hypot(pilots.error, rendered.error));
+    EXPECT_LT(std::hypot(pilots.error, rendered.error), 0.15 * rendered.mean);
     EXPECT_LT(pilots.mean, 0.6 * independent.mean) << "as large as that of independent samples";
 }
 
@@ -168,6 +171,55 @@ TEST(Pilot, LeavesOutExplicitPathsThatFindNothing) {
         EXPECT_NEAR(without.variance, with.variance, 1e-5 * with.variance);
         EXPECT_LT(without.cost, with.cost);
     }
+}
+
+TEST(Pilot, HasTheStrategiesOfTheSettings) {
+    RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
+    settings.strategies = PathStrategies::implicit_only;
+    const Scene point_light = load_scene(RTRAYS_SCENES "/features/point_light.json");
+    EXPECT_FALSE(choose(point_light, settings).is_explicit);
+    // A layer of explicit paths that are left out would be missing.
+    RenderSettings layers = settings_of(LIGHT_PATHS_AUTO);
+    layers.variance = false;
+    layers.separate_strategies = true;
+    const Pilot pilot = choose(load_scene(RTRAYS_SCENES "/floor_lamps/scene.json"), layers);
+    EXPECT_TRUE(pilot.is_explicit);
+    EXPECT_EQ(pilot.trials.size(), LIGHT_PATH_NUMBERS);
+}
+
+TEST(Pilot, GoesWithCountsOfRays) {
+    RenderSettings settings = settings_of(LIGHT_PATHS_AUTO);
+    const Scene scene = load_scene(RTRAYS_SCENES "/cornell_box/scene.json");
+    const uint32_t expected = choose(scene, settings).light_paths;
+    settings.count_rays = RayCounts::by_depth;
+    EXPECT_EQ(choose(scene, settings).light_paths, expected);
+}
+
+// A lamp in glass needs no explicit paths; a point light that is switched on later does.
+TEST(Pilot, GivesExplicitPathsToLightsThatAppear) {
+    Scene scene = parse_scene_json(
+        R"({"version": 1, "film": {"width": 32, "height": 32},
+        "materials": {"glass": {"type": "glass", "eta": 1.5},
+                      "grey": {"type": "lambert", "reflectance": [0.5, 0.5, 0.5]}},
+        "nodes": [
+            {"name": "camera", "transform": [{"look_at": {"origin": [0, 2, 5], "target": [0, 0.5, 0], "up": [0, 1, 0]}}],
+             "camera": {"type": "pinhole", "fov": 40, "fov_axis": "x"}},
+            {"name": "floor", "geometry": {"type": "plane"}, "material": "grey",
+             "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": -90}}]},
+            {"name": "shade", "geometry": {"type": "sphere", "radius": 0.5}, "material": "glass",
+             "transform": [{"translate": [0, 1, 0]}]},
+            {"name": "lamp", "geometry": {"type": "sphere", "radius": 0.2}, "material": "grey",
+             "transform": [{"translate": [0, 1, 0]}], "light": {"type": "diffuse_area", "radiance": [9, 9, 9]}},
+            {"name": "bulb", "transform": [{"translate": [1, 2, 0]}], "light": {"type": "point", "intensity": [0, 0, 0]}}]})",
+        "lamps", "lamps");
+    scene.update(0);
+    RenderSession session(scene, settings_of(LIGHT_PATHS_AUTO), device());
+    ASSERT_EQ(session.settings().strategies, PathStrategies::implicit_only);
+    scene.set_property("bulb.intensity", "5,5,5");
+    scene.update(0);
+    session.update(scene);
+    EXPECT_EQ(session.settings().strategies, PathStrategies::mis);
+    EXPECT_TRUE(session.report().at("pilot").at("explicit"));
 }
 
 // Path tracing renders the caustic of a point light black, without any variance.

@@ -8,6 +8,7 @@
 #include "renderer/base/commit.h"
 #include "renderer/base/error.h"
 #include "renderer/base/progress.h"
+#include "renderer/integrators/unseen_light.h"
 #include "renderer/session/state.h"
 
 namespace rtrays {
@@ -74,10 +75,14 @@ void RenderSession::restart(uint32_t seed, uint32_t max_depth) {
 
 void RenderSession::update(const Scene &scene) {
     if (!state_->update(scene)) {
-        // The settings have the number of light paths that the pilot chose. A guide is trained
-        // again.
-        const Pilot former = state_->pilot;
+        // The settings have the choices of the pilot. A guide is trained again, and explicit paths
+        // return with lights that no path hits.
+        Pilot former = state_->pilot;
         RenderSettings settings = state_->settings;
+        if (!former.is_explicit && !lights_not_hit(scene.arrays()).empty()) {
+            settings.strategies = PathStrategies::mis;
+            former.is_explicit = true;
+        }
         if (settings.guided_emission == GuidedEmission::trained) {
             settings.emission_guide = nullptr;
         }

@@ -115,9 +115,9 @@ void require_consistent(const RenderSettings &settings);
 /// concern ray_casting and whitted, which draw no random numbers (thesis 2.7.6).
 RenderSettings with_fixed_choices(RenderSettings settings);
 
-/// Returns the sampler of rtrays-render unless it is told another one: Sobol points, or the regular
-/// ones of an algorithm without random numbers. `RenderSettings` and thus experiments have the
-/// independent samples of the thesis.
+/// Returns the sampler of rtrays-render if integrator.sampler is not set: Sobol points, or the
+/// regular ones of an algorithm without random numbers. `RenderSettings` and thus experiments have
+/// the independent samples of the thesis.
 Sampler default_sampler(const Algorithm &algorithm);
 
 /// Returns all settings that decide the image (the algorithm and "integrator.*"), for provenance

@@ -230,7 +230,7 @@ struct RenderSession::State {
     uint32_t light_count;
     DeviceContext &device;
     RenderSettings settings;
-    Pilot pilot;  ///< pilot that chose the number of light paths, if there was one
+    Pilot pilot;  ///< empty if the settings needed none
     StreamLayout layout;
     IntegratorSettings integrator;
     FeatureMask features;  ///< union over all passes

@@ -15,7 +15,7 @@
     X(implicit_light, "emitters that paths hit contribute (strategies implicit, mis)")        \
     X(explicit_light, "paths are connected to light samples (strategies explicit, mis)")      \
     X(light_strategy, "light paths connected to the camera take part in the MIS weights")     \
-    X(light_path_trials, "paths of a pilot, which compares numbers of light paths")           \
+    X(light_path_trials, "paths of a pilot, which compares settings")                         \
     X(vertex_connections, "light vertices are stored and connected to camera path vertices")  \
     X(light_emitters, "light paths also show emitters that the camera sees directly")         \
     X(from_camera, "this pass traces paths from the camera")                                  \

@@ -24,8 +24,8 @@ void render_whole(Renderer &renderer, uint64_t begin, uint64_t end) {
 }
 
 /// Renders one sample per pixel, so that all kernels are compiled and cached. Kernels for long
-/// paths are included if a path is long enough, and those of the pilot if there is one. Throws
-/// `Error` (interrupted).
+/// paths are included if a path is long enough, and those of the pilot if there is one. What a
+/// pilot chooses may need others. Throws `Error` (interrupted).
 void compile_kernels(const Scene &scene, RenderSettings settings, DeviceContext &device);
 
 /// Returns the samples of batch `batch`, of `batches` with `spp` samples together. Batches are

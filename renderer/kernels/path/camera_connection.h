@@ -79,15 +79,16 @@ DEVICE void set_connection_trials(Path path, IntegratorSettings settings, float3
                                   float log_f, float log_p1_over_nl) {
     const float value = rec709_luminance(radiance);
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
-        const float log_factor = trial_log_factor(trial);
-        float weight = 0.0f;
-        if (trial_has_light_paths(trial)) {
-            weight =
-                trial_is_explicit(trial)
-                    ? camera_connection_weight(path, settings, log_f, log_p1_over_nl - log_factor)
-                    : light_path_weight(get_trial_ratio(path), -INFINITY, get_depth(path), log_f,
-                                        log_p1_over_nl - log_factor, settings.beta);
+        if (!trial_has_light_paths(trial)) {
+            set_shadow_trial(path, trial, 0.0f);
+            continue;
         }
+        const float log_factor = trial_log_factor(trial);
+        const float weight =
+            trial_is_explicit(trial)
+                ? camera_connection_weight(path, settings, log_f, log_p1_over_nl - log_factor)
+                : light_path_weight(get_trial_ratio(path), -INFINITY, get_depth(path), log_f,
+                                    log_p1_over_nl - log_factor, settings.beta);
         set_shadow_trial(path, trial, value * power_of_two(-log_factor) * weight);
     }
 }
@@ -97,10 +98,12 @@ DEVICE void set_connection_trials(Path path, IntegratorSettings settings, float3
 DEVICE void set_start_trials(Path path, float3 radiance, float log_other, float beta) {
     const float value = rec709_luminance(radiance);
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
+        if (!trial_has_light_paths(trial)) {
+            set_shadow_trial(path, trial, 0.0f);
+            continue;
+        }
         const float log_factor = trial_log_factor(trial);
-        const float weight = trial_has_light_paths(trial)
-                                 ? power_heuristic_of_log(log_other - log_factor, beta)
-                                 : 0.0f;
+        const float weight = power_heuristic_of_log(log_other - log_factor, beta);
         set_shadow_trial(path, trial, value * power_of_two(-log_factor) * weight);
     }
 }

@@ -12,6 +12,8 @@
 /// Starts the trials of path `item` of the work.
 DEVICE void start_trials(Path path, uint item) {
     set_trial_item(path, item);
+    set_trial_start(path, 0u);
+    set_trial_density(path, 0.0f);
     for (uint trial = 0u; trial < LIGHT_PATH_TRIALS; ++trial) {
         set_trial_value(path, trial, 0.0f);
     }

@@ -40,10 +40,14 @@ SHARED = ("integrator.sampler", "integrator.light_selection", "integrator.sphere
 def base_for(run, curve):
     """Returns path tracing with both strategies under the curve's own sampler, light selection and
     sphere sampling, or else the base curve of the run. A curve is not its own base unless it is
-    that of the run."""
+    that of the run. Other settings of the base are those of the run's base curve."""
+    base = base_curve(run)
 
     def shared(other):
         return [value(other, "settings").get(key) for key in SHARED]
+
+    def others(other):
+        return {key: each for key, each in value(other, "settings").items() if key not in SHARED}
 
     own = (
         other
@@ -51,8 +55,9 @@ def base_for(run, curve):
         if other is not curve
         and (value(other, "algorithm"), value(other, "strategies")) == ("path_tracing", "mis")
         and shared(other) == shared(curve)
+        and others(other) == others(base)
     )
-    return next(own, base_curve(run))
+    return base if curve is base else next(own, base)
 
 
 def has_several_bases(run):
@@ -86,8 +91,7 @@ def is_stratified(curve):
 
 
 def pilot_seconds(curve):
-    """Returns the device time of the pilot that chose the number of light paths; zero without a
-    pilot."""
+    """Returns the device time of the pilot; zero without one."""
     has_pilot = "pilot" in value(curve, "render_report")
     return value(curve, "render_report.pilot.seconds") if has_pilot else 0.0
 
