@@ -7,7 +7,7 @@ rtrays_test(experiments_test HOST
         harness/core/metrics_test.cpp harness/core/references_test.cpp harness/core/reproduce_test.cpp
         harness/core/statistics_test.cpp
         harness/kinds/convergence_control_test.cpp harness/kinds/curves_description_test.cpp
-        harness/kinds/gate_test.cpp harness/kinds/stability_test.cpp harness/kinds/sweep_test.cpp
+        harness/kinds/gate_test.cpp harness/kinds/stability_test.cpp harness/kinds/unreferenced_test.cpp
         harness/kinds/throughput_test.cpp
         harness/models/timed_scenes_test.cpp
     LIBRARIES rtrays_experiments)

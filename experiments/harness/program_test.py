@@ -256,6 +256,19 @@ class Program(ProgramTest):
                 ("the sweep 'other' has no values", {"name": "other"})):
             self.refused(2, text, "run", self.sweep(**changes), "--dry-run")
 
+    def test_scene_gains(self):
+        out = self.folder / "out"
+        done = self.call("run", shipped("automatic"), "--profile", "ci", "--out", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = json.loads((out / "run.json").read_text())["rows"]
+        self.assertEqual(
+            [row["scene"] for row in rows], ["features/point_light", "features/sphere_light"])
+        for row in rows:
+            self.assertEqual(len(row["curves"]), 3)
+        reported = self.call("report", out)
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        self.assertIn("| features/sphere_light |", (out / "automatic.md").read_text())
+
     def tables(self, out):
         return subprocess.run(
             [sys.executable, EXPERIMENTS.parent / "scripts/results", "page", out],

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
 
 #include "embedded/experiment_schemas.h"
@@ -14,6 +15,25 @@ namespace rtrays {
 
 std::filesystem::path DescriptionFile::resolve(const Json &relative) const {
     return (path.parent_path() / relative.get<std::string>()).lexically_normal();
+}
+
+std::vector<std::filesystem::path> DescriptionFile::scenes(const Json &profile) const {
+    std::vector<std::filesystem::path> files;
+    for (const Json &scene : profile.at("scenes")) {
+        const std::filesystem::path named = resolve(json.at("folder")) / scene.get<std::string>();
+        if (named.filename() != "*") {
+            files.push_back(named.string() + ".json");
+            continue;
+        }
+        const size_t before = files.size();
+        for (const auto &entry : std::filesystem::directory_iterator(named.parent_path())) {
+            if (entry.path().extension() == ".json") {
+                files.push_back(entry.path());
+            }
+        }
+        std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    }
+    return files;
 }
 
 const Json &DescriptionFile::profile(const std::string &name) const {

@@ -55,6 +55,10 @@ struct DescriptionFile {
 
     /// Resolves a path that is given relative to the file.
     std::filesystem::path resolve(const Json &relative) const;
+
+    /// Returns the scene files of a profile's "scenes", names without ".json" relative to the
+    /// file's "folder". "features/*" names all scenes of a folder, in alphabetical order.
+    std::vector<std::filesystem::path> scenes(const Json &profile) const;
 };
 
 /// Reads a file. Throws `Error` (bad input) naming the file and the line if it is not JSON.

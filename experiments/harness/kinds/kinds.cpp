@@ -6,6 +6,7 @@
 #include "experiments/harness/kinds/gate.h"
 #include "experiments/harness/kinds/measurements/measurement.h"
 #include "experiments/harness/kinds/scene_agreement.h"
+#include "experiments/harness/kinds/scene_gains.h"
 #include "experiments/harness/kinds/stability.h"
 #include "experiments/harness/kinds/sweep.h"
 
@@ -40,6 +41,7 @@ const std::vector<Kind> &experiment_kinds() {
          leave,
          make_convergence_control},
         {"sweep", "sweep.schema.json", {profile, out}, leave, make_sweep},
+        {"scene_gains", "scene_gains.schema.json", {profile, out}, leave, make_scene_gains},
         {"agreement", "agreement.schema.json", {profile, out}, leave, make_agreement},
         {"gate", "gate.schema.json", {Option::check, Option::update_baseline}, leave, make_gate},
     };

@@ -56,21 +56,7 @@ Description read(const DescriptionFile &file, const std::string &profile) {
     description.profile = profile;
     file.json.at("name").get_to(description.name);
     const Json &chosen = file.profile(profile);
-    for (const Json &scene : chosen.at("scenes")) {
-        const fs::path named = file.resolve(file.json.at("folder")) / scene.get<std::string>();
-        if (named.filename() != "*") {
-            description.paths.push_back(named.string() + ".json");
-            continue;
-        }
-        const size_t before = description.paths.size();
-        for (const auto &entry : fs::directory_iterator(named.parent_path())) {
-            if (entry.path().extension() == ".json") {
-                description.paths.push_back(entry.path());
-            }
-        }
-        std::sort(description.paths.begin() + static_cast<std::ptrdiff_t>(before),
-                  description.paths.end());
-    }
+    description.paths = file.scenes(chosen);
     chosen.at("size").get_to(description.size);
     chosen.at("spp").get_to(description.spp);
     chosen.at("reference_spp").get_to(description.reference_spp);

@@ -7,6 +7,7 @@ from rtrays.documents.survey import is_stiffness
 from rtrays.pages.control_page import control_page
 from rtrays.pages.curve_page import curve_page
 from rtrays.pages.measurement_page import TABLES, measurement_page
+from rtrays.pages.scene_gains_page import scene_gains_page
 from rtrays.pages.stability_page import stability_page
 from rtrays.pages.stiffness_page import stiffness_page
 from rtrays.pages.sweep_page import sweep_page
@@ -15,6 +16,7 @@ PAGES = {
     "curves": curve_page,
     "convergence_control": control_page,
     "sweep": sweep_page,
+    "scene_gains": scene_gains_page,
     "stability": lambda run: (stiffness_page if is_stiffness(run) else stability_page)(run),
     **dict.fromkeys(TABLES, measurement_page),
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests errors without a reference by hand.
-#include "experiments/harness/kinds/sweep.h"
+#include "experiments/harness/kinds/unreferenced.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ Image row(const std::vector<float> &values) {
 
 const FirstHits classes{FirstHit::other, FirstHit::delta};
 
-TEST(Sweep, ErrorsAreVariancesByClass) {
+TEST(Unreferenced, ErrorsAreVariancesByClass) {
     // The variances of {1, 2, 6} and {0, 0, 3} are 7 and 3; the images have two pixels.
     const auto errors = errors_without_reference({row({1, 0}), row({2, 0}), row({6, 3})}, classes);
     ByFirstHit mean{};
@@ -35,7 +35,7 @@ TEST(Sweep, ErrorsAreVariancesByClass) {
     EXPECT_DOUBLE_EQ(errors[2][static_cast<size_t>(FirstHit::other)], 9.0 * 1.5 / 2);
 }
 
-TEST(Sweep, OneImageHasNoError) {
+TEST(Unreferenced, OneImageHasNoError) {
     EXPECT_THROW(errors_without_reference({row({1, 2})}, classes), Error);
 }
 

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+"""Page of the gains of algorithms over many scenes."""
+
+from matplotlib import pyplot
+
+from rtrays.documents.curves import label
+from rtrays.documents.document import value
+from rtrays.documents.intervals import reach_of
+from rtrays.documents.sweep import base_of, gain
+from rtrays.pages.page import Figure, Page, TableBlock
+from rtrays.pages.provenance import run_made_by, survey_provenance
+from rtrays.plots.style import legend_below_axes, line_at_one, name_rows, save, series_style
+from rtrays.tables.cells import interval
+from rtrays.tables.table import Table
+
+
+def sorted_rows(run):
+    """Returns the rows of a run by the gain of their first curve in equal time, least first."""
+    return sorted(
+        run.get("rows"), key=lambda row: gain(row, value(row, "curves.0"), "time")["value"]
+    )
+
+
+def gains_figure(run):
+    """Draws the gains of all scenes in equal device time."""
+    rows = sorted_rows(run)
+    figure, axes = pyplot.subplots(figsize=(7.5, 1 + 0.17 * len(rows)), layout="constrained")
+    for index, curve in enumerate(value(rows[0], "curves")[:-1]):
+        gains = [gain(row, value(row, f"curves.{index}"), "time") for row in rows]
+        middle, reach = reach_of(gains)
+        style = {**series_style(index), "linestyle": "none"}
+        axes.errorbar(middle, range(len(rows)), xerr=reach, label=label(curve), **style)
+    line_at_one(axes.axvline)
+    name_rows(axes, [value(row, "scene") for row in rows])
+    axes.set(xscale="log", xlabel="gain in equal device time")
+    legend_below_axes(axes, 0.5, -0.4 / (1 + 0.17 * len(rows)) - 0.05, 1)
+    return figure
+
+
+def gains_table(run):
+    """Returns the gains of every curve but the last in every scene."""
+    cells = []
+    for row in sorted_rows(run):
+        for curve in value(row, "curves")[:-1]:
+            gains = (gain(row, curve, key) for key in ("samples", "time"))
+            cells.append(
+                [value(row, "scene"), label(curve)]
+                + [interval(each, form="{:.2f}") for each in gains]
+            )
+    base = label(base_of(value(run.document, "rows.0")))
+    return Table(
+        f"Gains over {base}, least first",
+        ["scene", "curve", "gain in equal samples", "gain in equal device time"],
+        cells,
+        ["Times include the pilots."],
+    )
+
+
+def gains_finding(run):
+    """Returns the sentence that states the least and the largest gain."""
+    rows = sorted_rows(run)
+    first, *_, base = value(rows[0], "curves")
+    gains = [gain(row, value(row, "curves.0"), "time") for row in rows]
+    loses = sum(each["high"] < 0.9 for each in gains)
+
+    def text(index):
+        return f"{interval(gains[index], form='{:.2f}')} ({value(rows[index], 'scene')})"
+
+    return (
+        f"In equal device time, pilots included, {label(first)} has between {text(0)} and"
+        f" {text(-1)} times the efficiency of {label(base)}. It is below 0.9 in {loses} of"
+        f" {len(rows)} scenes."
+    )
+
+
+def scene_gains_page(run):
+    """Writes plot and table into the run's folder; returns the page."""
+    save(gains_figure(run), run.folder / "gain", ".svg", ".png")
+    size, spp, seeds = (run.get(f"experiment.{key}") for key in ("size", "spp", "seeds"))
+    caption = (
+        f"Gains with 95 % intervals over {seeds} seeds of {spp} samples per pixel at"
+        f" {size[0]} x {size[1]}; below 1 is a loss. There is no reference: the error is the"
+        " variance over the seeds, since all curves are unbiased."
+    )
+    table = gains_table(run)
+    table.write(run.folder / "tables", "gains")
+    return Page(
+        run.folder,
+        f"{run.get('experiment.name')}.md",
+        run.prose("title"),
+        gains_finding(run),
+        [Figure("gain.svg", caption, png=True), TableBlock(table, "tables/gains")],
+        source=run.source,
+        claim=run.prose("claim"),
+        claim_head="The thesis claims" if run.source else "Claim",
+        provenance=survey_provenance(run),
+        picture="gain.svg",
+        picture_label="Gain by scene",
+        made=run_made_by(run),
+    )

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""Tests the page of gains over scenes on a made-up run."""
+
+import json
+import pathlib
+import tempfile
+import unittest
+
+from rtrays.documents.run_document import Run
+from rtrays.pages.scene_gains_page import gains_finding, gains_table, scene_gains_page
+from rtrays.pages.test_sweep_page import curve
+
+
+def row(scene, mse):
+    """Returns a row in which path tracing has an error of 1 in 1 s."""
+    return {
+        "scene": scene,
+        "pixels": {"light_behind_delta": 0.0, "delta": 0.0, "other": 1.0},
+        "curves": [curve("truncated_bdpt", mse, 2.0), curve("path_tracing", 1.0, 1.0)],
+    }
+
+
+class SceneGainsPage(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name) / "made_up"
+        self.folder.mkdir()
+        document = {
+            "schema_version": 3,
+            "kind": "scene_gains",
+            "experiment": {
+                "name": "made_up",
+                "title": "Scenes",
+                "thesis": "none",
+                "claim": "It never loses.",
+                "profile": "ci",
+                "size": [4, 4],
+                "spp": 2,
+                "seeds": 8,
+            },
+            "context": {"commit": "abc", "dirty": False, "device": {"name": "pthread"}},
+            "rows": [row("good", 0.25), row("bad", 1.0)],
+        }
+        (self.folder / "run.json").write_text(json.dumps(document))
+        self.run_object = Run(self.folder)
+
+    def test_the_least_gain_comes_first(self):
+        self.assertEqual(
+            gains_table(self.run_object).rows,
+            [
+                ["bad", "truncated BDPT (MIS)", "1.00 [1.00, 1.00]", "0.50 [0.50, 0.50]"],
+                ["good", "truncated BDPT (MIS)", "4.00 [4.00, 4.00]", "2.00 [2.00, 2.00]"],
+            ],
+        )
+
+    def test_the_page_states_the_range_and_the_losses(self):
+        self.assertEqual(
+            gains_finding(self.run_object),
+            "In equal device time, pilots included, truncated BDPT (MIS) has between 0.50 [0.50,"
+            " 0.50] (bad) and 2.00 [2.00, 2.00] (good) times the efficiency of path tracing (MIS)."
+            " It is below 0.9 in 1 of 2 scenes.",
+        )
+        scene_gains_page(self.run_object).write()
+        self.assertIn("It never loses.", (self.folder / "made_up.md").read_text())
+        for name in ("gain.svg", "gain.png", "tables/gains.csv"):
+            self.assertGreater((self.folder / name).stat().st_size, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
