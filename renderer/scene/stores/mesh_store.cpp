@@ -114,7 +114,7 @@ void MeshStore::append(const Node &node) {
     arrays.has_normals.push_back(0);
     arrays.has_uv.push_back(0);
     const size_t vertices = first_vertex + mesh.vertices().size();
-    arrays.position.resize(vertices);
+    arrays.position.resize(vertices, Eigen::Vector3f::Zero());
     if (!arrays.normal.empty()) {
         arrays.normal.resize(vertices, Eigen::Vector3f::Zero());
     }
