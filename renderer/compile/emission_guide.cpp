@@ -212,15 +212,12 @@ bool is_trainable(const CompiledScene &scene) {
 
 void require_trainable(const CompiledScene &scene) {
     require_support(scene);
-    if (scene.lights.empty()) {
+    if (!is_trainable(scene)) {
         throw input_error(
-            "integrator.guided_emission=trained: the scene has no light to guide; use off");
-    }
-    if (scene.lights.size() == 1 && !takes_guide_table(scene, 0)) {
-        throw input_error(
-            "integrator.guided_emission=trained: the only light of the scene takes no table; "
-            "discs, "
-            "spheres, point lights and flat meshes do; use off");
+            scene.lights.empty()
+                ? "integrator.guided_emission=trained: the scene has no light to guide; use off"
+                : "integrator.guided_emission=trained: the only light of the scene takes no table; "
+                  "discs, spheres, point lights and flat meshes do; use off");
     }
 }
 

@@ -57,7 +57,9 @@ bool RenderSession::is_complete() const {
 
 void RenderSession::restart(uint32_t seed) {
     state_->integrator.seed = state_->settings.seed = seed;
-    state_->bind_scene();
+    for (CompiledPass &pass : state_->passes) {
+        pass.stages.bind({{StageInput::settings, {state_->settings_of(pass)}}});
+    }
     state_->reset_film();
 }
 

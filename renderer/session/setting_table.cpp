@@ -79,8 +79,7 @@ const std::vector<Setting> &image_setting_table() {
     static const std::vector<Setting> table = {
         {"integrator.strategies", choice(&S::strategies, path_strategies),
          "how camera paths sample light; implicit: they hit emitters; explicit: next-event "
-         "estimation "
-         "(path_tracing); mis: both, with multiple importance sampling"},
+         "estimation (path_tracing); mis: both, with multiple importance sampling"},
         {"integrator.sampler", choice(&S::sampler, samplers),
          "random numbers; independent: pseudorandom; sobol: scrambled Sobol points, stratified "
          "over the samples of a pixel and over light paths; regular: the same points in every "
@@ -101,8 +100,7 @@ const std::vector<Setting> &image_setting_table() {
          "how light paths select their light and direction; off: by power and cosine; flat: "
          "through tables of directions whose bins are all equal, to test the tables; at most 64 "
          "lights; trained (truncated_bdpt only): through tables that a pilot trains, for at most "
-         "64 "
-         "lights"},
+         "64 lights"},
         {"integrator.bdpt_vertices", CountSetting{&S::bdpt_vertices, 64},
          "bdpt: number N of vertices stored per light path; paths of more than N + 1 scattering "
          "events are sampled by the strategies of truncated_bdpt only"},

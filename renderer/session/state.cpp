@@ -80,10 +80,11 @@ RenderSettings complete(RenderSettings settings, const Scene &scene) {
     return settings;
 }
 
-/// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses, and sets the guide that it trains.
-/// Without light paths there is no guide. Returns the pilot, which is empty if none was needed.
-Pilot settle_light_paths(RenderSettings &settings, const std::shared_ptr<DeviceScene> &scene,
-                         const Scene &graph) {
+/// Replaces LIGHT_PATHS_AUTO by the number that a pilot chooses, leaves out explicit paths if it
+/// does, and sets the guide that it trains. Without light paths there is no guide. Returns the
+/// pilot, which is empty if none was needed.
+Pilot apply_pilot(RenderSettings &settings, const std::shared_ptr<DeviceScene> &scene,
+                  const Scene &graph) {
     if (!needs_pilot(settings)) {
         return {};
     }
@@ -136,7 +137,7 @@ RenderSession::State::State(std::shared_ptr<DeviceScene> shared, const Scene &gr
       light_count(scene->compiled().lighting.light_count),
       device(scene->device()),
       settings(complete(requested, graph)),
-      pilot(settle_light_paths(settings, scene, graph)),
+      pilot(apply_pilot(settings, scene, graph)),
       layout(stream_layout(settings, device.info())),
       integrator(integrator_settings(settings)) {
     std::vector<Pass> all_passes = algorithm_passes(
@@ -207,7 +208,11 @@ bool RenderSession::State::update(const Scene &graph) {
     if (scene_version != scene->version()) {
         set_guide();
         scene_version = scene->version();
-        bind_scene();
+        StageArguments arguments = scene_arguments();
+        for (CompiledPass &pass : passes) {
+            arguments[StageInput::settings] = {settings_of(pass)};
+            pass.stages.bind(arguments);
+        }
     }
     set_config();
     reset_film();
@@ -315,8 +320,7 @@ void RenderSession::State::allocate_film() {
 
 void RenderSession::State::bind() {
     using In = StageInput;
-    emitters_in_view = rtrays::emitters_in_view(scene->compiled(), camera());
-    StageArguments arguments;
+    StageArguments arguments = scene_arguments();
     arguments[In::film_sums] = {static_cast<uint32_t>(film_sums())};
     arguments[In::first_sample] = {uint64_t{0}};
     arguments[In::light_index] = arguments[In::vertex_index] = {uint32_t{SELECT_LIGHT}};
@@ -330,6 +334,7 @@ void RenderSession::State::bind() {
         for (auto &[input, bound] : pass.indices) {
             bound = SELECT_LIGHT;
         }
+        arguments[In::settings] = {settings_of(pass)};
         arguments[In::film] = {pass.film};
         arguments[In::ray_counts] = {pass.ray_counts};
         // Null pointers, which no kernel reads without convergence control or a pilot.
@@ -340,9 +345,7 @@ void RenderSession::State::bind() {
                 arguments[input] = list;
             }
         }
-        StageArguments all = scene_arguments(pass);
-        all.insert(arguments.begin(), arguments.end());
-        pass.stages.bind(all);
+        pass.stages.bind(arguments);
     }
 }
 
@@ -358,20 +361,18 @@ CameraRecord RenderSession::State::camera() const {
     return record;
 }
 
-StageArguments RenderSession::State::scene_arguments(const CompiledPass &pass) const {
-    IntegratorSettings common = integrator;
-    common.strategies |= emitters_in_view ? 0u : STRATEGY_EMITTERS_OUT_OF_VIEW;
+StageArguments RenderSession::State::scene_arguments() {
+    const CameraRecord record = camera();
+    emitters_in_view = rtrays::emitters_in_view(scene->compiled(), record);
     StageArguments arguments = scene->arguments(features, emission_guide);
-    arguments[StageInput::camera] = {camera()};
-    arguments[StageInput::settings] = {pass.own_settings(common)};
+    arguments[StageInput::camera] = {record};
     return arguments;
 }
 
-void RenderSession::State::bind_scene() {
-    emitters_in_view = rtrays::emitters_in_view(scene->compiled(), camera());
-    for (CompiledPass &pass : passes) {
-        pass.stages.bind(scene_arguments(pass));
-    }
+IntegratorSettings RenderSession::State::settings_of(const CompiledPass &pass) const {
+    IntegratorSettings common = integrator;
+    common.strategies |= emitters_in_view ? 0u : STRATEGY_EMITTERS_OUT_OF_VIEW;
+    return pass.own_settings(common);
 }
 
 void RenderSession::State::warm_up() {

@@ -115,12 +115,13 @@ struct RenderSession::State {
     void allocate_trials();
     void bind();
 
-    /// Returns what the stages of a pass read of the scene, the camera, and the settings.
-    StageArguments scene_arguments(const CompiledPass &pass) const;
+    /// Returns what the stages read of the scene, and the camera. Sets `emitters_in_view`.
+    StageArguments scene_arguments();
 
-    /// Sets `emitters_in_view` and binds `scene_arguments`, for all passes.
-    void bind_scene();
+    /// Returns the integrator's settings for a pass. Reads `emitters_in_view`.
+    IntegratorSettings settings_of(const CompiledPass &pass) const;
 
+    /// Returns the active camera of the scene, for the film or the window of `settings`.
     CameraRecord camera() const;
 
     /// Makes the flat guide if the settings ask for it, and copies the guide to the device. Throws

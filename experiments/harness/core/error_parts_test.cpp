@@ -5,19 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "experiments/harness/core/metrics.h"
+#include "experiments/harness/core/one_row.h"
 #include "renderer/base/error.h"
 
 namespace rtrays {
 namespace {
 
-/// Returns an image of one row whose channels have the same values.
-Image row(const std::vector<float> &values) {
-    Image image = Image::rgb(static_cast<int>(values.size()), 1);
-    for (const auto &name : rgb_names()) {
-        image.channel(name) = values;
-    }
-    return image;
-}
+using test::row;
 
 const FirstHits classes{FirstHit::other, FirstHit::light_behind_delta, FirstHit::other,
                         FirstHit::delta};

@@ -7,9 +7,8 @@ from rtrays.documents.curves import label
 from rtrays.documents.document import value
 from rtrays.documents.intervals import reach_of
 from rtrays.documents.sweep import base_of, gain
-from rtrays.pages.page import Figure, Page, TableBlock
-from rtrays.pages.provenance import run_made_by, survey_provenance
-from rtrays.plots.style import legend_below_axes, line_at_one, name_rows, save, series_style
+from rtrays.pages.sweep_page import page_of_gains
+from rtrays.plots.style import legend_below_axes, line_at_one, name_rows, series_style
 from rtrays.tables.cells import interval
 from rtrays.tables.table import Table
 
@@ -75,26 +74,6 @@ def gains_finding(run):
 
 def scene_gains_page(run):
     """Writes plot and table into the run's folder; returns the page."""
-    save(gains_figure(run), run.folder / "gain", ".svg", ".png")
-    size, spp, seeds = (run.get(f"experiment.{key}") for key in ("size", "spp", "seeds"))
-    caption = (
-        f"Gains with 95 % intervals over {seeds} seeds of {spp} samples per pixel at"
-        f" {size[0]} x {size[1]}; below 1 is a loss. There is no reference: the error is the"
-        " variance over the seeds, since all curves are unbiased."
-    )
-    table = gains_table(run)
-    table.write(run.folder / "tables", "gains")
-    return Page(
-        run.folder,
-        f"{run.get('experiment.name')}.md",
-        run.prose("title"),
-        gains_finding(run),
-        [Figure("gain.svg", caption, png=True), TableBlock(table, "tables/gains")],
-        source=run.source,
-        claim=run.prose("claim"),
-        claim_head="The thesis claims" if run.source else "Claim",
-        provenance=survey_provenance(run),
-        picture="gain.svg",
-        picture_label="Gain by scene",
-        made=run_made_by(run),
+    return page_of_gains(
+        run, gains_figure(run), {"gains": gains_table(run)}, gains_finding(run), "Gain by scene"
     )

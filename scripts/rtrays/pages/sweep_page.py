@@ -131,9 +131,10 @@ def sweep_finding(run):
     )
 
 
-def sweep_page(run):
-    """Writes plot and tables into the run's folder; returns the page."""
-    save(sweep_figure(run), run.folder / "gain", ".svg", ".png")
+def page_of_gains(run, figure, tables, finding, label_of_picture):
+    """Writes plot and tables, by name, into the folder of a run without references; returns its
+    page."""
+    save(figure, run.folder / "gain", ".svg", ".png")
     size, spp, seeds = (run.get(f"experiment.{key}") for key in ("size", "spp", "seeds"))
     caption = (
         f"Gains with 95 % intervals over {seeds} seeds of {spp} samples per pixel at"
@@ -141,21 +142,31 @@ def sweep_page(run):
         " variance over the seeds, since all curves are unbiased."
     )
     blocks = [Figure("gain.svg", caption, png=True)]
-    for sweep, rows in sweeps(run):
-        table = sweep_table(run, sweep, rows)
-        table.write(run.folder / "tables", sweep["name"])
-        blocks.append(TableBlock(table, f"tables/{sweep['name']}"))
+    for name, table in tables.items():
+        table.write(run.folder / "tables", name)
+        blocks.append(TableBlock(table, f"tables/{name}"))
     return Page(
         run.folder,
         f"{run.get('experiment.name')}.md",
         run.prose("title"),
-        sweep_finding(run),
+        finding,
         blocks,
         source=run.source,
         claim=run.prose("claim"),
         claim_head="The thesis claims" if run.source else "Claim",
         provenance=survey_provenance(run),
         picture="gain.svg",
-        picture_label="Gain by size of lamps and share of mirrors",
+        picture_label=label_of_picture,
         made=run_made_by(run),
+    )
+
+
+def sweep_page(run):
+    """Writes plot and tables into the run's folder; returns the page."""
+    return page_of_gains(
+        run,
+        sweep_figure(run),
+        {sweep["name"]: sweep_table(run, sweep, rows) for sweep, rows in sweeps(run)},
+        sweep_finding(run),
+        "Gain by size of lamps and share of mirrors",
     )
