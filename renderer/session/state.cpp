@@ -273,11 +273,13 @@ void RenderSession::State::allocate_streams() {
 }
 
 void RenderSession::State::allocate_trials() {
-    // A lattice of at most `largest` pixels, as fine as that allows.
-    constexpr uint64_t largest = 128 * 128;
     const auto points = [](uint32_t size, uint32_t step) { return (size + step - 1) / step; };
     const auto width = static_cast<uint32_t>(settings.width),
                height = static_cast<uint32_t>(settings.height);
+    // A lattice of at most `largest` pixels, as fine as that allows: one path per pixel of the
+    // image, within bounds.
+    const uint64_t largest =
+        std::clamp<uint64_t>(uint64_t{width} * height / TRIAL_SAMPLES, 32 * 32, 128 * 128);
     uint32_t step = 1;
     while (uint64_t{points(width, step)} * points(height, step) > largest) {
         ++step;
