@@ -11,6 +11,10 @@ import unittest
 
 PROGRAM = None
 EXPERIMENTS = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(EXPERIMENTS.parent / "scripts"))
+
+from rtrays.documents.sweep import gain  # noqa: E402
+
 REFERENCES = EXPERIMENTS.parent / "results/references"
 
 
@@ -256,18 +260,20 @@ class Program(ProgramTest):
                 ("the sweep 'other' has no values", {"name": "other"})):
             self.refused(2, text, "run", self.sweep(**changes), "--dry-run")
 
-    def test_scene_gains(self):
+    def test_automatic_choice_loses_at_most_a_tenth(self):
+        """Images and counts of rays are the same in every run."""
         out = self.folder / "out"
         done = self.call("run", shipped("automatic"), "--profile", "ci", "--out", out, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = json.loads((out / "run.json").read_text())["rows"]
         self.assertEqual(
-            [row["scene"] for row in rows], ["features/point_light", "features/sphere_light"])
+            [row["scene"] for row in rows], ["features/environment_light", "veach_mis/scene"])
         for row in rows:
-            self.assertEqual(len(row["curves"]), 3)
+            self.assertGreater(
+                gain(row, row["curves"][0], "rays")["value"], 0.9, row["scene"])
         reported = self.call("report", out)
         self.assertEqual(reported.returncode, 0, reported.stderr)
-        self.assertIn("| features/sphere_light |", (out / "automatic.md").read_text())
+        self.assertIn("| veach_mis/scene |", (out / "automatic.md").read_text())
 
     def tables(self, out):
         return subprocess.run(

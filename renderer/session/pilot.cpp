@@ -92,10 +92,11 @@ double efficiency(const PilotTrial &trial) {
     return std::isfinite(trial.variance) ? 1 / (trial.variance * trial.cost) : 0.0;
 }
 
-/// Traces the paths of one pass and adds the times to those of `pilot`.
+/// Traces the paths of one pass and adds rays and times to those of `pilot`.
 TrialPaths trace(RenderSession &session, PassKind pass, Pilot &pilot) {
     const RenderStats before = session.stats();
     TrialPaths found = session.trace_trials(pass);
+    pilot.rays += static_cast<uint64_t>(found.nearest_rays + found.shadow_rays);
     pilot.seconds += session.stats().device_seconds - before.device_seconds;
     pilot.wall_seconds += session.stats().wall_seconds - before.wall_seconds;
     return found;

@@ -39,6 +39,7 @@ struct Pilot {
     bool is_explicit = true;
     /// The trained guide; null if the settings ask for none, or without light paths.
     std::shared_ptr<const EmissionGuide> guide;
+    uint64_t rays = 0;        ///< closest-hit and shadow rays
     double seconds = 0;       ///< device time
     double wall_seconds = 0;  ///< wall time, without compilation
 };

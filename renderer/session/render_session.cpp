@@ -166,7 +166,7 @@ RenderStats RenderSession::stats() const {
     stats.wall_seconds = state_->wall_seconds + state_->pilot.wall_seconds;
     stats.samples = state_->samples;
     const StreamCounters counters = state_->counters.read().front();
-    stats.rays = counters.nearest_rays + counters.shadow_rays;
+    stats.rays = counters.nearest_rays + counters.shadow_rays + state_->pilot.rays;
     return stats;
 }
 

@@ -36,7 +36,7 @@ struct RenderStats {
     /// Number of pixel samples: one per pixel and sample of the image, without those of pixels that
     /// convergence control has stopped.
     uint64_t samples = 0;
-    /// Closest-hit and shadow rays of `render` so far.
+    /// Closest-hit and shadow rays of `render` so far, and of the pilot, if there was one.
     uint64_t rays = 0;
 };
 

@@ -19,6 +19,7 @@ Json device_report(const DeviceInfo &info) {
 Json pilot_report(const Pilot &pilot) {
     Json report = {{"light_paths", pilot.light_paths},
                    {"explicit", pilot.is_explicit},
+                   {"rays", pilot.rays},
                    {"seconds", pilot.seconds},
                    {"seconds_wall", pilot.wall_seconds}};
     if (pilot.guide != nullptr) {

@@ -89,6 +89,7 @@ Json curve_row(const CurveDescription &curve, const Renders &renders, const Firs
     Json repetitions = Json::array();
     for (size_t i = 0; i < errors.size(); ++i) {
         repetitions.push_back({{"seed", i + 1},
+                               {"rays", renders.stats[i].rays},
                                {"seconds_device", renders.stats[i].device_seconds},
                                {"seconds_wall", renders.stats[i].wall_seconds},
                                {"mse", std::accumulate(errors[i].begin(), errors[i].end(), 0.0)},

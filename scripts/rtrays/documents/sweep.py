@@ -6,11 +6,12 @@ import numpy
 from rtrays.documents.document import value
 from rtrays.documents.efficiency import ratio_of_means
 
-# Gains: key, what the errors are, and whether time counts.
+# Gains: key, what the errors are, and what they cost.
 GAINS = {
-    "samples": ("mse", False),
-    "time": ("mse", True),
-    "rest": ("mse_parts.other", False),
+    "samples": ("mse", None),
+    "rays": ("mse", "rays"),
+    "time": ("mse", "seconds_device"),
+    "rest": ("mse_parts.other", None),
 }
 
 
@@ -27,28 +28,28 @@ def base_of(row):
     return value(row, "curves")[-1]
 
 
-def errors(curve, key):
-    """Returns an error of every seed."""
+def of_seeds(curve, key):
+    """Returns an error or a cost of every seed."""
     return numpy.array([value(each, key) for each in value(curve, "repetitions")])
 
 
-def seconds(curve):
-    """Returns the median device time of a seed."""
-    return float(numpy.median(errors(curve, "seconds_device")))
+def cost(curve, key):
+    """Returns the median cost of a seed."""
+    return float(numpy.median(of_seeds(curve, key)))
 
 
 def gain(row, curve, key):
     """Returns the gain of a curve over the last one, by key of GAINS, with the bootstrap's 95 %
     interval over seeds; None if the image has no such pixels."""
-    base, (error, counts_time) = base_of(row), GAINS[key]
-    scale = seconds(base) / seconds(curve) if counts_time else 1.0
-    over, under = errors(base, error), errors(curve, error)
+    base, (error, price) = base_of(row), GAINS[key]
+    scale = cost(base, price) / cost(curve, price) if price else 1.0
+    over, under = of_seeds(base, error), of_seeds(curve, error)
     return ratio_of_means(over, under, scale) if under.min() > 0 else None
 
 
 def share_of_part(curve, key):
     """Returns the share of a class of pixels in the mean squared error of a curve."""
-    return errors(curve, f"mse_parts.{key}").mean() / errors(curve, "mse").mean()
+    return of_seeds(curve, f"mse_parts.{key}").mean() / of_seeds(curve, "mse").mean()
 
 
 def delta_pixels(row):

@@ -41,7 +41,7 @@ def gains_table(run):
     cells = []
     for row in sorted_rows(run):
         for curve in value(row, "curves")[:-1]:
-            gains = (gain(row, curve, key) for key in ("samples", "time"))
+            gains = (gain(row, curve, key) for key in ("samples", "rays", "time"))
             cells.append(
                 [value(row, "scene"), label(curve)]
                 + [interval(each, form="{:.2f}") for each in gains]
@@ -49,9 +49,9 @@ def gains_table(run):
     base = label(base_of(value(run.document, "rows.0")))
     return Table(
         f"Gains over {base}, least first",
-        ["scene", "curve", "gain in equal samples", "gain in equal device time"],
+        ["scene", "curve", "equal samples", "equal numbers of rays", "equal device time"],
         cells,
-        ["Times include the pilots."],
+        ["Rays and times include the pilots."],
     )
 
 
