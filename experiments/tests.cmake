@@ -24,9 +24,11 @@ foreach(entry cornell_box.bitwise cornell_box.convergence cornell_box.planted_er
     set_tests_properties(gate.${entry} PROPERTIES TIMEOUT 900 COST 30 LABELS gate)
 endforeach()
 
-add_test(NAME programs.experiment
-    COMMAND ${RTRAYS_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/harness/program_test.py $<TARGET_FILE:rtrays-experiment> -v)
-set_tests_properties(programs.experiment PROPERTIES TIMEOUT 900 RUN_SERIAL ON)
+foreach(test program measurements)
+    add_test(NAME programs.experiment.${test}
+        COMMAND ${RTRAYS_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/harness/${test}_test.py $<TARGET_FILE:rtrays-experiment> -v)
+    set_tests_properties(programs.experiment.${test} PROPERTIES TIMEOUT 900 RUN_SERIAL ON)
+endforeach()
 
 add_test(NAME scripts
     COMMAND ${RTRAYS_PYTHON} -m unittest discover -s ${PROJECT_SOURCE_DIR}/scripts/rtrays

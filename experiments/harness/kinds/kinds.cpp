@@ -32,6 +32,7 @@ const std::vector<Kind> &experiment_kinds() {
         measurement("traversal"),
         measurement("frame_times"),
         measurement("bounces"),
+        measurement("renderers"),
         measurement("ablations"),
         measurement("reference_agreement"),
         {"stability", "stability.schema.json", {profile, out, compile}, leave, make_stability},

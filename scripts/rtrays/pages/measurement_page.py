@@ -7,6 +7,7 @@ from rtrays.plots.frame_plots import samples_per_second, speeds_over_defaults, s
 from rtrays.plots.hierarchy_plots import animation, build_time
 from rtrays.plots.ray_plots import hits, speeds
 from rtrays.plots.reference_plots import mean_differences
+from rtrays.plots.renderer_plots import efficiencies
 from rtrays.tables.ablation_tables import ablations
 from rtrays.tables.animation_tables import bvh_animation
 from rtrays.tables.bounce_tables import bounces
@@ -14,6 +15,7 @@ from rtrays.tables.build_tables import bvh_build
 from rtrays.tables.frame_tables import frame_times
 from rtrays.tables.ray_tables import ray_rates
 from rtrays.tables.reference_tables import reference_agreement
+from rtrays.tables.renderer_tables import renderers
 from rtrays.tables.traversal_tables import traversal
 
 TABLES = {
@@ -24,6 +26,7 @@ TABLES = {
     "frame_times": frame_times,
     "ray_rates": ray_rates,
     "reference_agreement": reference_agreement,
+    "renderers": renderers,
     "traversal": traversal,
 }
 PLOTS = {
@@ -34,12 +37,14 @@ PLOTS = {
     "frame_times": stage_shares,
     "ray_rates": speeds,
     "reference_agreement": mean_differences,
+    "renderers": efficiencies,
     "traversal": hits,
 }
 # What a plot shows, below its small picture in the overview.
 PICTURES = {
     "animation": "Updates and ray rates by frame",
     "build_time": "Build time by triangles",
+    "efficiencies": "Efficiency by scene and renderer",
     "hits": "Share of differing hits by mesh",
     "mean_differences": "Differences of means by scene",
     "samples_per_second": "Samples per second by bounces",

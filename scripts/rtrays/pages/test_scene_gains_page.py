@@ -49,7 +49,8 @@ class SceneGainsPage(unittest.TestCase):
         self.assertEqual(
             gains_table(self.run_object).rows,
             [
-                ["bad", "truncated BDPT (MIS)"] + [f"{x} [{x}, {x}]" for x in ("1.00", "0.25", "0.50")],
+                ["bad", "truncated BDPT (MIS)"]
+                + [f"{x} [{x}, {x}]" for x in ("1.00", "0.25", "0.50")],
                 ["good", "truncated BDPT (MIS)"]
                 + [f"{x} [{x}, {x}]" for x in ("4.00", "1.00", "2.00")],
             ],

@@ -54,13 +54,18 @@ def build(scene, folder):
             add_light(light, scale)
 
 
-def render_request(depth, spp, seed):
-    """Renders without roulette and without writing the image."""
+def render_request(depth, spp, seed, roulette):
+    """Renders without writing the image; Cycles knows no first event of roulette."""
     film = bpy.context.scene
     film.cycles.samples, film.cycles.seed = spp, seed
-    set_depth(film.cycles, depth, roulette=False)
+    set_depth(film.cycles, depth, roulette=roulette > 0)
     film.update_tag()  # else persistent data keep the first render's settings
     bpy.ops.render.render()
+
+
+def write(output):
+    """Writes the image that was rendered last."""
+    bpy.data.images["Render Result"].save_render(str(output))
 
 
 def render_image(seed, output):
@@ -95,7 +100,7 @@ def main(arguments):
     film.render.use_persistent_data = True  # avoids a rebuild of the scene for further runs
     engine = "Cycles of Blender " + bpy.app.version_string
     if options.serve:
-        serve(engine, render_request)
+        serve(engine, render_request, write)
     else:
         render_runs(options, spp, engine, render_image)
 

@@ -5,9 +5,10 @@ With --runs K, a driver renders the seeds S .. S + K - 1 to OUT.S.exr and so on;
 estimates the noise. It prints one line of JSON per image: file, seed, spp, seconds, and the mean of
 R, G and B.
 
-With --serve, a driver renders whenever a line "MAX_DEPTH SPP SEED" arrives on standard input. It
-renders without Russian roulette and keeps no image. It answers with a line of JSON: wall-clock
-seconds and processor seconds of all its threads.
+With --serve, a driver renders whenever a line "MAX_DEPTH SPP SEED ROULETTE [OUT.exr]" arrives on
+standard input. ROULETTE is the scattering event from which Russian roulette may end a path, 0 for
+none. It answers with a line of JSON: wall-clock seconds and processor seconds of all its threads,
+without the time to write OUT.exr.
 """
 
 import argparse
@@ -46,11 +47,15 @@ def timed(render, *arguments):
     return time.perf_counter() - start, time.process_time() - processor
 
 
-def serve(engine, render):
-    """Answers requests on standard input; `render` takes depth, samples per pixel and seed."""
+def serve(engine, render, write):
+    """Answers requests on standard input. `render` takes depth, samples per pixel, seed and first
+    event of roulette; `write` takes the file for the rendered image."""
     show({"engine": engine})
     for line in sys.stdin:
-        seconds, processor = timed(render, *map(int, line.split()))
+        *numbers, output = (line.rstrip("\n") + " ").split(" ", 4)
+        seconds, processor = timed(render, *map(int, numbers))
+        if output.strip():
+            write(pathlib.Path(output.strip()))
         show({"seconds": seconds, "processor_seconds": processor})
 
 

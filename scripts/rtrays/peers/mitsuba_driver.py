@@ -73,27 +73,38 @@ def main():
     scene = load(mitsuba, options)
     engine = f"Mitsuba {mitsuba.__version__} {options.variant}"
 
-    def render_request(depth, spp, seed):
-        """Renders without roulette and without writing the image."""
-        settings = {"type": "path", "max_depth": depth + 1, "rr_depth": 1 << 30}
-        integrator = mitsuba.load_dict(settings)
-        mitsuba.Bitmap(mitsuba.render(scene, integrator=integrator, spp=spp, seed=seed))
+    images = []
 
-    def render_image(seed, output):
-        """Renders an image into a file; returns its seconds and the means of R, G and B."""
-        images = []
-        seconds, _ = timed(
-            lambda: images.append(mitsuba.Bitmap(mitsuba.render(scene, spp=options.spp, seed=seed)))
-        )
+    def keep(**settings):
+        images[:] = [mitsuba.Bitmap(mitsuba.render(scene, **settings))]
+
+    def write(output):
+        """Writes the image that was rendered last."""
         formats = (mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False)
         part = output.with_suffix(".part.exr")  # renamed when complete
         images[0].convert(*formats).write(str(part))
         part.replace(output)
+
+    def render_request(depth, spp, seed, roulette):
+        """Renders path tracing with the given depth and roulette."""
+        integrator = mitsuba.load_dict(
+            {
+                "type": "path",
+                "max_depth": depth + 1 if depth > 0 else -1,
+                "rr_depth": roulette or 1 << 30,
+            }
+        )
+        keep(integrator=integrator, spp=spp, seed=seed)
+
+    def render_image(seed, output):
+        """Renders an image into a file; returns its seconds and the means of R, G and B."""
+        seconds, _ = timed(lambda: keep(spp=options.spp, seed=seed))
+        write(output)
         means = numpy.array(images[0], dtype=numpy.float64).mean((0, 1))[:3]
         return seconds, [float(mean) for mean in means]
 
     if options.serve:
-        serve(engine, render_request)
+        serve(engine, render_request, write)
     else:
         render_runs(options, options.spp, engine, render_image)
     return 0

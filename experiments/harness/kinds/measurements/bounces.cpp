@@ -110,8 +110,10 @@ class Bounces {
             return time_of([&] { done = reference.render(done, done + settings_.spp); });
         });
         for (const std::unique_ptr<Peer> &peer : peers_) {
-            peer->render(depth, settings_.spp);  // compiles its kernels
-            contest.add(peer->engine(), [&, depth] { return peer->render(depth, settings_.spp); });
+            peer->render({depth, settings_.spp});  // compiles its kernels
+            contest.add(peer->engine(), [&, depth] {
+                return peer->render({depth, settings_.spp});
+            });
         }
         make_sessions({&wavefront_, &megakernel_});
         run_turns(contest, settings_.repetitions / 2);

@@ -40,6 +40,7 @@ const std::vector<Measure> &measures() {
         {"frame_times", {"scenes", "size", "repetitions"}, plan_frame_times},
         {"ray_rates", {"meshes", "rays", "repetitions"}, plan_ray_rates},
         {"reference_agreement", {"references", "size", "spp"}, plan_reference_agreement},
+        {"renderers", {"references", "size", "spp", "repetitions"}, plan_renderers},
         {"traversal", {"meshes", "rays", "watertight_rays"}, plan_traversal, traversal_passes},
     };
     return all;

@@ -61,15 +61,18 @@ std::string Peer::next_record() {
     return {};
 }
 
-Seconds Peer::render(uint32_t max_depth, uint64_t spp) {
-    process_.write(fmt::format("{} {} {}\n", max_depth, frames_ * spp, ++seed_));
+Seconds Peer::render(const PeerFrame &frame) {
+    // The error of an image is that of its own samples.
+    const uint64_t count = frame.image.empty() ? frames_ : 1;
+    process_.write(fmt::format("{} {} {} {} {}\n", frame.max_depth, count * frame.spp, ++seed_,
+                               frame.roulette, frame.image.string()));
     const std::string answer = next_record();
     if (answer.empty()) {
         throw run_error(fmt::format("{} ended before its image was finished, with exit code {}",
                                     engine_, process_.wait()));
     }
     const nlohmann::json seconds = nlohmann::json::parse(answer);
-    const auto frames = static_cast<double>(frames_);
+    const auto frames = static_cast<double>(count);
     return {seconds.at("seconds").get<double>() / frames,
             seconds.at("processor_seconds").get<double>() / frames};
 }

@@ -13,6 +13,16 @@
 
 namespace rtrays {
 
+/// A frame of path tracing.
+struct PeerFrame {
+    uint32_t max_depth = 0;  ///< with RTRays' meaning; 0: no limit
+    uint64_t spp = 1;
+    /// Scattering event from which Mitsuba's roulette may end a path; 0: no roulette. Cycles only
+    /// has its own roulette, for any number but 0.
+    uint32_t roulette = 0;
+    std::filesystem::path image{};  ///< EXR file to write outside of the duration; empty: none
+};
+
 /// Process of `scripts/rtrays/peers/*_driver.py --serve`. Mitsuba 3 runs in the Python environment
 /// that `scripts/install --peers` creates; Cycles runs in Blender.
 class Peer {
@@ -28,9 +38,9 @@ class Peer {
     /// Returns the name of a kind that need not be installed: "Mitsuba 3 scalar_rgb".
     static std::string name_of(const std::string &kind);
 
-    /// Renders one frame of path tracing without roulette and returns its duration, measured in the
-    /// process. `max_depth` has RTRays' meaning. Throws `Error` (run failed) if the process ends.
-    Seconds render(uint32_t max_depth, uint64_t spp);
+    /// Renders one frame of path tracing and returns its duration, measured in the process.
+    /// Another call has another seed. Throws `Error` (run failed) if the process ends.
+    Seconds render(const PeerFrame &frame);
 
   private:
     /// Returns the next line of JSON, or an empty text when the output ends. Other lines are

@@ -53,6 +53,12 @@ MeasurementPlan plan_frame_times(const MeasurementSettings &settings, DeviceCont
 /// the wavefront relative to the others.
 MeasurementPlan plan_bounces(const MeasurementSettings &settings, DeviceContext &device);
 
+/// Measures error and time of images of the scenes `references`, by path tracing and truncated BDPT
+/// and, if requested and installed, by Mitsuba 3 and Cycles. Rows have, by contestant, the MSE
+/// against the stored Embree reference, less its noise, and both durations of every turn; those of
+/// the renderer include its pilots.
+MeasurementPlan plan_renderers(const MeasurementSettings &settings, DeviceContext &device);
+
 /// Measures frames of path tracing (MIS, roulette, one sample per pixel) and hierarchy builds with
 /// one setting changed at a time, interleaved with the defaults, to which speeds are relative.
 MeasurementPlan plan_ablations(const MeasurementSettings &settings, DeviceContext &device);
