@@ -111,8 +111,13 @@ Checkpoint load_checkpoint(const std::filesystem::path &path) {
 
 void require_continues(const Checkpoint &checkpoint, const Json &config, uint64_t begin,
                        uint64_t end, const std::filesystem::path &path) {
-    for (const auto &[key, wanted] : config.items()) {
-        const Json stored = checkpoint.config.value(key, Json());
+    // A window of the picture has a key that the full picture lacks.
+    Json all = checkpoint.config;
+    all.update(config);
+    for (const auto &entry : all.items()) {
+        const std::string &key = entry.key();
+        const Json stored = checkpoint.config.value(key, Json()),
+                   wanted = config.value(key, Json());
         if (stored != wanted) {
             throw input_error(fmt::format(
                 "{}: rendered with {} = {}, this run requests {}; specify another --state, "

@@ -194,6 +194,33 @@ ExitCode render_by_peer(Options options, Scene &scene) {
     return render_reference(options, steps, config, renderer, [] { return Json::object(); });
 }
 
+/// Sets the size of the picture and its window: those of the command line, or the scene's.
+void set_film(Options &options, Scene &scene) {
+    ReferenceSettings &settings = options.settings;
+    if (settings.width > 0) {
+        if (scene.crop() && !options.crop && !options.uncropped) {
+            throw input_error("--size: the scene crops its film; give --crop, too, or --crop none");
+        }
+        scene.set_film_size(settings.width, settings.height);
+    }
+    if (options.crop) {
+        scene.set_crop(*options.crop);
+    } else if (options.uncropped) {
+        scene.set_film_size(scene.film_width(), scene.film_height());
+    }
+    settings.width = scene.film_width();
+    settings.height = scene.film_height();
+    if (const auto &crop = scene.crop()) {
+        if (!options.manifest.empty() || options.engine != "embree") {
+            throw input_error("a crop of the film excludes --manifest and other engines");
+        }
+        settings.full_width = std::exchange(settings.width, crop->width);
+        settings.full_height = std::exchange(settings.height, crop->height);
+        settings.crop_x = crop->x;
+        settings.crop_y = crop->y;
+    }
+}
+
 ExitCode run(int argc, char **argv) {
     auto parsed = parse_options(argc, argv);
     if (!parsed) {
@@ -202,23 +229,7 @@ ExitCode run(int argc, char **argv) {
     Options &options = *parsed;
     check_outputs(options);
     Scene scene = load_scene(options.scene, true, parse_defines(options.defines));
-    if (options.settings.width == 0) {
-        options.settings.width = scene.film_width();
-        options.settings.height = scene.film_height();
-        if (const auto &crop = scene.crop()) {
-            if (!options.manifest.empty() || options.engine != "embree") {
-                throw input_error(fmt::format(
-                    "{}: the scene crops its film, which --manifest and other engines exclude",
-                    options.scene));
-            }
-            options.settings.full_width = std::exchange(options.settings.width, crop->width);
-            options.settings.full_height = std::exchange(options.settings.height, crop->height);
-            options.settings.crop_x = crop->x;
-            options.settings.crop_y = crop->y;
-        }
-    } else if (scene.crop()) {
-        throw input_error(fmt::format("--size: {} crops its film; remove the crop", options.scene));
-    }
+    set_film(options, scene);
     options.settings.camera = static_cast<size_t>(scene.active_camera());
     return options.engine == "embree" ? render_by_embree(options, scene)
                                       : render_by_peer(options, scene);

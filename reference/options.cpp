@@ -48,6 +48,22 @@ void apply_size(const std::string &text, ReferenceSettings &settings) {
     settings.height = size->second;
 }
 
+/// Sets the window of the picture from X,Y,WxH or "none".
+void apply_crop(const std::string &text, Options &options) {
+    options.uncropped = text == "none";
+    if (options.uncropped) {
+        return;
+    }
+    const size_t last = text.rfind(',');
+    const auto begin = parse_pair<int>(text.substr(0, last), ',');
+    const auto size = parse_pair<int>(text.substr(last + 1), 'x');
+    if (!begin || !size) {
+        throw input_error(fmt::format(
+            "--crop '{}': expected X,Y,WxH in pixels, as in 16,0,32x24, or none", text));
+    }
+    options.crop = FilmCrop{begin->first, begin->second, size->first, size->second};
+}
+
 void apply_range(const std::string &text, Options &options) {
     const auto range = parse_pair<uint64_t>(text, ':');
     if (!range || range->first >= range->second) {
@@ -62,7 +78,7 @@ void apply_range(const std::string &text, Options &options) {
 
 std::optional<Options> parse_options(int argc, char **argv) {
     Options options;
-    std::string size, range, strategies = name_of(options.settings.strategies);
+    std::string size, crop, range, strategies = name_of(options.settings.strategies);
     CLI::App app{
         "Renders a scene with the independent Embree path tracer, Mitsuba 3 or Blender's Cycles.\n"
         "A state file beside the output stores the progress; --resume continues from it."};
@@ -82,6 +98,10 @@ std::optional<Options> parse_options(int argc, char **argv) {
                    "value of a <default> parameter of a Mitsuba scene: NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--size", size, "film size WIDTHxHEIGHT; default: the scene's");
+    app.add_option(
+        "--crop", crop,
+        "window X,Y,WxH of the picture to render, in pixels from its top left corner, or none; "
+        "default: the scene's");
     app.add_option("--strategies", strategies,
                    "estimators of direct light: implicit, explicit or mis")
         ->capture_default_str();
@@ -124,6 +144,9 @@ std::optional<Options> parse_options(int argc, char **argv) {
     }
     if (!size.empty()) {
         apply_size(size, options.settings);
+    }
+    if (!crop.empty()) {
+        apply_crop(crop, options);
     }
     options.settings.strategies = strategies_from_name(strategies);
     if (options.engine != "embree" &&

@@ -211,6 +211,57 @@ TEST_F(Program, sample_ranges_are_disjoint_parts_of_one_run) {
     }
 }
 
+TEST_F(Program, renders_windows_of_the_picture) {
+    const auto render = [&](const std::string &scene, const std::string &output,
+                            std::vector<std::string> more) {
+        more.insert(more.begin(), {scene, "-o", in_folder(output), "--spp", "8", "--quiet"});
+        EXPECT_EQ(run(more), 0) << read_file(log());
+        return read_exr(in_folder(output));
+    };
+    const Image full = render(cornell_box, "full.exr", {"--size", "16x12"});
+    const auto expect_window = [&](const Image &part, size_t left, size_t top) {
+        ASSERT_EQ(part.channels().size(), full.channels().size());
+        for (const auto &channel : full.channels()) {
+            for (size_t i = 0; i < part.pixel_count(); ++i) {
+                const size_t x = i % static_cast<size_t>(part.width()),
+                             y = i / static_cast<size_t>(part.width());
+                ASSERT_EQ(part.channel(channel.name)[i], channel.values[16 * (y + top) + x + left])
+                    << channel.name << " " << x << ", " << y;
+            }
+        }
+    };
+    const Image part = render(cornell_box, "part.exr", {"--size", "16x12", "--crop", "5,3,7x6"});
+    ASSERT_EQ(part.width(), 7);
+    ASSERT_EQ(part.height(), 6);
+    expect_window(part, 5, 3);
+
+    // The window of the scene, which the option replaces.
+    Json json = load_json(cornell_box);
+    json["film"] = {
+        {"width", 16}, {"height", 12}, {"crop", {{"x", 1}, {"y", 2}, {"width", 4}, {"height", 3}}}};
+    const std::string cropped = in_folder("cropped.json");
+    write_file(cropped, json.dump());
+    expect_window(render(cropped, "scene.exr", {}), 1, 2);
+    expect_window(render(cropped, "other.exr", {"--crop", "0,11,16x1"}), 0, 11);
+    const Image all = render(cropped, "all.exr", {"--crop", "none"});
+    EXPECT_EQ(all.pixel_count(), full.pixel_count());
+    expect_window(all, 0, 0);
+
+    const std::string out = in_folder("x.exr");
+    const auto refused = [&](const std::string &scene, std::vector<std::string> more,
+                             const std::string &text) {
+        more.insert(more.begin(), {scene, "-o", out, "--spp", "1"});
+        expect_refused(more, text);
+    };
+    refused(cropped, {"--size", "8x8"}, "give --crop, too, or --crop none");
+    refused(cropped, {"--crop", "13,0,4x4"}, "is not in the film of 16 x 12");
+    refused(cropped, {"--crop", "0,0,0x4"}, "is not in the film of 16 x 12");
+    refused(cropped, {"--crop", "1,2"}, "expected X,Y,WxH");
+    refused(cropped, {"--crop", "4x4"}, "expected X,Y,WxH");
+    refused(cropped, {"--manifest", in_folder("manifest.json")}, "SCENE.ENGINE.HALF.exr");
+    refused(cropped, {"--engine", "mitsuba"}, "a crop of the film excludes");
+}
+
 TEST_F(Program, refuses_the_state_of_other_settings) {
     const std::string out = in_folder("a.exr");
     ASSERT_EQ(run({furnace, "-o", out, "--spp", "8", "--size", "8x8", "--quiet"}), 0)
@@ -226,9 +277,15 @@ TEST_F(Program, refuses_the_state_of_other_settings) {
     refused(furnace, {"--size", "8x8", "--seed", "2"}, "seed = 1, this run requests 2");
     refused(furnace, {"--size", "8x8", "--max-depth", "2"}, "max_depth");
     refused(furnace, {"--size", "8x8", "--strategies", "implicit"}, "strategies");
+    refused(furnace, {"--size", "8x9", "--crop", "0,0,8x8"}, "crop = null, this run requests [0,");
+    EXPECT_EQ(read_file(out), before);
+    fs::remove(out + ".state");
+    ASSERT_EQ(run({furnace, "-o", out, "--spp", "8", "--size", "8x9", "--crop", "0,1,8x8"}), 0);
+    refused(furnace, {"--size", "8x8"}, "crop = [0,1,8,9], this run requests null");
+    const std::string window = read_file(out);
     write_file(out + ".state", "nonsense");
     refused(furnace, {"--size", "8x8"}, "not a state file");
-    EXPECT_EQ(read_file(out), before);
+    EXPECT_EQ(read_file(out), window);
 }
 
 TEST_F(Program, adds_a_complete_manifest_entry) {
