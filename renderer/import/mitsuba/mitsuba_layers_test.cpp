@@ -96,6 +96,11 @@ TEST(MitsubaBsdfs, PrincipledIsASumOfItsLobes) {
     ASSERT_EQ(glass.size(), 2u);
     EXPECT_EQ(glass[1].kind, Kind::microfacet_refraction);
     EXPECT_NEAR(glass[1].weight[0], 0.5f, 1e-6);
+    // An index of 1 counts as 1.001, as in Mitsuba.
+    const auto air = components_of(
+        R"(<bsdf type="principled"><float name="spec_trans" value="1"/><float name="specular" value="0"/></bsdf>)");
+    ASSERT_EQ(air.size(), 2u);
+    EXPECT_EQ(air[1].eta[0], 1.001);
 }
 
 class MitsubaRoughness : public WithImages {};

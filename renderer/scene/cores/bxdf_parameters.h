@@ -2,6 +2,8 @@
 // Rows of parameter tables that several types of materials share.
 #pragma once
 
+#include <cmath>
+
 #include "renderer/scene/parameters.h"
 #include "renderer/scene/stores.h"
 
@@ -13,6 +15,14 @@ using Need = Parameter::Need;
 /// models.
 inline constexpr Range roughness{BxdfComponent::least_alpha, 1, true, true};
 inline constexpr Range index_of_refraction{0.01, 100, true, true};
+/// Least difference from 1 of the index of a rough interface. Nearer to 1, refracted directions do
+/// not determine the half vector.
+inline constexpr double least_rough_bend = 1e-3;
+/// Returns whether an interface of this index may be rough. The difference is rounded: that
+/// of 1.001 is below 0.001 by 1e-16.
+inline bool may_be_rough(double eta) {
+    return std::abs(eta - 1) >= least_rough_bend * (1 - 1e-9);
+}
 
 inline Parameter colour(const std::string &name, const std::string &help,
                         Need need = Need::required) {

@@ -151,7 +151,6 @@ void check_coat(const Part &part, const ParameterSet &p) {
 }
 
 void check_part(const Part &part, const ParameterSet &p) {
-    constexpr double nearest = 1e-3;  // as in material_types.cpp
     if (part.is_coated()) {
         check_coat(part, p);
     }
@@ -169,11 +168,11 @@ void check_part(const Part &part, const ParameterSet &p) {
             fmt::format("{}eta: {} bends light, which a thin_dielectric does not; set it to 1",
                         part.prefix, eta));
     }
-    if (part.kind == Kind::microfacet_refraction && std::abs(eta - 1) < nearest) {
+    if (part.kind == Kind::microfacet_refraction && !rows::may_be_rough(eta)) {
         throw input_error(fmt::format(
             "{}eta: {} does not refract, so it cannot be rough; use ideal_refraction, or an "
             "eta that differs from 1 by at least {}",
-            part.prefix, eta, nearest));
+            part.prefix, eta, rows::least_rough_bend));
     }
 }
 

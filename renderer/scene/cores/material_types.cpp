@@ -65,17 +65,15 @@ void check_roughness(const ParameterSet &p) {
     }
 }
 
-/// Rejects rough interfaces with eta near 1, where refracted directions do not determine the half
-/// vector.
+/// Rejects rough interfaces with eta near 1.
 void check_rough_refraction(const ParameterSet &p) {
-    constexpr double nearest = 1e-3;
     check_roughness(p);
     const double eta = p.number("eta");
-    if (p.get<Vector2d>("roughness").maxCoeff() > 0 && std::abs(eta - 1) < nearest) {
+    if (p.get<Vector2d>("roughness").maxCoeff() > 0 && !rows::may_be_rough(eta)) {
         throw input_error(
             fmt::format("eta: {} does not refract, so it cannot be rough; set roughness to 0 or "
                         "choose an eta that differs from 1 by at least {}",
-                        eta, nearest));
+                        eta, rows::least_rough_bend));
     }
 }
 
