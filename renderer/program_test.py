@@ -118,6 +118,23 @@ class Program(unittest.TestCase):
         self.expect_error(1, ["out.exr", "cannot be written"], CORNELL, "-o", self.output(),
                           "--spp", 1, "-q", *SMALL, preexec_fn=limit)
 
+    def test_full_disk_under_statistics(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        image, stats = self.path / "out.png", self.path / "stats.json"
+        arguments = [CORNELL, "-o", image, "--stats", stats, "--spp", 1, "-q",
+                     "--size", "2x2", "--set", "device.stream_capacity=256"]
+        self.run_program(*arguments)  # compiles, which has no limit
+        self.assertLess(image.stat().st_size, 1000)
+        self.assertGreater(stats.stat().st_size, 1000)
+        stats.unlink()
+        result = self.run_program(*arguments, preexec_fn=limit)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("stats.json: cannot be written", result.stderr)
+        self.assertEqual(list(self.path.iterdir()), [image])
+
     def test_full_disk_under_standard_output(self):
         with open("/dev/full", "w", encoding="ascii") as full:
             for arguments in (["--list-algorithms"], [CORNELL, "--print-scene"]):
@@ -327,6 +344,35 @@ class Program(unittest.TestCase):
         later = self.film("later", "--samples", "2:4")
         self.expect_error(2, ["differ in integrator.sampler"],
                           "merge", independent, later, "-o", self.output())
+
+    def test_names_and_line_ends_of_other_systems_change_no_bit(self):
+        expected = self.words(self.film("plain", "--spp", "2"))
+        folder = self.path / "\u0645\u0634\u0647\u062f \u00e4\u00f6"  # Arabic and German letters
+        folder.mkdir()
+        scene, state = folder / "\u0635\u0648\u0631\u0629.json", folder / "\u0641"
+        text = CORNELL.read_text(encoding="utf-8").replace("\n", "\r\n")
+        scene.write_bytes(b"\xef\xbb\xbf" + text.encode())
+        result = self.run_program(scene, "-o", folder / "out.exr", "-q", "--spp", "2",
+                                  "--state", state, *SMALL,
+                                  env=dict(os.environ, LC_ALL="de_DE.UTF-8"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.words(state), expected)
+
+    def test_processes_that_fill_an_empty_cache_together(self):
+        cache = self.path / "cache"
+        cache.mkdir()
+        environment = dict(os.environ, POCL_CACHE_DIR=str(cache), RTRAYS_CACHE_DIR=str(cache))
+        states = [self.path / f"state_{i}" for i in range(8)]
+        processes = [
+            subprocess.Popen(
+                [PROGRAM, str(SCENES / "analytic" / "furnace_050.json"), "-q", "--spp", "1",
+                 "--algorithm", "ray_casting", "-o", str(state) + ".exr", "--state", str(state),
+                 *SMALL], env=environment, stderr=subprocess.PIPE, text=True)
+            for state in states]
+        for process in processes:
+            _, errors = process.communicate(timeout=300)
+            self.assertEqual(process.returncode, 0, errors)
+        self.assertEqual({self.words(state) for state in states}, {self.words(states[0])})
 
     def test_passes_of_two_devices_have_the_bits_of_one(self):
         environment = dict(os.environ, POCL_DEVICES="basic pthread")
