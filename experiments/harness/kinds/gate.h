@@ -11,17 +11,9 @@
 #include <vector>
 
 #include "experiments/harness/core/experiment.h"
+#include "experiments/harness/kinds/planted_error.h"
 
 namespace rtrays {
-
-/// A deliberate error in one line of a kernel. It is applied as an overlay of the include resolver
-/// and never appears in shipped code.
-struct PlantedError {
-    std::string name;
-    RenderSettings settings;
-    std::string file, search, replacement;
-    bool by_slope = false;  ///< found by the convergence slope, not by the image
-};
 
 /// A gate file (schema/gate.schema.json).
 struct GateDescription : MeasuredScene {

@@ -75,15 +75,6 @@ CheckLine check_slope(const std::string &curve, const StageErrors &errors,
 std::vector<CheckLine> check_convergence(const GateBench &bench, const CurveDescription &curve,
                                          const Reference &reference, const CurveBaseline &baseline);
 
-/// Returns `text` with the only occurrence of `search` replaced. Throws `Error` (bad input) naming
-/// the error if there is no occurrence or more than one, or if the replacement changes nothing: the
-/// check would prove nothing.
-std::string plant(const PlantedError &error, const std::string &text);
-
-/// Plants every error in its kernel source. Throws as `plant` for the first one that cannot be
-/// planted, and `Error` (run failed) if the source does not exist.
-void require_plantable(const std::vector<PlantedError> &errors);
-
 /// Checks that the unchanged renderer agrees with the reference, and that every planted error is
 /// found. An error is found by the agreement test, with Holm's correction over the blocks and
 /// Bonferroni's over the curves, or by the slope.

@@ -33,9 +33,7 @@ GateDescription read_gate(const DescriptionFile &file) {
     convergence.at("second_stage_renders").get_to(gate.convergence.second_stage_renders);
     planted.at("spp").get_to(gate.planted.spp);
     for (const Json &error : planted.at("errors")) {
-        gate.planted.errors.push_back(
-            {error.at("name"), parse_render_settings(error), error.at("file"), error.at("search"),
-             error.at("replacement"), error.value("caught_by", "agreement") == "slope"});
+        gate.planted.errors.push_back(read_planted_error(error));
     }
     return gate;
 }

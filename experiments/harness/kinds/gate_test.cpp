@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Tests of the gate without a device: every planted error of the shipped gates still fits its
+// Tests of the gate without a device: every planted error of the shipped files still fits its
 // kernel, and slopes are judged correctly.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "experiments/harness/kinds/gate_checks.h"
@@ -36,6 +37,12 @@ TEST(Plant, ShippedErrorsFitTheShippedKernels) {
             EXPECT_NO_THROW(plant(error, device_source(error.file))) << error.name;
         }
         EXPECT_NO_THROW(require_plantable(gate.planted.errors));
+    }
+    const std::string path = RTRAYS_EXPERIMENTS "/gates/algorithms.json";
+    for (const Json &json :
+         load_description(path, "agreement.schema.json").json.at("planted_errors")) {
+        const PlantedError error = read_planted_error(json);
+        EXPECT_NO_THROW(planted_settings(error)) << error.name;
     }
 }
 

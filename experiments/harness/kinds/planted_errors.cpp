@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Plants the gate's errors in the kernels and checks that they are found.
+// Checks that the gate finds the errors that are planted in the kernels.
 #include <fmt/format.h>
 
 #include "experiments/harness/core/agreement.h"
 #include "experiments/harness/core/rendering.h"
 #include "experiments/harness/kinds/gate_checks.h"
 #include "renderer/base/progress.h"
-#include "renderer/device/source.h"
 
 namespace rtrays {
 
@@ -43,8 +42,7 @@ CheckLine found_line(const PlantedError &error, bool found, const std::string &d
 /// error is found.
 CheckLine find_error(const GateBench &bench, const PlantedError &error,
                      const Reference &reference) {
-    RenderSettings settings = error.settings;
-    settings.source_overlays[error.file] = plant(error, device_source(error.file));
+    const RenderSettings settings = planted_settings(error);
     if (error.by_slope) {
         const CurveDescription curve{settings};
         const StageErrors errors = measure_errors(bench, curve, reference, second_stage_seed,
@@ -57,26 +55,6 @@ CheckLine find_error(const GateBench &bench, const PlantedError &error,
 }
 
 }  // namespace
-
-std::string plant(const PlantedError &error, const std::string &text) {
-    const size_t at = text.find(error.search);
-    if (at == std::string::npos || text.find(error.search, at + 1) != std::string::npos) {
-        throw input_error(fmt::format("planted error '{}': {} must contain exactly once: {}",
-                                      error.name, error.file, error.search));
-    }
-    std::string planted = text;
-    planted.replace(at, error.search.size(), error.replacement);
-    if (planted == text) {
-        throw input_error(fmt::format("planted error '{}' changes nothing", error.name));
-    }
-    return planted;
-}
-
-void require_plantable(const std::vector<PlantedError> &errors) {
-    for (const auto &error : errors) {
-        plant(error, device_source(error.file));
-    }
-}
 
 std::vector<CheckLine> check_planted_errors(const GateBench &bench, const Reference &reference) {
     const auto &planted = bench.gate.planted;

@@ -18,6 +18,7 @@
 #include "experiments/harness/core/metrics.h"
 #include "experiments/harness/core/rendering.h"
 #include "experiments/harness/core/resumption.h"
+#include "experiments/harness/kinds/planted_error.h"
 #include "reference/film.h"
 #include "reference/renderer.h"
 #include "renderer/base/files.h"
@@ -46,10 +47,31 @@ struct Description {
     uint64_t reference_spp = 0;
     std::vector<std::string> algorithms = {"path_tracing"};
     std::string features = "scene";
+    std::map<fs::path, std::vector<PlantedError>> planted_errors;  ///< by scene file
     AgreementPolicy policy;
 };
 
 constexpr uint64_t batches = 32;  ///< for each renderer, see `render_batches`
+
+/// Reads the planted errors by scene file. Throws `Error` (bad input) if one cannot be planted, or
+/// if the profile does not have its scene.
+std::map<fs::path, std::vector<PlantedError>> read_planted_errors(
+    const DescriptionFile &file, const std::vector<fs::path> &scenes) {
+    std::map<fs::path, std::vector<PlantedError>> errors;
+    for (const Json &json : file.json.value("planted_errors", Json::array())) {
+        const std::string scene = json.at("scene");
+        const fs::path path = file.resolve(file.json.at("folder")) / (scene + ".json");
+        if (std::find(scenes.begin(), scenes.end(), path) == scenes.end()) {
+            throw input_error(fmt::format("{}: the profile does not have the scene '{}'",
+                                          file.location("/planted_errors"), scene));
+        }
+        errors[path].push_back(read_planted_error(json));
+    }
+    for (const auto &[path, planted] : errors) {
+        require_plantable(planted);
+    }
+    return errors;
+}
 
 Description read(const DescriptionFile &file, const std::string &profile) {
     Description description;
@@ -62,6 +84,7 @@ Description read(const DescriptionFile &file, const std::string &profile) {
     chosen.at("reference_spp").get_to(description.reference_spp);
     description.algorithms = file.json.value("algorithms", description.algorithms);
     description.features = chosen.value("features", description.features);
+    description.planted_errors = read_planted_errors(file, description.paths);
     // Bonferroni over all rows: each algorithm against the reference, and each pair of algorithms.
     const size_t algorithms = description.algorithms.size();
     description.policy.alpha /= static_cast<double>(
@@ -170,18 +193,16 @@ const char *verdict_of(const Agreement &agreement, const BlindSpot &blind) {
 }
 
 /// Returns whether a row fails. A row against the reference must agree. A row of two algorithms may
-/// be undecided.
+/// be undecided. A planted error must be found.
 bool fails(const Json &row) {
     const auto verdict = row.at("verdict").get<std::string>();
-    return verdict == "disagrees" ||
+    return verdict == "disagrees" || verdict == "missed" ||
            (verdict == "undecided" && row.at("against").get<std::string>() == "reference");
 }
 
 /// Renders the image in batches.
 std::vector<Image> render(const Scene &scene, const Description &description,
-                          const std::string &algorithm, uint32_t seed, DeviceContext &device) {
-    RenderSettings settings;
-    settings.algorithm = &algorithm_named(algorithm);
+                          RenderSettings settings, uint32_t seed, DeviceContext &device) {
     settings.width = settings.height = description.size;
     settings.seed = seed;
     apply_setting(settings, "device.features=" + description.features);
@@ -207,32 +228,59 @@ std::vector<Image> render_reference(const Scene &scene, const Description &descr
     return images;
 }
 
+/// Returns a row of the document, without its verdict.
+Json row_of(const Scene &scene, const std::string &algorithm, const std::string &against,
+            const BlindSpot &blind, const Agreement &agreement) {
+    return {{"scene", scene.name()},
+            {"algorithm", algorithm},
+            {"against", against},
+            {"blind", blind.name},
+            {"rejected", agreement.rejected},
+            {"tests", agreement.tests},
+            {"undecided", agreement.undecided},
+            {"largest_z", agreement.largest_z},
+            {"relative_difference", to_json(agreement.relative_difference)},
+            {"equivalence", to_string(agreement.equivalence)}};
+}
+
+/// Renders with a planted error and returns its row, which passes if the error is found.
+Json measure_planted_error(const Scene &scene, const Description &description,
+                           const PlantedError &error, const std::vector<Image> &whole,
+                           DeviceContext &device) {
+    const std::string algorithm = error.settings.algorithm->name;
+    const BlindSpot blind = blind_spot(algorithm, scene, description);
+    const std::vector<Image> reference =
+        blind.joinable ? render_reference(scene, description, blind.joinable) : whole;
+    const std::vector<Image> images =
+        render(scene, description, planted_settings(error), renderer_seed, device);
+    const Agreement agreement = test_agreement(images, reference, description.policy);
+    Json row = row_of(scene, algorithm, "reference", blind, agreement);
+    row["planted_error"] = error.name;
+    row["verdict"] = agreement.agrees() ? "missed" : "found";
+    return row;
+}
+
 /// Renders and tests a scene with every algorithm and returns the rows. Stores the images in
 /// `folder` as the arrays NAME.ALGORITHM.npy, NAME.reference.npy and NAME.reference.ALGORITHM.npy.
 /// The last one is the reference restricted to the light that the algorithm sees.
-Json measure_scene(const Scene &scene, const Description &description, DeviceContext &device,
+Json measure_scene(const Scene &scene, const Description &description,
+                   const std::vector<PlantedError> &planted_errors, DeviceContext &device,
                    const fs::path &folder) {
     const std::vector<Image> whole = render_reference(scene, description, {});
     write_array(average_images(whole), folder / (scene.name() + ".reference.npy"));
     Json rows = Json::array();
     const auto add_row = [&](const std::string &algorithm, const std::string &against,
                              const BlindSpot &blind, const Agreement &agreement) {
-        rows.push_back({{"scene", scene.name()},
-                        {"algorithm", algorithm},
-                        {"against", against},
-                        {"blind", blind.name},
-                        {"verdict", verdict_of(agreement, blind)},
-                        {"rejected", agreement.rejected},
-                        {"tests", agreement.tests},
-                        {"undecided", agreement.undecided},
-                        {"largest_z", agreement.largest_z},
-                        {"relative_difference", to_json(agreement.relative_difference)},
-                        {"equivalence", to_string(agreement.equivalence)}});
+        Json row = row_of(scene, algorithm, against, blind, agreement);
+        row["verdict"] = verdict_of(agreement, blind);
+        rows.push_back(row);
     };
     std::map<std::string, std::vector<Image>> seeing;  // by algorithm, of those that see all light
     uint32_t seed = renderer_seed;
     for (const std::string &algorithm : description.algorithms) {
-        const std::vector<Image> images = render(scene, description, algorithm, seed++, device);
+        RenderSettings settings;
+        settings.algorithm = &algorithm_named(algorithm);
+        const std::vector<Image> images = render(scene, description, settings, seed++, device);
         write_array(average_images(images),
                     folder / fmt::format("{}.{}.npy", scene.name(), algorithm));
         const BlindSpot blind = blind_spot(algorithm, scene, description);
@@ -252,7 +300,18 @@ Json measure_scene(const Scene &scene, const Description &description, DeviceCon
             seeing[algorithm] = images;
         }
     }
+    for (const PlantedError &error : planted_errors) {
+        rows.push_back(measure_planted_error(scene, description, error, whole, device));
+    }
     return rows;
+}
+
+/// Returns the name of what was rendered: the algorithm, and the error that is planted in it.
+std::string rendered(const Json &row) {
+    const std::string algorithm = row.at("algorithm").get<std::string>();
+    return row.contains("planted_error") ? fmt::format("{} with the planted error '{}'", algorithm,
+                                                       row.at("planted_error").get<std::string>())
+                                         : algorithm;
 }
 
 std::string line_of(const Json &row) {
@@ -261,13 +320,12 @@ std::string line_of(const Json &row) {
     return fmt::format(
         "{}{}: {} against {}: {}, {} of {} tests reject, {} undecided, largest |z| {:.1f}, mean "
         "{:+.3f} % [{:+.3f}, {:+.3f}]{}\n",
-        fails(row) ? "FAIL " : "ok   ", row.at("scene").get<std::string>(),
-        row.at("algorithm").get<std::string>(), row.at("against").get<std::string>(),
-        row.at("verdict").get<std::string>(), row.at("rejected").get<size_t>(),
-        row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(),
-        row.at("largest_z").get<double>(), 100 * difference.at("value").get<double>(),
-        100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
-        blind.empty() ? "" : "; not seen: " + blind);
+        fails(row) ? "FAIL " : "ok   ", row.at("scene").get<std::string>(), rendered(row),
+        row.at("against").get<std::string>(), row.at("verdict").get<std::string>(),
+        row.at("rejected").get<size_t>(), row.at("tests").get<size_t>(),
+        row.at("undecided").get<size_t>(), row.at("largest_z").get<double>(),
+        100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
+        100 * difference.at("high").get<double>(), blind.empty() ? "" : "; not seen: " + blind);
 }
 
 std::string table_of(const Json &document) {
@@ -282,7 +340,7 @@ std::string table_of(const Json &document) {
         "light that the algorithm cannot see. The reference then excludes this light, too. "
         "\"Nearly specular lobes\": a connected path is not sampled from the lobe of its vertex, "
         "and fewer than 30 of the paths that reach a block are in the narrowest lobe. Such rows "
-        "are not judged.\n\n"
+        "are not judged. A planted error must be found: its image must disagree.\n\n"
         "| scene | algorithm | against | verdict | tests | undecided | rejected | largest z | "
         "difference | from | to | not seen |\n"
         "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
@@ -292,12 +350,12 @@ std::string table_of(const Json &document) {
         const Json &difference = row.at("relative_difference");
         table += fmt::format(
             "| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:+.3f} | {:+.3f} | {:+.3f} | {} |\n",
-            row.at("scene").get<std::string>(), row.at("algorithm").get<std::string>(),
-            row.at("against").get<std::string>(), row.at("verdict").get<std::string>(),
-            row.at("tests").get<size_t>(), row.at("undecided").get<size_t>(),
-            row.at("rejected").get<size_t>(), row.at("largest_z").get<double>(),
-            100 * difference.at("value").get<double>(), 100 * difference.at("low").get<double>(),
-            100 * difference.at("high").get<double>(), row.at("blind").get<std::string>());
+            row.at("scene").get<std::string>(), rendered(row), row.at("against").get<std::string>(),
+            row.at("verdict").get<std::string>(), row.at("tests").get<size_t>(),
+            row.at("undecided").get<size_t>(), row.at("rejected").get<size_t>(),
+            row.at("largest_z").get<double>(), 100 * difference.at("value").get<double>(),
+            100 * difference.at("low").get<double>(), 100 * difference.at("high").get<double>(),
+            row.at("blind").get<std::string>());
     }
     return table;
 }
@@ -312,10 +370,16 @@ class SceneAgreement : public Experiment {
     }
 
     std::string plan() const override {
-        return fmt::format("{}, profile {}: {} scenes with {}, {} spp, {} spp for the reference\n",
-                           description_.name, description_.profile, scenes_.size(),
-                           fmt::join(description_.algorithms, ", "), description_.spp,
-                           description_.reference_spp);
+        size_t planted = 0;
+        for (const auto &[path, errors] : description_.planted_errors) {
+            planted += errors.size();
+        }
+        return fmt::format(
+            "{}, profile {}: {} scenes with {}, {} spp, {} spp for the reference, {} planted "
+            "errors\n",
+            description_.name, description_.profile, scenes_.size(),
+            fmt::join(description_.algorithms, ", "), description_.spp, description_.reference_spp,
+            planted);
     }
 
     std::string inputs() const override {
@@ -338,9 +402,15 @@ class SceneAgreement : public Experiment {
                          {"rows", Json::array()}};
         Progress progress(description_.name, scenes_.size(), "scenes", bench.quiet);
         size_t finished = 0;
-        for (const Scene &scene : scenes_) {
+        for (size_t i = 0; i < scenes_.size(); ++i) {
+            const Scene &scene = scenes_[i];
+            const auto planted = description_.planted_errors.find(description_.paths[i]);
             const auto rows_of_scene = [&] {
-                return measure_scene(scene, description_, bench.device, bench.out / "images");
+                return measure_scene(scene, description_,
+                                     planted == description_.planted_errors.end()
+                                         ? std::vector<PlantedError>()
+                                         : planted->second,
+                                     bench.device, bench.out / "images");
             };
             for (const Json &row :
                  finished_part(bench.parts / (scene.name() + ".json"), rows_of_scene)) {
