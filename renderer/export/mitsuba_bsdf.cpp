@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "renderer/base/error.h"
+#include "renderer/export/mitsuba_principled.h"
 #include "renderer/import/images/texture_file.h"
 #include "renderer/import/mitsuba/plastic.h"
 #include "renderer/scene/cores/composite.h"
@@ -63,16 +63,22 @@ const std::vector<BsdfWriter::Recipe> &BsdfWriter::recipes() {
     return all;
 }
 
-const BsdfWriter::Recipe &BsdfWriter::recipe(const std::vector<BxdfComponent> &parts) {
+const BsdfWriter::Recipe *BsdfWriter::recipe(const std::vector<BxdfComponent> &parts) {
     const std::string wanted = formula(parts);
+    const auto row = std::find_if(recipes().begin(), recipes().end(),
+                                  [&](const Recipe &known) { return wanted == known.components; });
+    return row == recipes().end() ? nullptr : &*row;
+}
+
+Error BsdfWriter::unknown(const std::vector<BxdfComponent> &parts) {
     std::string known;
     for (const Recipe &row : recipes()) {
-        if (wanted == row.components) {
-            return row;
-        }
-        known += (known.empty() ? "" : "; ") + std::string(row.components);
+        known += std::string(row.components) + "; ";
     }
-    throw input_error(fmt::format("Mitsuba has no BSDF for {}; supported are: {}", wanted, known));
+    return input_error(
+        fmt::format("Mitsuba has no BSDF for {}; supported are: {}the lobes of "
+                    "Mitsuba's principled BSDF",
+                    formula(parts), known));
 }
 
 std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
@@ -136,7 +142,8 @@ void BsdfWriter::write_sides(pugi::xml_node parent, std::string id, uint32_t mat
             back.push_back(part);
         }
     }
-    const bool transmits = !front.empty() && recipe(front).transmits;
+    const Recipe *row = front.empty() ? nullptr : recipe(front);
+    const bool transmits = row != nullptr && row->transmits;
     const bool is_two_sided = !transmits && materials.two_sided[material] != 0;
     const NormalMap &map = materials.normal_map[material];
     const bool mapped = map.kind != NormalMap::Kind::none;
@@ -160,9 +167,42 @@ void BsdfWriter::write_parts(pugi::xml_node parent, const std::string &id,
         add_number(add_object(parent, "bsdf", "diffuse", id), "reflectance", 0);
         return;
     }
-    const Recipe &row = recipe(parts);
-    const std::string plugin = (is_rough(parts[0]) ? "rough" : "") + std::string(row.plugin);
-    (this->*row.write)(add_object(parent, "bsdf", plugin, id), parts.data(), uv);
+    if (const Recipe *row = recipe(parts)) {
+        const std::string plugin = (is_rough(parts[0]) ? "rough" : "") + std::string(row->plugin);
+        (this->*row->write)(add_object(parent, "bsdf", plugin, id), parts.data(), uv);
+    } else if (const auto principled = principled_of(parts, arrays_.textures)) {
+        write_principled(add_object(parent, "bsdf", "principled", id), *principled, uv);
+    } else {
+        throw unknown(parts);
+    }
+}
+
+void BsdfWriter::write_principled(pugi::xml_node bsdf, const PrincipledBsdf &principled,
+                                  UvConvention uv) {
+    const Principled &p = principled.parameters;
+    write_weight(bsdf, "base_color", p.base_color, principled.base_texture, uv);
+    if (principled.roughness_texture == no_index) {
+        add_number(bsdf, "roughness", p.roughness);
+    } else {
+        write_weight(bsdf, "roughness", Vector3d::Constant(p.roughness),
+                     principled.roughness_texture, uv);
+    }
+    const auto add_share = [&](const char *name, double value) {
+        add_number(bsdf, name, std::clamp(value, 0.0, 1.0));  // rounding
+    };
+    add_share("metallic", p.metallic);
+    add_share("anisotropic", p.anisotropic);
+    add_share("spec_tint", p.spec_tint);
+    add_share("sheen", p.sheen);
+    add_share("sheen_tint", p.sheen_tint);
+    add_share("flatness", p.flatness);
+    add_share("clearcoat", p.clearcoat);
+    add_share("clearcoat_gloss", p.clearcoat_gloss);
+    if (p.eta > 1) {
+        add_number(bsdf, "eta", p.eta);
+    } else {
+        add_number(bsdf, "specular", 0);  // Mitsuba has no eta of 1
+    }
 }
 
 pugi::xml_node BsdfWriter::write_mask(const MaterialOpacity &opacity, const std::string &id,

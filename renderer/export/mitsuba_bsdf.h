@@ -8,12 +8,15 @@
 #include <tuple>
 #include <vector>
 
+#include "renderer/base/error.h"
 #include "renderer/export/data_folder.h"
 #include "renderer/export/mitsuba_writer.h"
 #include "renderer/import/mitsuba/bsdf.h"
 #include "renderer/scene/stores.h"
 
 namespace rtrays::mitsuba {
+
+struct PrincipledBsdf;
 
 /// Writer of materials as BSDFs. Each material is written once, or once per convention of texture
 /// coordinates if its BSDF depends on them.
@@ -41,7 +44,10 @@ class BsdfWriter {
         Write write;
     };
     static const std::vector<Recipe> &recipes();
-    static const Recipe &recipe(const std::vector<BxdfComponent> &parts);
+    /// Returns the recipe of these components, or null.
+    static const Recipe *recipe(const std::vector<BxdfComponent> &parts);
+    /// Returns the error of components for which Mitsuba has no BSDF.
+    static Error unknown(const std::vector<BxdfComponent> &parts);
 
     /// Writes the BSDF of a material without its opacity. An empty id means none.
     void write_sides(pugi::xml_node parent, std::string id, uint32_t material, UvConvention uv);
@@ -62,6 +68,7 @@ class BsdfWriter {
     void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_thin_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+    void write_principled(pugi::xml_node bsdf, const PrincipledBsdf &principled, UvConvention uv);
     void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
 
     /// Writes the distribution and the roughness of a rough component.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -198,7 +199,9 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"opacity", "material 'cut_out': Mitsuba has no cutoff of an opacity texture"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},
         {"plane", "'ground': Mitsuba has no plane, and it cannot be tessellated"},
-        {"principled", "no BSDF for disney_diffuse + disney_sheen;"},
+        {"principled",
+         "no BSDF for disney_clearcoat * schlick + microfacet_reflection * dielectric + "
+         "disney_diffuse;"},
         {"refraction_13", "no BSDF for ideal_refraction;"},
         {"rough_plastic",
          "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},
@@ -379,6 +382,75 @@ TEST_F(MitsubaExport, CoatedBasesComeBackAsPlastics) {
     EXPECT_EQ(after[3].kind, BxdfComponent::Kind::coated_lambert);
     EXPECT_TRUE(after[3].nonlinear);
     EXPECT_EQ(after[3].alpha, Eigen::Vector2d(0, 0));
+}
+
+TEST_F(MitsubaExport, PrincipledBsdfsComeBack) {
+    std::ofstream(testing::TempDir() + "two.ppm", std::ios::binary)
+        << "P6 2 1 255\n\x80\x40\x20\x10\x20\x30";
+    const std::string texture =
+        R"(<string name="filename" value="two.ppm"/><boolean name="raw" value="true"/></texture>)";
+    const std::string base = R"(<rgb name="base_color" value="0.75, 0.5, 0.25"/>)";
+    const auto number = [](const char *name, const char *value) {
+        return "<float name=\"" + std::string(name) + "\" value=\"" + value + "\"/>";
+    };
+    const std::string all = base + number("metallic", "0.25") + number("spec_tint", "0.5") +
+                            number("roughness", "0.5") + number("anisotropic", "0.25") +
+                            number("clearcoat", "0.5") + number("clearcoat_gloss", "0.75") +
+                            number("sheen", "0.5") + number("sheen_tint", "0.25") +
+                            number("flatness", "0.25") + number("eta", "1.25");
+    const std::string textured =
+        R"(<texture type="bitmap" name="base_color">)" + texture + number("metallic", "0.25");
+    const std::string rough = R"(<texture type="bitmap" name="roughness">)" + texture;
+    for (const std::string &properties :
+         {std::string(), all, textured, rough, textured + rough, base + number("metallic", "1"),
+          base + number("spec_tint", "1"), base + number("specular", "0"),
+          base + number("roughness", "0"), number("metallic", "1") + number("roughness", "0"),
+          base + number("sheen", "1") + number("metallic", "0.5")}) {
+        SCOPED_TRACE(properties);
+        for (const char *sides : {"%s", "<bsdf type=\"twosided\">%s</bsdf>"}) {
+            const Notices silent;
+            std::string bsdf = sides;
+            bsdf.replace(bsdf.find("%s"), 2, "<bsdf type=\"principled\">" + properties + "</bsdf>");
+            const Scene scene =
+                parse_mitsuba_xml(mitsuba_scene("<shape type=\"rectangle\">" + bsdf + "</shape>"),
+                                  "in.xml", "in", testing::TempDir());
+            const Scene back = through_mitsuba(scene);
+            const auto &before = scene.materials().component;
+            const auto &after = back.materials().component;
+            ASSERT_EQ(before.size(), after.size());
+            EXPECT_EQ(scene.materials().two_sided, back.materials().two_sided);
+            for (size_t i = 0; i < before.size(); ++i) {
+                EXPECT_EQ(before[i].kind, after[i].kind);
+                EXPECT_EQ(before[i].fresnel, after[i].fresnel);
+                EXPECT_EQ(before[i].complement, after[i].complement);
+                EXPECT_LT((before[i].weight - after[i].weight).norm(), 1e-6f);
+                expect_close(before[i].eta, after[i].eta, 1e-6);
+                expect_close(before[i].alpha, after[i].alpha, 1e-6);
+                EXPECT_NEAR(before[i].disney_roughness, after[i].disney_roughness, 1e-12);
+                EXPECT_NEAR(before[i].flatness, after[i].flatness, 1e-12);
+                for (const auto index :
+                     {&BxdfComponent::texture, &BxdfComponent::roughness_texture}) {
+                    ASSERT_EQ(before[i].*index == no_index, after[i].*index == no_index);
+                    if (before[i].*index != no_index) {
+                        expect_same_texture(scene.arrays().textures, before[i].*index,
+                                            back.arrays().textures, after[i].*index);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_F(MitsubaExport, SumsThatArePrincipledOnlyByKindAreErrors) {
+    // The weights of the reflection and of the metal must add up to 1.
+    const Scene scene =
+        parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "o", "geometry": {"type": "rectangle"}, "material": {"type": "composite", "components": [
+         {"bxdf": "microfacet_reflection", "weight": [0.5, 0.5, 0.5], "alpha": 0.25, "fresnel": {"type": "dielectric", "eta": 1.5}},
+         {"bxdf": "disney_diffuse", "weight": [0.25, 0.25, 0.25], "roughness": 0.5}]}}]})",
+                         "in.json", "in");
+    expect_input_error("the lobes of Mitsuba's principled BSDF", [&] { through_mitsuba(scene); });
 }
 
 TEST_F(MitsubaExport, OpacitiesComeBackAsMasks) {
