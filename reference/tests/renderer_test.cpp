@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 
 #include "reference/film.h"
@@ -101,6 +103,40 @@ TEST(ReferenceRenderer, refuses_materials_out_of_range) {
     scene = cornell_like_box();
     scene.meshes.material[0] = no_index;
     EXPECT_THROW(scene.renderer(small_settings(8, 1)), Error);
+}
+
+/// Renders a box and a sun from `distance`, with a view that shows three units.
+Image from_afar(double distance) {
+    TestScene scene;
+    const uint32_t white = scene.add_material(Rgb::Constant(0.5f));
+    scene.add_box(Vec3(-0.6, -0.6, -0.6), Vec3(0.6, 0.6, 0.6), false, white);
+    scene.add_shape(ShapeArrays::Kind::sphere, placed(Vec3(0.9, 0.8, 0.2), 0.3), white);
+    const uint32_t sun = scene.add_light(LightArrays::Kind::directional, Rgb::Constant(3));
+    scene.lights.world_from_light[sun].topLeftCorner<3, 3>() =
+        Eigen::AngleAxisd(-0.7, Vec3::UnitX()).toRotationMatrix();
+    scene.set_camera(Vec3(0.36, 0.48, 0.8) * distance, Vec3::Zero(), Vec3::UnitY(),
+                     2 * std::atan(1.5 / distance));
+    auto renderer = scene.renderer(small_settings(32, 1));
+    renderer.render(0, 16);
+    return renderer.develop();
+}
+
+// All random numbers are the same, and so is the perspective up to a ten-thousandth.
+TEST(ReferenceRenderer, far_cameras_give_the_image_of_a_nearer_one) {
+    const std::vector<float> near = from_afar(3e4).channel("G");
+    double sum = 0;
+    for (const float value : near) {
+        sum += static_cast<double>(value);
+    }
+    EXPECT_GT(sum, 32);
+    for (const double distance : {3e5, 3e6, 3e9}) {
+        const std::vector<float> far = from_afar(distance).channel("G");
+        double differences = 0;
+        for (size_t i = 0; i < near.size(); ++i) {
+            differences += std::abs(static_cast<double>(near[i]) - static_cast<double>(far[i]));
+        }
+        EXPECT_LT(differences / sum, 1e-3) << distance;
+    }
 }
 
 TEST(ReferenceRenderer, windows_have_the_bits_of_the_full_picture) {
