@@ -83,6 +83,29 @@ TEST_F(ImageFiles, EightBitsStayBytes) {
     EXPECT_EQ(with_alpha->height, 1);
 }
 
+TEST_F(ImageFiles, PalettesAndInksBecomeColours) {
+    // A palette with (10, 20, 30) and (200, 100, 50), in the other order.
+    const std::string palette =
+        "89504e470d0a1a0a0000000d4948445200000002000000010803000000c3fc8fb800000006504c54450a141e"
+        "c8643277a0b39c0000000b4944415478da63606400000005000242c2449f0000000049454e44ae426082";
+    EXPECT_EQ(load(file("palette.png", from_hex(palette)))->bytes,
+              (Bytes{200, 100, 50, 10, 20, 30}));
+    // Grey with alpha.
+    const std::string grey =
+        "89504e470d0a1a0a0000000d49484452000000020000000108040000005e2bb7010000000d4944415478da63"
+        "e06238f11f0002bc01d2e9e0ec590000000049454e44ae426082";
+    const std::filesystem::path grey_file = file("grey.png", from_hex(grey));
+    EXPECT_EQ(load(grey_file)->bytes, (Bytes{10, 10, 10, 200, 200, 200}));
+    EXPECT_EQ(load(grey_file, TextureEncoding::alpha)->bytes, (Bytes{0, 0, 0, 255, 255, 255}));
+    // A TIFF of the inks cyan, magenta, yellow and black: red and black.
+    const std::string inks =
+        "49492a00080000000a000001030001000000020000000101030001000000010000000201030004000000"
+        "8600000003010300010000000100000006010300010000000500000011010400010000008e0000001501"
+        "030001000000040000001601030001000000010000001701040001000000080000001c01030001000000"
+        "0100000000000000080008000800080000ffff00000000ff";
+    EXPECT_EQ(load(file("inks.tif", from_hex(inks)))->bytes, (Bytes{255, 0, 0, 0, 0, 0}));
+}
+
 TEST_F(ImageFiles, AlphaBecomesAGreyImage) {
     const std::filesystem::path with_alpha = file("a.png", png_with_alpha());
     const auto alpha = load(with_alpha, TextureEncoding::alpha);
