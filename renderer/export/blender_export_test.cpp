@@ -53,7 +53,6 @@ const std::map<std::string, const char *> &beyond_cycles() {
          "'object': Cycles supports only triangles, which cannot represent this Julia set"},
         {"bump_map", "the export to Cycles does not support normal and bump maps"},
         {"normal_map", "the export to Cycles does not support normal and bump maps"},
-        {"opacity", "the export to Cycles does not support an opacity"},
         {"orthographic", "the export to Cycles does not support orthographic cameras"},
         {"oren_nayar_079", "its Oren-Nayar model differs"},
         {"plane",
@@ -62,7 +61,6 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"rough_glass_ggx", "at the normal instead of the half vector"},
         {"rough_plastic", "no Fresnel term"},
         {"texture_mirror", "the export to Cycles does not support the wrap mode mirror"},
-        {"textured_light", "the export to Cycles does not support a texture of emission"},
         {"thin_glass", "not supported by Cycles: the export has no thin plates"},
         {"two_sides", "not supported by Cycles: the export has no materials that differ by side"},
         {"ward_010", "it has no such model"},
@@ -97,7 +95,7 @@ TEST_F(BlenderExport, ScenesOfSingleFeaturesAreWrittenOrAreErrors) {
                 << error.what();
         }
     }
-    EXPECT_GE(written, 35);
+    EXPECT_GE(written, 37);
 }
 
 TEST_F(BlenderExport, SaysWhatTheArraysSay) {
@@ -148,6 +146,43 @@ TEST_F(BlenderExport, DecodesTexels) {
     for (size_t i = 0; i < image.bytes.size(); ++i) {
         EXPECT_EQ(written->floats[i], static_cast<float>(srgb_decoded(image.bytes[i] / 255.0)));
     }
+}
+
+TEST_F(BlenderExport, WritesOpacitiesAndTexturesOfEmissionAndRoughness) {
+    const auto scene = [](const std::string &material) {
+        return parse_scene_json(R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+            {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+            {"name": "o", "geometry": {"type": "rectangle"}, "material": )" +
+                                    material + "}]}",
+                                "in.json", "in", scenes + "/features");
+    };
+    const auto material = [&](const std::string &text) {
+        return exported(scene(text)).at("materials")[0];
+    };
+    const std::string checks = R"({"file": "assets/checker.png", "encoding": "linear"})";
+    const std::string matte = R"({"type": "lambert", "reflectance": [1, 1, 1])";
+    EXPECT_FALSE(material(matte + "}").contains("opacity"));
+    EXPECT_EQ(material(matte + R"(, "opacity": 0.25})").at("opacity"),
+              (Json{{"value", 0.25}, {"cutoff", 0.0}}));
+    EXPECT_EQ(material(matte + R"(, "opacity": 0.5, "opacity_cutoff": 0.375, "opacity_texture": )" +
+                       checks + "}")
+                  .at("opacity"),
+              (Json{{"value", 0.5}, {"cutoff", 0.375}, {"texture", 0}}));
+    EXPECT_EQ(material(matte + R"(, "emission": [1, 2, 3], "emission_texture": )" + checks + "}")
+                  .at("emission_texture"),
+              0);
+    const auto rough = [&](const char *alpha) {
+        return R"({"type": "composite", "components": [{"bxdf": "microfacet_reflection",
+            "weight": [1, 1, 1], "roughness_squared": true, "alpha": )" +
+               std::string(alpha) + R"(, "alpha_texture": )" + checks + "}]}";
+    };
+    const Json component = material(rough("0.5")).at("components")[0];
+    EXPECT_EQ(component.at("alpha"), 0.5);
+    EXPECT_EQ(component.at("roughness_texture"), 0);
+    EXPECT_EQ(component.at("roughness_squared"), true);
+    // The darkest texels make a mirror of it.
+    expect_input_error("a surface of such low roughness as a mirror",
+                       [&] { exported(scene(rough("0.001"))); });
 }
 
 TEST_F(BlenderExport, ResolvesTheAxisOfTheField) {

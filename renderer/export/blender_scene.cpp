@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -25,9 +26,38 @@ using Json = nlohmann::json;
 using Kind = BxdfComponent::Kind;
 using Fresnel = BxdfComponent::Fresnel;
 
+/// Returns the smallest luminance of the texels, decoded.
+double darkest_texel(const TextureImage &image) {
+    const size_t texels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+    double darkest = HUGE_VAL;
+    for (size_t i = 0; i < texels; ++i) {
+        Eigen::Vector3d rgb;
+        for (size_t c = 0; c < 3; ++c) {
+            const double value = image.floats.empty()
+                                     ? image.bytes[3 * i + c] / 255.0
+                                     : static_cast<double>(image.floats[3 * i + c]);
+            rgb[static_cast<Eigen::Index>(c)] =
+                image.floats.empty() && image.srgb ? srgb_decoded(value) : value;
+        }
+        darkest = std::min(darkest, luminance(rgb));
+    }
+    return darkest;
+}
+
+/// Returns whether Cycles reflects light like a mirror at some point of a rough surface: where
+/// alpha_x * alpha_y <= 1e-7 (bsdf_microfacet_ggx_sample and similar).
+bool is_mirror_in_cycles(const BxdfComponent &part, const TextureArrays &textures) {
+    double factor = 1;
+    if (part.roughness_texture != no_index) {
+        factor = darkest_texel(*textures.image[part.roughness_texture]);
+        factor *= part.roughness_squared ? factor : 1;
+    }
+    return part.alpha.prod() * factor * factor <= 1.01e-7;
+}
+
 /// Returns why Cycles of Blender 3.4 cannot render a component, or an empty text if it can. See
 /// intern/cycles/kernel/closure/bsdf_*.h and kernel/svm/closure.h in its sources.
-std::string missing_in_cycles(const BxdfComponent &part) {
+std::string missing_in_cycles(const BxdfComponent &part, const TextureArrays &textures) {
     if (part.side != BxdfComponent::Side::both) {
         return "the export has no materials that differ by side";
     }
@@ -52,14 +82,10 @@ std::string missing_in_cycles(const BxdfComponent &part) {
                 return "its Glossy BSDF has no Fresnel term, and its rough Glass BSDF evaluates "
                        "the term at the normal instead of the half vector";
             }
-            if (part.roughness_texture != no_index) {
-                return "the export writes no texture of a roughness";
-            }
             if (part.alpha[0] != part.alpha[1]) {
                 return "its tangents on meshes differ";
             }
-            // bsdf_microfacet_ggx_sample and similar: alpha_x * alpha_y <= 1e-7 is a mirror.
-            return part.alpha[0] * part.alpha[1] <= 1.01e-7
+            return is_mirror_in_cycles(part, textures)
                        ? "it treats a surface of such low roughness as a mirror"
                        : "";
         case Kind::microfacet_refraction:
@@ -180,16 +206,6 @@ class SceneWriter {
         const MaterialArrays &materials = arrays_.materials;
         Json list = Json::array();
         for (uint32_t i = 0; i < materials.name.size(); ++i) {
-            if (!materials.opacity[i].is_opaque()) {
-                throw input_error(
-                    fmt::format("{}material '{}': the export to Cycles does not support an opacity",
-                                user_of(i), materials.name[i]));
-            }
-            if (materials.emission_texture[i] != no_index) {
-                throw input_error(fmt::format(
-                    "{}material '{}': the export to Cycles does not support a texture of emission",
-                    user_of(i), materials.name[i]));
-            }
             if (materials.normal_map[i].kind != NormalMap::Kind::none) {
                 throw input_error(fmt::format(
                     "{}material '{}': the export to Cycles does not support normal and bump maps",
@@ -198,7 +214,7 @@ class SceneWriter {
             Json components = Json::array();
             for (uint32_t c = 0; c < materials.component_count[i]; ++c) {
                 const BxdfComponent &part = materials.component[materials.first_component[i] + c];
-                const std::string missing = missing_in_cycles(part);
+                const std::string missing = missing_in_cycles(part, arrays_.textures);
                 if (!missing.empty() && !part.weight.isZero(0)) {
                     const std::string name = bxdf_names()[static_cast<size_t>(part.kind)];
                     const std::string term = fresnel_names()[static_cast<size_t>(part.fresnel)];
@@ -210,9 +226,16 @@ class SceneWriter {
                 }
                 components.push_back(write_component(part));
             }
-            list.push_back({{"name", materials.name[i]},
-                            {"two_sided", materials.two_sided[i] != 0},
-                            {"components", std::move(components)}});
+            Json material = {{"name", materials.name[i]},
+                             {"two_sided", materials.two_sided[i] != 0},
+                             {"components", std::move(components)}};
+            if (!materials.opacity[i].is_opaque()) {
+                material["opacity"] = write_opacity(materials.opacity[i]);
+            }
+            if (materials.emission_texture[i] != no_index) {
+                material["emission_texture"] = materials.emission_texture[i];
+            }
+            list.push_back(std::move(material));
         }
         return list;
     }
@@ -231,6 +254,14 @@ class SceneWriter {
         return name.empty() ? "" : "'" + name + "': ";
     }
 
+    static Json write_opacity(const MaterialOpacity &opacity) {
+        Json json = {{"value", opacity.value}, {"cutoff", opacity.cutoff}};
+        if (opacity.texture != no_index) {
+            json["texture"] = opacity.texture;
+        }
+        return json;
+    }
+
     static Json write_component(const BxdfComponent &part) {
         Json component = {{"kind", bxdf_names()[static_cast<size_t>(part.kind)]},
                           {"weight", numbers(part.weight)},
@@ -242,6 +273,10 @@ class SceneWriter {
             component["distribution"] =
                 part.distribution == BxdfComponent::Distribution::ggx ? "ggx" : "beckmann";
             component["alpha"] = part.alpha[0];
+            if (part.roughness_texture != no_index) {
+                component["roughness_texture"] = part.roughness_texture;
+                component["roughness_squared"] = part.roughness_squared;
+            }
         }
         if (part.texture != no_index) {
             component["texture"] = part.texture;

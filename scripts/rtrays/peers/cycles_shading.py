@@ -74,6 +74,35 @@ def _texture(graph, texture, images):
     return graph.separated(node.outputs["Color"])
 
 
+def _luminance(graph, texture, images):
+    """Returns the luminance (Rec. 709) of a texture."""
+    red, green, blue = _texture(graph, texture, images)
+    return red * 0.2126 + green * 0.7152 + blue * 0.0722
+
+
+def _roughness(graph, component, scene, images):
+    """Returns the roughness of a glossy closure, of which Cycles takes the square as alpha."""
+    if "roughness_texture" not in component:
+        return math.sqrt(component["alpha"])
+    factor = _luminance(graph, scene["textures"][component["roughness_texture"]], images)
+    if component["roughness_squared"]:
+        factor = factor * factor
+    return (factor * component["alpha"]).sqrt()
+
+
+def _opacity(graph, opacity, scene, images):
+    """Returns the share of light that the surface stops."""
+    value = Value(graph, opacity["value"])
+    if "texture" in opacity:
+        texture = scene["textures"][opacity["texture"]]
+        value = value * _luminance(graph, texture, images)
+    if opacity["cutoff"] > 0:
+        if isinstance(value.source, (int, float)):
+            return Value(graph, float(value.source >= opacity["cutoff"]))
+        return 1.0 - value.call("LESS_THAN", opacity["cutoff"])
+    return value
+
+
 def _closure(graph, component, is_boundary, scene, images):
     """Returns the closure of one BSDF component."""
     colour = [
@@ -98,7 +127,7 @@ def _closure(graph, component, is_boundary, scene, images):
         shader, properties = "ShaderNodeBsdfGlossy", {
             "distribution": component["distribution"].upper()
         }
-        inputs["Roughness"] = math.sqrt(component["alpha"])  # Cycles squares it
+        inputs["Roughness"] = _roughness(graph, component, scene, images)
     elif kind == "ideal_refraction":
         shader, properties = "ShaderNodeBsdfRefraction", {"distribution": "SHARP"}
         inputs["IOR"] = eta
@@ -128,9 +157,18 @@ def make_material(material, radiance, scene, images):
             ]
     if radiance is not None:
         front = 1.0 - graph.backfacing()
-        colour = graph.vector([front * value for value in radiance])
+        channels = [front * value for value in radiance]
+        if "emission_texture" in material:
+            texture = scene["textures"][material["emission_texture"]]
+            texels = _texture(graph, texture, images)
+            channels = [channel * texel for channel, texel in zip(channels, texels)]
+        colour = graph.vector(channels)
         emission = graph.node("ShaderNodeEmission", {"Color": colour, "Strength": 1.0}).outputs[0]
         shader = emission if shader is None else graph.sum([shader, emission])
+    if "opacity" in material:
+        share = _opacity(graph, material["opacity"], scene, images)
+        passing = graph.node("ShaderNodeBsdfTransparent").outputs[0]
+        shader = graph.node("ShaderNodeMixShader", [share, passing, shader]).outputs[0]
     if shader is not None:
         graph.tree.links.new(shader, graph.output.inputs["Surface"])
     return made
