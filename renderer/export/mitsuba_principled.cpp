@@ -58,7 +58,7 @@ double index_of(double reflectance) {
     return (1 + root) / (1 - root);
 }
 
-/// Sets roughness and anisotropy. Roughnesses below `narrowest` cannot be told apart.
+/// Sets roughness and anisotropy. All roughnesses below the least one have the same components.
 void set_roughness(const Lobes &lobes, Principled &p) {
     const BxdfComponent *main = lobes.main();
     if (main != nullptr) {
