@@ -104,6 +104,7 @@ void check_area_light(const Object &emitter) {
 
 std::shared_ptr<LightCore> read_area_light(Object &object) {
     check_area_light(object);
+    object.ignore("sampling_weight");  // affects noise only
     return object.element().located([&] {
         const auto light =
             make_light(object, "diffuse_area", {{"radiance", object.emission("radiance", 1)}});
@@ -113,6 +114,7 @@ std::shared_ptr<LightCore> read_area_light(Object &object) {
 }
 
 PlacedLight read_light(Object &object, TextureFiles &files) {
+    object.ignore("sampling_weight");  // affects noise only
     std::string names;
     for (const Type &type : types) {
         if (object.type() == type.name) {

@@ -501,13 +501,13 @@ TEST_F(MitsubaTextures, Environments) {
 
 TEST(MitsubaEmitters, BecomeLights) {
     const Scene scene = parse_elements(R"(
-        <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1, 2, 3"/></emitter></shape>
+        <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1, 2, 3"/><float name="sampling_weight" value="2"/></emitter></shape>
         <emitter type="point"><point name="position" x="1" y="2" z="3"/><rgb name="intensity" value="4"/></emitter>
         <emitter type="spot"><float name="cutoff_angle" value="40"/><transform name="to_world">
             <lookat origin="0, 5, 0" target="0, 0, 0" up="1, 0, 0"/></transform></emitter>
         <emitter type="directional"><vector name="direction" x="0" y="-2" z="0"/><rgb name="irradiance" value="5"/></emitter>
         <emitter type="directional"><transform name="to_world"><rotate x="1" angle="90"/></transform></emitter>
-        <emitter type="constant"><spectrum name="radiance" value="2"/></emitter>)");
+        <emitter type="constant"><spectrum name="radiance" value="2"/><float name="sampling_weight" value="3"/></emitter>)");
     const LightArrays &lights = scene.lights();
     using Light = LightArrays::Kind;
     ASSERT_EQ(lights.kind,
@@ -547,6 +547,10 @@ TEST(MitsubaNotices, NameWhatIsReplaced) {
           "rfilter 'gaussian'", "sampler 'independent' of 32", "near_clip 0.5"}) {
         EXPECT_NE(notices.texts()[0].find(part), std::string::npos) << notices.texts()[0];
     }
+    parse_mitsuba_xml(mitsuba_scene(R"(<integrator type="direct"/>)"), "in.xml", "in");
+    EXPECT_NE(notices.texts()[1].find("'direct' (use --set integrator.max_depth=1)"),
+              std::string::npos)
+        << notices.texts()[1];
 }
 
 /// Loads third-party scenes from the folder RTRAYS_MESHES; see docs/importers.md.

@@ -241,7 +241,8 @@ TEST(MitsubaTexturedEmitters, AreMaterialsWithATextureOfEmission) {
         <float name="color1" value="1"/></texture>)";
     const auto shape = [&](const std::string &type, const std::string &bsdf) {
         return parse_elements("<shape type=\"" + type + "\"><emitter type=\"area\">" + texture +
-                              "</emitter>" + bsdf + "</shape>");
+                              "<float name=\"sampling_weight\" value=\"2\"/></emitter>" + bsdf +
+                              "</shape>");
     };
     for (const char *bsdf : {"", R"(<bsdf type="diffuse" id="wall"/>)"}) {
         const Scene scene = shape("rectangle", bsdf);

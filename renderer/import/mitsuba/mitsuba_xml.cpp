@@ -222,6 +222,7 @@ class SceneReader {
             return {read_area_light(emitter), nullptr};
         }
         check_area_light(emitter);
+        emitter.ignore("sampling_weight");  // affects noise only
         if (textures.size() > 1 || emitter.has("radiance")) {
             throw emitters[0].error("duplicate property 'radiance'");
         }
@@ -303,6 +304,9 @@ class SceneReader {
         try {
             type = element.attribute("type");
         } catch (const LocatedError &) {
+        }
+        if (type == "direct") {
+            settings.emplace_back("use --set integrator.max_depth=1");
         }
         replaced_.push_back(
             fmt::format("integrator '{}'{}", type,
