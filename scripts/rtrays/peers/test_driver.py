@@ -4,6 +4,7 @@
 import contextlib
 import io
 import json
+import pathlib
 import unittest
 import unittest.mock
 
@@ -33,10 +34,14 @@ class Driver(unittest.TestCase):
         self.assertEqual([line["file"] for line in self.runs()], ["/out/image.exr"])
 
     def test_requests_are_answered_in_order(self):
-        asked = []
-        with unittest.mock.patch("sys.stdin", io.StringIO("2 16 1\n3 32 2\n")):
-            lines = lines_of(serve, "engine", lambda *request: asked.append(request))
-        self.assertEqual(asked, [(2, 16, 1), (3, 32, 2)])
+        asked, written = [], []
+        requests = "2 16 1 5\n3 32 2 0 /out/an image.exr\n"
+        with unittest.mock.patch("sys.stdin", io.StringIO(requests)):
+            lines = lines_of(
+                serve, "engine", lambda *request: asked.append(request), written.append
+            )
+        self.assertEqual(asked, [(2, 16, 1, 5), (3, 32, 2, 0)])
+        self.assertEqual(written, [pathlib.Path("/out/an image.exr")])
         self.assertEqual(lines[0], {"engine": "engine"})
         self.assertEqual([set(line) for line in lines[1:]], [{"seconds", "processor_seconds"}] * 2)
 
