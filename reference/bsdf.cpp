@@ -21,9 +21,9 @@ Composite::Composite(std::vector<Component> components, bool two_sided)
     delta_ = std::all_of(components_.begin(), components_.end(), is_delta);
 }
 
-Viewpoint Composite::viewpoint(const Vec3 &wo, const Eigen::Vector2d &uv) const {
+Viewpoint Composite::viewpoint(const Vec3 &wo, const TexturePoint &at) const {
     const bool behind = wo.z() < 0.0;
-    return {{wo.x(), wo.y(), std::abs(wo.z())}, behind, boundary_ && behind, uv};
+    return {{wo.x(), wo.y(), std::abs(wo.z())}, behind, boundary_ && behind, at};
 }
 
 namespace {
@@ -64,23 +64,23 @@ double Composite::density(const Vec3 &wi, const Viewpoint &view) const {
     return total > 0.0 ? weighted / total : 0.0;
 }
 
-Spectrum Composite::evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
+Spectrum Composite::evaluate(const Vec3 &wi, const Vec3 &wo, const TexturePoint &at) const {
     // A direction in the surface plane is on neither side.
     return is_black(wo) || wi.z() * wo.z() == 0.0 ? Spectrum(Spectrum::Zero())
-                                                  : sum(mirrored(wi, wo), viewpoint(wo, uv));
+                                                  : sum(mirrored(wi, wo), viewpoint(wo, at));
 }
 
-double Composite::pdf_w(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
+double Composite::pdf_w(const Vec3 &wi, const Vec3 &wo, const TexturePoint &at) const {
     return is_black(wo) || wi.z() * wo.z() == 0.0 ? 0.0
-                                                  : density(mirrored(wi, wo), viewpoint(wo, uv));
+                                                  : density(mirrored(wi, wo), viewpoint(wo, at));
 }
 
-std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2d &uv,
+std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const TexturePoint &at,
                                             Rng &rng) const {
     if (is_black(wo) || wo.z() == 0.0) {
         return std::nullopt;
     }
-    const Viewpoint view = viewpoint(wo, uv);
+    const Viewpoint view = viewpoint(wo, at);
     std::array<double, most_components> importance;
     double total = 0.0;
     for (size_t i = 0; i < components_.size(); ++i) {
@@ -120,12 +120,12 @@ std::optional<BsdfSample> Composite::sample(const Vec3 &wo, const Eigen::Vector2
                       expansion(*wi, view)};
 }
 
-std::vector<BsdfSample> Composite::delta_events(const Vec3 &wo, const Eigen::Vector2d &uv) const {
+std::vector<BsdfSample> Composite::delta_events(const Vec3 &wo, const TexturePoint &at) const {
     std::vector<BsdfSample> events;
     if (is_black(wo) || wo.z() == 0.0) {
         return events;
     }
-    const Viewpoint view = viewpoint(wo, uv);
+    const Viewpoint view = viewpoint(wo, at);
     for (const Component &component : components_) {
         const auto event = component.is_delta() ? component.scatter(view) : std::nullopt;
         if (event && (event->coefficient > 0.0).any()) {

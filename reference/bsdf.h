@@ -4,18 +4,18 @@
 // Directions are in the local frame of the shading normal: z is up, z > 0 is the front side, and x
 // is along the tangent. `wi` and `wo` point away from the surface. Every model has these members:
 //
-//     Spectrum evaluate(wi, wo, uv)
+//     Spectrum evaluate(wi, wo, at)
 //         BSDF value f [1/sr], WITHOUT the cosine; 0 for delta components.
-//     double pdf_w(wi, wo, uv)
+//     double pdf_w(wi, wo, at)
 //         Density of `sample` per solid angle of wi; 0 for delta components.
-//     std::optional<BsdfSample> sample(wo, uv, rng)
+//     std::optional<BsdfSample> sample(wo, at, rng)
 //         Samples wi; returns nothing if the path is absorbed.
-//     std::vector<BsdfSample> delta_events(wo, uv)
+//     std::vector<BsdfSample> delta_events(wo, at)
 //         All delta events. Their weights are coefficients, without a probability.
 //     bool is_delta()
 //         Whether `evaluate` is 0 everywhere, so that light sampling is useless.
 //     bool needs_parametrization()
-//         Whether the results depend on uv or on the tangent.
+//         Whether the results depend on `at` or on the tangent.
 //
 // Refraction multiplies radiance by (eta_o / eta_i)^2, because paths start at the camera.
 //
@@ -52,15 +52,15 @@ class Lambert {
   public:
     explicit Lambert(const Spectrum &albedo) : albedo_(albedo) {}
 
-    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &) const {
+    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const TexturePoint &) const {
         return same_side(wi, wo) ? Spectrum(albedo_ * inv_pi) : Spectrum::Zero();
     }
 
-    double pdf_w(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &) const {
+    double pdf_w(const Vec3 &wi, const Vec3 &wo, const TexturePoint &) const {
         return same_side(wi, wo) ? std::abs(wi.z()) * inv_pi : 0.0;
     }
 
-    std::optional<BsdfSample> sample(const Vec3 &wo, const Eigen::Vector2d &, Rng &rng) const {
+    std::optional<BsdfSample> sample(const Vec3 &wo, const TexturePoint &, Rng &rng) const {
         Vec3 wi = sample_cosine_hemisphere(rng);
         const double pdf = wi.z() * inv_pi;
         if (!(pdf > 0.0)) {
@@ -70,7 +70,7 @@ class Lambert {
         return BsdfSample{wi, albedo_, pdf, false};
     }
 
-    std::vector<BsdfSample> delta_events(const Vec3 &, const Eigen::Vector2d &) const { return {}; }
+    std::vector<BsdfSample> delta_events(const Vec3 &, const TexturePoint &) const { return {}; }
     bool is_delta() const { return false; }
     bool needs_parametrization() const { return false; }
 
@@ -93,10 +93,10 @@ class Composite {
   public:
     Composite(std::vector<Component> components, bool two_sided);
 
-    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const;
-    double pdf_w(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const;
-    std::optional<BsdfSample> sample(const Vec3 &wo, const Eigen::Vector2d &uv, Rng &rng) const;
-    std::vector<BsdfSample> delta_events(const Vec3 &wo, const Eigen::Vector2d &uv) const;
+    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const TexturePoint &at) const;
+    double pdf_w(const Vec3 &wi, const Vec3 &wo, const TexturePoint &at) const;
+    std::optional<BsdfSample> sample(const Vec3 &wo, const TexturePoint &at, Rng &rng) const;
+    std::vector<BsdfSample> delta_events(const Vec3 &wo, const TexturePoint &at) const;
     bool is_delta() const { return delta_; }
     bool needs_parametrization() const { return true; }
 
@@ -104,7 +104,7 @@ class Composite {
 
   private:
     bool is_black(const Vec3 &wo) const { return !visible_from_behind_ && !(wo.z() > 0.0); }
-    Viewpoint viewpoint(const Vec3 &wo, const Eigen::Vector2d &uv) const;
+    Viewpoint viewpoint(const Vec3 &wo, const TexturePoint &at) const;
     double density(const Vec3 &wi, const Viewpoint &view) const;
     Spectrum sum(const Vec3 &wi, const Viewpoint &view) const;
 
@@ -123,17 +123,17 @@ class Bsdf {
     template <class Model>
     Bsdf(const Model &model) : model_(model) {}  // NOLINT: the conversion is meant to be implicit
 
-    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
-        return std::visit([&](const auto &model) { return model.evaluate(wi, wo, uv); }, model_);
+    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const TexturePoint &at) const {
+        return std::visit([&](const auto &model) { return model.evaluate(wi, wo, at); }, model_);
     }
-    double pdf_w(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
-        return std::visit([&](const auto &model) { return model.pdf_w(wi, wo, uv); }, model_);
+    double pdf_w(const Vec3 &wi, const Vec3 &wo, const TexturePoint &at) const {
+        return std::visit([&](const auto &model) { return model.pdf_w(wi, wo, at); }, model_);
     }
-    std::optional<BsdfSample> sample(const Vec3 &wo, const Eigen::Vector2d &uv, Rng &rng) const {
-        return std::visit([&](const auto &model) { return model.sample(wo, uv, rng); }, model_);
+    std::optional<BsdfSample> sample(const Vec3 &wo, const TexturePoint &at, Rng &rng) const {
+        return std::visit([&](const auto &model) { return model.sample(wo, at, rng); }, model_);
     }
-    std::vector<BsdfSample> delta_events(const Vec3 &wo, const Eigen::Vector2d &uv) const {
-        return std::visit([&](const auto &model) { return model.delta_events(wo, uv); }, model_);
+    std::vector<BsdfSample> delta_events(const Vec3 &wo, const TexturePoint &at) const {
+        return std::visit([&](const auto &model) { return model.delta_events(wo, at); }, model_);
     }
     bool is_delta() const {
         return std::visit([](const auto &model) { return model.is_delta(); }, model_);

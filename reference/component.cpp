@@ -134,8 +134,8 @@ Component::Component(const BxdfComponent &component, const TextureArrays &textur
         lobe_);
 }
 
-Component::Lobe Component::textured_lobe(const Eigen::Vector2d &uv) const {
-    const double factor = luminance(roughness_texture_->evaluate(uv));
+Component::Lobe Component::textured_lobe(const TexturePoint &at) const {
+    const double factor = luminance(roughness_texture_->evaluate(at));
     BxdfComponent scaled = textured_;
     scaled.alpha *= scaled.roughness_squared ? factor * factor : factor;
     scaled.alpha = scaled.alpha.cwiseMax(BxdfComponent::least_alpha);

@@ -19,7 +19,7 @@ struct Viewpoint {
     Vec3 wo;        ///< wo.z > 0
     bool behind;    ///< wo is behind the surface
     bool inverted;  ///< wo is behind a boundary, so dielectric indices are 1 / eta
-    Eigen::Vector2d uv;
+    TexturePoint at;
 };
 
 /// Direction and coefficient of a delta component.
@@ -70,10 +70,10 @@ class Component {
     /// Calls `visit` with the lobe at the point.
     template <class Visit>
     auto with_lobe(const Viewpoint &view, const Visit &visit) const {
-        return roughness_texture_ ? std::visit(visit, textured_lobe(view.uv))
+        return roughness_texture_ ? std::visit(visit, textured_lobe(view.at))
                                   : std::visit(visit, lobe_);
     }
-    Lobe textured_lobe(const Eigen::Vector2d &uv) const;
+    Lobe textured_lobe(const TexturePoint &at) const;
 
     /// Returns the cosine at which the Fresnel term of a rough component is evaluated.
     double half_cosine(const Vec3 &wi, const Viewpoint &view) const;
@@ -84,7 +84,7 @@ class Component {
             return Spectrum::Zero();
         }
         const Spectrum albedo =
-            texture_ ? Spectrum(weight_ * texture_->evaluate(view.uv)) : weight_;
+            texture_ ? Spectrum(weight_ * texture_->evaluate(view.at)) : weight_;
         return coat_ ? coat_->base(albedo) : albedo;
     }
     double eta(const Viewpoint &view) const { return view.inverted ? 1.0 / eta_ : eta_; }

@@ -47,7 +47,7 @@ FirstHit FirstHitClassifier::of_ray(const Ray &camera_ray, Rng &rng) const {
         const Shading shading =
             make_shading(geometry, hit, wo, bsdf.needs_parametrization(),
                          world_.tilts != nullptr ? &(*world_.tilts)[material] : nullptr);
-        for (const BsdfSample &event : bsdf.delta_events(shading.frame.to_local(wo), shading.uv)) {
+        for (const BsdfSample &event : bsdf.delta_events(shading.frame.to_local(wo), shading.at)) {
             const Vec3 direction = shading.frame.to_world(event.wi);
             const double share =
                 branch.share * event.weight.maxCoeff() * event.expansion * shading.share(direction);

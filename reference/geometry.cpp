@@ -74,10 +74,11 @@ Geometry::Geometry(const MeshArrays &meshes, const ShapeArrays &shapes,
     const auto any = [](const std::vector<uint8_t> &flags) {
         return std::find(flags.begin(), flags.end(), 1) != flags.end();
     };
-    if (any(meshes.has_normals) || any(meshes.has_uv)) {
+    if (any(meshes.has_normals) || any(meshes.has_uv) || any(meshes.has_colour)) {
         vertices_ = indices;
         normals_ = meshes.normal;
         uvs_ = meshes.uv;
+        colours_ = meshes.colour;
     }
     for (uint32_t i = 0; i < shapes.kind.size(); ++i) {
         shapes_.emplace_back(shapes, i);
@@ -212,7 +213,7 @@ Parametrization Geometry::parametrize(const SurfacePoint &point) const {
     }
     const TriangleRecord &record = triangle(point);
     Parametrization result{record.normal, record.edge1, Eigen::Vector2d::Zero()};
-    if (!record.has_normals && !record.has_uv) {
+    if (!record.has_normals && !record.has_uv && !record.has_colour) {
         return result;
     }
     const auto &[a, b, c] = vertices_[point.primitive];
@@ -225,6 +226,13 @@ Parametrization Geometry::parametrize(const SurfacePoint &point) const {
         if (length > 1e-6) {
             result.shading_normal = normal / length;
         }
+    }
+    if (record.has_colour) {
+        const auto colour_of = [this](uint32_t i) -> Spectrum {
+            return colours_[i].cast<double>().array();
+        };
+        result.colour =
+            ((1.0 - u - v) * colour_of(a) + u * colour_of(b) + v * colour_of(c)).max(0.0);
     }
     if (record.has_uv) {
         const Eigen::Vector2d uv0 = uvs_[a].cast<double>();

@@ -38,6 +38,7 @@ struct Parametrization {
     /// Whether `tangent` is dp/du and `along_v` is dp/dv, with their lengths.
     bool derivatives = false;
     Vec3 along_v = Vec3::Zero();
+    Spectrum colour = Spectrum::Ones();  ///< that of the vertices; white if the surface has none
 };
 
 /// Coherence of a ray with its neighbours. It is a hint to Embree and does not change the result.
@@ -96,8 +97,8 @@ class Geometry {
         return is_triangle(point) && triangle(point).has_normals;
     }
 
-    /// Returns interpolated normal and texture coordinates. The tangent of a triangle is dp/du of
-    /// its texture coordinates. If these are missing or degenerate, it is the first edge.
+    /// Returns interpolated normal, texture coordinates and colour. The tangent of a triangle is
+    /// dp/du of its texture coordinates. If these are missing or degenerate, it is the first edge.
     Parametrization parametrize(const SurfacePoint &point) const;
 
     /// Returns whether no surface lets a ray pass.
@@ -149,10 +150,11 @@ class Geometry {
     uint32_t first_shape_ = 0;         ///< number of triangles
     std::vector<uint32_t> unbounded_;  ///< indices of shapes without bounds
     Eigen::AlignedBox3d bounds_;
-    // Vertex attributes. `vertices_` is empty if no mesh has normals or texture coordinates.
+    // Vertex attributes. `vertices_` is empty if no mesh has any of them.
     std::vector<Triangle> vertices_;  ///< vertex indices per triangle
     std::vector<Eigen::Vector3f> normals_;
     std::vector<Eigen::Vector2f> uvs_;
+    std::vector<Rgb> colours_;
     GeometryStats stats_;
 };
 

@@ -121,7 +121,7 @@ class PathIntegrator {
                 result += throughput * direct_light(bsdf, shading, wo_local, hit, rng, counts);
             }
 
-            const auto sample = bsdf.sample(wo_local, shading.uv, rng);
+            const auto sample = bsdf.sample(wo_local, shading.at, rng);
             if (!sample) {
                 return result;
             }
@@ -199,7 +199,7 @@ class PathIntegrator {
         if (!shading.agrees(light->wi, wi_local)) {
             return Spectrum::Zero();
         }
-        const Spectrum f = bsdf.evaluate(wi_local, wo_local, shading.uv);
+        const Spectrum f = bsdf.evaluate(wi_local, wo_local, shading.at);
         if (!(f > 0.0).any()) {
             return Spectrum::Zero();
         }
@@ -212,7 +212,7 @@ class PathIntegrator {
         }
         const double weight =
             counts_hits_ && !light->delta
-                ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local, shading.uv))
+                ? power_heuristic(light->pdf_w, bsdf.pdf_w(wi_local, wo_local, shading.at))
                 : 1.0;
         return f * light->radiance *
                (weight * shading.share(light->wi) * std::abs(wi_local.z()) / light->pdf_w);

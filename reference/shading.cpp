@@ -26,7 +26,7 @@ Shading make_tilted_shading(const Geometry &geometry, const SurfacePoint &point,
     }
     return {Frame(tilt.normal_for(surface, ng, wo), surface.tangent),
             ng,
-            surface.uv,
+            TexturePoint(surface.uv, surface.colour),
             true,
             &tilt,
             surface.shading_normal,

@@ -13,6 +13,7 @@
 #include "reference/geometry.h"
 #include "reference/math.h"
 #include "reference/normal_map.h"
+#include "reference/texture.h"
 
 namespace rtrays::reference {
 
@@ -20,7 +21,7 @@ namespace rtrays::reference {
 struct Shading {
     Frame frame;  ///< z is the shading normal on the surface's front, x along dp/du
     Vec3 geometric_normal;
-    Eigen::Vector2d uv;
+    TexturePoint at;                   ///< where textures are looked up
     bool bent;                         ///< whether the frame's z differs from the geometric normal
     const NormalTilt *tilt = nullptr;  ///< the map of the material, or nullptr
     Vec3 untilted = Vec3::Zero();      ///< shading normal without the map
@@ -56,11 +57,11 @@ inline Shading make_shading(const Geometry &geometry, const SurfacePoint &point,
     }
     const Vec3 ng = geometry.normal(point);
     if (!parametrized && !geometry.has_shading_normal(point)) {
-        return {Frame(ng), ng, Eigen::Vector2d::Zero(), false};
+        return {Frame(ng), ng, Eigen::Vector2d(Eigen::Vector2d::Zero()), false};
     }
     const Parametrization surface = parametrize_for(geometry, point, wo);
-    return {Frame(surface.shading_normal, surface.tangent), ng, surface.uv,
-            surface.shading_normal != ng};
+    return {Frame(surface.shading_normal, surface.tangent), ng,
+            TexturePoint(surface.uv, surface.colour), surface.shading_normal != ng};
 }
 
 }  // namespace rtrays::reference

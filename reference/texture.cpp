@@ -67,7 +67,8 @@ Texture::Texture(const TextureArrays &textures, size_t index)
       filter_(textures.filter.at(index)),
       wrap_(textures.wrap.at(index)),
       scale_(textures.uv_scale.at(index)),
-      offset_(textures.uv_offset.at(index)) {
+      offset_(textures.uv_offset.at(index)),
+      has_vertex_colours_(textures.has_vertex_colours(static_cast<uint32_t>(index))) {
     require_valid(image_.get(), fmt::format("texture '{}'", textures.name.at(index)));
 }
 
@@ -116,7 +117,12 @@ Texture::Cell Texture::cell(const Eigen::Vector2d &uv) const {
             at.y() - row};
 }
 
-Spectrum Texture::evaluate(const Eigen::Vector2d &uv) const {
+Spectrum Texture::evaluate(const TexturePoint &at) const {
+    const Spectrum colour = image_colour(at.uv);
+    return has_vertex_colours_ ? Spectrum(colour * at.vertex_colour) : colour;
+}
+
+Spectrum Texture::image_colour(const Eigen::Vector2d &uv) const {
     if (filter_ == TextureArrays::Filter::nearest) {
         const Eigen::Vector2d at = texel_coordinates(uv);
         return look_up(std::floor(at.x()), std::floor(at.y()));

@@ -16,6 +16,17 @@ Spectrum texel(const TextureImage &image, int column, int row);
 /// Returns the Rec. 709 luminance of a linear colour. For a grey, this is exactly its value.
 double luminance(const Spectrum &colour);
 
+/// Where a surface looks up its textures. Implicit from coordinates, without colours of vertices.
+struct TexturePoint {
+    TexturePoint(const Eigen::Vector2d &coordinates)  // NOLINT: the conversion is meant
+        : uv(coordinates) {}
+    TexturePoint(const Eigen::Vector2d &coordinates, const Spectrum &colour)
+        : uv(coordinates), vertex_colour(colour) {}
+
+    Eigen::Vector2d uv;
+    Spectrum vertex_colour = Spectrum::Ones();  ///< interpolated between vertices
+};
+
 /// A colour over the (u, v) plane (conventions: renderer/scene/stores.h). Bytes are decoded before
 /// interpolation.
 class Texture {
@@ -24,7 +35,8 @@ class Texture {
     /// or empty, differs from its stated size, or has values that are negative or not finite.
     Texture(const TextureArrays &textures, size_t index);
 
-    Spectrum evaluate(const Eigen::Vector2d &uv) const;
+    /// Returns the linear colour, multiplied by that of the vertices if the texture has these.
+    Spectrum evaluate(const TexturePoint &at) const;
 
     /// Returns the derivatives of the Rec. 709 luminance by u and v; zero for the filter `nearest`.
     Eigen::Vector2d luminance_gradient(const Eigen::Vector2d &uv) const;
@@ -37,6 +49,7 @@ class Texture {
         Spectrum lower_left, lower_right, upper_left, upper_right;
         double right, up;  ///< position of the point between the texels
     };
+    Spectrum image_colour(const Eigen::Vector2d &uv) const;
     Cell cell(const Eigen::Vector2d &uv) const;
     Spectrum look_up(double column, double row_from_below) const;
     Eigen::Vector2d texel_coordinates(const Eigen::Vector2d &uv) const;
@@ -47,6 +60,7 @@ class Texture {
     TextureArrays::Wrap wrap_;
     Eigen::Vector2d scale_;
     Eigen::Vector2d offset_;
+    bool has_vertex_colours_;
 };
 
 /// Checks that the image satisfies the description of `TextureImage`. Throws `Error` (bad input)

@@ -51,6 +51,7 @@ bool make_record(const MeshArrays &meshes, uint32_t index, TriangleRecord &recor
     const uint32_t mesh = meshes.triangle_mesh[index];
     record.has_normals = meshes.has_normals[mesh] != 0;
     record.has_uv = meshes.has_uv[mesh] != 0;
+    record.has_colour = mesh < meshes.has_colour.size() && meshes.has_colour[mesh] != 0;
     record.material = meshes.material[mesh];
     record.light = meshes.light[mesh];
     return true;

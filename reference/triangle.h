@@ -23,6 +23,7 @@ struct TriangleRecord {
     uint32_t light;  ///< `no_index` if the triangle does not emit
     bool has_normals;
     bool has_uv;
+    bool has_colour;
 
     /// Returns the world position of the barycentrics of the second and third vertex.
     Vec3 point(const Eigen::Vector2d &barycentric) const {

@@ -126,7 +126,7 @@ TEST(BsdfEnergy, coated_bases_have_the_albedo_of_their_closed_form) {
 TEST(BsdfEnergy, disney_components_have_mitsubas_values) {
     const Vec3 wo = Vec3(0.9, 0.0, 0.2).normalized(), wi = Vec3(-0.8, 0.1, 0.25).normalized();
     const auto value = [&](const BxdfComponent &component) {
-        return make_bsdf({component}).evaluate(wi, wo, {0.0, 0.0})[0] * wi.z();
+        return make_bsdf({component}).evaluate(wi, wo, Eigen::Vector2d(0.0, 0.0))[0] * wi.z();
     };
     EXPECT_NEAR(value(disney_diffuse(0.7, 0.0)), 0.077319, 1e-6);
     EXPECT_NEAR(value(disney_diffuse(0.7, 0.4)), 0.111049, 1e-6);
@@ -318,7 +318,8 @@ TEST(Bsdf, a_texture_of_roughness_scales_it) {
             component.roughness_texture = 0;
             component.roughness_squared = squared;
         }
-        return make_bsdf({component}, true, textures).evaluate(wi, wo, {0.5, 0.5})[0];
+        return make_bsdf({component}, true, textures)
+            .evaluate(wi, wo, Eigen::Vector2d(0.5, 0.5))[0];
     };
     const auto ggx = BxdfComponent::Distribution::ggx;
     const double expected = value(microfacet(ggx, 0.1, 0.2), false, false);

@@ -84,8 +84,8 @@ TEST(Furnace, a_depth_limit_cuts_the_series_after_as_many_terms) {
 /// The density of the sampled direction is 2 % too large.
 struct WrongDensity : Lambert {
     using Lambert::Lambert;
-    std::optional<BsdfSample> sample(const Vec3 &wo, const Eigen::Vector2d &uv, Rng &rng) const {
-        auto result = Lambert::sample(wo, uv, rng);
+    std::optional<BsdfSample> sample(const Vec3 &wo, const TexturePoint &at, Rng &rng) const {
+        auto result = Lambert::sample(wo, at, rng);
         if (result) {
             result->weight /= 1.02;
         }
@@ -96,8 +96,8 @@ struct WrongDensity : Lambert {
 /// The cosine is missing from the explicit estimate.
 struct MissingCosine : Lambert {
     using Lambert::Lambert;
-    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const Eigen::Vector2d &uv) const {
-        return Lambert::evaluate(wi, wo, uv) / std::abs(wi.z());
+    Spectrum evaluate(const Vec3 &wi, const Vec3 &wo, const TexturePoint &at) const {
+        return Lambert::evaluate(wi, wo, at) / std::abs(wi.z());
     }
 };
 

@@ -64,11 +64,23 @@ TEST(Shading, tangents_follow_u_and_else_the_first_edge) {
     scene.set_uv({{0, 0}, {0, 2}, {3, 2}, {3, 0}});  // u along x, v along z
     const Shading mapped = shade(scene, Vec3::UnitY());
     EXPECT_NEAR((mapped.frame.x() - Vec3(1, -0.2, 0).normalized()).norm(), 0.0, 1e-6);
-    EXPECT_NEAR((mapped.uv - Eigen::Vector2d(0.75, 1.0)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((mapped.at.uv - Eigen::Vector2d(0.75, 1.0)).norm(), 0.0, 1e-6);
     scene.meshes.uv.assign(4, {1.0f, 1.0f});
     EXPECT_NEAR((shade(scene, Vec3::UnitY()).frame.x() - Vec3::UnitZ()).norm(), 0.0, 1e-6);
     scene.meshes.has_uv = {0};
     EXPECT_NEAR((shade(scene, Vec3::UnitY()).frame.x() - Vec3::UnitZ()).norm(), 0.0, 1e-6);
+}
+
+TEST(Shading, colours_are_interpolated_between_vertices) {
+    TestScene scene;
+    scene.add_quad(floor_corners, scene.add_material(Rgb::Constant(0.5f)));
+    EXPECT_TRUE((shade(scene, Vec3::UnitY()).at.vertex_colour == 1.0).all());
+    // Linear over the floor, so that its diagonal does not matter: x, z and 1 - x.
+    scene.set_colours({Rgb(0, 0, 1), Rgb(0, 1, 1), Rgb(1, 1, 0), Rgb(1, 0, 0)});
+    for (const auto &[x, z] : {std::pair(0.25, 0.5), std::pair(0.75, 0.125)}) {
+        const Spectrum colour = shade(scene, Vec3::UnitY(), x, z).at.vertex_colour;
+        EXPECT_LT((colour - Spectrum(x, z, 1.0 - x)).abs().maxCoeff(), 1e-6);
+    }
 }
 
 TEST(Shading, a_closed_box_stays_dark_inside_whatever_its_normals) {

@@ -106,6 +106,13 @@ void TestScene::set_uv(const std::vector<Eigen::Vector2d> &uv) {
     }
 }
 
+void TestScene::set_colours(const std::vector<Rgb> &colours) {
+    meshes.has_colour.resize(meshes.name.size(), 0);
+    meshes.has_colour.back() = 1;
+    meshes.colour.resize(meshes.position.size() - colours.size(), Rgb::Ones());
+    meshes.colour.insert(meshes.colour.end(), colours.begin(), colours.end());
+}
+
 void TestScene::add_quad(const std::array<Vec3, 4> &corners, uint32_t material,
                          const Rgb &radiance) {
     add_mesh({corners.begin(), corners.end()}, {{0, 1, 2}, {0, 2, 3}}, material, radiance);

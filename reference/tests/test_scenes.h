@@ -28,9 +28,10 @@ struct TestScene : SceneArrays {
     uint32_t add_shape(ShapeArrays::Kind kind, const Eigen::Matrix4d &world_from_object,
                        uint32_t material, const Rgb &radiance = Rgb::Zero());
 
-    /// Sets the normals or texture coordinates of the last mesh, one per vertex.
+    /// Sets the normals, texture coordinates or colours of the last mesh, one per vertex.
     void set_normals(const std::vector<Vec3> &normals);
     void set_uv(const std::vector<Eigen::Vector2d> &uv);
+    void set_colours(const std::vector<Rgb> &colours);
 
     /// Adds a quad with corners counter-clockwise as seen from the front.
     void add_quad(const std::array<Vec3, 4> &corners, uint32_t material,

@@ -23,7 +23,7 @@ TextureArrays four_texels(Filter filter, Wrap wrap) {
 }
 
 double red(const TextureArrays &textures, double u, double v) {
-    return Texture(textures, 0).evaluate({u, v})[0];
+    return Texture(textures, 0).evaluate(Eigen::Vector2d(u, v))[0];
 }
 
 TEST(Texture, nearest_starts_at_the_lower_left_corner) {
@@ -32,7 +32,7 @@ TEST(Texture, nearest_starts_at_the_lower_left_corner) {
     EXPECT_EQ(red(t, 0.9, 0.1), 4.0);
     EXPECT_EQ(red(t, 0.1, 0.9), 1.0);
     EXPECT_EQ(red(t, 0.9, 0.9), 2.0);
-    EXPECT_FLOAT_EQ(static_cast<float>(Texture(t, 0).evaluate({0.9, 0.9})[1]), 0.2f);
+    EXPECT_FLOAT_EQ(static_cast<float>(Texture(t, 0).evaluate(Eigen::Vector2d(0.9, 0.9))[1]), 0.2f);
     EXPECT_EQ(red(t, 1.1, -0.1), 1.0);  // repeated
     EXPECT_EQ(red(t, -5.9, 7.1), 3.0);
     EXPECT_TRUE(std::isfinite(red(t, 1e300, -1e300)));
@@ -45,6 +45,16 @@ TEST(Texture, bilinear_meets_the_texels_at_their_centres) {
     EXPECT_DOUBLE_EQ(red(t, 0.5, 0.5), 2.5);
     EXPECT_DOUBLE_EQ(red(t, 0.375, 0.25), 3.25);
     EXPECT_DOUBLE_EQ(red(t, 0.0, 0.25), 3.5);  // between the right and the left column
+}
+
+TEST(Texture, colours_of_vertices_multiply_the_image) {
+    TextureArrays t = four_texels(Filter::nearest, Wrap::repeat);
+    const TexturePoint point(Eigen::Vector2d(0.9, 0.1), Spectrum(0.5, 0.25, 1.0));
+    EXPECT_EQ(Texture(t, 0).evaluate(point)[0], 4.0);
+    t.vertex_colours = {1};
+    EXPECT_EQ(Texture(t, 0).evaluate(point)[0], 2.0);
+    EXPECT_FLOAT_EQ(static_cast<float>(Texture(t, 0).evaluate(point)[1]), 0.1f);
+    EXPECT_EQ(Texture(t, 0).evaluate(point.uv)[0], 4.0);
 }
 
 TEST(Texture, clamping_repeats_the_border) {
@@ -84,14 +94,14 @@ TEST(Texture, bytes_are_decoded_before_they_are_interpolated) {
     image->height = 1;
     image->bytes = {0, 128, 255, 255, 10, 0};
     TextureArrays t{{"t"}, {image}, {Filter::bilinear}, {Wrap::clamp}, {{1.0, 1.0}}, {{0.0, 0.0}}};
-    EXPECT_NEAR(Texture(t, 0).evaluate({0.25, 0.5})[1], 128.0 / 255.0, 1e-15);
+    EXPECT_NEAR(Texture(t, 0).evaluate(Eigen::Vector2d(0.25, 0.5))[1], 128.0 / 255.0, 1e-15);
     image->srgb = true;
-    const Spectrum left = Texture(t, 0).evaluate({0.25, 0.5});
+    const Spectrum left = Texture(t, 0).evaluate(Eigen::Vector2d(0.25, 0.5));
     EXPECT_EQ(left[0], 0.0);
     EXPECT_NEAR(left[1], 0.2158605, 1e-7);  // 128 decoded by IEC 61966-2-1
     EXPECT_EQ(left[2], 1.0);
-    EXPECT_NEAR(Texture(t, 0).evaluate({0.75, 0.5})[1], 10.0 / 255.0 / 12.92, 1e-15);
-    EXPECT_DOUBLE_EQ(Texture(t, 0).evaluate({0.5, 0.5})[0], 0.5);
+    EXPECT_NEAR(Texture(t, 0).evaluate(Eigen::Vector2d(0.75, 0.5))[1], 10.0 / 255.0 / 12.92, 1e-15);
+    EXPECT_DOUBLE_EQ(Texture(t, 0).evaluate(Eigen::Vector2d(0.5, 0.5))[0], 0.5);
 }
 
 TEST(Texture, refuses_broken_images) {

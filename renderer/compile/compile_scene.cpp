@@ -32,6 +32,17 @@ void compile_normals(const MeshArrays &meshes, CompiledScene &compiled) {
     }
 }
 
+/// Compiles the corner colours of all triangles, which are white without stored ones.
+void compile_colours(const MeshArrays &meshes, CompiledScene &compiled) {
+    for (const Triangle &t : meshes.triangle) {
+        TriangleColours &corners = compiled.triangle_colours.emplace_back();
+        for (size_t corner = 0; corner < 3; ++corner) {
+            copy3(meshes.colour.empty() ? Rgb(Rgb::Ones()) : meshes.colour[t[corner]],
+                  corners.colour[corner]);
+        }
+    }
+}
+
 /// Returns whether a texture or a tangent uses the texture coordinates of meshes.
 bool reads_uv(const CompiledScene &compiled) {
     return compiled.material_features.has(Feature::textures) ||
@@ -54,7 +65,8 @@ bool same_triangles(const std::vector<EmitterTriangle> &a, const std::vector<Emi
 
 bool are_equal(const TextureArrays &a, const TextureArrays &b) {
     return a.image == b.image && a.filter == b.filter && a.wrap == b.wrap &&
-           a.uv_scale == b.uv_scale && a.uv_offset == b.uv_offset;
+           a.uv_scale == b.uv_scale && a.uv_offset == b.uv_offset &&
+           a.vertex_colours == b.vertex_colours;
 }
 
 }  // namespace
@@ -189,6 +201,9 @@ void compile_triangles(const SceneArrays &scene, bool every_array, CompiledScene
     if (every_array || compiled.triangle_features.has(Feature::smooth_normals)) {
         compile_normals(meshes, compiled);
     }
+    if (every_array || compiled.material_features.has(Feature::vertex_colours)) {
+        compile_colours(meshes, compiled);
+    }
     if (every_array || compiled.triangle_features.has(Feature::texture_coordinates)) {
         for (const Triangle &t : meshes.triangle) {
             TriangleUv &uvs = compiled.triangle_uvs.emplace_back();
@@ -212,6 +227,7 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         const bool had_textures = compiled.material_features.has(Feature::textures);
         const bool read_uv = reads_uv(compiled);
         const bool had_maps = compiled.material_features.has(Feature::normal_maps);
+        const bool had_colours = compiled.material_features.has(Feature::vertex_colours);
         former.materials = std::exchange(compiled.materials, {});
         former.components = std::exchange(compiled.components, {});
         former.normal_maps = std::exchange(compiled.normal_maps, {});
@@ -221,7 +237,8 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         parts.textures |=
             has_textures != had_textures || !are_equal(compiled.texture_sources, scene.textures);
         parts.triangles |= reads_uv(compiled) != read_uv ||
-                           compiled.material_features.has(Feature::normal_maps) != had_maps;
+                           compiled.material_features.has(Feature::normal_maps) != had_maps ||
+                           compiled.material_features.has(Feature::vertex_colours) != had_colours;
         parts.opacity |=
             compiled.opacity_sources != scene.materials.opacity ||
             (!compiled.opacities.empty() && !are_equal(compiled.texture_sources, scene.textures));
@@ -249,6 +266,7 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         former.surface_triangles = std::exchange(compiled.surface_triangles, {});
         former.triangle_normals = std::exchange(compiled.triangle_normals, {});
         former.triangle_uvs = std::exchange(compiled.triangle_uvs, {});
+        former.triangle_colours = std::exchange(compiled.triangle_colours, {});
         compile_triangles(scene, settings.every_array, compiled);
     } else if (parts.lights) {
         clear_emitters(compiled);

@@ -49,9 +49,10 @@ inline bool operator==(const CompileSettings &a, const CompileSettings &b) {
 
 /// A set of parts of a compiled scene. Each part can be compiled again by itself.
 struct SceneParts {
-    bool materials = false;    ///< `materials`, `components`
-    bool textures = false;     ///< `textures`, `texels`
-    bool triangles = false;    ///< `surface_triangles`, `triangle_normals`, `triangle_uvs`
+    bool materials = false;  ///< `materials`, `components`
+    bool textures = false;   ///< `textures`, `texels`
+    /// `surface_triangles`, `triangle_normals`, `triangle_uvs`, `triangle_colours`
+    bool triangles = false;
     bool shapes = false;       ///< `shapes`, `shape_bounds`
     bool lights = false;       ///< `lights`, `emitter_triangles`, `lighting`
     bool environment = false;  ///< `environment_texels`, `environment_ends`
@@ -84,6 +85,7 @@ struct CompiledScene {
     std::vector<SurfaceTriangle> surface_triangles;
     std::vector<TriangleNormals> triangle_normals;
     std::vector<TriangleUv> triangle_uvs;
+    std::vector<TriangleColours> triangle_colours;
     std::vector<ShapeRecord> shapes;
     std::vector<ShapeBounds> shape_bounds;
     std::vector<MaterialRecord> materials;

@@ -204,7 +204,8 @@ TextureRecord texture_record(const TextureArrays &textures, size_t index) {
         (textures.filter[index] == TextureArrays::Filter::bilinear ? TEXTURE_BILINEAR : 0u) |
         (textures.wrap[index] == TextureArrays::Wrap::clamp    ? TEXTURE_CLAMP
          : textures.wrap[index] == TextureArrays::Wrap::mirror ? TEXTURE_CLAMP | TEXTURE_MIRROR
-                                                               : 0u);
+                                                               : 0u) |
+        (textures.has_vertex_colours(static_cast<uint32_t>(index)) ? TEXTURE_VERTEX_COLOURS : 0u);
     for (int i = 0; i < 2; ++i) {
         record.uv_scale[i] = static_cast<float>(textures.uv_scale[index][i]);
         record.uv_offset[i] = static_cast<float>(textures.uv_offset[index][i]);
@@ -229,6 +230,9 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             if (is_mirrored(scene.textures, component.texture) ||
                 is_mirrored(scene.textures, component.roughness_texture)) {
                 features = features.with(Feature::texture_mirror);
+            }
+            if (scene.textures.has_vertex_colours(component.texture)) {
+                features = features.with(Feature::vertex_colours);
             }
             if (component.kind == BxdfComponent::Kind::coated_lambert) {
                 compile_coat(component, compiled_component, coats, compiled);

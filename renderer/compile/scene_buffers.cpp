@@ -16,6 +16,7 @@ namespace part_of {
 constexpr auto surface_triangles = &SceneParts::triangles;
 constexpr auto triangle_normals = &SceneParts::triangles;
 constexpr auto triangle_uvs = &SceneParts::triangles;
+constexpr auto triangle_colours = &SceneParts::triangles;
 constexpr auto shapes = &SceneParts::shapes;
 constexpr auto shape_bounds = &SceneParts::shapes;
 constexpr auto materials = &SceneParts::materials;

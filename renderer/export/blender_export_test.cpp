@@ -98,6 +98,18 @@ TEST_F(BlenderExport, ScenesOfSingleFeaturesAreWrittenOrAreErrors) {
     EXPECT_GE(written, 37);
 }
 
+TEST_F(BlenderExport, RefusesColoursOfVertices) {
+    const Scene scene = parse_scene_json(
+        R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+        {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+        {"name": "tile", "geometry": {"type": "rectangle"},
+         "material": {"type": "lambert", "reflectance": [1, 1, 1],
+                      "reflectance_texture": {"vertex_colours": true}}}]})",
+        "in.json", "in", scenes);
+    expect_input_error("the export to Cycles does not support vertex colours",
+                       [&] { exported(scene); });
+}
+
 TEST_F(BlenderExport, SaysWhatTheArraysSay) {
     const Scene box = load_scene(scenes + "/cornell_box/scene.json");
     const Json description = exported(box, {500, 7});

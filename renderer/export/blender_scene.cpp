@@ -292,6 +292,11 @@ class SceneWriter {
                             "mirror",
                             textures.name[i]));
         }
+        if (textures.has_vertex_colours(i)) {
+            throw input_error(
+                fmt::format("texture '{}': the export to Cycles does not support vertex colours",
+                            textures.name[i]));
+        }
         return {{"name", textures.name[i]},
                 {"file", image_file(textures.image[i], textures.name[i])},
                 {"filter",

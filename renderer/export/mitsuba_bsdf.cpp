@@ -8,6 +8,7 @@
 #include "renderer/export/mitsuba_principled.h"
 #include "renderer/import/images/texture_file.h"
 #include "renderer/import/mitsuba/plastic.h"
+#include "renderer/import/models/textures.h"
 #include "renderer/scene/cores/composite.h"
 #include "renderer/scene/cores/texture.h"
 
@@ -88,8 +89,9 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
         materials.opacity[material].texture != no_index ||
         materials.normal_map[material].kind != NormalMap::Kind::none ||
         std::any_of(parts, parts + materials.component_count[material],
-                    [](const BxdfComponent &part) {
-                        return part.texture != no_index || part.roughness_texture != no_index ||
+                    [&](const BxdfComponent &part) {
+                        return (part.texture != no_index && !is_constant(part.texture)) ||
+                               part.roughness_texture != no_index ||
                                (is_rough(part) && part.alpha[0] != part.alpha[1]);
                     });
     if (depends_on_uv && uv == UvConvention::none) {
@@ -112,6 +114,20 @@ std::string BsdfWriter::id(uint32_t material, UvConvention uv) {
         }
     }
     return id;
+}
+
+bool BsdfWriter::is_constant(uint32_t texture) const {
+    const TextureImage &image = *arrays_.textures.image[texture];
+    return arrays_.textures.has_vertex_colours(texture) && image.width == 1 && image.height == 1;
+}
+
+bool BsdfWriter::has_vertex_colours(uint32_t material) const {
+    const MaterialArrays &materials = arrays_.materials;
+    const BxdfComponent *parts = &materials.component[materials.first_component[material]];
+    return std::any_of(
+        parts, parts + materials.component_count[material], [&](const BxdfComponent &part) {
+            return part.texture != no_index && arrays_.textures.has_vertex_colours(part.texture);
+        });
 }
 
 void BsdfWriter::write_radiance(pugi::xml_node emitter, const Rgb &radiance, uint32_t material,
@@ -308,7 +324,17 @@ void BsdfWriter::write_thin_dielectric(pugi::xml_node bsdf, const BxdfComponent 
                  uv);
 }
 
+void BsdfWriter::check_plastic(const BxdfComponent *parts) const {
+    for (size_t i = 0; i < 2; ++i) {
+        if (parts[i].texture != no_index && arrays_.textures.has_vertex_colours(parts[i].texture)) {
+            throw input_error(
+                "Mitsuba's plastics need the mean of their textures, which vertex colours lack");
+        }
+    }
+}
+
 void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+    check_plastic(parts);
     const double eta = parts[0].eta[0];
     if (parts[1].eta[0] != eta || !(eta > 1) || eta > 3) {
         throw input_error(
@@ -327,6 +353,7 @@ void BsdfWriter::write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, 
 }
 
 void BsdfWriter::write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv) {
+    check_plastic(parts);
     const BxdfComponent &surface = parts[0], &base = parts[1];
     if (surface.eta[0] != base.eta[0] || (is_rough(surface) && surface.alpha != base.alpha) ||
         (!is_rough(surface) && base.alpha[0] != 0) ||
@@ -388,6 +415,10 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
         return;
     }
     const TextureArrays &textures = arrays_.textures;
+    if (textures.has_vertex_colours(texture)) {
+        write_vertex_colours(bsdf, name, weight, texture);
+        return;
+    }
     pugi::xml_node node = add_object(bsdf, "texture", "bitmap");
     node.append_attribute("name") = name;
     add_property(node, "string", "filename", image_file(texture, weight, offset));
@@ -420,6 +451,21 @@ void BsdfWriter::write_weight(pugi::xml_node bsdf, const char *name, const Vecto
         fmt::format("{}, {}, 1", to_scale[0], to_scale[1]).c_str();
     transform.append_child("translate").append_attribute("value") =
         fmt::format("{}, {}, 0", to_offset[0], to_offset[1]).c_str();
+}
+
+void BsdfWriter::write_vertex_colours(pugi::xml_node bsdf, const char *name, const Vector3d &weight,
+                                      uint32_t texture) {
+    const Vector3d factor = weight.cwiseProduct(mean_of(*arrays_.textures.image[texture]));
+    if (!is_constant(texture) || factor.minCoeff() != factor.maxCoeff()) {
+        throw input_error(fmt::format(
+            "texture '{}': Mitsuba multiplies vertex colours by one number only; remove the image, "
+            "or use a grey colour",
+            arrays_.textures.name[texture]));
+    }
+    pugi::xml_node node = add_object(bsdf, "texture", "mesh_attribute");
+    node.append_attribute("name") = name;
+    add_property(node, "string", "name", "vertex_color");
+    add_number(node, "scale", factor[0]);
 }
 
 std::string BsdfWriter::image_file(uint32_t texture, const Vector3d &weight,

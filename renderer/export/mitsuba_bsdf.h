@@ -29,6 +29,9 @@ class BsdfWriter {
     /// input) naming the material and the feature that Mitsuba lacks.
     std::string id(uint32_t material, UvConvention uv);
 
+    /// Returns whether the BSDF of a material shows the colours of vertices.
+    bool has_vertex_colours(uint32_t material) const;
+
     /// Writes the radiance of an area light, of which the texture is that of the emission of its
     /// material. Throws `Error` (bad input) naming the material if Mitsuba lacks the coordinates.
     void write_radiance(pugi::xml_node emitter, const Rgb &radiance, uint32_t material,
@@ -61,12 +64,16 @@ class BsdfWriter {
     /// Returns the BSDF of a map of normals or heights. The BSDF of the surface becomes its child.
     pugi::xml_node write_map(pugi::xml_node parent, uint32_t material, const std::string &id,
                              UvConvention uv);
+    /// Returns whether a texture consists of the colours of vertices and one factor.
+    bool is_constant(uint32_t texture) const;
     /// Returns whether a triangle of the material has texture coordinates of negative area.
     bool has_mirrored_uv(uint32_t material) const;
     void write_diffuse(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_conductor(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_thin_dielectric(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
+    /// Throws `Error` (bad input) if a texture of a coat and its base has colours of vertices.
+    void check_plastic(const BxdfComponent *parts) const;
     void write_coated(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
     void write_principled(pugi::xml_node bsdf, const PrincipledBsdf &principled, UvConvention uv);
     void write_plastic(pugi::xml_node bsdf, const BxdfComponent *parts, UvConvention uv);
@@ -78,6 +85,9 @@ class BsdfWriter {
     void write_weight(pugi::xml_node bsdf, const char *name, const Eigen::Vector3d &weight,
                       uint32_t texture, UvConvention uv,
                       const Eigen::Vector3d &offset = Eigen::Vector3d::Zero());
+    /// Writes the colours of vertices. Throws `Error` (bad input) unless their factor is grey.
+    void write_vertex_colours(pugi::xml_node bsdf, const char *name, const Eigen::Vector3d &weight,
+                              uint32_t texture);
     std::string image_file(uint32_t texture, const Eigen::Vector3d &weight,
                            const Eigen::Vector3d &offset);
 

@@ -206,6 +206,7 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"rough_plastic",
          "no BSDF for microfacet_reflection * dielectric + lambert * (1 - dielectric);"},
         {"schlick", "no BSDF for ideal_reflection * schlick;"},
+        {"vertex_colours", "Mitsuba's plastics need the mean of their textures"},
         {"ward_010",
          "'object': material 'object': Mitsuba has no BSDF for ward; supported are: lambert; "},
         {"ward_anisotropic", "no BSDF for ward * conductor;"},
@@ -309,6 +310,36 @@ TEST_F(MitsubaExport, CropsComeBack) {
     EXPECT_EQ(back.crop()->y, 20);
     EXPECT_EQ(back.crop()->width, 30);
     EXPECT_EQ(back.crop()->height, 40);
+}
+
+TEST_F(MitsubaExport, ColoursOfVerticesComeBack) {
+    // The normals of the first triangle oppose it, so that its vertices are written twice.
+    const auto scene = [](const std::string &reflectance) {
+        return parse_scene_json(
+            R"({"version": 1, "film": {"width": 8, "height": 4}, "nodes": [
+            {"name": "eye", "camera": {"type": "pinhole", "fov": 60, "fov_axis": "x"}},
+            {"name": "tile", "geometry": {"type": "mesh", "polygons": [[0, 1, 2], [2, 1, 3]],
+             "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]],
+             "normals": [[0, 0, -1], [0, 0, -1], [0, 0, -1], [0, 0, 9]],
+             "colours": [[1, 0.5, 0], [0.25, 1, 0], [0, 0, 1], [1, 1, 1]]},
+             "material": {"type": "lambert", "reflectance": )" +
+                reflectance +
+                R"(, "reflectance_texture": {"vertex_colours": true, "filter": "nearest"}}}]})",
+            "in.json", "in", scenes);
+    };
+    const Notices silent;
+    const Scene painted = scene("[1, 1, 1]");
+    const Scene back = through_mitsuba(painted);
+    expect_same_material(painted.arrays(), 0, back.arrays(), 0);
+    EXPECT_TRUE(back.arrays().textures.has_vertex_colours(0));
+    for (size_t i = 0; i < 6; ++i) {
+        const MeshArrays &a = painted.meshes(), &b = back.meshes();
+        EXPECT_EQ(a.colour[a.triangle[i / 3][i % 3]], b.colour[b.triangle[i / 3][i % 3]]) << i;
+    }
+    const Scene grey = through_mitsuba(scene("[0.5, 0.5, 0.5]"));
+    EXPECT_EQ(grey.arrays().textures.image[0]->floats, std::vector<float>(3, 0.5f));
+    expect_input_error("Mitsuba multiplies vertex colours by one number only",
+                       [&] { through_mitsuba(scene("[0.5, 0.5, 0.6]")); });
 }
 
 TEST_F(MitsubaExport, TextureWeightsGoIntoTheTexels) {

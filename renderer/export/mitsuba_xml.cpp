@@ -47,6 +47,7 @@ MeshArrays with_normals_in_front(const MeshArrays &meshes, uint32_t mesh) {
     result.position = part(meshes.position);
     result.normal = part(meshes.normal);
     result.uv = part(meshes.uv);
+    result.colour = part(meshes.colour);
     std::map<uint32_t, uint32_t> turned;  // vertices with the opposite normal
     const auto first = meshes.triangle.begin() + meshes.first_triangle[mesh];
     for (auto t = first; t != first + meshes.triangle_count[mesh]; ++t) {
@@ -64,6 +65,9 @@ MeshArrays with_normals_in_front(const MeshArrays &meshes, uint32_t mesh) {
                     result.normal.push_back(-meshes.normal[(*t)[i]]);
                     if (!result.uv.empty()) {
                         result.uv.push_back(meshes.uv[(*t)[i]]);
+                    }
+                    if (!result.colour.empty()) {
+                        result.colour.push_back(meshes.colour[(*t)[i]]);
                     }
                 }
             }
@@ -203,6 +207,9 @@ class SceneWriter {
         std::string bsdf;
         try {
             bsdf = bsdfs_.id(material, uv);
+            if (type != std::string("ply") && bsdfs_.has_vertex_colours(material)) {
+                throw input_error("Mitsuba's meshes alone have vertex colours; use a mesh");
+            }
         } catch (const Error &error) {
             throw Error(error.exit_code(), fmt::format("'{}': {}", name, error.what()));
         }
@@ -218,6 +225,7 @@ class SceneWriter {
 
     void write_mesh(const MeshArrays &meshes, uint32_t mesh) {
         const bool has_uv = meshes.has_uv[mesh] != 0;
+        const bool with_colours = bsdfs_.has_vertex_colours(meshes.material[mesh]);
         const pugi::xml_node shape =
             add_shape("ply", meshes.name[mesh], meshes.material[mesh], meshes.light[mesh],
                       has_uv ? UvConvention::flipped : UvConvention::none);
@@ -226,9 +234,9 @@ class SceneWriter {
         if (meshes.has_normals[mesh] != 0 &&
             std::any_of(first, first + meshes.triangle_count[mesh],
                         [&](const Triangle &t) { return opposes_its_normals(meshes, t); })) {
-            write_ply(with_normals_in_front(meshes, mesh), 0, file);
+            write_ply(with_normals_in_front(meshes, mesh), 0, file, with_colours);
         } else {
-            write_ply(meshes, mesh, file);
+            write_ply(meshes, mesh, file, with_colours);
         }
         add_property(shape, "string", "filename", folder_.relative(file));
         add_boolean(shape, "face_normals", meshes.has_normals[mesh] == 0);

@@ -148,6 +148,7 @@ TEST_F(FuzzInputs, SceneJson) {
 }
 TEST_F(FuzzInputs, PlyAscii) {
     fuzz_scene("square.ply", "square.ply", 300);
+    fuzz_scene("painted.ply", "painted.ply", 200);
 }
 TEST_F(FuzzInputs, PlyBinary) {
     fuzz_scene("square_little.ply", "square_little.ply", 200);
@@ -183,7 +184,7 @@ TEST_F(FuzzInputs, Images) {
 
 /// Loads every beginning of a file, as a full disk or a broken download leaves it.
 TEST_F(FuzzInputs, TruncatedPly) {
-    for (const char *name : {"square.ply", "square_little.ply"}) {
+    for (const char *name : {"square.ply", "square_little.ply", "painted.ply"}) {
         const std::string whole = bytes_of(corpus / name);
         for (size_t size = 0; size + 3 < whole.size(); ++size) {  // cuts at least the last number
             const auto path = folder.write("cut.ply", whole.substr(0, size));

@@ -105,6 +105,12 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
         collector.add(textures.uv_scale);
         collector.add(textures.uv_offset);
     }
+    if (std::any_of(textures.vertex_colours.begin(), textures.vertex_colours.end(),
+                    [](uint8_t has) { return has != 0; })) {
+        collector.begin("vertex colours");
+        collector.add(textures.vertex_colours);
+        collector.add(meshes.colour);
+    }
     const std::vector<MaterialOpacity> &opacities = arrays.materials.opacity;
     if (!std::all_of(opacities.begin(), opacities.end(),
                      [](const MaterialOpacity &opacity) { return opacity.is_opaque(); })) {

@@ -305,7 +305,8 @@ TEST(SceneErrors, Geometry) {
             {R"({"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]], "uvs": [[0,0],[0,0],[0,1e7]]})",
              "mesh 'a': texture coordinate 2 is not within +-1e6: [0, 10000000]"},
             {R"({"type": "mesh", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "polygons": [[0,1,2]], "radius": 1})",
-             "unknown key 'radius' of the mesh; allowed: normals, polygons, uvs, vertices"},
+             "unknown key 'radius' of the mesh; allowed: colours, normals, polygons, uvs, "
+             "vertices"},
         });
     expect_refused(
         R"({"name": "a", "material": {"type": "lambert", "reflectance": [0, 0, 0]}, "geometry": {"type": "sphere"}, )",

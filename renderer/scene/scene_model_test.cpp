@@ -152,21 +152,26 @@ TEST(Meshes, NormalsAndCoordinatesComeAndGoWithTheirMeshes) {
     MeshCore::Geometry rich = bare;
     rich.normals.assign(3, Vector3d(0, 0, 2));
     rich.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    rich.colours = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0.5}};
     const auto mesh = std::make_shared<MeshCore>("rich", rich);
     other.set_core(mesh);
     graph.update(0);
     expect_consistent(graph);
     EXPECT_EQ(graph.arrays().meshes.uv[4], Vector2f(1, 0));
+    EXPECT_EQ(graph.arrays().meshes.colour[4], Rgb(0, 1, 0));
+    EXPECT_EQ(graph.arrays().meshes.colour[2], Rgb(1, 1, 1));
     EXPECT_EQ(graph.arrays().meshes.normal[2], Vector3f(0, 0, 0));
     EXPECT_EQ(graph.arrays().meshes.normal[3], Vector3f(0, 0, 1));
     plain.set_core(std::make_shared<VisibilityCore>("", false));
     graph.update(0);
     expect_consistent(graph);
     EXPECT_EQ(graph.arrays().meshes.uv[1], Vector2f(1, 0));
+    EXPECT_EQ(graph.arrays().meshes.colour[2], Rgb(0, 0, 0.5f));
     mesh->set_geometry(bare);
     graph.update(0);
     expect_consistent(graph);
     EXPECT_TRUE(graph.arrays().meshes.uv.empty());
+    EXPECT_TRUE(graph.arrays().meshes.colour.empty());
 }
 
 TEST(Lights, StandWhereTheirNodesAre) {

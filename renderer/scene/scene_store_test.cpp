@@ -195,7 +195,8 @@ TEST(Stores, AMeshThatGrowsGetsANewRecord) {
     expect_consistent(*graph);
 }
 
-/// Returns a mesh with or without normals and texture coordinates, or a shape that may emit.
+/// Returns a mesh with or without normals, texture coordinates and colours, or a shape that may
+/// emit.
 std::shared_ptr<Core> any_geometry(unsigned choice) {
     if (choice >= 4) {
         return shape(choice % 2 == 0 ? "sphere" : "disc");
@@ -206,6 +207,9 @@ std::shared_ptr<Core> any_geometry(unsigned choice) {
     }
     if (choice >= 2) {
         geometry.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    }
+    if (choice == 1 || choice == 2) {
+        geometry.colours.assign(3, Vector3d(1, 0.25 * choice, 0));
     }
     return choice == 0 ? unit_square() : std::make_shared<MeshCore>("", geometry);
 }
@@ -251,7 +255,8 @@ std::vector<std::string> described(const SceneArrays &arrays) {
             fmt::format("{}", light(arrays.meshes.light[i])),
             fmt::format("{}", arrays.meshes.position[v].x()),
             fmt::format("{}", arrays.meshes.has_normals[i]),
-            fmt::format("{}", arrays.meshes.has_uv[i] != 0 ? arrays.meshes.uv[v].x() : 0));
+            fmt::format("{}", arrays.meshes.has_uv[i] != 0 ? arrays.meshes.uv[v].x() : 0),
+            fmt::format("{}", arrays.meshes.colour.empty() ? 1 : arrays.meshes.colour[v].y()));
     }
     for (uint32_t i = 0; i < arrays.shapes.name.size(); ++i) {
         add(arrays.shapes.name[i], component(arrays.shapes.material[i]),

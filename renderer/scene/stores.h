@@ -66,6 +66,12 @@ struct TextureArrays {
     std::vector<Wrap> wrap;
     std::vector<Eigen::Vector2d> uv_scale;  ///< the image is sampled at uv_scale * uv + uv_offset
     std::vector<Eigen::Vector2d> uv_offset;
+    /// 1: the colours of vertices multiply the image. A texture without an entry ignores them.
+    std::vector<uint8_t> vertex_colours{};
+
+    bool has_vertex_colours(uint32_t i) const {
+        return i < vertex_colours.size() && vertex_colours[i] != 0;
+    }
 };
 
 /// One atomic BxDF of a material. Its contribution to the BSDF is weight * texture * F * f
@@ -222,16 +228,19 @@ struct MeshArrays {
     std::vector<uint32_t> triangle_count;
     std::vector<uint32_t> first_vertex;
     std::vector<uint32_t> vertex_count;
-    std::vector<uint32_t> material;    ///< index into MaterialArrays
-    std::vector<uint32_t> light;       ///< index into LightArrays, `no_index` if it does not emit
-    std::vector<uint8_t> has_normals;  ///< the vertices have shading normals
-    std::vector<uint8_t> has_uv;       ///< the vertices have texture coordinates
+    std::vector<uint32_t> material;     ///< index into MaterialArrays
+    std::vector<uint32_t> light;        ///< index into LightArrays, `no_index` if it does not emit
+    std::vector<uint8_t> has_normals;   ///< the vertices have shading normals
+    std::vector<uint8_t> has_uv;        ///< the vertices have texture coordinates
+    std::vector<uint8_t> has_colour{};  ///< the vertices have colours; no entry means 0
     // per vertex and per triangle, all meshes concatenated
     std::vector<Eigen::Vector3f> position;
     /// Unit normals, zero for meshes without normals. Empty if no mesh has normals.
     std::vector<Eigen::Vector3f> normal;
     /// Texture coordinates, zero for meshes without them. Empty if no mesh has them.
     std::vector<Eigen::Vector2f> uv;
+    /// Linear colours within [0, 1], white for meshes without them. Empty if no mesh has them.
+    std::vector<Rgb> colour;
     std::vector<Triangle> triangle;       ///< indices into `position`
     std::vector<uint32_t> triangle_mesh;  ///< mesh of each triangle
 };

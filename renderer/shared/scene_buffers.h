@@ -32,6 +32,7 @@
     X(FEATURE_triangles, SurfaceTriangle, surface_triangles)     \
     X(FEATURE_smooth_normals, TriangleNormals, triangle_normals) \
     X(FEATURE_texture_coordinates, TriangleUv, triangle_uvs)     \
+    X(FEATURE_vertex_colours, TriangleColours, triangle_colours) \
     X(FEATURE_scattering, MaterialRecord, materials)             \
     X(FEATURE_scattering, BxdfRecord, components)                \
     X(FEATURE_coated_lambert, float, coat_transmittances)        \

@@ -142,6 +142,7 @@ typedef struct TextureRecord {
 #define TEXTURE_CLAMP 8u     ///< clamped coordinates, otherwise repeated
 /// Mirrored coordinates. Comes with TEXTURE_CLAMP, because the neighbours at an edge are the same.
 #define TEXTURE_MIRROR 16u
+#define TEXTURE_VERTEX_COLOURS 32u  ///< the colours of vertices multiply its texels
 
 /// A map of normals or heights (kernels/bsdf/normal_map.h).
 typedef struct NormalMapRecord {
@@ -187,6 +188,11 @@ typedef struct TriangleNormals {
 typedef struct TriangleUv {
     float uv[3][2];
 } TriangleUv;
+
+/// Linear colours of a triangle's corners.
+typedef struct TriangleColours {
+    float colour[3][3];
+} TriangleColours;
 
 /// A surface that is not made of triangles, in the object space of ShapeArrays
 /// (renderer/scene/stores.h). The cone differs: here its apex is the origin.
@@ -308,6 +314,7 @@ static_assert(sizeof(OpacityRecord) == 48, "layout shared with the device");
 static_assert(sizeof(MaskedTriangle) == 32, "layout shared with the device");
 static_assert(sizeof(TriangleNormals) == 48, "layout shared with the device");
 static_assert(sizeof(TriangleUv) == 24, "layout shared with the device");
+static_assert(sizeof(TriangleColours) == 36, "layout shared with the device");
 static_assert(sizeof(ShapeRecord) == 144, "layout shared with the device");
 static_assert(sizeof(ShapeBounds) == 160, "layout shared with the device");
 static_assert(sizeof(LightRecord) == 112, "layout shared with the device");

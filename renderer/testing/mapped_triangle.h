@@ -16,6 +16,7 @@ struct MappedTriangle {
     SurfaceTriangle surface{};
     TriangleNormals normals{};
     TriangleUv uvs{};
+    TriangleColours colours{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
     MaterialRecord material{0, 0, MATERIAL_MAPPED, 0};
     TextureRecord texture{0, 1, 1, TEXTURE_FLOAT | TEXTURE_BILINEAR, {1, 1}, {0, 0}};
     std::vector<uint> texels = {as_uint(0.5f), as_uint(0.5f), as_uint(1.0f)};
@@ -70,6 +71,7 @@ struct MappedTriangle {
         scene.surface_triangles = &surface;
         scene.triangle_normals = &normals;
         scene.triangle_uvs = &uvs;
+        scene.triangle_colours = &colours;
         scene.materials = &material;
         scene.textures = &texture;
         scene.texels = texels.data();

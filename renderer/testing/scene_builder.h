@@ -124,6 +124,7 @@ inline void expect_consistent(const SceneGraph &graph) {
     };
     ASSERT_EQ(meshes.normal.size(), has(meshes.has_normals) ? vertices : 0);
     ASSERT_EQ(meshes.uv.size(), has(meshes.has_uv) ? vertices : 0);
+    ASSERT_EQ(meshes.colour.size(), has(meshes.has_colour) ? vertices : 0);
     for (uint32_t triangle = 0; triangle < triangles; ++triangle) {
         const uint32_t mesh = meshes.triangle_mesh[triangle];
         ASSERT_LT(mesh, meshes.name.size());

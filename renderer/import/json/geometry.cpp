@@ -48,7 +48,7 @@ std::shared_ptr<MeshCore> with_opposed_noted(std::shared_ptr<MeshCore> mesh) {
 
 std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name,
                                 const SceneSource &source, const std::string &path) {
-    check_keys(value, "mesh", {"vertices", "polygons"}, {"normals", "uvs"});
+    check_keys(value, "mesh", {"vertices", "polygons"}, {"normals", "uvs", "colours"});
     MeshCore::Geometry geometry;
     for (const Json &vertex : value.at("vertices")) {
         geometry.vertices.push_back(vector3(vertex));
@@ -61,6 +61,11 @@ std::shared_ptr<Core> read_mesh(const Json &value, const std::string &name,
     if (value.contains("uvs")) {
         for (const Json &uv : value.at("uvs")) {
             geometry.uvs.emplace_back(uv[0].get<double>(), uv[1].get<double>());
+        }
+    }
+    if (value.contains("colours")) {
+        for (const Json &colour : value.at("colours")) {
+            geometry.colours.push_back(vector3(colour));
         }
     }
     const Json &polygons = value.at("polygons");
@@ -92,8 +97,7 @@ std::shared_ptr<Core> read_morph(const Json &value, const std::string &name,
                     "mesh '{}': keyframe {} must be a mesh, file, rectangle or box", name, i));
             });
         }
-        keys.push_back({keyframes[i].at("time"),
-                        {mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()}});
+        keys.push_back({keyframes[i].at("time"), mesh->geometry()});
     }
     return std::make_shared<MorphedMesh>(name, std::move(keys));
 }

@@ -107,6 +107,16 @@ std::shared_ptr<Texture> read_texture(const Json &value, const std::string &name
                                       TextureFiles &files) {
     const ParameterValues values = parameter_values(value, "texture", Texture::parameter_table(),
                                                     {"file", "encoding"}, source, path);
+    const bool has_file = value.contains("file");
+    if (has_file != value.contains("encoding") ||
+        (!has_file && !value.value("vertex_colours", false))) {
+        return source.located(path, []() -> std::shared_ptr<Texture> {
+            throw input_error("a texture needs a file and its encoding, vertex_colours, or both");
+        });
+    }
+    if (!has_file) {
+        return std::make_shared<Texture>(name, white_image(), values);
+    }
     return source.located(path + "/file", [&] {
         const std::string &encoding_name = value.at("encoding").get_ref<const std::string &>();
         const TextureEncoding encoding = encoding_name == "srgb"    ? TextureEncoding::srgb

@@ -187,7 +187,7 @@ Names parameters_of(const Types &types) {
 
 TEST(SceneSchema, HasTheKeysOfTheTables) {
     EXPECT_EQ(schema_keys("material", {"type", "components"}), parameters_of(material_types()));
-    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs",
+    EXPECT_EQ(schema_keys("geometry", {"type", "vertices", "polygons", "normals", "uvs", "colours",
                                        "keyframes", "file", "shading_normals"}),
               parameters_of(shape_types()));
     EXPECT_EQ(schema_keys("light", {"type", "file"}), parameters_of(light_types()));

@@ -577,7 +577,7 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
 }
 
 std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &draft) {
-    draft.depends_on_uv = true;
+    draft.depends_on_uv |= element.attribute("type") != "mesh_attribute";
     return texture(element, draft.uv);
 }
 

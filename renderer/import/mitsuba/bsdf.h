@@ -105,6 +105,7 @@ class MaterialReader {
     std::shared_ptr<Texture> texture(const Element &element, Draft &draft);
     std::shared_ptr<Texture> bitmap(Object &object, UvConvention uv);
     std::shared_ptr<Texture> checkerboard(Object &object, UvConvention uv);
+    std::shared_ptr<Texture> mesh_attribute(Object &object);
 
     const Document &document_;
     Scene &scene_;

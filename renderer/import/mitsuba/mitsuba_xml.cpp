@@ -190,6 +190,7 @@ class SceneReader {
 
     void add_shape(const Element &element, const std::string &name, const Shape &shape,
                    const std::shared_ptr<MaterialCore> &material, const ShapeEmission &emission) {
+        check_vertex_colours(element, shape, *material);
         const bool emits = emission.light != nullptr || emission.texture != nullptr;
         const bool needs_mesh = (shape.is_flipped && !looks_the_same_flipped(*material, emits)) ||
                                 (emits && !shape.can_emit);
@@ -207,6 +208,23 @@ class SceneReader {
         node.set_core(material);
         if (emission.light != nullptr) {
             node.set_core(emission.light);
+        }
+    }
+
+    /// Throws if a texture needs colours of vertices that the shape lacks.
+    static void check_vertex_colours(const Element &element, const Shape &shape,
+                                     const MaterialCore &material) {
+        const auto *const mesh = dynamic_cast<const MeshCore *>(shape.geometry.get());
+        if (mesh != nullptr && !mesh->colours().empty()) {
+            return;
+        }
+        for (const auto &[parameter, texture] : material.parameters().textures()) {
+            if (texture->has_vertex_colours()) {
+                throw element.error(fmt::format(
+                    "has no vertex_color, which texture '{}' of its BSDF shows; use a PLY file "
+                    "with red, green and blue of vertices",
+                    texture->name()));
+            }
         }
     }
 

@@ -85,7 +85,7 @@ MeshCore::Geometry geometry_of(const std::filesystem::path &path, bool without_n
     options.normals =
         without_normals ? MeshFileOptions::Normals::none : MeshFileOptions::Normals::stored;
     const std::shared_ptr<MeshCore> mesh = load_mesh_file(path, path.stem().string(), options);
-    MeshCore::Geometry geometry{mesh->vertices(), mesh->triangles(), mesh->normals(), mesh->uvs()};
+    MeshCore::Geometry geometry = mesh->geometry();
     turn_towards_normals(geometry);
     return geometry;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads the textures of materials.
+#include <fmt/format.h>
+
 #include "renderer/base/error.h"
 #include "renderer/import/mitsuba/bsdf.h"
 #include "renderer/scene/cores/transform.h"
@@ -40,22 +42,28 @@ ParameterValues read_placement(Object &object, UvConvention uv) {
 }  // namespace
 
 std::shared_ptr<Texture> MaterialReader::texture(const Element &element, UvConvention uv) {
-    if (uv == UvConvention::none) {
+    const bool is_attribute = element.attribute("type") == "mesh_attribute";
+    if (uv == UvConvention::none && !is_attribute) {
         throw element.error(
             "this shape has no texture coordinates that match Mitsuba's; use one colour, or a mesh "
             "with texture coordinates");
     }
-    std::shared_ptr<Texture> &texture = textures_[{element.hash(), uv}];
+    std::shared_ptr<Texture> &texture =
+        textures_[{element.hash(), is_attribute ? UvConvention::none : uv}];
     if (texture != nullptr) {
         return texture;
     }
     Object object(element, document_);
     const bool is_bitmap = object.type() == "bitmap";
-    if (!is_bitmap && object.type() != "checkerboard") {
-        throw element.error("unsupported texture type; supported types are: bitmap, checkerboard");
+    if (!is_bitmap && !is_attribute && object.type() != "checkerboard") {
+        throw element.error(
+            "unsupported texture type; supported types are: bitmap, checkerboard, mesh_attribute");
     }
-    texture =
-        element.located([&] { return is_bitmap ? bitmap(object, uv) : checkerboard(object, uv); });
+    texture = element.located([&] {
+        return is_bitmap      ? bitmap(object, uv)
+               : is_attribute ? mesh_attribute(object)
+                              : checkerboard(object, uv);
+    });
     if (element.has("id")) {
         scene_.graph().share("textures." + texture->name(), texture);
     }
@@ -102,6 +110,32 @@ std::shared_ptr<Texture> MaterialReader::checkerboard(Object &object, UvConventi
     const Element &element = object.element();
     const std::string wanted = element.has("id") ? object.id() : "checkerboard";
     return std::make_shared<Texture>(texture_names_.unique(wanted), image, values);
+}
+
+/// Returns the colours of vertices, whose factor is an image of one texel.
+std::shared_ptr<Texture> MaterialReader::mesh_attribute(Object &object) {
+    const Element &element = object.element();
+    const std::string name = object.text("name", "");
+    if (name != "vertex_color") {
+        throw element.error(fmt::format(
+            "unsupported attribute '{}'; the supported one is vertex_color, the red, green and "
+            "blue of the vertices of a PLY file",
+            name));
+    }
+    const double scale = object.number("scale", 1);
+    object.finish();
+    if (!(scale >= 0)) {
+        throw element.error(fmt::format("scale: {} is negative", scale));
+    }
+    auto image = std::make_shared<TextureImage>(*white_image());
+    if (scale != 1) {
+        image->bytes.clear();
+        image->floats.assign(3, static_cast<float>(scale));
+    }
+    const std::string wanted = element.has("id") ? object.id() : "vertex_color";
+    return std::make_shared<Texture>(
+        texture_names_.unique(wanted), image,
+        ParameterValues{{"filter", std::string("nearest")}, {"vertex_colours", true}});
 }
 
 }  // namespace rtrays::mitsuba

@@ -40,7 +40,7 @@ Vector3d face_normal(const Geometry &geometry, const Triangle &t) {
 
 /// All attributes of a vertex. Without padding, so that bytes can be compared.
 struct VertexKey {
-    double values[8] = {};
+    double values[11] = {};
 
     bool operator==(const VertexKey &other) const {
         return std::memcmp(values, other.values, sizeof values) == 0;
@@ -56,6 +56,9 @@ VertexKey key_of(const Geometry &geometry, size_t i) {
     }
     if (!geometry.uvs.empty()) {
         Eigen::Map<Vector2d>(key.values + 6) = (geometry.uvs[i].array() + 0.0).matrix();
+    }
+    if (!geometry.colours.empty()) {
+        Eigen::Map<Vector3d>(key.values + 8) = (geometry.colours[i].array() + 0.0).matrix();
     }
     return key;
 }
@@ -78,6 +81,9 @@ void append_vertex(const Geometry &from, size_t i, Geometry &to) {
     }
     if (!from.uvs.empty()) {
         to.uvs.push_back(from.uvs[i]);
+    }
+    if (!from.colours.empty()) {
+        to.colours.push_back(from.colours[i]);
     }
 }
 
@@ -205,6 +211,20 @@ void repair_normals(Geometry &geometry, const std::string &mesh, ModelNotes &not
     geometry.normals = std::move(normals);
 }
 
+void clamp_colours(Geometry &geometry, const std::string &mesh, ModelNotes &notes) {
+    bool has_clamped = false;
+    for (Vector3d &colour : geometry.colours) {
+        const Vector3d clamped = colour.cwiseMax(0.0).cwiseMin(1.0);
+        if (colour.allFinite() && clamped != colour) {
+            colour = clamped;
+            has_clamped = true;
+        }
+    }
+    if (has_clamped) {
+        notes.add("vertex colours are clamped to [0, 1]", mesh);
+    }
+}
+
 size_t count_opposed(const MeshCore &mesh) {
     if (mesh.normals().empty()) {
         return 0;
@@ -258,6 +278,10 @@ void append_geometry(Geometry &geometry, Geometry part, const Eigen::Matrix4d &t
         Geometry &lacking = geometry.uvs.empty() ? geometry : part;
         lacking.uvs.assign(lacking.vertices.size(), Vector2d::Zero());
     }
+    if (geometry.colours.empty() != part.colours.empty()) {
+        Geometry &lacking = geometry.colours.empty() ? geometry : part;
+        lacking.colours.assign(lacking.vertices.size(), Vector3d::Ones());
+    }
     const size_t first = geometry.vertices.size();
     if (first + part.vertices.size() >= no_index) {
         throw input_error("the file has more than 2^32 vertices");
@@ -265,6 +289,7 @@ void append_geometry(Geometry &geometry, Geometry part, const Eigen::Matrix4d &t
     append(geometry.vertices, part.vertices);
     append(geometry.normals, part.normals);
     append(geometry.uvs, part.uvs);
+    append(geometry.colours, part.colours);
     for (const Triangle &t : part.triangles) {
         const auto offset = static_cast<uint32_t>(first);
         geometry.triangles.push_back({offset + t[0], offset + t[1], offset + t[2]});

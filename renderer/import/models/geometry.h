@@ -19,8 +19,8 @@ namespace rtrays {
 size_t add_face(const uint32_t *corners, size_t count, size_t face, const std::string &mesh,
                 MeshCore::Geometry &geometry, ModelNotes &notes);
 
-/// Merges vertices with equal position, normal and texture coordinates, and drops unused ones.
-/// Triangles keep their order. Vertices are in the order of their first use.
+/// Merges vertices with equal position, normal, texture coordinates and colour, and drops unused
+/// ones. Triangles keep their order. Vertices are in the order of their first use.
 void join_vertices(MeshCore::Geometry &geometry);
 
 /// Sets the normal of every vertex to the mean normal of its triangles, weighted by their angles at
@@ -30,6 +30,10 @@ void make_smooth_normals(MeshCore::Geometry &geometry);
 /// Replaces normals that are zero or not finite by smooth normals, with a note.
 void repair_normals(MeshCore::Geometry &geometry, const std::string &mesh, ModelNotes &notes);
 
+/// Clamps colours of vertices to [0, 1], with a note. Those that are not finite remain, and the
+/// mesh reports them.
+void clamp_colours(MeshCore::Geometry &geometry, const std::string &mesh, ModelNotes &notes);
+
 /// Returns the number of triangles whose normals, in the mean of the corners, are on the other side
 /// than the front that the winding defines.
 size_t count_opposed(const MeshCore &mesh);
@@ -38,7 +42,8 @@ size_t count_opposed(const MeshCore &mesh);
 void note_opposed(const MeshCore &mesh, ModelNotes &notes);
 
 /// Appends `part`, transformed. If only one of the two has normals, the other one gets the normals
-/// of its triangles. If only one has texture coordinates, those of the other one are zero.
+/// of its triangles. If only one has texture coordinates or colours, the coordinates of the other
+/// one are zero and its colours white.
 void append_geometry(MeshCore::Geometry &geometry, MeshCore::Geometry part,
                      const Eigen::Matrix4d &transform);
 

@@ -218,26 +218,52 @@ std::string decoded(const std::string &uri) {
     return text;
 }
 
+/// Returns the entry of an array of the document, or null.
+const Json &entry(const Json &document, const char *array, const Json &index) {
+    static const Json null;
+    const Json &all = member(document, array);
+    return index.is_number_unsigned() && all.is_array() && index.get<size_t>() < all.size()
+               ? all[index.get<size_t>()]
+               : null;
+}
+
+/// Throws if colours of vertices have a type that glTF does not allow. Notes their alpha, which
+/// would multiply the opacity.
+void check_colours(const Json &document, const Json &primitive, const std::string &mesh,
+                   ModelNotes &notes) {
+    constexpr int floats = 5126, bytes = 5121, shorts = 5123;
+    const Json &accessor =
+        entry(document, "accessors", member(member(primitive, "attributes"), "COLOR_0"));
+    const Json &type = member(accessor, "componentType");
+    if (type.is_number_unsigned() && type != floats && type != bytes && type != shorts) {
+        throw input_error(fmt::format(
+            "mesh '{}': COLOR_0 has the component type {}; it must be 5121, 5123 or 5126", mesh,
+            type.get<uint64_t>()));
+    }
+    const Json &alpha_mode =
+        member(entry(document, "materials", member(primitive, "material")), "alphaMode");
+    if (member(accessor, "type") == "VEC4" && alpha_mode.is_string() && alpha_mode != "OPAQUE") {
+        notes.add("the alpha of vertex colours is ignored", mesh);
+    }
+}
+
 /// Throws if vertices have attributes of integers, which Assimp reads as the bits of floats.
-void check_attributes(const Json &document) {
+void check_attributes(const Json &document, ModelNotes &notes) {
     constexpr int floats = 5126;
-    const Json &accessors = member(document, "accessors");
     for (const Json &mesh : member(document, "meshes")) {
+        const Json &name = member(mesh, "name");
+        const std::string shown_name = name.is_string() ? shown(name.get<std::string>()) : "";
         for (const Json &primitive : member(mesh, "primitives")) {
+            check_colours(document, primitive, shown_name, notes);
             for (const auto &[key, value] : member(primitive, "attributes").items()) {
                 const bool is_read =
                     key == "POSITION" || key == "NORMAL" || key.compare(0, 9, "TEXCOORD_") == 0;
-                if (!is_read || !value.is_number_unsigned() || !accessors.is_array() ||
-                    value.get<size_t>() >= accessors.size()) {
-                    continue;
-                }
-                const Json &type = member(accessors[value.get<size_t>()], "componentType");
-                if (type.is_number_unsigned() && type != floats) {
-                    const Json &name = member(mesh, "name");
+                const Json &type = member(entry(document, "accessors", value), "componentType");
+                if (is_read && type.is_number_unsigned() && type != floats) {
                     throw input_error(
                         fmt::format("mesh '{}': {} is stored as integers, which is unsupported; "
                                     "export floats",
-                                    name.is_string() ? shown(name.get<std::string>()) : "", key));
+                                    shown_name, key));
                 }
             }
         }
@@ -368,7 +394,7 @@ void check_gltf(const Json &document, const std::filesystem::path &path, ModelNo
                                                          : extension.dump()));
         }
     }
-    check_attributes(document);
+    check_attributes(document, notes);
     note_buffers(document, path.parent_path(), notes);
     if (member(document, "scenes").size() > 1) {
         notes.add("only the default scene is used");

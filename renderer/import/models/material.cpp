@@ -161,10 +161,11 @@ GltfMaterial without_extensions(const aiMaterial &source) {
 
 ModelMaterials::ModelMaterials(std::shared_ptr<const aiScene> model,
                                std::filesystem::path directory, std::vector<GltfMaterial> extended,
-                               ModelNotes &notes)
+                               bool vertex_coloured, ModelNotes &notes)
     : model_(std::move(model)),
       directory_(std::move(directory)),
       extended_(std::move(extended)),
+      vertex_coloured_(vertex_coloured),
       notes_(notes),
       textures_(notes) {}
 
@@ -174,6 +175,14 @@ const GltfMaterial *ModelMaterials::extended(unsigned index) const {
     size_t number = extended_.size();
     std::from_chars(stated.data(), stated.data() + stated.size(), number);
     return number < extended_.size() ? &extended_[number] : nullptr;
+}
+
+bool ModelMaterials::is_vertex_coloured(unsigned index) const {
+    return vertex_coloured_ && std::any_of(model_->mMeshes, model_->mMeshes + model_->mNumMeshes,
+                                           [&](const aiMesh *mesh) {
+                                               return mesh->mMaterialIndex == index &&
+                                                      mesh->HasVertexColors(0);
+                                           });
 }
 
 std::string ModelMaterials::name(unsigned index) const {
@@ -253,8 +262,8 @@ Vector3d ModelMaterials::mean_of_map(const aiMaterial &source, int type, bool is
 
 std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int type_number,
                                                  const GltfTextureTransform *transform,
-                                                 const std::string &name,
-                                                 TextureEncoding encoding) {
+                                                 const std::string &name, TextureEncoding encoding,
+                                                 bool vertex_colours) {
     const auto type = static_cast<aiTextureType>(type_number);
     aiString file;
     aiTextureMapping mapping = aiTextureMapping_UV;
@@ -278,6 +287,7 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
         notes_.add("textures with different wrap modes along u and v use the mode along u", name);
     }
     TexturePlacement placement;
+    placement.vertex_colours = vertex_colours;
     placement.wrap = modes[0] == aiTextureMapMode_Clamp    ? TextureArrays::Wrap::clamp
                      : modes[0] == aiTextureMapMode_Mirror ? TextureArrays::Wrap::mirror
                                                            : TextureArrays::Wrap::repeat;
@@ -453,8 +463,13 @@ ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     }
     read_opacity(source, gltf, name, surface);
     read_normals(source, gltf, name, surface);
-    surface.diffuse_texture = texture(source, colour_map(source),
-                                      gltf != nullptr ? &gltf->base_transform : nullptr, name);
+    const bool coloured = is_vertex_coloured(index);
+    surface.diffuse_texture =
+        texture(source, colour_map(source), gltf != nullptr ? &gltf->base_transform : nullptr, name,
+                TextureEncoding::srgb, coloured);
+    if (coloured && surface.diffuse_texture == nullptr) {
+        surface.diffuse_texture = textures_.vertex_colours();
+    }
     surface.specular_texture =
         surface.is_physical ? nullptr : texture(source, aiTextureType_SPECULAR, nullptr, name);
 

@@ -25,9 +25,9 @@ class ModelMaterials {
   public:
     /// `model` has the embedded images. File names are relative to `directory`. `extended` has the
     /// materials of a glTF file, and is empty for other formats. The name of a glTF material in
-    /// `model` is its index there.
+    /// `model` is its index there. If `vertex_coloured`, colours of vertices multiply base colours.
     ModelMaterials(std::shared_ptr<const aiScene> model, std::filesystem::path directory,
-                   std::vector<GltfMaterial> extended, ModelNotes &notes);
+                   std::vector<GltfMaterial> extended, bool vertex_coloured, ModelNotes &notes);
 
     /// Returns the name of a material in its file, which may be empty.
     std::string name(unsigned index) const;
@@ -48,6 +48,8 @@ class ModelMaterials {
 
   private:
     const GltfMaterial *extended(unsigned index) const;
+    /// Returns whether the colours of vertices of a mesh multiply this material.
+    bool is_vertex_coloured(unsigned index) const;
     /// Returns an image, or null for an alpha channel that is missing or opaque everywhere.
     std::shared_ptr<const TextureImage> load(const std::string &file, TextureEncoding encoding);
     Eigen::Vector3d mean_of_map(const aiMaterial &source, int type, bool is_colour);
@@ -55,7 +57,8 @@ class ModelMaterials {
     /// `transform` is that of a glTF file. Without it, the material has the placement.
     std::shared_ptr<Texture> texture(const aiMaterial &source, int type,
                                      const GltfTextureTransform *transform, const std::string &name,
-                                     TextureEncoding encoding = TextureEncoding::srgb);
+                                     TextureEncoding encoding = TextureEncoding::srgb,
+                                     bool vertex_colours = false);
     void read_opacity(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
                       ModelSurface &surface);
     void read_normals(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
@@ -69,6 +72,7 @@ class ModelMaterials {
     std::shared_ptr<const aiScene> model_;
     std::filesystem::path directory_;
     std::vector<GltfMaterial> extended_;
+    bool vertex_coloured_;
     ModelNotes &notes_;
     ModelTextures textures_;
     std::map<std::pair<std::string, TextureEncoding>, std::shared_ptr<const TextureImage>>

@@ -69,7 +69,13 @@ bool is_model_file(const std::filesystem::path &path) {
            (extension.size() > 1 && !is_scene && assimp_reads(extension));
 }
 
-std::shared_ptr<MaterialCore> default_model_material(const std::string &name) {
+std::shared_ptr<MaterialCore> default_model_material(
+    const std::string &name, const std::shared_ptr<Texture> &vertex_colours) {
+    if (vertex_colours != nullptr) {
+        return std::make_shared<MaterialCore>(
+            name, "lambert", ParameterValues{{"reflectance", Eigen::Vector3d(1, 1, 1)}},
+            ParameterTextures{{"reflectance", vertex_colours}});
+    }
     return std::make_shared<MaterialCore>(name, "lambert",
                                           ParameterValues{{"reflectance", ModelSurface{}.diffuse}});
 }

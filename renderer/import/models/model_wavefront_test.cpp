@@ -129,14 +129,13 @@ TEST(Obj, NamesWhatItIgnores) {
                                          "o tri\ns 1\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0.5\nvp 0 1\n"
                                          "usemtl lost\nf 1 2 3\nl 1 2\ncurv 0 1\n"));
     for (const char *text :
-         {"vertex colours are ignored (1: line 3)", "weights of vertices are ignored (1: line 5)",
-          "points and lines are ignored (1: line 9)",
+         {"vertex colours are decoded by the sRGB curve",
+          "weights of vertices are ignored (1: line 5)", "points and lines are ignored (1: line 9)",
           "statements that are unsupported here are ignored (2: 'vp' in line 6, 'curv' in line 10)",
           "smoothing groups are ignored; faces without normals are flat (1: tri)",
-          "materials without a definition are grey (1: lost)"}) {
+          "materials without a definition have the colours of vertices (1: lost)"}) {
         EXPECT_TRUE(model.says(text)) << text << "\n" << model.told;
     }
-    EXPECT_EQ(model.material("default")[0].weight, Vector3f::Constant(0.6f));
     EXPECT_EQ(model.scene.meshes().name, std::vector<std::string>{"tri"});
 }
 

@@ -404,7 +404,8 @@ std::vector<MtlMaterial> read_mtl(const std::filesystem::path &path, ModelNotes 
 std::shared_ptr<MaterialCore> make_mtl_material(const MtlMaterial &material,
                                                 const std::string &name,
                                                 const std::filesystem::path &model_folder,
-                                                ModelTextures &textures, ModelNotes &notes) {
+                                                bool vertex_coloured, ModelTextures &textures,
+                                                ModelNotes &notes) {
     const std::vector<std::filesystem::path> folders = {material.folder, model_folder};
     ModelSurface surface = material.surface;
     try {
@@ -413,7 +414,11 @@ std::shared_ptr<MaterialCore> make_mtl_material(const MtlMaterial &material,
                                     : textures.texture(textures.load(map.file, folders, true),
                                                        map.file, map.placement);
         };
-        surface.diffuse_texture = texture(material.diffuse_map);
+        MtlMap diffuse_map = material.diffuse_map;
+        diffuse_map.placement.vertex_colours = vertex_coloured;
+        surface.diffuse_texture = vertex_coloured && diffuse_map.file.empty()
+                                      ? textures.vertex_colours()
+                                      : texture(diffuse_map);
         surface.specular_texture = surface.is_physical ? nullptr : texture(material.specular_map);
         surface.opacity_texture = opacity_texture(material, name, folders, textures, notes);
         set_normals(material, name, folders, textures, notes, surface);

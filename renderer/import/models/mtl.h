@@ -40,10 +40,12 @@ struct MtlMaterial {
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path &path, ModelNotes &notes);
 
 /// Converts a material and loads its images. They are looked for beside the MTL file, then in
-/// `model_folder`. Throws `Error` (bad input) naming the material and the fault.
+/// `model_folder`. If `vertex_coloured`, the colours of vertices multiply the diffuse colour.
+/// Throws `Error` (bad input) naming the material and the fault.
 std::shared_ptr<MaterialCore> make_mtl_material(const MtlMaterial &material,
                                                 const std::string &name,
                                                 const std::filesystem::path &model_folder,
-                                                ModelTextures &textures, ModelNotes &notes);
+                                                bool vertex_coloured, ModelTextures &textures,
+                                                ModelNotes &notes);
 
 }  // namespace rtrays

@@ -16,6 +16,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/statements.h"
+#include "renderer/scene/cores/texture.h"
 
 namespace rtrays {
 
@@ -133,7 +134,13 @@ class ObjReader {
         const auto [p, count] = numbers(rest, 3, 8, "a vertex");
         vertices_.emplace_back(p[0], p[1], p[2]);
         if (count >= 6) {
-            notes_.add("vertex colours are ignored", fmt::format("line {}", line_));
+            colours_.resize(vertices_.size() - 1, Vector3d::Ones());
+            colours_.emplace_back(srgb_decoded(p[3]), srgb_decoded(p[4]), srgb_decoded(p[5]));
+            notes_.add("vertex colours are decoded by the sRGB curve");
+            if (count > 6) {
+                notes_.add("numbers after the colour of a vertex are ignored",
+                           fmt::format("line {}", line_));
+            }
         } else if (count > 3 && p[3] != 1) {
             notes_.add("weights of vertices are ignored", fmt::format("line {}", line_));
         }
@@ -242,6 +249,7 @@ class ObjReader {
         }
         join_vertices(geometry);
         repair_normals(geometry, name, notes_);
+        clamp_colours(geometry, name, notes_);
         if (group.is_smoothed && !group.has_normals) {
             notes_.add("smoothing groups are ignored; faces without normals are flat", name);
         }
@@ -252,6 +260,10 @@ class ObjReader {
                        MeshCore::Geometry &geometry) const {
         // Indices may refer to elements that follow the face, so they are checked at the end.
         geometry.vertices.push_back(at(vertices_, corner.vertex, "vertex"));
+        if (!colours_.empty()) {
+            geometry.colours.push_back(corner.vertex < colours_.size() ? colours_[corner.vertex]
+                                                                       : Vector3d::Ones());
+        }
         if (group.has_uvs) {
             geometry.uvs.push_back(at(uvs_, corner.uv, "texture coordinate"));
         }
@@ -273,6 +285,8 @@ class ObjReader {
     ModelNotes &notes_;
     size_t line_ = 0;
     std::vector<Vector3d> vertices_;
+    /// Colours of the first vertices. Those that follow have none, and are white.
+    std::vector<Vector3d> colours_;
     std::vector<Vector3d> normals_;
     std::vector<Vector2d> uvs_;
     std::string object_;

@@ -31,10 +31,11 @@ struct ObjFile {
     std::vector<ObjLibraries> libraries;
 };
 
-/// Reads an OBJ file: vertices, normals, texture coordinates, polygons, objects, groups and names
-/// of materials. Lines may have comments and blanks, and may continue after a backslash. Notes
-/// report all other statements. Throws `Error` (bad input) naming the file, the line and the fault
-/// if a statement is malformed, an index is out of range or the file has no faces.
+/// Reads an OBJ file: vertices, their colours (x y z r g b, decoded by the sRGB curve), normals,
+/// texture coordinates, polygons, objects, groups and names of materials. Lines may have comments
+/// and blanks, and may continue after a backslash. Notes report all other statements. Throws
+/// `Error` (bad input) naming the file, the line and the fault if a statement is malformed, an
+/// index is out of range or the file has no faces.
 ObjFile read_obj(const std::filesystem::path &path, ModelNotes &notes, bool quiet);
 
 }  // namespace rtrays

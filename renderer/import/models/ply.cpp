@@ -19,6 +19,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/statements.h"
+#include "renderer/scene/cores/texture.h"
 
 namespace rtrays {
 
@@ -300,11 +301,41 @@ struct Rows {
     std::vector<int64_t> material;       ///< material index of each face
 };
 
-enum Coordinate { x, y, z, nx, ny, nz, u, v, coordinate_count, unknown = coordinate_count };
+enum Coordinate {
+    x,
+    y,
+    z,
+    nx,
+    ny,
+    nz,
+    u,
+    v,
+    red,
+    green,
+    blue,
+    coordinate_count,
+    unknown = coordinate_count
+};
 constexpr std::pair<const char *, Coordinate> coordinate_names[] = {
-    {"x", x},         {"y", y},         {"z", z},         {"nx", nx},      {"ny", ny},
-    {"nz", nz},       {"u", u},         {"v", v},         {"s", u},        {"t", v},
-    {"texture_u", u}, {"texture_v", v}, {"texture_s", u}, {"texture_t", v}};
+    {"x", x},         {"y", y},         {"z", z},         {"nx", nx},       {"ny", ny},
+    {"nz", nz},       {"u", u},         {"v", v},         {"s", u},         {"t", v},
+    {"texture_u", u}, {"texture_v", v}, {"texture_s", u}, {"texture_t", v}, {"red", red},
+    {"green", green}, {"blue", blue},   {"r", red},       {"g", green},     {"b", blue}};
+
+/// Returns the value that means 1 in a colour of that type: 0 if the type is not one of colours.
+double one_of(Scalar scalar) {
+    switch (scalar) {
+        case Scalar::uint8:
+            return 255;
+        case Scalar::uint16:
+            return 65535;
+        case Scalar::float32:
+        case Scalar::float64:
+            return 1;
+        default:
+            return 0;
+    }
+}
 
 /// Reads the data that follow the header.
 template <typename Data>
@@ -379,11 +410,15 @@ class BodyReader {
     void read_vertices(const PlyElement &element) {
         std::vector<Coordinate> meaning;
         std::array<bool, coordinate_count + 1> has{};
+        std::array<double, coordinate_count + 1> one{};  // values that mean 1
         for (const PlyProperty &property : element.properties) {
             Coordinate found = unknown;
             for (const auto &[name, coordinate] : coordinate_names) {
-                if (property.name == name && !property.list_count && !has[coordinate]) {
+                const bool is_usable = coordinate < red || one_of(property.scalar) > 0;
+                if (property.name == name && !property.list_count && !has[coordinate] &&
+                    is_usable) {
                     found = coordinate;
+                    one[coordinate] = one_of(property.scalar);
                 }
             }
             if (found == unknown) {
@@ -400,9 +435,17 @@ class BodyReader {
         }
         const bool has_normals = has[nx] && has[ny] && has[nz];
         const bool has_uvs = has[u] && has[v];
+        const bool has_colours = has[red] && has[green] && has[blue];
+        if (!has_colours && (has[red] || has[green] || has[blue])) {
+            notes_.add("vertex colours without all of red, green and blue are ignored");
+        }
+        if (has_colours && one[red] > 1) {
+            notes_.add("vertex colours that are integers are decoded by the sRGB curve");
+        }
         rows_.geometry.vertices.reserve(element.count);
         rows_.geometry.normals.reserve(has_normals ? element.count : 0);
         rows_.geometry.uvs.reserve(has_uvs ? element.count : 0);
+        rows_.geometry.colours.reserve(has_colours ? element.count : 0);
         std::array<double, coordinate_count + 1> value{};
         rows_of(element, [&] {
             for (size_t i = 0; i < meaning.size(); ++i) {
@@ -419,6 +462,13 @@ class BodyReader {
             }
             if (has_uvs) {
                 rows_.geometry.uvs.emplace_back(value[u], value[v]);
+            }
+            if (has_colours) {
+                const auto linear = [&](Coordinate channel) {
+                    const double part = value[channel] / one[channel];
+                    return one[channel] > 1 ? srgb_decoded(part) : part;
+                };
+                rows_.geometry.colours.emplace_back(linear(red), linear(green), linear(blue));
             }
         });
     }
@@ -515,6 +565,7 @@ PlyFile read_ply(const std::filesystem::path &path, ModelNotes &notes, bool quie
             throw input_error("the file has no faces");
         }
         repair_normals(file.geometry, name, notes);
+        clamp_colours(file.geometry, name, notes);
         return file;
     } catch (const Error &error) {
         throw Error(error.exit_code(), fmt::format("{}: {}", path.string(), error.what()));

@@ -21,9 +21,10 @@ struct PlyFile {
 
 /// Reads a PLY file in ASCII or in binary of either byte order. Reads vertices x, y, z, normals nx,
 /// ny, nz, and faces vertex_indices or vertex_index. Texture coordinates may be named (u, v),
-/// (s, t), (texture_u, texture_v) or (texture_s, texture_t). Throws `Error` (bad input) naming the
-/// file and the fault. Counts that exceed the size of the file are rejected before memory is
-/// allocated for them. Bytes after the last element are an error.
+/// (s, t), (texture_u, texture_v) or (texture_s, texture_t). Colours are (red, green, blue) or
+/// (r, g, b): linear if they are floats; uchar and ushort are decoded by the sRGB curve. Throws
+/// `Error` (bad input) naming the file and the fault. Counts that exceed the size of the file are
+/// rejected before memory is allocated for them. Bytes after the last element are an error.
 PlyFile read_ply(const std::filesystem::path &path, ModelNotes &notes, bool quiet);
 
 }  // namespace rtrays

@@ -171,6 +171,7 @@ MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
     MeshCore::Geometry geometry;
     const bool has_normals = mesh.HasNormals() && !source.is_stl();
     const bool has_uvs = mesh.HasTextureCoords(channel);
+    const bool has_colours = mesh.HasVertexColors(0) && source.is_gltf();
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         geometry.vertices.push_back(vector(mesh.mVertices[i]));
         if (has_normals) {
@@ -181,13 +182,19 @@ MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
             geometry.uvs.emplace_back(uv_transform.linear * Eigen::Vector2d(uv.x, uv.y) +
                                       uv_transform.offset);
         }
+        if (has_colours) {
+            const aiColor4D &c = mesh.mColors[0][i];
+            geometry.colours.emplace_back(c.r, c.g, c.b);
+        }
     }
     for (unsigned face = 0; face < mesh.mNumFaces; ++face) {
         add_face(mesh.mFaces[face].mIndices, mesh.mFaces[face].mNumIndices, face, name, geometry,
                  notes);
     }
-    if (mesh.HasVertexColors(0)) {
+    if (mesh.HasVertexColors(0) && !has_colours) {
         notes.add("vertex colours are ignored", name);
+    } else if (mesh.HasVertexColors(1)) {
+        notes.add("only the first of several vertex colours is used", name);
     }
     if (mesh.HasBones() || mesh.mNumAnimMeshes > 0) {
         notes.add("skeletons and morph targets are ignored; meshes keep their stored pose", name);
@@ -195,6 +202,7 @@ MeshCore::Geometry geometry_of(const ModelSource &source, const aiMesh &mesh,
     // Most of Assimp's readers give every corner of every face its own vertex.
     join_vertices(geometry);
     repair_normals(geometry, name, notes);
+    clamp_colours(geometry, name, notes);
     return geometry;
 }
 
@@ -216,7 +224,8 @@ class SceneWriter {
           scene_(scene),
           names_(names),
           notes_(notes),
-          materials_(source_.scene, source_.path.parent_path(), source_.gltf_materials, notes),
+          materials_(source_.scene, source_.path.parent_path(), source_.gltf_materials,
+                     source_.is_gltf(), notes),
           mesh_cores_(model_.mNumMeshes),
           material_cores_(model_.mNumMaterials) {}
 
@@ -296,7 +305,7 @@ class SceneWriter {
                                                            materials_.name(material), "material"));
             scene_.graph().share("materials." + made->name(), made);
         }
-        if (!made->parameters().textures().empty() && core->uvs().empty()) {
+        if (needs_coordinates(*made) && core->uvs().empty()) {
             notes_.add("textured meshes without texture coordinates show one texel", name);
         }
         if (made->normal_map_texture() != nullptr && mesh.HasTangentsAndBitangents()) {

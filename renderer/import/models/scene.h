@@ -27,8 +27,10 @@ MeshCore::Geometry read_model_geometry(const std::filesystem::path &path, ModelN
 void read_model_scene(const std::filesystem::path &path, Scene &scene, ModelNames &names,
                       ModelNotes &notes, bool quiet);
 
-/// Returns the grey material of meshes without a material.
-std::shared_ptr<MaterialCore> default_model_material(const std::string &name);
+/// Returns the material of meshes without one: grey, or of the colours of vertices if there are
+/// any.
+std::shared_ptr<MaterialCore> default_model_material(
+    const std::string &name, const std::shared_ptr<Texture> &vertex_colours = nullptr);
 
 /// Adds a node with a transform and visibility. Throws `Error` (bad input) if the transform is
 /// not finite, affine and invertible.

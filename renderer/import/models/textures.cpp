@@ -8,6 +8,7 @@
 #include "renderer/base/files.h"
 #include "renderer/base/lower_case.h"
 #include "renderer/import/models/statements.h"
+#include "renderer/scene/cores/material.h"
 
 namespace rtrays {
 
@@ -65,6 +66,12 @@ fs::path find_model_file(const std::string &stated, const std::vector<fs::path> 
     return folders.at(0) / path;
 }
 
+bool needs_coordinates(const MaterialCore &material) {
+    const ParameterTextures &textures = material.parameters().textures();
+    return std::any_of(textures.begin(), textures.end(),
+                       [](const auto &named) { return named.second->image() != white_image(); });
+}
+
 Eigen::Vector3d mean_of(const TextureImage &image) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     const auto texels = static_cast<Eigen::Index>(image.width) * image.height;
@@ -105,9 +112,9 @@ std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const Text
     const Eigen::Vector2d &scale = placement.scale;
     const Eigen::Vector2d &offset = placement.offset;
     const std::string key =
-        fmt::format("{} {} {} {} {} {} {}", static_cast<const void *>(image.get()),
-                    static_cast<int>(placement.wrap), placement.is_nearest, scale[0], scale[1],
-                    offset[0], offset[1]);
+        fmt::format("{} {} {} {} {} {} {} {}", static_cast<const void *>(image.get()),
+                    static_cast<int>(placement.wrap), placement.is_nearest,
+                    placement.vertex_colours, scale[0], scale[1], offset[0], offset[1]);
     std::shared_ptr<Texture> &made = textures_[key];
     if (made == nullptr) {
         std::string path = file;
@@ -117,10 +124,18 @@ std::shared_ptr<Texture> ModelTextures::texture(const std::shared_ptr<const Text
             ParameterValues{{"filter", std::string(placement.is_nearest ? "nearest" : "bilinear")},
                             {"wrap", wrap_names()[static_cast<size_t>(placement.wrap)]},
                             {"uv_scale", scale},
-                            {"uv_offset", offset}});
+                            {"uv_offset", offset},
+                            {"vertex_colours", placement.vertex_colours}});
         all_.push_back(made);
     }
     return made;
+}
+
+std::shared_ptr<Texture> ModelTextures::vertex_colours() {
+    TexturePlacement placement;
+    placement.is_nearest = true;
+    placement.vertex_colours = true;
+    return texture(white_image(), "vertex_colours", placement);
 }
 
 }  // namespace rtrays

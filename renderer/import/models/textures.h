@@ -16,12 +16,15 @@
 
 namespace rtrays {
 
+class MaterialCore;
+
 /// Position of an image on the (u, v) plane.
 struct TexturePlacement {
     Eigen::Vector2d scale = Eigen::Vector2d::Ones();
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< added to the scaled coordinates
     TextureArrays::Wrap wrap = TextureArrays::Wrap::repeat;
-    bool is_nearest = false;  ///< without interpolation
+    bool is_nearest = false;      ///< without interpolation
+    bool vertex_colours = false;  ///< the colours of vertices multiply the image
 };
 
 /// Returns the file of that name in the first of the folders that has it. In each folder the path
@@ -34,6 +37,9 @@ std::filesystem::path find_model_file(const std::string &stated,
 
 /// Returns the image, or nullptr if all of its texels are 1.
 std::shared_ptr<const TextureImage> unless_opaque(std::shared_ptr<const TextureImage> alpha);
+
+/// Returns whether a texture of the material depends on the texture coordinates of meshes.
+bool needs_coordinates(const MaterialCore &material);
 
 /// Returns the mean of the decoded texels.
 Eigen::Vector3d mean_of(const TextureImage &image);
@@ -59,6 +65,9 @@ class ModelTextures {
     /// Returns the texture of an image at a placement. `file` is its name in the model file.
     std::shared_ptr<Texture> texture(const std::shared_ptr<const TextureImage> &image,
                                      const std::string &file, const TexturePlacement &placement);
+
+    /// Returns the texture of nothing but the colours of vertices.
+    std::shared_ptr<Texture> vertex_colours();
 
     /// Returns the textures created so far.
     const std::vector<std::shared_ptr<Texture>> &all() const { return all_; }

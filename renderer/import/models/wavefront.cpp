@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string_view>
@@ -28,8 +29,13 @@ namespace {
 /// used.
 class MtlLibrary {
   public:
-    MtlLibrary(fs::path model_folder, Scene &scene, ModelNotes &notes)
-        : model_folder_(std::move(model_folder)), scene_(scene), notes_(notes), textures_(notes) {}
+    /// If `vertex_coloured`, the colours of vertices multiply those of materials.
+    MtlLibrary(fs::path model_folder, bool vertex_coloured, Scene &scene, ModelNotes &notes)
+        : model_folder_(std::move(model_folder)),
+          vertex_coloured_(vertex_coloured),
+          scene_(scene),
+          notes_(notes),
+          textures_(notes) {}
 
     /// Adds the materials of an MTL file, unless they have been added before. The first material of
     /// a name is used.
@@ -53,7 +59,7 @@ class MtlLibrary {
         if (made == nullptr) {
             const MtlMaterial &material = materials_[index];
             made = make_mtl_material(material, names_.unique(material.name, "material"),
-                                     model_folder_, textures_, notes_);
+                                     model_folder_, vertex_coloured_, textures_, notes_);
             scene_.graph().share("materials." + made->name(), made);
         }
         return made;
@@ -69,10 +75,15 @@ class MtlLibrary {
             return at(found->second);
         }
         if (!name.empty() && undefined_.insert(name).second) {
-            notes_.add("materials without a definition are grey", name);
+            notes_.add(vertex_coloured_
+                           ? "materials without a definition have the colours of vertices"
+                           : "materials without a definition are grey",
+                       name);
         }
         if (default_ == nullptr) {
-            default_ = default_model_material(names_.unique("default", "default"));
+            default_ =
+                default_model_material(names_.unique("default", "default"),
+                                       vertex_coloured_ ? textures_.vertex_colours() : nullptr);
             scene_.graph().share("materials." + default_->name(), default_);
         }
         return default_;
@@ -87,6 +98,7 @@ class MtlLibrary {
 
   private:
     fs::path model_folder_;
+    bool vertex_coloured_;
     Scene &scene_;
     ModelNotes &notes_;
     ModelTextures textures_;
@@ -124,7 +136,7 @@ void add_libraries(const ObjLibraries &statement, const fs::path &obj, MtlLibrar
 
 void add_mesh(Node &node, const std::string &name, MeshCore::Geometry geometry,
               const std::shared_ptr<MaterialCore> &material, ModelNotes &notes) {
-    if (!material->parameters().textures().empty() && geometry.uvs.empty()) {
+    if (needs_coordinates(*material) && geometry.uvs.empty()) {
         notes.add("textured meshes without texture coordinates show one texel", name);
     }
     const auto mesh = std::make_shared<MeshCore>(name, std::move(geometry));
@@ -138,7 +150,10 @@ void add_mesh(Node &node, const std::string &name, MeshCore::Geometry geometry,
 void read_obj_scene(const fs::path &path, Scene &scene, ModelNames &names, ModelNotes &notes,
                     bool quiet) {
     ObjFile file = read_obj(path, notes, quiet);
-    MtlLibrary library(path.parent_path(), scene, notes);
+    const bool vertex_coloured =
+        std::any_of(file.meshes.begin(), file.meshes.end(),
+                    [](const ObjMesh &mesh) { return !mesh.geometry.colours.empty(); });
+    MtlLibrary library(path.parent_path(), vertex_coloured, scene, notes);
     for (const ObjLibraries &statement : file.libraries) {
         add_libraries(statement, path, library, notes);
     }
@@ -179,7 +194,7 @@ MeshCore::Geometry read_obj_geometry(const fs::path &path, ModelNotes &notes, bo
 
 std::vector<std::shared_ptr<MaterialCore>> read_model_materials(const fs::path &path, Scene &scene,
                                                                 ModelNotes &notes) {
-    MtlLibrary library(path.parent_path(), scene, notes);
+    MtlLibrary library(path.parent_path(), false, scene, notes);
     library.add(path);
     std::vector<std::shared_ptr<MaterialCore>> materials;
     for (size_t i = 0; i < library.size(); ++i) {
@@ -196,13 +211,15 @@ void read_ply_scene(const fs::path &path, Scene &scene, ModelNames &names, Model
     const fs::path mtl = fs::path(path).replace_extension(".mtl");
     Node &model = add_model_node(scene.graph().root(), names.unique(stem, "model"),
                                  Eigen::Matrix4d::Identity());
-    MtlLibrary library(path.parent_path(), scene, notes);
+    MtlLibrary library(path.parent_path(), !file.geometry.colours.empty(), scene, notes);
     if (file.material.empty() || !is_file(mtl)) {
         if (!file.material.empty()) {
-            notes.add(fmt::format("{} is missing, so material_index is ignored; everything is grey",
-                                  mtl.filename().string()));
+            notes.add(fmt::format("{} is missing, so material_index is ignored; everything is {}",
+                                  mtl.filename().string(),
+                                  file.geometry.colours.empty() ? "grey" : "of vertex colours"));
         }
         add_mesh(model, stem, std::move(file.geometry), library.named(""), notes);
+        library.share_textures();
         return;
     }
     library.add(mtl);

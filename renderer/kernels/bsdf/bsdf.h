@@ -94,7 +94,7 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
     BsdfValue value;
     GLOBAL const BxdfRecord *component = scene->components + material.first_component;
     const float eta = component_eta(component, material.flags, frame.front);
-    const float3 colour = component_colour(scene, component, frame.front, frame.uv);
+    const float3 colour = component_colour(scene, component, frame);
     const Lobe lobe = component_evaluate(scene, component, eta, frame.uv, wo, wi);
     value.pdf_w = lobe.pdf_w;
     value.f_cos = colour *
@@ -109,7 +109,7 @@ DEVICE BsdfValue bsdf_evaluate_local(PRIVATE const SceneView *scene, MaterialRec
         for (uint i = 1u; i < material.component_count; ++i) {
             GLOBAL const BxdfRecord *other = component + i;
             const float other_eta = component_eta(other, material.flags, frame.front);
-            const float3 other_colour = component_colour(scene, other, frame.front, frame.uv);
+            const float3 other_colour = component_colour(scene, other, frame);
             const float share =
                 component_share(scene, other, other_eta, frame.uv, wo, other_colour);
             const Lobe other_lobe = component_evaluate(scene, other, other_eta, frame.uv, wo, wi);
@@ -207,9 +207,8 @@ DEVICE bool select_component(PRIVATE const SceneView *scene, MaterialRecord mate
         const uint index = material.first_component + i;
         GLOBAL const BxdfRecord *component = scene->components + index;
         const float eta = component_eta(component, material.flags, frame.front);
-        const float candidate =
-            component_share(scene, component, eta, frame.uv, wo,
-                            component_colour(scene, component, frame.front, frame.uv));
+        const float candidate = component_share(scene, component, eta, frame.uv, wo,
+                                                component_colour(scene, component, frame));
         if (candidate > 0.0f) {
             shares += candidate;
             const float take_over = candidate / shares;
@@ -277,7 +276,7 @@ DEVICE BsdfSample sample_component(PRIVATE const SceneView *scene, MaterialRecor
     }
     sample.scale = is_refracting(component->kind) ? refraction_scale(eta) : 1.0f;
     if (is_delta(component->kind)) {
-        sample.weight = component_colour(scene, component, frame.front, frame.uv) *
+        sample.weight = component_colour(scene, component, frame) *
                         component_fresnel(scene, component, eta, wo.z, squared_sine(wo), wo, wi) /
                         sample.probability;
         sample.weight *= sample.scale;

@@ -12,6 +12,7 @@
 #include "renderer/kernels/bsdf/fresnel.h"
 #include "renderer/kernels/bsdf/ideal.h"
 #include "renderer/kernels/bsdf/microfacet.h"
+#include "renderer/kernels/bsdf/surface_frame.h"
 #include "renderer/kernels/bsdf/ward.h"
 #include "renderer/kernels/sampling/hemisphere.h"
 #include "renderer/kernels/scene_view.h"
@@ -26,17 +27,21 @@ DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_fla
     return (material_flags & MATERIAL_BOUNDARY) != 0u && front == 0u ? 1.0f / eta : eta;
 }
 
-/// Returns weight times texture at `uv`, for a base below a coat with the light that the coat
-/// reflects back; black if the component does not reflect on wo's side.
+/// Returns weight times texture at a point with this frame, for a base below a coat with the light
+/// that the coat reflects back; black if the component does not reflect on wo's side.
 DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
-                               uint front, float2 uv) {
-    const uint excluded = front != 0u ? BXDF_FLAG_BACK_ONLY : BXDF_FLAG_FRONT_ONLY;
+                               SurfaceFrame frame) {
+    const uint excluded = frame.front != 0u ? BXDF_FLAG_BACK_ONLY : BXDF_FLAG_FRONT_ONLY;
     if (FEATURE_component_sides && (component->flags & excluded) != 0u) {
         return make_float3(0.0f, 0.0f, 0.0f);
     }
     float3 colour = make_float3(component->weight[0], component->weight[1], component->weight[2]);
     if (FEATURE_textures && component->texture != NO_TEXTURE) {
-        colour *= texture_lookup(scene->textures + component->texture, scene->texels, uv);
+        GLOBAL const TextureRecord *texture = scene->textures + component->texture;
+        colour *= texture_lookup(texture, scene->texels, frame.uv);
+        if (FEATURE_vertex_colours && (texture->flags & TEXTURE_VERTEX_COLOURS) != 0u) {
+            colour *= frame.colour;
+        }
     }
     if (FEATURE_coated_lambert && component->kind == BXDF_COATED_LAMBERT) {
         return colour_below_coat(component, colour);

@@ -52,8 +52,8 @@ DEVICE float delta_probability(PRIVATE const SceneView *scene, uint material, Su
          ++i) {
         GLOBAL const BxdfRecord *other = scene->components + i;
         const float eta = component_eta(other, record.flags, frame.front);
-        const float share = component_share(scene, other, eta, frame.uv, wo,
-                                            component_colour(scene, other, frame.front, frame.uv));
+        const float share =
+            component_share(scene, other, eta, frame.uv, wo, component_colour(scene, other, frame));
         shares += share;
         own = i == component ? share : own;
     }

@@ -11,13 +11,19 @@
 /// Returns the frame in which a hit scatters, seen from wo. Its axes follow the surface's tangent
 /// only if the material is anisotropic. A map of the material tilts its normal.
 DEVICE SurfaceFrame shading_frame(PRIVATE const SceneView *scene, SurfaceHit hit, float3 wo) {
+    SurfaceFrame frame;
     float3 tangent = make_float3(0.0f, 0.0f, 0.0f);
     if (FEATURE_tangents && (scene->materials[hit.material].flags & MATERIAL_TURNS) != 0u) {
         tangent = hit.tangent;
     }
     if (FEATURE_normal_maps && (scene->materials[hit.material].flags & MATERIAL_MAPPED) != 0u) {
-        return mapped_frame(scene, scene->normal_maps[scene->materials[hit.material].normal_map],
-                            hit, tangent, wo);
+        frame = mapped_frame(scene, scene->normal_maps[scene->materials[hit.material].normal_map],
+                             hit, tangent, wo);
+    } else {
+        frame = make_surface_frame(hit.point.normal, hit.normal, tangent, hit.uv, wo);
     }
-    return make_surface_frame(hit.point.normal, hit.normal, tangent, hit.uv, wo);
+    if (FEATURE_vertex_colours) {
+        frame.colour = hit.colour;
+    }
+    return frame;
 }

@@ -13,7 +13,8 @@ typedef struct SurfaceFrame {
     float3 ng;
     float3 wo;
     float2 uv;
-    uint front;  ///< 1: wo is on the surface's front
+    float3 colour;  ///< the colour of vertices, which multiplies some textures
+    uint front;     ///< 1: wo is on the surface's front
     /// The shading normal before a map tilted it, in this frame, with either sign.
     float3 untilted;
     /// Squared roughness of the microsurface that a map suggests; 0 if it casts no shadows.
@@ -62,6 +63,7 @@ DEVICE SurfaceFrame make_surface_frame(float3 ng, float3 ns, float3 tangent, flo
     frame.y = axes.y;
     frame.wo = wo;
     frame.uv = uv;
+    frame.colour = make_float3(1.0f, 1.0f, 1.0f);
     frame.untilted = frame.ns;
     frame.shadowing_alpha2 = 0.0f;
     return frame;

@@ -15,6 +15,7 @@ typedef struct SurfaceHit {
     /// Gradients of u and v along the surface; zero if undefined or not needed.
     float3 gradient_u, gradient_v;
     float2 uv;
+    float3 colour;  ///< interpolated between vertices; white if there is none or it is not needed
     uint material;
     /// For a triangle the index of its emitter triangle, for a shape that of its light; or
     /// NO_EMITTER.
@@ -71,6 +72,18 @@ DEVICE float2 triangle_uv(PRIVATE const SceneView *scene, uint triangle, float u
                        w * at->uv[0][1] + u * at->uv[1][1] + v * at->uv[2][1]);
 }
 
+/// Returns the colour of a triangle at barycentrics (1 - u - v, u, v). Rounding may make the first
+/// one negative, but no channel of a colour.
+DEVICE float3 triangle_colour(PRIVATE const SceneView *scene, uint triangle, float u, float v) {
+    GLOBAL const TriangleColours *at = scene->triangle_colours + triangle;
+    const float w = 1.0f - u - v;
+    const float3 colour =
+        make_float3(w * at->colour[0][0] + u * at->colour[1][0] + v * at->colour[2][0],
+                    w * at->colour[0][1] + u * at->colour[1][1] + v * at->colour[2][1],
+                    w * at->colour[0][2] + u * at->colour[1][2] + v * at->colour[2][2]);
+    return max(colour, make_float3(0.0f, 0.0f, 0.0f));
+}
+
 /// Returns the hit with barycentrics (1 - u - v, u, v) on a triangle.
 DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, float u, float v) {
     GLOBAL const SurfaceTriangle *surface = scene->surface_triangles + triangle;
@@ -81,6 +94,7 @@ DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, fl
     hit.gradient_u = make_float3(0.0f, 0.0f, 0.0f);
     hit.gradient_v = make_float3(0.0f, 0.0f, 0.0f);
     hit.uv = make_float2(0.0f, 0.0f);
+    hit.colour = make_float3(1.0f, 1.0f, 1.0f);
     hit.material = surface->material;
     hit.emitter = surface->emitter;
     const float w = 1.0f - u - v;
@@ -96,6 +110,9 @@ DEVICE SurfaceHit triangle_hit(PRIVATE const SceneView *scene, uint triangle, fl
     }
     if (FEATURE_texture_coordinates) {
         hit.uv = triangle_uv(scene, triangle, u, v);
+    }
+    if (FEATURE_vertex_colours) {
+        hit.colour = triangle_colour(scene, triangle, u, v);
     }
     if (FEATURE_tangents) {
         hit.tangent = triangle_tangent(scene, triangle);
@@ -115,6 +132,7 @@ DEVICE SurfaceHit shape_hit(GLOBAL const ShapeRecord *shape, float3 object_point
     hit.gradient_u = make_float3(0.0f, 0.0f, 0.0f);
     hit.gradient_v = make_float3(0.0f, 0.0f, 0.0f);
     hit.uv = make_float2(0.0f, 0.0f);
+    hit.colour = make_float3(1.0f, 1.0f, 1.0f);
     if (FEATURE_textures) {
         hit.uv = shape_uv(shape, object_point);
     }

@@ -28,6 +28,9 @@ DEVICE void prefetch_triangle(PRIVATE const SceneView *scene, uint triangle) {
     if (FEATURE_texture_coordinates) {
         PREFETCH_RECORD(scene->triangle_uvs + triangle);
     }
+    if (FEATURE_vertex_colours) {
+        PREFETCH_RECORD(scene->triangle_colours + triangle);
+    }
 }
 
 /// Prefetches the texels of a lookup: the first of each row, next to which the second usually is.

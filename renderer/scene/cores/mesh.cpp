@@ -64,6 +64,7 @@ void MeshCore::set_geometry(Geometry geometry) {
     }
     check_count(geometry.normals.size(), vertices, name(), "normals");
     check_count(geometry.uvs.size(), vertices, name(), "texture coordinates");
+    check_count(geometry.colours.size(), vertices, name(), "colours");
     check_each(
         geometry.normals,
         [](const Eigen::Vector3d &n) { return n.allFinite() && n.stableNorm() > 0; }, name(),
@@ -74,6 +75,12 @@ void MeshCore::set_geometry(Geometry geometry) {
             return uv.cwiseAbs().maxCoeff() <= largest_uv && uv.allFinite();
         },
         name(), "texture coordinate", "is not within +-1e6");
+    check_each(
+        geometry.colours,
+        [](const Eigen::Vector3d &c) {
+            return c.allFinite() && c.minCoeff() >= 0 && c.maxCoeff() <= 1;
+        },
+        name(), "colour", "is not within [0, 1]");
     for (Eigen::Vector3d &normal : geometry.normals) {
         normal.stableNormalize();
     }

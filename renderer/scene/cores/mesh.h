@@ -20,12 +20,13 @@ class MeshCore : public Core {
         std::vector<Triangle> triangles;
         std::vector<Eigen::Vector3d> normals{};  ///< per vertex, any length but zero; may be empty
         std::vector<Eigen::Vector2d> uvs{};      ///< per vertex; may be empty
+        std::vector<Eigen::Vector3d> colours{};  ///< per vertex, linear, in [0, 1]; may be empty
     };
 
     /// Throws `Error` (bad input) naming the mesh and the vertex or triangle if there are no
     /// triangles, a coordinate is not finite, a normal has no direction, a texture coordinate is
-    /// beyond a million, or an index or the length of an array is wrong. Zero-area triangles are
-    /// legal.
+    /// beyond a million, a colour is not within [0, 1], or an index or the length of an array is
+    /// wrong. Zero-area triangles are legal.
     MeshCore(std::string name, Geometry geometry);
     MeshCore(std::string name, std::vector<Eigen::Vector3d> vertices,
              std::vector<Triangle> triangles);
@@ -38,6 +39,8 @@ class MeshCore : public Core {
     const std::vector<Triangle> &triangles() const { return geometry_.triangles; }
     const std::vector<Eigen::Vector3d> &normals() const { return geometry_.normals; }  ///< unit
     const std::vector<Eigen::Vector2d> &uvs() const { return geometry_.uvs; }
+    const std::vector<Eigen::Vector3d> &colours() const { return geometry_.colours; }
+    const Geometry &geometry() const { return geometry_; }
     void set_geometry(Geometry geometry);
 
   protected:

@@ -54,6 +54,7 @@ const ParameterTable &Texture::parameter_table() {
          modest},
         {"uv_offset", "offset added to the scaled texture coordinates", Eigen::Vector2d(0, 0),
          Need::defaulted, modest},
+        {"vertex_colours", "the colours of vertices multiply the image", false},
     };
     return table;
 }
@@ -61,6 +62,16 @@ const ParameterTable &Texture::parameter_table() {
 const std::vector<std::string> &wrap_names() {
     static const std::vector<std::string> names = {"repeat", "clamp", "mirror"};
     return names;
+}
+
+const std::shared_ptr<const TextureImage> &white_image() {
+    static const std::shared_ptr<const TextureImage> image = [] {
+        TextureImage white;
+        white.width = white.height = 1;
+        white.bytes.assign(3, 255);
+        return std::make_shared<const TextureImage>(white);
+    }();
+    return image;
 }
 
 Texture::Texture(std::string name, std::shared_ptr<const TextureImage> image,

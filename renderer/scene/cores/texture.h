@@ -19,8 +19,8 @@ class MaterialCore;
 /// its placement on the plane and its filter can be edited.
 class Texture : public PropertyHolder {
   public:
-    /// Parameters: filter, wrap, uv_scale, uv_offset. Throws `Error` (bad input) like
-    /// `ParameterSet`.
+    /// Parameters: filter, wrap, uv_scale, uv_offset, vertex_colours. Throws `Error` (bad input)
+    /// like `ParameterSet`.
     Texture(std::string name, std::shared_ptr<const TextureImage> image,
             const ParameterValues &values = {});
 
@@ -32,6 +32,8 @@ class Texture : public PropertyHolder {
     const std::shared_ptr<const TextureImage> &image() const { return image_; }
     /// Largest value of each channel, decoded.
     const Rgb &largest_texel() const { return largest_texel_; }
+    /// Returns whether the colours of vertices, which are at most 1, multiply the image.
+    bool has_vertex_colours() const { return parameters_.get<bool>("vertex_colours"); }
     const ParameterSet &parameters() const { return parameters_; }
     void set(const std::string &name, const PropertyValue &value);
 
@@ -50,6 +52,9 @@ class Texture : public PropertyHolder {
 
 /// Returns the names, in the order of `TextureArrays::Wrap`.
 const std::vector<std::string> &wrap_names();
+
+/// Returns the image of one white texel, that of textures which consist of vertex colours alone.
+const std::shared_ptr<const TextureImage> &white_image();
 
 /// Decodes a value in [0, 1] by the sRGB curve (IEC 61966-2-1) to a linear value.
 double srgb_decoded(double value);

@@ -24,6 +24,7 @@ uint32_t TextureStore::record(const std::shared_ptr<Texture> &texture) {
         arrays.wrap.emplace_back();
         arrays.uv_scale.emplace_back();
         arrays.uv_offset.emplace_back();
+        arrays.vertex_colours.emplace_back();
     }
     if (version_[slot] != texture->version()) {
         const ParameterSet &p = texture->parameters();
@@ -31,6 +32,7 @@ uint32_t TextureStore::record(const std::shared_ptr<Texture> &texture) {
         arrays.wrap[slot] = p.choice<TextureArrays::Wrap>("wrap");
         arrays.uv_scale[slot] = p.get<Eigen::Vector2d>("uv_scale");
         arrays.uv_offset[slot] = p.get<Eigen::Vector2d>("uv_offset");
+        arrays.vertex_colours[slot] = p.get<bool>("vertex_colours") ? 1 : 0;
         version_[slot] = texture->version();
     }
     return slot;
@@ -78,7 +80,30 @@ void TextureStore::keep_used(MaterialArrays &materials) {
     keep_elements(arrays.wrap, kept);
     keep_elements(arrays.uv_scale, kept);
     keep_elements(arrays.uv_offset, kept);
+    keep_elements(arrays.vertex_colours, kept);
 }
+
+namespace {
+
+/// Throws if the colours of vertices multiply a texture that is no weight of a component.
+void check_vertex_colours(const MaterialCore &material) {
+    const auto check = [&](const std::shared_ptr<Texture> &texture, const char *what) {
+        if (texture != nullptr && texture->has_vertex_colours()) {
+            throw input_error(fmt::format(
+                "material '{}': texture '{}' of its {} has vertex_colours, which only textures of "
+                "reflectances and transmittances may have",
+                material.name(), texture->name(), what));
+        }
+    };
+    for (const MaterialComponent &component : material.components()) {
+        check(component.roughness_texture, "roughness");
+    }
+    check(material.opacity_texture(), "opacity");
+    check(material.normal_map_texture(), "normals");
+    check(material.emission_texture(), "emission");
+}
+
+}  // namespace
 
 uint32_t MaterialStore::slot_of_material(const MaterialCore *material) const {
     return slot_of(static_cast<const Core *>(material));
@@ -104,6 +129,7 @@ void MaterialStore::append(const Node &node) {
 
 void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &) {
     const auto &material = static_cast<const MaterialCore &>(*node.core(CoreRole::material));
+    check_vertex_colours(material);
     uint32_t at = arrays.first_component[slot];
     // The number of components has not changed since `append`.
     for (const MaterialComponent &component : material.components()) {

@@ -53,16 +53,14 @@ void set_flag(uint8_t &flag, bool value, size_t &count, uint64_t &changes) {
     assign(flag, static_cast<uint8_t>(value ? 1 : 0), changes);
 }
 
-/// Writes one vector per vertex from `first` on: vector(i) for vertex i, or zero from the end of
-/// the source on.
+/// Writes one vector per vertex from `first` on: vector(i) for vertex i, or `missing` from the end
+/// of the source on.
 template <typename Iterator, typename Source, typename Vector>
 void write_vectors(Iterator first, size_t count, const Source &source, const Vector &vector,
+                   const std::decay_t<decltype(*std::declval<Iterator>())> &missing,
                    uint64_t &changes) {
     for (size_t i = 0; i < count; ++i, ++first) {
-        assign(
-            *first,
-            i < source.size() ? vector(source[i]) : std::decay_t<decltype(*first)>::Zero().eval(),
-            changes);
+        assign(*first, i < source.size() ? vector(source[i]) : missing, changes);
     }
 }
 
@@ -113,6 +111,7 @@ void MeshStore::append(const Node &node) {
     arrays.light.push_back(no_index);
     arrays.has_normals.push_back(0);
     arrays.has_uv.push_back(0);
+    arrays.has_colour.push_back(0);
     const size_t vertices = first_vertex + mesh.vertices().size();
     arrays.position.resize(vertices, Eigen::Vector3f::Zero());
     if (!arrays.normal.empty()) {
@@ -120,6 +119,9 @@ void MeshStore::append(const Node &node) {
     }
     if (!arrays.uv.empty()) {
         arrays.uv.resize(vertices, Eigen::Vector2f::Zero());
+    }
+    if (!arrays.colour.empty()) {
+        arrays.colour.resize(vertices, Rgb::Ones());
     }
     arrays.triangle.resize(first_triangle + mesh.triangles().size());
     arrays.triangle_mesh.resize(arrays.triangle.size(),
@@ -157,7 +159,7 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
             [&](const Eigen::Vector3d &normal) {
                 return Eigen::Vector3f((transform * normal).stableNormalized().cast<float>());
             },
-            surface_version_);
+            Eigen::Vector3f::Zero(), surface_version_);
     }
     set_flag(arrays.has_uv[slot], !mesh.uvs().empty(), with_uv_, surface_version_);
     if (with_uv_ > 0) {
@@ -165,6 +167,14 @@ void MeshStore::write(uint32_t slot, const Node &node, const AttributeSet &attri
         write_vectors(
             arrays.uv.begin() + first_vertex, arrays.vertex_count[slot], mesh.uvs(),
             [](const Eigen::Vector2d &uv) { return Eigen::Vector2f(uv.cast<float>()); },
+            Eigen::Vector2f::Zero(), surface_version_);
+    }
+    set_flag(arrays.has_colour[slot], !mesh.colours().empty(), with_colours_, surface_version_);
+    if (with_colours_ > 0) {
+        arrays.colour.resize(arrays.position.size(), Rgb::Ones());
+        write_vectors(
+            arrays.colour.begin() + first_vertex, arrays.vertex_count[slot], mesh.colours(),
+            [](const Eigen::Vector3d &colour) { return Rgb(colour.cast<float>()); }, Rgb::Ones(),
             surface_version_);
     }
 
@@ -185,6 +195,9 @@ void MeshStore::drop_unused() {
     if (with_uv_ == 0) {
         arrays.uv.clear();
     }
+    if (with_colours_ == 0) {
+        arrays.colour.clear();
+    }
 }
 
 void MeshStore::keep(const std::vector<uint32_t> &slots) {
@@ -198,6 +211,7 @@ void MeshStore::keep(const std::vector<uint32_t> &slots) {
         move_range(arrays.position, vertices, arrays.first_vertex[old], arrays.vertex_count[old]);
         move_range(arrays.normal, vertices, arrays.first_vertex[old], arrays.vertex_count[old]);
         move_range(arrays.uv, vertices, arrays.first_vertex[old], arrays.vertex_count[old]);
+        move_range(arrays.colour, vertices, arrays.first_vertex[old], arrays.vertex_count[old]);
         for (uint32_t i = 0; i < arrays.triangle_count[old]; ++i) {
             const Triangle &t = arrays.triangle[arrays.first_triangle[old] + i];
             arrays.triangle[triangles + i] = {t[0] - moved_by, t[1] - moved_by, t[2] - moved_by};
@@ -211,6 +225,7 @@ void MeshStore::keep(const std::vector<uint32_t> &slots) {
     arrays.position.resize(vertices);
     arrays.normal.resize(arrays.normal.empty() ? 0 : vertices);
     arrays.uv.resize(arrays.uv.empty() ? 0 : vertices);
+    arrays.colour.resize(arrays.colour.empty() ? 0 : vertices);
     arrays.triangle.resize(triangles);
     arrays.triangle_mesh.resize(triangles);
     keep_elements(arrays.name, slots);
@@ -222,9 +237,12 @@ void MeshStore::keep(const std::vector<uint32_t> &slots) {
     keep_elements(arrays.light, slots);
     keep_elements(arrays.has_normals, slots);
     keep_elements(arrays.has_uv, slots);
+    keep_elements(arrays.has_colour, slots);
     with_normals_ =
         static_cast<size_t>(std::count(arrays.has_normals.begin(), arrays.has_normals.end(), 1));
     with_uv_ = static_cast<size_t>(std::count(arrays.has_uv.begin(), arrays.has_uv.end(), 1));
+    with_colours_ =
+        static_cast<size_t>(std::count(arrays.has_colour.begin(), arrays.has_colour.end(), 1));
 }
 
 }  // namespace rtrays

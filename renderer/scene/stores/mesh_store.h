@@ -23,14 +23,14 @@ class MeshStore : public Store {
     bool concerns(const Node &node) const override;
     bool wants_record(const Node &node, const AttributeSet &attributes) const override;
 
-    /// Clears the arrays of normals and coordinates if no mesh uses them. Called after all objects
-    /// of an update have been written.
+    /// Clears the arrays of normals, coordinates and colours if no mesh uses them. Called after all
+    /// objects of an update have been written.
     void drop_unused();
 
     /// Number of changes of positions or vertex indices.
     uint64_t geometry_version() const { return geometry_version_; }
 
-    /// Number of changes of normals, texture coordinates, materials or lights.
+    /// Number of changes of normals, texture coordinates, colours, materials or lights.
     uint64_t surface_version() const { return surface_version_; }
 
     /// Counts a change of materials that another store causes.
@@ -52,6 +52,7 @@ class MeshStore : public Store {
     uint64_t surface_version_ = 0;
     size_t with_normals_ = 0;  ///< number of meshes with normals
     size_t with_uv_ = 0;       ///< number of meshes with texture coordinates
+    size_t with_colours_ = 0;  ///< number of meshes with colours
 };
 
 }  // namespace rtrays
