@@ -157,7 +157,8 @@ std::vector<Bsdf> make_bsdfs(const MaterialArrays &materials, const TextureArray
             count == 1 ? &materials.component[materials.first_component[i]] : nullptr;
         const bool plain = first != nullptr && two_sided &&
                            first->kind == BxdfComponent::Kind::lambert &&
-                           first->texture == no_index && first->side == BxdfComponent::Side::both &&
+                           first->texture == no_index && first->mix_texture == no_index &&
+                           first->side == BxdfComponent::Side::both &&
                            first->fresnel == BxdfComponent::Fresnel::ideal && !first->complement;
         bsdfs.emplace_back(plain ? Bsdf(Lambert(first->weight.cast<double>()))
                                  : Bsdf(Composite(std::move(components), two_sided)));

@@ -107,6 +107,8 @@ Component::Lobe Component::make_lobe(const BxdfComponent &component) {
 Component::Component(const BxdfComponent &component, const TextureArrays &textures,
                      const std::string &what)
     : weight_(component.weight.cast<double>()),
+      mix_factor_(component.mix),
+      mix_inverted_(component.mix_inverted),
       fresnel_(component),
       eta_(component.eta[0]),
       fresnel_of_wo_(component.fresnel_of_wo),
@@ -120,6 +122,11 @@ Component::Component(const BxdfComponent &component, const TextureArrays &textur
                 "the texture of the roughness does not exist");
         roughness_texture_.emplace(textures, component.roughness_texture);
         textured_ = component;
+    }
+    if (component.mix_texture != no_index) {
+        require(component.mix_texture < textures.image.size(), what,
+                "the texture of the mixture does not exist");
+        mix_texture_.emplace(textures, component.mix_texture);
     }
     if (component.kind == Kind::coated_lambert) {
         coat_.emplace(component);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Component of a composite BSDF: weight * texture * F * f (thesis (3.52)).
+// Component of a composite BSDF: weight * texture * mix * F * f (thesis (3.52)).
 #pragma once
 
 #include <optional>
@@ -85,7 +85,15 @@ class Component {
         }
         const Spectrum albedo =
             texture_ ? Spectrum(weight_ * texture_->evaluate(view.at)) : weight_;
-        return coat_ ? coat_->base(albedo) : albedo;
+        return (coat_ ? coat_->base(albedo) : albedo) * mix(view.at);
+    }
+    /// Returns the share of the component in its mixture.
+    double mix(const TexturePoint &at) const {
+        if (!mix_texture_) {
+            return 1.0;
+        }
+        const double share = mix_factor_ * luminance(mix_texture_->evaluate(at));
+        return mix_inverted_ ? 1.0 - share : share;
     }
     double eta(const Viewpoint &view) const { return view.inverted ? 1.0 / eta_ : eta_; }
 
@@ -93,6 +101,9 @@ class Component {
     std::optional<Texture> texture_;
     /// Roughness is scaled by the luminance of this texture, and the lobe made for each point.
     std::optional<Texture> roughness_texture_;
+    std::optional<Texture> mix_texture_;
+    double mix_factor_;
+    bool mix_inverted_;
     BxdfComponent textured_;  ///< what to scale, if roughness_texture_
     Fresnel fresnel_;
     double eta_;

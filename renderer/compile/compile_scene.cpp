@@ -231,6 +231,7 @@ CompiledScene recompile(const SceneArrays &scene, const CameraRecord &camera,
         former.materials = std::exchange(compiled.materials, {});
         former.components = std::exchange(compiled.components, {});
         former.normal_maps = std::exchange(compiled.normal_maps, {});
+        former.mixes = std::exchange(compiled.mixes, {});
         former.coat_transmittances = std::exchange(compiled.coat_transmittances, {});
         compile_materials(scene, compiled);
         const bool has_textures = compiled.material_features.has(Feature::textures);

@@ -91,6 +91,7 @@ struct CompiledScene {
     std::vector<MaterialRecord> materials;
     std::vector<BxdfRecord> components;
     std::vector<NormalMapRecord> normal_maps;
+    std::vector<MixRecord> mixes;
     std::vector<float> coat_transmittances;
     std::vector<TextureRecord> textures;
     std::vector<uint32_t> texels;

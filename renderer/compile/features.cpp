@@ -52,6 +52,8 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::component_sides, Feature::scattering},
     {Feature::tangents, Feature::scattering},
     {Feature::roughness_textures, Feature::textures},
+    {Feature::mixtures, Feature::textures},
+    {Feature::mixtures, Feature::scattering},
     {Feature::vertex_colours, Feature::textures},
     {Feature::vertex_colours, Feature::triangles},
     {Feature::vertex_colours, Feature::scattering},

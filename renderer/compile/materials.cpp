@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Compiles materials and textures into records, and collects the features that they use.
+#include <fmt/format.h>
+
 #include <array>
 #include <cstring>
+#include <limits>
 
+#include "renderer/base/error.h"
 #include "renderer/compile/compile_scene.h"
 #include "renderer/scene/cores/coat.h"
 
@@ -149,6 +153,26 @@ BxdfRecord compile_component(const BxdfComponent &component, FeatureMask &featur
     return record;
 }
 
+/// Compiles the mixture of a component, if it has one.
+void compile_mix(const BxdfComponent &component, CompiledScene &compiled, BxdfRecord &record,
+                 FeatureMask &features) {
+    if (component.mix_texture == no_index) {
+        return;
+    }
+    MixRecord mix{};
+    mix.texture = component.mix_texture;
+    mix.offset = component.mix_inverted ? 1.0f : 0.0f;
+    mix.scale = static_cast<float>(component.mix_inverted ? -component.mix : component.mix);
+    compiled.mixes.push_back(mix);
+    const size_t number = compiled.mixes.size();
+    if (number > std::numeric_limits<uint32_t>::max() >> BXDF_MIX_SHIFT) {
+        throw input_error(fmt::format("the scene has more than {} textures of mixtures",
+                                      std::numeric_limits<uint32_t>::max() >> BXDF_MIX_SHIFT));
+    }
+    record.flags |= static_cast<uint32_t>(number) << BXDF_MIX_SHIFT;
+    features = features.with(Feature::textures).with(Feature::mixtures);
+}
+
 /// Compiles the map of a material, if it has one.
 void compile_normal_map(const NormalMap &map, CompiledScene &compiled, MaterialRecord &material,
                         FeatureMask &features) {
@@ -229,6 +253,10 @@ void compile_materials(const SceneArrays &scene, CompiledScene &compiled) {
             BxdfRecord compiled_component = compile_component(component, features);
             if (is_mirrored(scene.textures, component.texture) ||
                 is_mirrored(scene.textures, component.roughness_texture)) {
+                features = features.with(Feature::texture_mirror);
+            }
+            compile_mix(component, compiled, compiled_component, features);
+            if (is_mirrored(scene.textures, component.mix_texture)) {
                 features = features.with(Feature::texture_mirror);
             }
             if (scene.textures.has_vertex_colours(component.texture)) {

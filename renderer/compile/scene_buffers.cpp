@@ -21,6 +21,7 @@ constexpr auto shapes = &SceneParts::shapes;
 constexpr auto shape_bounds = &SceneParts::shapes;
 constexpr auto materials = &SceneParts::materials;
 constexpr auto components = &SceneParts::materials;
+constexpr auto mixes = &SceneParts::materials;
 constexpr auto coat_transmittances = &SceneParts::materials;
 constexpr auto textures = &SceneParts::textures;
 constexpr auto texels = &SceneParts::textures;

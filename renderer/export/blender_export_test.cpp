@@ -52,6 +52,7 @@ const std::map<std::string, const char *> &beyond_cycles() {
         {"julia",
          "'object': Cycles supports only triangles, which cannot represent this Julia set"},
         {"bump_map", "the export to Cycles does not support normal and bump maps"},
+        {"mixture", "the export writes no mixture by a texture"},
         {"normal_map", "the export to Cycles does not support normal and bump maps"},
         {"orthographic", "the export to Cycles does not support orthographic cameras"},
         {"oren_nayar_079", "its Oren-Nayar model differs"},

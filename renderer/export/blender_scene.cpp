@@ -64,6 +64,9 @@ std::string missing_in_cycles(const BxdfComponent &part, const TextureArrays &te
     if (part.fresnel == Fresnel::thin_dielectric) {
         return "the export has no thin plates";
     }
+    if (part.mix_texture != no_index) {
+        return "the export writes no mixture by a texture";
+    }
     switch (part.kind) {
         case Kind::lambert:
             return part.fresnel == Fresnel::ideal || part.fresnel_of_wo

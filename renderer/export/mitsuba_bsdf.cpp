@@ -183,6 +183,10 @@ void BsdfWriter::write_parts(pugi::xml_node parent, const std::string &id,
         add_number(add_object(parent, "bsdf", "diffuse", id), "reflectance", 0);
         return;
     }
+    if (std::any_of(parts.begin(), parts.end(),
+                    [](const BxdfComponent &part) { return part.mix_texture != no_index; })) {
+        throw input_error("the export to Mitsuba writes no mixture by a texture");
+    }
     if (const Recipe *row = recipe(parts)) {
         const std::string plugin = (is_rough(parts[0]) ? "rough" : "") + std::string(row->plugin);
         (this->*row->write)(add_object(parent, "bsdf", plugin, id), parts.data(), uv);

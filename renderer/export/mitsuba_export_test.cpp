@@ -195,6 +195,7 @@ const std::map<std::string, const char *> &beyond_mitsuba() {
         {"conductor_approximate", "no BSDF for ideal_reflection * conductor_approximate;"},
         {"julia", "no julia"},
         {"lambert_blinn", "no BSDF for lambert + blinn;"},
+        {"mixture", "the export to Mitsuba writes no mixture by a texture"},
         {"normal_map", "Mitsuba's normal maps does not follow mirrored texture coordinates"},
         {"opacity", "material 'cut_out': Mitsuba has no cutoff of an opacity texture"},
         {"oren_nayar_010", "no BSDF for oren_nayar;"},

@@ -176,6 +176,16 @@ void add_sections(const SceneArrays &arrays, ByteCollector &collector) {
             collector.add(component.roughness_squared);
         }
     }
+    if (std::any_of(components.begin(), components.end(), [](const BxdfComponent &component) {
+            return component.mix_texture != no_index;
+        })) {
+        collector.begin("mixtures");
+        for (const BxdfComponent &component : components) {
+            collector.add(component.mix_texture);
+            collector.add(component.mix);
+            collector.add(component.mix_inverted);
+        }
+    }
     const ShapeArrays &shapes = arrays.shapes;
     if (!shapes.kind.empty()) {
         collector.begin("shapes");

@@ -121,7 +121,7 @@ TEST(SceneErrors, Materials) {
             {R"({"type": "composite", "components": [{"bxdf": "lambert", "weight": [1, 1, 1], "alpha": 0.5}]})",
              "/nodes/1/material/components/0/alpha: unknown key 'alpha' of the lambert; allowed: "
              "bxdf, "
-             "fresnel, side, weight, "
+             "fresnel, mix, mix_inverted, mix_texture, side, weight, "
              "weight_texture"},
             {R"({"type": "composite", "components": [{"bxdf": "ward", "weight": [1, 1, 1]}]})",
              "missing key 'component_0_alpha'"},

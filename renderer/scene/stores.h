@@ -74,8 +74,8 @@ struct TextureArrays {
     }
 };
 
-/// One atomic BxDF of a material. Its contribution to the BSDF is weight * texture * F * f
-/// (thesis 3.52).
+/// One atomic BxDF of a material. Its contribution to the BSDF is weight * texture * mix * F * f
+/// (thesis 3.52), where mix is 1 without `mix_texture`.
 ///
 /// The eta of a dielectric is the index of refraction behind the surface (opposite to the normal)
 /// divided by the index in front of it. A material with a refracting component is a boundary: for
@@ -149,6 +149,12 @@ struct BxdfComponent {
     /// Index into TextureArrays: the luminance of its colours scales `alpha` and
     /// `disney_roughness`. An alpha below `least_alpha` becomes that.
     uint32_t roughness_texture = no_index;
+    /// Index into TextureArrays: the share of the component in a mixture is `mix` times the
+    /// luminance of its colours, or the rest, 1 minus that, if `mix_inverted`. It scales what the
+    /// component scatters, so it does not take part in the nonlinear colour of `coated_lambert`.
+    uint32_t mix_texture = no_index;
+    double mix = 1;  ///< the share is within [0, 1] for every texel
+    bool mix_inverted = false;
     bool roughness_squared = false;  ///< the square of the luminance scales `alpha`
     Side side = Side::both;          ///< both if the component refracts
     /// Light between base and coat is coloured by every reflection.

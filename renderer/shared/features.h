@@ -68,6 +68,7 @@
     X(bump_maps, "such a map has heights")                                                    \
     X(roughness_textures, "a roughness has a texture")                                        \
     X(texture_mirror, "a texture is mirrored beyond its edges")                               \
+    X(mixtures, "a texture mixes components")                                                 \
     X(vertex_colours, "the colours of vertices multiply a texture")                           \
     X(opacity, "rays may pass a surface: hits are accepted with its opacity")                 \
     /* lights */                                                                              \

@@ -35,6 +35,7 @@
     X(FEATURE_vertex_colours, TriangleColours, triangle_colours) \
     X(FEATURE_scattering, MaterialRecord, materials)             \
     X(FEATURE_scattering, BxdfRecord, components)                \
+    X(FEATURE_mixtures, MixRecord, mixes)                        \
     X(FEATURE_coated_lambert, float, coat_transmittances)        \
     X(FEATURE_textures, TextureRecord, textures)                 \
     X(FEATURE_textures, uint, texels)                            \

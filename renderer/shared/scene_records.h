@@ -70,7 +70,7 @@ typedef struct MaterialRecord {
 /// One atomic BxDF of a material (renderer/scene/stores.h describes each).
 typedef struct BxdfRecord {
     uint kind;     ///< BXDF_*
-    uint flags;    ///< FRESNEL_*, BXDF_FLAG_*
+    uint flags;    ///< FRESNEL_*, BXDF_FLAG_*, and above BXDF_MIX_SHIFT the mixture
     uint texture;  ///< index of the texture, or NO_TEXTURE
     /// Sigma for BXDF_OREN_NAYAR, exponent for BXDF_BLINN, and for BXDF_COATED_LAMBERT the share of
     /// light from below that the coat reflects back and that takes the colour of the base;
@@ -124,6 +124,16 @@ typedef struct BxdfRecord {
 #define BXDF_FLAG_BACK_ONLY 128u          ///< black from the front
 #define BXDF_FLAG_ROUGHNESS_TEXTURE 256u  ///< the luminance of a texture scales the roughness
 #define BXDF_FLAG_ROUGHNESS_SQUARED 512u  ///< its square scales alpha
+/// The bits from here on are 1 plus the index of the component's MixRecord, or 0.
+#define BXDF_MIX_SHIFT 12u
+
+/// The share of a component in a mixture: offset + scale * the luminance of a texture.
+typedef struct MixRecord {
+    uint texture;  ///< index of the texture
+    float offset;
+    float scale;
+    uint padding;
+} MixRecord;
 
 /// A texture: a range of the texel buffer. 8-bit texels have one word each, with R in the lowest
 /// byte; float texels have three words.
@@ -307,6 +317,7 @@ typedef struct EmitterTriangle {
 static_assert(sizeof(CameraRecord) == 144, "layout shared with the device");
 static_assert(sizeof(SurfaceTriangle) == 64, "layout shared with the device");
 static_assert(sizeof(MaterialRecord) == 16, "layout shared with the device");
+static_assert(sizeof(MixRecord) == 16, "layout shared with the device");
 static_assert(sizeof(BxdfRecord) == 64, "layout shared with the device");
 static_assert(sizeof(TextureRecord) == 32, "layout shared with the device");
 static_assert(sizeof(NormalMapRecord) == 16, "layout shared with the device");

@@ -161,6 +161,7 @@ inline void expect_consistent(const SceneGraph &graph) {
     for (const BxdfComponent &component : arrays.materials.component) {
         mark(component.texture);
         mark(component.roughness_texture);
+        mark(component.mix_texture);
     }
     ASSERT_EQ(arrays.materials.opacity.size(), arrays.materials.name.size());
     for (const MaterialOpacity &opacity : arrays.materials.opacity) {

@@ -27,8 +27,21 @@ DEVICE float component_eta(GLOBAL const BxdfRecord *component, uint material_fla
     return (material_flags & MATERIAL_BOUNDARY) != 0u && front == 0u ? 1.0f / eta : eta;
 }
 
-/// Returns weight times texture at a point with this frame, for a base below a coat with the light
-/// that the coat reflects back; black if the component does not reflect on wo's side.
+/// Returns the share of a component in its mixture at `uv`. Rounding may take it below 0.
+DEVICE float component_mix(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
+                           float2 uv) {
+    const uint number = component->flags >> BXDF_MIX_SHIFT;
+    if (!FEATURE_mixtures || number == 0u) {
+        return 1.0f;
+    }
+    GLOBAL const MixRecord *mix = scene->mixes + (number - 1u);
+    const float luminance =
+        rec709_luminance(texture_lookup(scene->textures + mix->texture, scene->texels, uv));
+    return max(mix->offset + mix->scale * luminance, 0.0f);
+}
+
+/// Returns weight times texture times mix at a point with this frame, for a base below a coat with
+/// the light that the coat reflects back; black if the component does not reflect on wo's side.
 DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const BxdfRecord *component,
                                SurfaceFrame frame) {
     const uint excluded = frame.front != 0u ? BXDF_FLAG_BACK_ONLY : BXDF_FLAG_FRONT_ONLY;
@@ -44,9 +57,9 @@ DEVICE float3 component_colour(PRIVATE const SceneView *scene, GLOBAL const Bxdf
         }
     }
     if (FEATURE_coated_lambert && component->kind == BXDF_COATED_LAMBERT) {
-        return colour_below_coat(component, colour);
+        colour = colour_below_coat(component, colour);
     }
-    return colour;
+    return FEATURE_mixtures ? colour * component_mix(scene, component, frame.uv) : colour;
 }
 
 DEVICE bool is_delta(uint kind) {

@@ -53,6 +53,14 @@ struct Part {
 
 void add_bxdf_rows(const Part &part, ParameterTable &table) {
     table.push_back(rows::colour(part.prefix + "weight", "weight of the component"));
+    table.push_back({part.prefix + "mix",
+                     "share of the component in a mixture; the luminance of a texture scales it",
+                     1.0,
+                     Need::defaulted,
+                     ranges::unit,
+                     {},
+                     true});
+    table.push_back({part.prefix + "mix_inverted", "the rest of the mixture, 1 - mix", false});
     if (part.kind == Kind::oren_nayar) {
         table.push_back(rows::sigma(part.prefix + "sigma"));
     }
@@ -184,6 +192,14 @@ MaterialComponent expand_part(const Part &part, const ParameterSet &p) {
     bxdf.kind = part.kind;
     bxdf.weight = p.vector3(made.parameter).cast<float>();
     bxdf.fresnel = part.fresnel;
+    made.mix_texture = p.texture(part.prefix + "mix");
+    bxdf.mix = p.number(part.prefix + "mix");
+    bxdf.mix_inverted = p.get<bool>(part.prefix + "mix_inverted");
+    if (made.mix_texture == nullptr) {
+        bxdf.weight *= static_cast<float>(bxdf.mix_inverted ? 1 - bxdf.mix : bxdf.mix);
+        bxdf.mix = 1;
+        bxdf.mix_inverted = false;
+    }
     if (part.kind == Kind::oren_nayar) {
         bxdf.sigma = p.number(part.prefix + "sigma");
     }

@@ -70,6 +70,13 @@ void check_common_parameters(const ParameterSet &parameters) {
 
 void check_components(const std::vector<MaterialComponent> &components) {
     for (const MaterialComponent &component : components) {
+        if (component.mix_texture != nullptr &&
+            component.bxdf.mix * brightest_luminance(*component.mix_texture) > 1 + 1e-6) {
+            throw input_error(
+                fmt::format("the mix {} times the brightest texel of its texture, {:.6g}, exceeds "
+                            "1; lower it",
+                            component.bxdf.mix, brightest_luminance(*component.mix_texture)));
+        }
         if (component.roughness_texture == nullptr) {
             continue;
         }

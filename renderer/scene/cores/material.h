@@ -29,6 +29,7 @@ struct MaterialComponent {
     std::string parameter;                       ///< name of the colour that became the weight
     std::shared_ptr<Texture> texture = nullptr;  ///< texture of that colour
     std::shared_ptr<Texture> roughness_texture = nullptr;
+    std::shared_ptr<Texture> mix_texture = nullptr;
 };
 
 /// A type of material. The number of components depends only on the type.
@@ -83,8 +84,8 @@ class MaterialCore : public ParameterCore {
 /// Returns the parameters that every material has.
 const ParameterTable &common_material_parameters();
 
-/// Throws `Error` (bad input) for a texture of the roughness of a smooth component, or one that
-/// scales it beyond 1, and like `check_energy`.
+/// Throws `Error` (bad input) for a texture of the roughness of a smooth component, one that scales
+/// it beyond 1, one that scales a mixture beyond 1, and like `check_energy`.
 void check_components(const std::vector<MaterialComponent> &components);
 
 /// Throws `Error` (bad input) if the opacity of a material exceeds 1 at a texel, or if it has both

@@ -107,6 +107,10 @@ double luminance(const Eigen::Vector3d &rgb) {
     return rgb[1] + 0.2126 * (rgb[0] - rgb[1]) + 0.0722 * (rgb[2] - rgb[1]);
 }
 
+double brightest_luminance(const Texture &texture) {
+    return luminance(texture.largest_texel().cast<double>());
+}
+
 double srgb_encoded(double value) {
     return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }

@@ -62,6 +62,9 @@ double srgb_decoded(double value);
 /// Returns the Rec. 709 luminance of a linear colour. For a grey, this is exactly its value.
 double luminance(const Eigen::Vector3d &rgb);
 
+/// Returns an upper bound of the luminance of a texture's colours: that of the largest channels.
+double brightest_luminance(const Texture &texture);
+
 /// Encodes a linear value in [0, 1] by the inverse of the sRGB curve.
 double srgb_encoded(double value);
 

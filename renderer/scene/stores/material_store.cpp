@@ -44,6 +44,7 @@ void TextureStore::keep_used(MaterialArrays &materials) {
         for (BxdfComponent &component : materials.component) {
             visit(component.texture);
             visit(component.roughness_texture);
+            visit(component.mix_texture);
         }
         for (MaterialOpacity &opacity : materials.opacity) {
             visit(opacity.texture);
@@ -97,6 +98,7 @@ void check_vertex_colours(const MaterialCore &material) {
     };
     for (const MaterialComponent &component : material.components()) {
         check(component.roughness_texture, "roughness");
+        check(component.mix_texture, "mixture");
     }
     check(material.opacity_texture(), "opacity");
     check(material.normal_map_texture(), "normals");
@@ -136,6 +138,7 @@ void MaterialStore::write(uint32_t slot, const Node &node, const AttributeSet &)
         arrays.component[at] = component.bxdf;
         arrays.component[at].texture = textures_.record(component.texture);
         arrays.component[at].roughness_texture = textures_.record(component.roughness_texture);
+        arrays.component[at].mix_texture = textures_.record(component.mix_texture);
         ++at;
     }
     arrays.two_sided[slot] = material.two_sided() ? 1 : 0;
