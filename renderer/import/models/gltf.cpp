@@ -23,12 +23,15 @@ using Eigen::Vector3d;
 
 /// Extensions that are honoured, by Assimp or by this file. Notes report approximations.
 constexpr const char *supported_extensions[] = {
-    "FB_ngon_encoding",           "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_texture_transform",
+    "FB_ngon_encoding",        "KHR_draco_mesh_compression",      "KHR_lights_punctual",
+    "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_sheen",     "KHR_materials_specular",          "KHR_materials_transmission",
+    "KHR_materials_volume",    "KHR_texture_transform",
 };
+
+/// Textures of extensions that are honoured, or replaced by their mean with a note.
+constexpr const char *read_textures[] = {"transmissionTexture", "clearcoatTexture",
+                                         "clearcoatRoughnessTexture", "sheenColorTexture"};
 
 constexpr const char *punctual = "KHR_lights_punctual";
 
@@ -118,8 +121,11 @@ void read_placements(const Json &material, GltfMaterial &made) {
 void note_textures(const Json &extension, const std::string &what, const std::string &name,
                    ModelNotes &notes) {
     for (const auto &[key, value] : extension.items()) {
-        if (value.is_object() && value.contains("index") && key != "transmissionTexture") {
-            notes.add(fmt::format("textures of {} are ignored", what), name);
+        const bool is_read = std::find(std::begin(read_textures), std::end(read_textures), key) !=
+                             std::end(read_textures);
+        if (value.is_object() && value.contains("index") && !is_read) {
+            notes.add(fmt::format("textures of {} are ignored, such as {}", what, shown(key)),
+                      name);
         }
     }
 }
@@ -144,6 +150,16 @@ GltfMaterial read_material(const Json &material, const std::string &name, ModelN
     made.thickness = number(volume, "thicknessFactor", 0);
     made.attenuation_distance = number(volume, "attenuationDistance", made.attenuation_distance);
     made.attenuation_colour = colour(volume, "attenuationColor");
+    made.transmission_map = placement_of(
+        member(member(extensions, "KHR_materials_transmission"), "transmissionTexture"));
+    const Json &clearcoat = member(extensions, "KHR_materials_clearcoat");
+    made.clearcoat = number(clearcoat, "clearcoatFactor", 0);
+    made.clearcoat_roughness = number(clearcoat, "clearcoatRoughnessFactor", 0);
+    const Json &sheen = member(extensions, "KHR_materials_sheen");
+    made.sheen_colour = member(sheen, "sheenColorFactor").is_null()
+                            ? Vector3d(0, 0, 0)
+                            : colour(sheen, "sheenColorFactor");
+    made.sheen_map = placement_of(member(sheen, "sheenColorTexture"));
     const Json &specular = member(extensions, "KHR_materials_specular");
     made.specular = number(specular, "specularFactor", 1);
     made.specular_colour = colour(specular, "specularColorFactor");

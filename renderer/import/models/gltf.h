@@ -37,6 +37,9 @@ struct GltfMaterial {
     double thickness = 0;
     double attenuation_distance = std::numeric_limits<double>::infinity();
     Eigen::Vector3d attenuation_colour = Eigen::Vector3d::Ones();
+    double clearcoat = 0;
+    double clearcoat_roughness = 0;
+    Eigen::Vector3d sheen_colour = Eigen::Vector3d::Zero();
     double specular = 1;
     Eigen::Vector3d specular_colour = Eigen::Vector3d::Ones();
     bool is_two_sided = false;
@@ -49,6 +52,8 @@ struct GltfMaterial {
     GltfTextureTransform normal_transform;
     GltfPlacement emission;
     GltfPlacement roughness;
+    GltfPlacement transmission_map;
+    GltfPlacement sheen_map;
 };
 
 /// A .gltf or .glb file.

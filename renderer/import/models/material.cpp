@@ -137,16 +137,17 @@ std::optional<GltfTextureTransform> from_mesh(const GltfMaterial &material,
     return placed;
 }
 
-/// Returns the green channel of an image as a grey image.
-std::shared_ptr<const TextureImage> green_of(const TextureImage &image) {
-    auto green = std::make_shared<TextureImage>(image);
-    for (size_t i = 0; i + 2 < green->bytes.size(); i += 3) {
-        green->bytes[i] = green->bytes[i + 2] = green->bytes[i + 1];
-    }
-    for (size_t i = 0; i + 2 < green->floats.size(); i += 3) {
-        green->floats[i] = green->floats[i + 2] = green->floats[i + 1];
-    }
-    return green;
+/// Returns the value of a channel if it is the same at all texels, which must be linear.
+std::optional<double> constant_of(const TextureImage &image, size_t channel) {
+    const auto constant = [&](const auto &values, double one) -> std::optional<double> {
+        for (size_t i = channel; i < values.size(); i += 3) {
+            if (values[i] != values[channel]) {
+                return std::nullopt;
+            }
+        }
+        return static_cast<double>(values[channel]) / one;
+    };
+    return image.floats.empty() ? constant(image.bytes, 255) : constant(image.floats, 1);
 }
 
 /// Returns the properties of a material of a format other than glTF.
@@ -251,9 +252,28 @@ std::shared_ptr<const TextureImage> ModelMaterials::load(const std::string &file
     return image;
 }
 
-Vector3d ModelMaterials::mean_of_map(const aiMaterial &source, int type, bool is_colour) {
+std::shared_ptr<const TextureImage> ModelMaterials::channel_of(
+    const std::shared_ptr<const TextureImage> &image, int channel) {
+    std::shared_ptr<const TextureImage> &known = channels_[{image.get(), channel}];
+    if (known == nullptr) {
+        auto grey = std::make_shared<TextureImage>(*image);
+        const auto copy = [channel](auto &values) {
+            for (size_t i = 0; i + 2 < values.size(); i += 3) {
+                const auto value = values[i + static_cast<size_t>(channel)];
+                values[i] = values[i + 1] = values[i + 2] = value;
+            }
+        };
+        copy(grey->bytes);
+        copy(grey->floats);
+        known = grey;
+    }
+    return known;
+}
+
+Vector3d ModelMaterials::mean_of_map(const aiMaterial &source, int type, bool is_colour,
+                                     unsigned index) {
     aiString file;
-    if (source.GetTexture(static_cast<aiTextureType>(type), 0, &file) != aiReturn_SUCCESS) {
+    if (source.GetTexture(static_cast<aiTextureType>(type), index, &file) != aiReturn_SUCCESS) {
         return Vector3d::Ones();
     }
     return mean_of(
@@ -262,8 +282,7 @@ Vector3d ModelMaterials::mean_of_map(const aiMaterial &source, int type, bool is
 
 std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int type_number,
                                                  const GltfTextureTransform *transform,
-                                                 const std::string &name, TextureEncoding encoding,
-                                                 bool vertex_colours) {
+                                                 const std::string &name, const MapUse &use) {
     const auto type = static_cast<aiTextureType>(type_number);
     aiString file;
     aiTextureMapping mapping = aiTextureMapping_UV;
@@ -287,7 +306,7 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
         notes_.add("textures with different wrap modes along u and v use the mode along u", name);
     }
     TexturePlacement placement;
-    placement.vertex_colours = vertex_colours;
+    placement.vertex_colours = use.vertex_colours;
     placement.wrap = modes[0] == aiTextureMapMode_Clamp    ? TextureArrays::Wrap::clamp
                      : modes[0] == aiTextureMapMode_Mirror ? TextureArrays::Wrap::mirror
                                                            : TextureArrays::Wrap::repeat;
@@ -308,13 +327,12 @@ std::shared_ptr<Texture> ModelMaterials::texture(const aiMaterial &source, int t
         placement.scale = transform->linear.diagonal();
         placement.offset = transform->offset;
     }
-    std::shared_ptr<const TextureImage> image = load(file.C_Str(), encoding);
-    std::string suffix = encoding == TextureEncoding::alpha ? "_alpha" : "";
-    if (type == aiTextureType_METALNESS) {
-        std::shared_ptr<const TextureImage> &green = greens_[image.get()];
-        green = green != nullptr ? green : green_of(*image);
-        image = green;
-        suffix = "_roughness";
+    std::shared_ptr<const TextureImage> image = load(file.C_Str(), use.encoding);
+    std::string suffix = use.encoding == TextureEncoding::alpha ? "_alpha" : "";
+    if (use.channel >= 0) {
+        constexpr const char *suffixes[] = {"_red", "_green", "_blue"};
+        image = channel_of(image, use.channel);
+        suffix = suffixes[use.channel];
     }
     return image != nullptr ? textures_.texture(image, file.C_Str() + suffix, placement) : nullptr;
 }
@@ -326,53 +344,129 @@ void ModelMaterials::read_physical(const aiMaterial &source, const GltfMaterial 
     surface.diffuse = colour(source, "$clr.base", surface.diffuse);
     surface.metalness = number(source, metalness_key, 0);
     double roughness = number(source, roughness_key, 1);
+    const MapUse linear{TextureEncoding::linear};
     if (has_map(source, aiTextureType_METALNESS)) {
         // glTF stores roughness in the green channel and metalness in the blue one.
-        const Vector3d mean = mean_of_map(source, aiTextureType_METALNESS, false);
-        surface.metalness *= mean.z();
         const std::optional<GltfTextureTransform> placed =
             gltf != nullptr ? from_mesh(*gltf, gltf->roughness) : std::nullopt;
         if (placed.has_value()) {
-            notes_.add("metalness maps are replaced by their mean", name);
-            surface.roughness_texture =
-                texture(source, aiTextureType_METALNESS, &*placed, name, TextureEncoding::linear);
+            const auto map = [&](int channel) {
+                MapUse use = linear;
+                use.channel = channel;
+                return texture(source, aiTextureType_METALNESS, &*placed, name, use);
+            };
+            surface.roughness_texture = map(1);
+            surface.metalness_texture = surface.metalness > 0 ? map(2) : nullptr;
+            if (surface.metalness_texture != nullptr) {
+                const auto constant = constant_of(*surface.metalness_texture->image(), 0);
+                if (constant.has_value()) {
+                    surface.metalness *= *constant;
+                    surface.metalness_texture = nullptr;
+                }
+            }
         } else {
-            notes_.add("metalness and roughness maps are replaced by their mean", name);
+            const Vector3d mean = mean_of_map(source, aiTextureType_METALNESS, false);
+            notes_.add(
+                "metalness and roughness maps are replaced by their mean if their texture "
+                "coordinates are not those of the base colour",
+                name);
+            surface.metalness *= mean.z();
             roughness *= mean.y();
         }
     }
     surface.alpha = roughness * roughness;
-    surface.transmission = extended.transmission;
-    if (surface.transmission > 0 && has_map(source, aiTextureType_TRANSMISSION)) {
-        notes_.add("transmission maps are replaced by their mean", name);
-        surface.transmission *= mean_of_map(source, aiTextureType_TRANSMISSION, false).x();
-    }
     const bool is_scaled = extended.specular != 1 || !extended.specular_colour.isOnes();
-    surface.eta = surface.transmission > 0 ? extended.ior : coat_index(extended);
+    surface.eta = extended.transmission > 0 ? extended.ior : coat_index(extended);
     if (is_scaled) {
-        notes_.add(surface.transmission > 0
+        notes_.add(extended.transmission > 0
                        ? "KHR_materials_specular is ignored where light is transmitted"
                        : "KHR_materials_specular is honoured at normal incidence only, as grey",
                    name);
     }
-    if (surface.transmission <= 0) {
-        return;
+    read_layers(source, extended, name, surface);
+    if (extended.transmission > 0) {
+        read_transmission(source, extended, gltf != nullptr, name, surface);
     }
+}
+
+void ModelMaterials::read_transmission(const aiMaterial &source, const GltfMaterial &material,
+                                       bool is_gltf, const std::string &name,
+                                       ModelSurface &surface) {
+    surface.transmission = material.transmission;
+    if (has_map(source, aiTextureType_TRANSMISSION)) {
+        const std::optional<GltfTextureTransform> placed =
+            is_gltf ? from_mesh(material, material.transmission_map) : std::nullopt;
+        if (placed.has_value() && surface.metalness_texture == nullptr) {
+            MapUse use{TextureEncoding::linear};
+            use.channel = 0;
+            surface.transmission_texture =
+                texture(source, aiTextureType_TRANSMISSION, &*placed, name, use);
+        } else {
+            notes_.add(
+                "transmission maps are replaced by their mean beside a metalness map, or if their "
+                "texture coordinates are not those of the base colour",
+                name);
+            surface.transmission *= mean_of_map(source, aiTextureType_TRANSMISSION, false).x();
+        }
+    }
+    surface.is_thin = is_gltf && !(material.thickness > 0);
     // A path through a body crosses its surface twice.
-    const double share = 0.5 * extended.thickness / extended.attenuation_distance;
-    if (!(extended.thickness > 0)) {
-        notes_.add(
-            "transmission refracts as at the surface of a solid, although it is thin-walled "
-            "in glTF",
-            name);
-    } else if (share > 0 && !extended.attenuation_colour.isOnes()) {
+    const double share = 0.5 * material.thickness / material.attenuation_distance;
+    if (surface.is_thin) {
+        notes_.add(surface.alpha > 0
+                       ? "transmission without thickness is that of thin walls, which are passed "
+                         "without scattering; set thicknessFactor for a solid"
+                       : "transmission without thickness is that of thin walls; set "
+                         "thicknessFactor for a solid",
+                   name);
+    } else if (share > 0 && !material.attenuation_colour.isOnes()) {
         notes_.add(
             "absorption in volumes is replaced by a colour at each crossing, for the stated "
             "thickness",
             name);
-        surface.transmittance = extended.attenuation_colour.array().pow(share).matrix();
+        surface.transmittance = material.attenuation_colour.array().pow(share).matrix();
     }
-    surface.refracts = surface.transmission >= 1 && surface.metalness <= 0;
+    const bool has_layers = surface.clearcoat > 0 || surface.sheen.maxCoeff() > 0;
+    const bool is_rough_plate = surface.is_thin && surface.alpha > 0;
+    surface.refracts = surface.transmission >= 1 && surface.metalness <= 0 && !has_layers &&
+                       !is_rough_plate && surface.transmission_texture == nullptr;
+}
+
+void ModelMaterials::read_layers(const aiMaterial &source, const GltfMaterial &material,
+                                 const std::string &name, ModelSurface &surface) {
+    if (material.clearcoat > 0) {
+        notes_.add(
+            "clear coats are smooth or rough dielectrics of index 1.5 on a share of the surface; "
+            "the coat of the base below them reflects nothing",
+            name);
+        // Assimp gives the maps of strength and roughness the indices 0 and 1.
+        surface.clearcoat =
+            material.clearcoat * mean_of_map(source, aiTextureType_CLEARCOAT, false).x();
+        const double roughness = material.clearcoat_roughness *
+                                 mean_of_map(source, aiTextureType_CLEARCOAT, false, 1).y();
+        surface.clearcoat_alpha = roughness * roughness;
+        if (has_map(source, aiTextureType_CLEARCOAT)) {
+            notes_.add("maps of clear coats are replaced by their mean, normals by none", name);
+        }
+    }
+    if (material.sheen_colour.maxCoeff() > 0) {
+        notes_.add("KHR_materials_sheen is Burley's sheen, whatever its roughness", name);
+        surface.sheen = material.sheen_colour.cwiseMax(0.0).cwiseMin(1.0);
+        const std::optional<GltfTextureTransform> placed = from_mesh(material, material.sheen_map);
+        if (!has_map(source, aiTextureType_SHEEN)) {
+            return;
+        }
+        if (placed.has_value()) {
+            surface.sheen_texture = texture(source, aiTextureType_SHEEN, &*placed, name);
+        } else {
+            notes_.add(
+                "sheen maps are replaced by their mean if their texture coordinates are not those "
+                "of the base colour",
+                name);
+            surface.sheen =
+                surface.sheen.cwiseProduct(mean_of_map(source, aiTextureType_SHEEN, true));
+        }
+    }
 }
 
 void ModelMaterials::read_opacity(const aiMaterial &source, const GltfMaterial *gltf,
@@ -466,7 +560,7 @@ ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
     const bool coloured = is_vertex_coloured(index);
     surface.diffuse_texture =
         texture(source, colour_map(source), gltf != nullptr ? &gltf->base_transform : nullptr, name,
-                TextureEncoding::srgb, coloured);
+                MapUse{TextureEncoding::srgb, coloured});
     if (coloured && surface.diffuse_texture == nullptr) {
         surface.diffuse_texture = textures_.vertex_colours();
     }
@@ -482,7 +576,9 @@ ModelSurface ModelMaterials::read(unsigned index, const std::string &name) {
         notes_.add("emission of two-sided materials leaves the front only", name);
     }
     for (const UnusedMap &map : unused_maps) {
-        if (has_map(source, map.type)) {
+        const bool is_read = gltf != nullptr && (map.type == aiTextureType_SHEEN ||
+                                                 map.type == aiTextureType_CLEARCOAT);
+        if (has_map(source, map.type) && !is_read) {
             notes_.add(map.note, name);
         }
     }

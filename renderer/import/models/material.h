@@ -52,13 +52,28 @@ class ModelMaterials {
     bool is_vertex_coloured(unsigned index) const;
     /// Returns an image, or null for an alpha channel that is missing or opaque everywhere.
     std::shared_ptr<const TextureImage> load(const std::string &file, TextureEncoding encoding);
-    Eigen::Vector3d mean_of_map(const aiMaterial &source, int type, bool is_colour);
-    /// Returns the texture of a map, or null; of the map of metalness and roughness, the latter.
-    /// `transform` is that of a glTF file. Without it, the material has the placement.
+    /// Returns the mean of the map of a type, of which a material may have several, or white.
+    Eigen::Vector3d mean_of_map(const aiMaterial &source, int type, bool is_colour,
+                                unsigned index = 0);
+    /// How a map is used.
+    struct MapUse {
+        TextureEncoding encoding = TextureEncoding::srgb;
+        bool vertex_colours = false;  ///< the colours of vertices multiply it
+        int channel = -1;             ///< the only channel that counts, or -1
+    };
+    /// Returns the texture of a map, or null. `transform` is that of a glTF file. Without it, the
+    /// material has the placement.
     std::shared_ptr<Texture> texture(const aiMaterial &source, int type,
                                      const GltfTextureTransform *transform, const std::string &name,
-                                     TextureEncoding encoding = TextureEncoding::srgb,
-                                     bool vertex_colours = false);
+                                     const MapUse &use);
+    std::shared_ptr<Texture> texture(const aiMaterial &source, int type,
+                                     const GltfTextureTransform *transform, const std::string &name,
+                                     TextureEncoding encoding = TextureEncoding::srgb) {
+        return texture(source, type, transform, name, MapUse{encoding});
+    }
+    /// Returns the image of one channel in all three.
+    std::shared_ptr<const TextureImage> channel_of(const std::shared_ptr<const TextureImage> &image,
+                                                   int channel);
     void read_opacity(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
                       ModelSurface &surface);
     void read_normals(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
@@ -67,6 +82,11 @@ class ModelMaterials {
                            const std::string &name, ModelSurface &surface);
     void read_physical(const aiMaterial &source, const GltfMaterial *gltf, const std::string &name,
                        ModelSurface &surface);
+    void read_transmission(const aiMaterial &source, const GltfMaterial &material, bool is_gltf,
+                           const std::string &name, ModelSurface &surface);
+    /// Reads the clear coat and the sheen.
+    void read_layers(const aiMaterial &source, const GltfMaterial &material,
+                     const std::string &name, ModelSurface &surface);
     ModelSurface read(unsigned index, const std::string &name);
 
     std::shared_ptr<const aiScene> model_;
@@ -77,7 +97,7 @@ class ModelMaterials {
     ModelTextures textures_;
     std::map<std::pair<std::string, TextureEncoding>, std::shared_ptr<const TextureImage>>
         embedded_;
-    std::map<const TextureImage *, std::shared_ptr<const TextureImage>> greens_;
+    std::map<std::pair<const TextureImage *, int>, std::shared_ptr<const TextureImage>> channels_;
 };
 
 }  // namespace rtrays

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/scene/cores/composite.h"
+#include "renderer/scene/cores/material_energy.h"
 
 namespace rtrays {
 
@@ -109,10 +110,14 @@ std::shared_ptr<MaterialCore> make_glass(const ModelSurface &s, const std::strin
     ParameterValues values = {
         {"eta", s.eta > 0 ? s.eta : ModelSurface::glass_eta},
         {"transmittance",
-         s.is_physical ? s.diffuse.cwiseProduct(s.transmittance) : s.transmittance},
-        {"roughness", Vector2d(alpha, alpha)}};
+         s.is_physical ? s.diffuse.cwiseProduct(s.transmittance) : s.transmittance}};
     ParameterTextures textures;
     set_common(s, values, textures);
+    if (s.is_thin) {
+        set_texture("transmittance", s.diffuse_texture, textures);
+        return std::make_shared<MaterialCore>(name, "thin_glass", values, textures);
+    }
+    values["roughness"] = Vector2d(alpha, alpha);
     if (alpha > 0 && s.roughness_texture != nullptr) {
         values["roughness_squared"] = true;
         textures["roughness"] = s.roughness_texture;
@@ -135,52 +140,149 @@ std::shared_ptr<MaterialCore> make_plain(const ModelSurface &s, const std::strin
     return std::make_shared<MaterialCore>(name, "lambert_blinn", values, textures);
 }
 
-/// Adds what is below the coat: Lambert, and refraction by the fraction `s.transmission`.
-void add_base(const ModelSurface &s, double share, CompositeBuilder &composite) {
-    const double through = std::min(std::max(s.transmission, 0.0), 1.0);
-    if (through < 1) {
-        const std::string base = composite.add(
-            "lambert", "dielectric", share * (1 - through) * s.diffuse, s.diffuse_texture);
-        composite.values[base + "fresnel_eta"] = s.eta;
-        composite.values[base + "fresnel_complement"] = true;
-    }
-    if (through > 0) {
-        const bool is_rough = s.alpha >= smooth_alpha && s.eta != 1;
-        const std::string part = composite.add(
-            is_rough ? "microfacet_refraction" : "ideal_refraction", "dielectric",
-            share * through * s.diffuse.cwiseProduct(s.transmittance), s.diffuse_texture);
-        composite.values[part + "eta"] = s.eta;
-        composite.values[part + "fresnel_complement"] = true;
-        if (is_rough) {
-            composite.set_roughness(part, s.alpha, s.roughness_texture);
-        }
-    }
-}
+/// A share of all components of a surface: a constant, times a texture or its complement.
+struct Share {
+    double constant = 1;
+    std::shared_ptr<Texture> texture;
+    double scale = 1;  ///< of the texture
+    bool inverted = false;
+};
 
-/// Adds a mixture by metalness of a metal and a coated base.
-void add_physical(const ModelSurface &s, CompositeBuilder &composite) {
-    const double metal = std::min(std::max(s.metalness, 0.0), 1.0);
-    if (metal > 0) {
-        const std::string part = composite.add_reflection(
-            s.alpha, s.roughness_texture, "schlick", Vector3d::Constant(metal), s.diffuse_texture);
-        composite.values[part + "fresnel_reflectance"] = s.diffuse;
-    }
-    if (metal < 1) {
-        const double share = 1 - metal;
-        if (s.eta != 1) {
-            const std::string coat = composite.add_reflection(
-                s.alpha, s.roughness_texture, "dielectric", Vector3d::Constant(share));
-            composite.values[coat + "fresnel_eta"] = s.eta;
+/// Adds the components of metalness and roughness to a composite.
+class PhysicalSurface {
+  public:
+    PhysicalSurface(const ModelSurface &surface, CompositeBuilder &composite)
+        : s_(surface), composite_(composite) {}
+
+    void add() {
+        const double coated = std::min(std::max(s_.clearcoat, 0.0), 1.0);
+        // The largest albedo of the sheen, with a margin for its quadrature.
+        const double rest = 1 - 1.001 * sheen_albedo(0) * s_.sheen.maxCoeff();
+        if (coated < 1) {
+            add_mixture(rest * (1 - coated), false);
         }
-        add_base(s, share, composite);
+        if (coated > 0) {
+            const std::string coat = composite_.add_reflection(
+                s_.clearcoat_alpha, nullptr, dielectric(), Vector3d::Constant(rest * coated));
+            composite_.values[coat + "fresnel_eta"] = eta_of(true);
+            add_mixture(rest * coated, true);
+        }
+        if (s_.sheen.maxCoeff() > 0) {
+            composite_.add("disney_sheen", "ideal", s_.sheen, s_.sheen_texture);
+        }
     }
-}
+
+  private:
+    bool is_transparent() const { return s_.transmission > 0; }
+    bool is_thin() const { return is_transparent() && s_.is_thin; }
+
+    /// Returns the Fresnel term of a dielectric. That of a thin wall is the same from both sides.
+    const char *dielectric() const { return is_thin() ? "thin_dielectric" : "dielectric"; }
+
+    /// Returns the index of the dielectric: that of the base, or 1.5 for a clear coat of glTF. A
+    /// coat on a transparent body reflects no more than the surface of the body, which passes the
+    /// rest.
+    double eta_of(bool coated) const {
+        constexpr double clearcoat = 1.5;
+        return !coated                          ? s_.eta
+               : is_transparent() && !is_thin() ? std::min(clearcoat, s_.eta)
+                                                : clearcoat;
+    }
+
+    void set_share(const std::string &part, const Share &share) {
+        if (share.texture != nullptr) {
+            composite_.textures[part + "mix"] = share.texture;
+            composite_.values[part + "mix"] = share.scale;
+            composite_.values[part + "mix_inverted"] = share.inverted;
+        }
+    }
+
+    /// Sets the Fresnel term 1 - F of what is below a dielectric.
+    void set_below(const std::string &part, double eta) {
+        composite_.values[part + "fresnel_eta"] = eta;
+        composite_.values[part + "fresnel_complement"] = true;
+    }
+
+    /// Adds the mixture by metalness, on `constant` of the surface.
+    void add_mixture(double constant, bool coated) {
+        const double metal = std::min(std::max(s_.metalness, 0.0), 1.0);
+        const std::shared_ptr<Texture> &texture = s_.metalness_texture;
+        if (metal > 0) {
+            add_metal({texture ? constant : constant * metal, texture, metal, false}, coated);
+        }
+        if (metal < 1 || texture) {
+            add_base({texture ? constant : constant * (1 - metal), texture, metal, true}, coated);
+        }
+    }
+
+    void add_metal(const Share &share, bool coated) {
+        const std::string part = composite_.add_reflection(
+            s_.alpha, s_.roughness_texture, coated ? dielectric() : "schlick",
+            share.constant * (coated ? s_.diffuse : Vector3d::Ones()), s_.diffuse_texture);
+        set_share(part, share);
+        if (coated) {
+            set_below(part, eta_of(coated));
+        } else {
+            composite_.values[part + "fresnel_reflectance"] = s_.diffuse;
+        }
+    }
+
+    /// Adds the dielectric and what is below it.
+    void add_base(const Share &share, bool coated) {
+        const double through = std::min(std::max(s_.transmission, 0.0), 1.0);
+        const std::shared_ptr<Texture> &texture = s_.transmission_texture;
+        if (!coated && s_.eta != 1) {
+            const std::string coat = composite_.add_reflection(
+                s_.alpha, s_.roughness_texture, dielectric(), Vector3d::Constant(share.constant));
+            composite_.values[coat + "fresnel_eta"] = s_.eta;
+            set_share(coat, share);
+        }
+        const Share diffuse = texture ? Share{share.constant, texture, through, true}
+                                      : with_factor(share, 1 - through);
+        const Share transmitted =
+            texture ? Share{share.constant, texture, through, false} : with_factor(share, through);
+        if (through < 1 || texture) {
+            const std::string base = composite_.add(
+                "lambert", dielectric(), diffuse.constant * s_.diffuse, s_.diffuse_texture);
+            set_below(base, eta_of(coated));
+            set_share(base, diffuse);
+        }
+        if (through > 0) {
+            add_transmission(transmitted, coated);
+        }
+    }
+
+    static Share with_factor(Share share, double factor) {
+        share.constant *= factor;
+        return share;
+    }
+
+    void add_transmission(const Share &share, bool coated) {
+        const Vector3d weight = share.constant * s_.diffuse.cwiseProduct(s_.transmittance);
+        const bool is_rough = s_.alpha >= smooth_alpha && s_.eta != 1 && !s_.is_thin;
+        const std::string part =
+            composite_.add(is_rough ? "microfacet_refraction" : "ideal_refraction", dielectric(),
+                           weight, s_.diffuse_texture);
+        composite_.values[part + "eta"] = s_.is_thin ? 1 : s_.eta;
+        composite_.values[part + "fresnel_complement"] = true;
+        if (s_.is_thin) {
+            composite_.values[part + "fresnel_eta"] = eta_of(coated);
+        }
+        if (is_rough) {
+            composite_.set_roughness(part, s_.alpha, s_.roughness_texture);
+        }
+        set_share(part, share);
+    }
+
+    const ModelSurface &s_;
+    CompositeBuilder &composite_;
+};
 
 std::shared_ptr<MaterialCore> make_composite(const ModelSurface &s, const std::string &name) {
     CompositeBuilder composite;
     set_common(s, composite.values, composite.textures);
     if (s.is_physical) {
-        add_physical(s, composite);
+        PhysicalSurface(s, composite).add();
     } else {
         // An exponent of zero means a mirror. The material requests reflections, not a highlight.
         const std::string part = composite.add_reflection(

@@ -35,10 +35,18 @@ struct ModelSurface {
     double eta = 1;
     double metalness = 0;
     double alpha = 0;
-    double transmission = 0;     ///< fraction of the light below the coat that is refracted
-    bool is_physical = false;    ///< described by metalness and roughness
-    bool refracts = false;       ///< glass
-    bool only_reflects = false;  ///< a mirror or a metal without a diffuse colour
+    double transmission = 0;  ///< fraction of the light below the coat that is transmitted
+    /// Factor of `metalness`, or of `transmission`; at most one of them. Their luminance counts.
+    std::shared_ptr<Texture> metalness_texture;
+    std::shared_ptr<Texture> transmission_texture;
+    bool is_thin = false;  ///< transmitted light passes a plate instead of entering a body
+    double clearcoat = 0;  ///< share of the surface that has a clear coat
+    double clearcoat_alpha = 0;
+    Eigen::Vector3d sheen = Eigen::Vector3d::Zero();
+    std::shared_ptr<Texture> sheen_texture;  ///< factor of `sheen`
+    bool is_physical = false;                ///< described by metalness and roughness
+    bool refracts = false;                   ///< glass
+    bool only_reflects = false;              ///< a mirror or a metal without a diffuse colour
 
     bool has_highlight() const { return specular.maxCoeff() > 0 && exponent > 0; }
     bool is_plain() const { return !is_physical && !refracts && !only_reflects; }
@@ -46,10 +54,12 @@ struct ModelSurface {
 
 /// Converts a surface to a material. The first matching rule applies:
 ///
-///   1. `refracts`: glass.
+///   1. `refracts`: glass, or thin glass.
 ///   2. `is_physical`: a mixture by metalness of a metal (Schlick) and of a coated base. The base
-///      is Lambert below a dielectric, and refracts the fraction `transmission`. The distribution
-///      is GGX.
+///      is Lambert below a dielectric, and transmits the fraction `transmission`. The distribution
+///      is GGX. A clear coat of index 1.5 replaces the dielectric, and the edge of the metal's
+///      Fresnel term, where the surface has one. Burley's sheen is added, and the rest darkened by
+///      the largest albedo of the sheen.
 ///   3. `only_reflects`: metal (Schlick) of reflectance `specular`, GGX.
 ///   4. A specular colour and an exponent: lambert_blinn.
 ///   5. Otherwise: lambert.
