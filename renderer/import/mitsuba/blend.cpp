@@ -39,6 +39,11 @@ void add_component(const MaterialComponent &component, const std::string &prefix
     if (component.texture != nullptr) {
         composite.textures[prefix + "weight"] = component.texture;
     }
+    if (component.mix_texture != nullptr) {
+        composite.textures[prefix + "mix"] = component.mix_texture;
+        values[prefix + "mix"] = bxdf.mix;
+        values[prefix + "mix_inverted"] = bxdf.mix_inverted;
+    }
     if (component.roughness_texture != nullptr) {
         const bool is_diffuse = bxdf.kind == Kind::disney_diffuse;
         composite.textures[prefix + (is_diffuse ? "roughness" : "alpha")] =

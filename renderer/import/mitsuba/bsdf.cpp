@@ -9,10 +9,10 @@
 
 #include "renderer/base/notice.h"
 #include "renderer/import/mitsuba/blend.h"
+#include "renderer/import/mitsuba/draft.h"
 #include "renderer/import/mitsuba/ior.h"
 #include "renderer/import/mitsuba/measured.h"
 #include "renderer/import/mitsuba/plastic.h"
-#include "renderer/import/mitsuba/principled.h"
 #include "renderer/import/models/names.h"
 #include "renderer/import/models/textures.h"
 #include "renderer/scene/graph.h"
@@ -73,23 +73,6 @@ void read_metal(Object &object, const std::string &name, ParameterValues &values
 }
 
 }  // namespace
-
-/// A material under construction.
-struct MaterialReader::Draft {
-    UvConvention uv;
-    std::shared_ptr<const MaterialType> type;
-    ParameterValues values;
-    ParameterTextures textures;
-    ErrorList *errors;
-    bool depends_on_uv = false;
-
-    bool has_opacity() const { return values.count("opacity") + textures.count("opacity") > 0; }
-    bool has_map() const { return textures.count("normal_map") + textures.count("bump_map") > 0; }
-
-    void set_type(const char *name) {
-        type = static_type(find_type(material_types(), name, "material"));
-    }
-};
 
 std::string NameList::unique(const std::string &wanted) {
     std::string name = wanted;
@@ -256,10 +239,15 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
     if (inner.size() != 2) {
         throw object.element().error(fmt::format("has {} BSDFs; expected two", inner.size()));
     }
-    const std::optional<double> weight = object.number("weight");
-    if (!weight.has_value() || !(*weight >= 0 && *weight <= 1)) {
-        throw object.element().error("expected a number from 0 to 1 as weight");
+    const std::vector<Element> textures = object.objects("texture", "weight");
+    const std::shared_ptr<Texture> mix =
+        textures.empty() ? nullptr : mix_texture(textures[0], draft);
+    const std::optional<double> number = mix != nullptr ? std::nullopt : object.number("weight");
+    if (textures.size() > 1 ||
+        (mix == nullptr && (!number.has_value() || !(*number >= 0 && *number <= 1)))) {
+        throw object.element().error("expected a number from 0 to 1, or one texture, as weight");
     }
+    const double weight = number.value_or(1);
     std::vector<MaterialComponent> components;
     bool two_sided[2] = {};
     for (const size_t i : {0, 1}) {
@@ -274,11 +262,20 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
         const auto core = nested_components(inner[i], part, draft);
         two_sided[i] = std::get<bool>(part.values.at("two_sided"));
         for (MaterialComponent component : core) {
-            if (component.bxdf.nonlinear) {
+            if (mix != nullptr && component.mix_texture != nullptr) {
+                throw inner[i].error(
+                    "its own weights are a texture, which is unsupported in a blend by a texture");
+            }
+            if (mix != nullptr) {
+                component.mix_texture = mix;
+                component.bxdf.mix_inverted = i == 0;
+            } else if (component.bxdf.nonlinear) {
                 throw inner[i].error(
                     "nonlinear: unsupported in a blend if diffuse_reflectance is a texture");
             }
-            component.bxdf.weight *= static_cast<float>(i == 0 ? 1 - *weight : *weight);
+            if (mix == nullptr) {
+                component.bxdf.weight *= static_cast<float>(i == 0 ? 1 - weight : weight);
+            }
             components.push_back(component);
         }
     }
@@ -437,85 +434,6 @@ void MaterialReader::read_plastic(Object &object, Draft &draft) {
     }
 }
 
-void MaterialReader::read_principled(Object &object, Draft &draft) {
-    Principled p;
-    read_colour(object, "base_color", "base_color", 0.5, draft);
-    p.base_color = std::get<Vector3d>(draft.values.at("base_color"));
-    draft.values.erase("base_color");
-    if (const auto found = draft.textures.find("base_color"); found != draft.textures.end()) {
-        p.base_texture = found->second;
-        draft.textures.erase(found);
-    }
-    if (const auto textures = object.objects("texture", "roughness"); !textures.empty()) {
-        p.roughness = 1;
-        p.roughness_texture = texture(textures[0], draft);
-    } else {
-        p.roughness = read_share(object, "roughness", 0.5, draft);
-    }
-    p.anisotropic = read_share(object, "anisotropic", 0, draft);
-    p.metallic = read_share(object, "metallic", 0, draft);
-    p.spec_trans = read_share(object, "spec_trans", 0, draft);
-    p.spec_tint = read_share(object, "spec_tint", 0, draft);
-    p.sheen = read_share(object, "sheen", 0, draft);
-    p.sheen_tint = read_share(object, "sheen_tint", 0, draft);
-    p.flatness = read_share(object, "flatness", 0, draft);
-    p.clearcoat = read_share(object, "clearcoat", 0, draft);
-    p.clearcoat_gloss = read_share(object, "clearcoat_gloss", 0, draft);
-    for (const char *rate : {"main_specular_sampling_rate", "clearcoat_sampling_rate",
-                             "diffuse_reflectance_sampling_rate"}) {
-        object.ignore(rate);  // affects noise only
-    }
-    if (object.has("eta") && object.has("specular")) {
-        throw object.element().error("has both eta and specular; give one of them");
-    }
-    const double specular = read_share(object, "specular", 0.5, draft);
-    p.eta = object.number("eta", 2 / (1 - std::sqrt(0.08 * specular)) - 1);
-    if (!(p.eta >= 1 && p.eta <= 100)) {
-        throw object.property("eta").error(fmt::format("{} is not within [1, 100]", p.eta));
-    }
-    if (p.anisotropic > 0) {
-        draft.depends_on_uv = true;
-        if (draft.uv == UvConvention::none) {
-            throw object.property("anisotropic")
-                .error("the tangents of this shape do not match Mitsuba's; use 0");
-        }
-    }
-    if (p.is_glass() && p.spec_tint == 0 && p.clearcoat == 0 && p.base_texture == nullptr) {
-        draft.set_type("glass");
-        draft.values = {{"two_sided", true},
-                        {"eta", std::max(p.eta, 1.001)},
-                        {"roughness", p.alpha()},
-                        {"roughness_squared", p.roughness_texture != nullptr},
-                        {"transmittance", Vector3d(p.base_color.cwiseSqrt())}};
-        if (p.roughness_texture != nullptr) {
-            draft.textures["roughness"] = p.roughness_texture;
-        }
-        return;
-    }
-    Composite composite =
-        composite_of(object.element().located([&] { return principled_components(p); }));
-    draft.type = composite.type;
-    draft.values = std::move(composite.values);
-    draft.values["two_sided"] = false;
-    draft.textures = std::move(composite.textures);
-}
-
-double MaterialReader::read_share(Object &object, const char *property, double initial,
-                                  Draft &draft) {
-    const std::vector<Element> textures = object.objects("texture", property);
-    double value = 0;
-    if (textures.empty()) {
-        value = object.number(property, initial);
-    } else {
-        value = luminance(mean_of(*texture(textures[0], draft)->image()));
-        notice(textures[0].error(fmt::format("replaced by its mean, {:.3g}", value)).what());
-    }
-    if (!(value >= 0 && value <= 1)) {
-        throw object.element().error(fmt::format("{}: {} is not within [0, 1]", property, value));
-    }
-    return value;
-}
-
 void MaterialReader::read_roughness(Object &object, Draft &draft) {
     const bool both = object.has("alpha");
     if (both && (object.has("alpha_u") || object.has("alpha_v"))) {
@@ -574,6 +492,15 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
         }
         draft.values[parameter] = colour;
     });
+}
+
+std::shared_ptr<Texture> MaterialReader::mix_texture(const Element &element, Draft &draft) {
+    const std::shared_ptr<Texture> made = texture(element, draft);
+    const double brightest = brightest_luminance(*made);
+    if (!(brightest <= 1 + 1e-6)) {
+        throw element.error(fmt::format("its brightest texel, {:.6g}, exceeds 1", brightest));
+    }
+    return made;
 }
 
 std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &draft) {

@@ -81,6 +81,11 @@ class MaterialReader {
     void read_conductor(Object &object, Draft &draft);
     void read_plastic(Object &object, Draft &draft);
     void read_principled(Object &object, Draft &draft);
+    /// Returns a number within [0, 1], or 1 with a texture as its factor.
+    double read_factor(Object &object, const char *property, std::shared_ptr<Texture> &factor,
+                       Draft &draft);
+    /// Returns a texture whose luminance mixes BSDFs. Throws `LocatedError` if it exceeds 1.
+    std::shared_ptr<Texture> mix_texture(const Element &element, Draft &draft);
     /// Returns a number within [0, 1]. A texture is replaced by its mean, with a notice.
     double read_share(Object &object, const char *property, double initial, Draft &draft);
     void read_twosided(Object &object, Draft &draft);

@@ -143,5 +143,97 @@ TEST_F(MitsubaRoughness, MayBeATexture) {
     });
 }
 
+/// A checkerboard as the value of a property.
+std::string checkers(const std::string &property, const std::string &keys = "") {
+    return R"(<texture type="checkerboard" name=")" + property + "\">" + keys + "</texture>";
+}
+
+TEST(MitsubaBsdfs, TexturesMixTheBsdfsOfABlend) {
+    const std::string red =
+        R"(<bsdf type="diffuse"><rgb name="reflectance" value="1, 0, 0"/></bsdf>)";
+    const std::string coat = R"(<bsdf type="plastic"><boolean name="nonlinear" value="true"/>)" +
+                             checkers("diffuse_reflectance") + "</bsdf>";
+    const auto parts =
+        components_of(R"(<bsdf type="blendbsdf">)" + checkers("weight") + red + coat + "</bsdf>");
+    ASSERT_EQ(parts.size(), 3u);
+    // The second BSDF has the weight, the first one the rest.
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(parts[i].mix_texture, parts[0].mix_texture);
+        EXPECT_EQ(parts[i].mix_inverted, i == 0);
+        EXPECT_EQ(parts[i].mix, 1);
+    }
+    EXPECT_NE(parts[0].mix_texture, no_index);
+    EXPECT_EQ(parts[0].weight, Vector3f(1, 0, 0));
+    EXPECT_TRUE(parts[2].nonlinear);
+    // A number inside of a texture, and a texture inside of a number.
+    const std::string numbers =
+        R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/>)" + red + red + "</bsdf>";
+    const auto inside = components_of(R"(<bsdf type="blendbsdf">)" + checkers("weight") + numbers +
+                                      red + "</bsdf>");
+    ASSERT_EQ(inside.size(), 3u);
+    EXPECT_EQ(inside[0].weight[0], 0.75f);
+    EXPECT_TRUE(inside[1].mix_inverted);
+    EXPECT_FALSE(inside[2].mix_inverted);
+    const std::string texture =
+        R"(<bsdf type="blendbsdf">)" + checkers("weight") + red + red + "</bsdf>";
+    const auto outside =
+        components_of(R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/>)" + texture +
+                      red + "</bsdf>");
+    ASSERT_EQ(outside.size(), 3u);
+    EXPECT_EQ(outside[0].weight[0], 0.75f);
+    EXPECT_EQ(outside[2].mix_texture, no_index);
+    EXPECT_NE(outside[1].mix_texture, no_index);
+    expect_input_error("its own weights are a texture", [&] {
+        components_of(R"(<bsdf type="blendbsdf">)" + checkers("weight") + texture + red +
+                      "</bsdf>");
+    });
+    expect_input_error("its brightest texel, 2, exceeds 1", [&] {
+        components_of(R"(<bsdf type="blendbsdf">)" +
+                      checkers("weight", R"(<rgb name="color0" value="2"/>)") + red + red +
+                      "</bsdf>");
+    });
+    expect_input_error("expected a number from 0 to 1, or one texture, as weight", [&] {
+        components_of(R"(<bsdf type="blendbsdf">)" + red + red + "</bsdf>");
+    });
+}
+
+TEST(MitsubaBsdfs, TexturesMixTheLobesOfPrincipled) {
+    const auto principled = [](const std::string &properties) {
+        return components_of(R"(<bsdf type="principled">)" + properties + "</bsdf>");
+    };
+    const auto metal = principled(checkers("metallic") + R"(<float name="sheen" value="0.5"/>)" +
+                                  checkers("clearcoat"));
+    ASSERT_EQ(metal.size(), 5u);
+    const Kind kinds[] = {Kind::microfacet_reflection, Kind::microfacet_reflection,
+                          Kind::disney_clearcoat, Kind::disney_diffuse, Kind::disney_sheen};
+    const bool inverted[] = {true, false, false, true, true};
+    for (size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(metal[i].kind, kinds[i]) << i;
+        EXPECT_EQ(metal[i].mix_inverted, inverted[i]) << i;
+        EXPECT_NE(metal[i].mix_texture, no_index) << i;
+        EXPECT_EQ(metal[i].mix_texture == metal[0].mix_texture, i != 2) << i;
+    }
+    EXPECT_EQ(metal[0].fresnel, Fresnel::dielectric);
+    EXPECT_EQ(metal[1].fresnel, Fresnel::schlick);
+    EXPECT_EQ(metal[1].weight, Vector3f(1, 1, 1));
+    EXPECT_EQ(metal[3].weight, Vector3f(0.5f, 0.5f, 0.5f));
+    const auto sheen = principled(checkers("sheen"));
+    ASSERT_EQ(sheen.size(), 3u);
+    EXPECT_NE(sheen[2].mix_texture, no_index);
+    EXPECT_EQ(sheen[0].mix_texture, no_index);
+    // What is no weight is replaced by its mean, which a notice says.
+    const Notices notices;
+    const Scene scene =
+        parse_mitsuba_xml(mitsuba_scene(R"(<shape type="rectangle"><bsdf type="principled">)" +
+                                        checkers("spec_tint") + "</bsdf></shape>"),
+                          "in.xml", "in", testing::TempDir());
+    EXPECT_TRUE(std::any_of(notices.texts().begin(), notices.texts().end(), [](const auto &text) {
+        return text.find("spec_tint: replaced by its mean, 0.3") != std::string::npos;
+    }));
+    expect_input_error("spec_trans: a surface that is only partly", [&] {
+        principled(checkers("metallic") + R"(<float name="spec_trans" value="1"/>)");
+    });
+}
+
 }  // namespace
 }  // namespace rtrays

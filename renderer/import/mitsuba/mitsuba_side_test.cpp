@@ -165,6 +165,24 @@ TEST_F(MitsubaSides, CylindersThatEmitAreMeshes) {
         << notices.texts()[0];
 }
 
+TEST_F(MitsubaSides, ShapesWithANormalMapBecomeMeshes) {
+    const std::string map = R"(<bsdf type="twosided"><bsdf type="normalmap">
+        <texture type="checkerboard" name="normalmap"/><bsdf type="diffuse"/></bsdf></bsdf></shape>)";
+    for (const char *type : {"sphere", "cylinder"}) {
+        const Notices notices;
+        const Scene scene =
+            parse_mitsuba_xml(mitsuba_scene(std::string("<shape type=\"") + type + "\">" + map),
+                              "in.xml", "in", testing::TempDir());
+        EXPECT_TRUE(scene.arrays().shapes.name.empty());
+        EXPECT_EQ(scene.meshes().has_uv, std::vector<uint8_t>{1});
+        ASSERT_FALSE(notices.texts().empty());
+        EXPECT_NE(
+            notices.texts()[0].find("because this shape cannot have a normal or bump map here"),
+            std::string::npos)
+            << notices.texts()[0];
+    }
+}
+
 TEST_F(MitsubaSides, CylindersMayBeStretchedAlongTheirAxis) {
     const Scene scene = load(
         R"(<shape type="cylinder"><transform name="to_world"><scale x="10" y="10" z="4"/></transform></shape>

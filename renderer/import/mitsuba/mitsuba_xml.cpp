@@ -192,15 +192,19 @@ class SceneReader {
                    const std::shared_ptr<MaterialCore> &material, const ShapeEmission &emission) {
         check_vertex_colours(element, shape, *material);
         const bool emits = emission.light != nullptr || emission.texture != nullptr;
-        const bool needs_mesh = (shape.is_flipped && !looks_the_same_flipped(*material, emits)) ||
-                                (emits && !shape.can_emit);
+        const bool is_flipped = shape.is_flipped && !looks_the_same_flipped(*material, emits);
+        const bool is_mapped = material->normal_map_texture() != nullptr &&
+                               dynamic_cast<const MeshCore *>(shape.geometry.get()) == nullptr;
+        const bool needs_mesh = is_flipped || is_mapped || (emits && !shape.can_emit);
         const Shape placed = needs_mesh ? tessellated(shape) : shape;
         if (needs_mesh) {
             notice(element
                        .error(fmt::format(
                            "replaced by a mesh of {} triangles, because this shape cannot {} here",
                            static_cast<const MeshCore &>(*placed.geometry).triangles().size(),
-                           shape.is_flipped ? "be flipped" : "emit"))
+                           is_flipped  ? "be flipped"
+                           : is_mapped ? "have a normal or bump map"
+                                       : "emit"))
                        .what());
         }
         Node &node = add_node(element, name, placed.world_from_geometry);

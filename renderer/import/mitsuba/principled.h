@@ -18,6 +18,9 @@ struct Principled {
     std::shared_ptr<Texture> roughness_texture;  ///< its luminance is a factor of roughness
     double anisotropic = 0;
     double metallic = 0;
+    /// Factors of metallic, clearcoat and sheen by their luminance. At most one of the first and
+    /// the last.
+    std::shared_ptr<Texture> metallic_texture, clearcoat_texture, sheen_texture;
     double spec_trans = 0;
     double eta = 1.5;  ///< at least 1
     double spec_tint = 0;
@@ -28,7 +31,11 @@ struct Principled {
     double clearcoat_gloss = 0;
 
     /// Returns whether all light that is not reflected passes the surface.
-    bool is_glass() const { return spec_trans == 1 && metallic == 0; }
+    bool is_glass() const {
+        return spec_trans == 1 && metallic == 0 && metallic_texture == nullptr;
+    }
+    /// Returns the share of what is not metal, before the texture.
+    double dielectric() const { return metallic_texture != nullptr ? 1 : 1 - metallic; }
     /// Returns the roughness of the main lobe along the tangent and across it.
     Eigen::Vector2d alpha() const;
 };
