@@ -208,10 +208,6 @@ INSTANTIATE_TEST_SUITE_P(
                         "type=\"diffuse\"/><bsdf type=\"bumpmap\">" +
                             std::string(checks) + "<bsdf type=\"diffuse\"/></bsdf>"),
                    "a blend of normal or bump maps is unsupported"},
-        BadElement{shape("<bsdf type=\"normalmap\">" + std::string(checks) +
-                             "<bsdf type=\"diffuse\"/></bsdf>",
-                         "disk"),
-                   "this shape has no texture coordinates that match Mitsuba's"},
         BadElement{bsdf("twosided", "<bsdf type=\"normalmap\">" + std::string(checks) +
                                         "<bsdf type=\"diffuse\"/></bsdf><bsdf type=\"diffuse\"/>"),
                    "a normal or bump map for one side only is unsupported"},

@@ -479,11 +479,17 @@ TEST_F(MitsubaTextures, NeedCoordinatesInCommon) {
 <string name="filename" value="two.ppm"/></texture></bsdf></shape>)");
         };
     };
+    std::ofstream(testing::TempDir() + "bare.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     expect_input_error(
-        "in.xml:3: <texture type=\"bitmap\" name=\"reflectance\">: this shape has no texture "
+        "<texture type=\"bitmap\" name=\"reflectance\">: this shape has no texture "
         "coordinates",
-        on("disk"));
+        [] {
+            parse_elements(R"(<shape type="obj"><string name="filename" value="bare.obj"/>
+                <bsdf type="diffuse"><texture type="bitmap" name="reflectance">
+                <string name="filename" value="two.ppm"/></texture></bsdf></shape>)");
+        });
     EXPECT_NO_THROW(on("cylinder")());
+    EXPECT_NO_THROW(on("disk")());
 }
 
 TEST_F(MitsubaTextures, Environments) {

@@ -183,6 +183,40 @@ TEST_F(MitsubaSides, ShapesWithANormalMapBecomeMeshes) {
     }
 }
 
+TEST_F(MitsubaSides, DisksWithATextureBecomeMeshesWithPolarCoordinates) {
+    for (const bool flip : {false, true}) {
+        const Notices notices;
+        const Scene scene = parse_mitsuba_xml(
+            mitsuba_scene(
+                std::string(R"(<shape type="disk"><boolean name="flip_normals" value=")") +
+                (flip ? "true" : "false") + R"("/><bsdf type="twosided"><bsdf type="diffuse">
+                <texture type="checkerboard" name="reflectance"/></bsdf></bsdf></shape>)"),
+            "in.xml", "in", testing::TempDir());
+        const MeshArrays &meshes = scene.meshes();
+        ASSERT_EQ(meshes.uv.size(), meshes.position.size());
+        double area = 0;
+        for (const Triangle &t : meshes.triangle) {
+            const Vector3f &a = meshes.position[t[0]];
+            const Vector3f normal = (meshes.position[t[1]] - a).cross(meshes.position[t[2]] - a);
+            area += 0.5 * static_cast<double>(normal.norm());
+            EXPECT_EQ(normal.z() > 0, !flip);
+        }
+        EXPECT_NEAR(area, pi, 2e-3);
+        for (size_t i = 0; i < meshes.uv.size(); ++i) {
+            const auto radius = static_cast<double>(meshes.uv[i].x());
+            const double angle = 2 * pi * static_cast<double>(meshes.uv[i].y());
+            EXPECT_NEAR(meshes.position[i].x(), radius * std::cos(angle), 1e-5);
+            EXPECT_NEAR(meshes.position[i].y(), radius * std::sin(angle), 1e-5);
+        }
+        ASSERT_FALSE(notices.texts().empty());
+        EXPECT_NE(
+            notices.texts()[0].find("because the texture coordinates of this shape are polar"),
+            std::string::npos);
+    }
+    // Without a texture it stays a disk, also where the material is shared.
+    EXPECT_EQ(parse_elements(R"(<shape type="disk"/>)").arrays().shapes.name.size(), 1u);
+}
+
 TEST_F(MitsubaSides, CylindersMayBeStretchedAlongTheirAxis) {
     const Scene scene = load(
         R"(<shape type="cylinder"><transform name="to_world"><scale x="10" y="10" z="4"/></transform></shape>
@@ -269,8 +303,7 @@ TEST(MitsubaTexturedEmitters, AreMaterialsWithATextureOfEmission) {
         EXPECT_EQ(scene.arrays().textures.image.at(0)->floats[0], 4);
         EXPECT_EQ(scene.materials().component.at(0).weight[0], *bsdf != 0 ? 0.5f : 0.0f);
     }
-    expect_input_error("this shape has no texture coordinates that match Mitsuba's",
-                       [&] { shape("disk", ""); });
+    EXPECT_NEAR(shape("disk", "").lights().area.at(0), pi, 2e-3);
     // The BSDF does not emit where it is used without the emitter.
     const Scene two = parse_elements(
         R"(<bsdf type="diffuse" id="wall"/><shape type="rectangle"><ref id="wall"/></shape>

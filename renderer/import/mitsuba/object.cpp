@@ -350,6 +350,15 @@ std::vector<Element> Object::objects(const std::string &tag, const std::string &
     return found;
 }
 
+bool Object::shows_texture(int depth) const {
+    return depth > 0 && std::any_of(parts_.begin(), parts_.end(), [&](const Part &part) {
+               const std::string tag = part.element.tag();
+               return tag == "texture" ||
+                      ((tag == "bsdf" || tag == "emitter") &&
+                       Object(part.element, *document_).shows_texture(depth - 1));
+           });
+}
+
 void Object::finish() const {
     ErrorList errors;
     for (const auto &[name, property] : properties_) {

@@ -62,6 +62,10 @@ class Object {
     /// empty, returns only those of that name.
     std::vector<Element> objects(const std::string &tag, const std::string &name = "");
 
+    /// Returns whether a texture is nested in the object, directly or in its BSDFs and emitters. Up
+    /// to `depth` levels are searched, because BSDFs may refer to themselves by mistake.
+    bool shows_texture(int depth = 6) const;
+
     /// Accepts a property whose value has no effect.
     void ignore(const std::string &name) { asked_.insert(name); }
 

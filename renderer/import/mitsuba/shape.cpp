@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "renderer/base/angles.h"
+#include "renderer/base/notice.h"
 #include "renderer/import/mitsuba/serialized.h"
 #include "renderer/import/models/geometry.h"
 #include "renderer/import/models/model_file.h"
@@ -55,6 +57,34 @@ MeshCore::Geometry cube() {
         geometry.uvs.insert(geometry.uvs.end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
         geometry.triangles.push_back({first, first + 1, first + 2});
         geometry.triangles.push_back({first + 3, first, first + 2});
+    }
+    return geometry;
+}
+
+/// Returns the disk of radius 1 around the origin in the plane z = 0, which faces +z, with
+/// Mitsuba's texture coordinates: the radius, and the angle about +z from +x divided by 2 pi. Its
+/// edge is within 3e-4 of the circle.
+MeshCore::Geometry polar_disk() {
+    constexpr uint32_t rings = 16, sectors = 128, row = sectors + 1;
+    MeshCore::Geometry geometry;
+    for (uint32_t ring = 0; ring <= rings; ++ring) {
+        for (uint32_t sector = 0; sector <= sectors; ++sector) {
+            const double radius = static_cast<double>(ring) / rings;
+            const double turn = static_cast<double>(sector) / sectors;
+            geometry.vertices.emplace_back(radius * std::cos(2 * pi * turn),
+                                           radius * std::sin(2 * pi * turn), 0);
+            // The corner of a sector at the centre has the angle of its middle.
+            geometry.uvs.emplace_back(radius, ring == 0 ? turn + 0.5 / sectors : turn);
+        }
+    }
+    for (uint32_t ring = 0; ring < rings; ++ring) {
+        for (uint32_t sector = 0; sector < sectors; ++sector) {
+            const uint32_t inner = ring * row + sector, outer = inner + row;
+            geometry.triangles.push_back({inner, outer, outer + 1});
+            if (ring > 0) {
+                geometry.triangles.push_back({inner, outer + 1, inner + 1});
+            }
+        }
     }
     return geometry;
 }
@@ -198,12 +228,25 @@ Shape ShapeReader::read_sphere(Object &object) {
 }
 
 Shape ShapeReader::read_disk(Object &object) {
+    const bool flip = object.boolean("flip_normals", false);
+    if (object.shows_texture()) {
+        std::shared_ptr<Core> &core = shared(flip ? "polar_disk_flipped" : "polar_disk");
+        if (core == nullptr) {
+            core = std::make_shared<MeshCore>("disk", flip ? turned(polar_disk()) : polar_disk());
+        }
+        notice(object.element()
+                   .error(fmt::format("replaced by a mesh of {} triangles, because the texture "
+                                      "coordinates of this shape are polar",
+                                      static_cast<const MeshCore &>(*core).triangles().size()))
+                   .what());
+        return {core, object.transform(), UvConvention::same};
+    }
     std::shared_ptr<Core> &core = shared("disk");
     if (core == nullptr) {
         core = std::make_shared<ShapeCore>("disk", "disc", ParameterValues{});
     }
     Shape shape{core, object.transform()};
-    if (object.boolean("flip_normals", false)) {
+    if (flip) {
         shape.world_from_geometry *= scaling({1, -1, -1});  // rotation by 180 degrees about x
     }
     return shape;
