@@ -309,7 +309,7 @@ void MaterialReader::read_mask(Object &object, Draft &draft) {
         throw object.element().error("duplicate property 'opacity'");
     }
     if (!textures.empty()) {
-        draft.textures["opacity"] = texture(textures[0], draft);
+        draft.textures["opacity"] = texture(textures[0], draft, TextureUse::number);
         return;
     }
     // Mitsuba uses the luminance of a colour.
@@ -449,7 +449,7 @@ void MaterialReader::read_roughness(Object &object, Draft &draft) {
         throw object.element().error("alpha: give one texture, or numbers");
     }
     if (!textures.empty()) {
-        draft.textures["roughness"] = texture(textures[0], draft);
+        draft.textures["roughness"] = texture(textures[0], draft, TextureUse::number);
     }
     const double alpha = textures.empty() ? object.number("alpha", 0.1) : 1;
     const Vector2d roughness(object.number("alpha_u", alpha), object.number("alpha_v", alpha));
@@ -495,7 +495,7 @@ void MaterialReader::read_colour(Object &object, const char *property, const cha
 }
 
 std::shared_ptr<Texture> MaterialReader::mix_texture(const Element &element, Draft &draft) {
-    const std::shared_ptr<Texture> made = texture(element, draft);
+    const std::shared_ptr<Texture> made = texture(element, draft, TextureUse::number);
     const double brightest = brightest_luminance(*made);
     if (!(brightest <= 1 + 1e-6)) {
         throw element.error(fmt::format("its brightest texel, {:.6g}, exceeds 1", brightest));
@@ -503,9 +503,10 @@ std::shared_ptr<Texture> MaterialReader::mix_texture(const Element &element, Dra
     return made;
 }
 
-std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &draft) {
+std::shared_ptr<Texture> MaterialReader::texture(const Element &element, Draft &draft,
+                                                 TextureUse use) {
     draft.depends_on_uv |= element.attribute("type") != "mesh_attribute";
-    return texture(element, draft.uv);
+    return texture(element, draft.uv, use);
 }
 
 }  // namespace rtrays::mitsuba

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "renderer/import/images/texture_file.h"
@@ -53,8 +54,12 @@ class MaterialReader {
     /// Returns a black material whose emission is a texture.
     std::shared_ptr<MaterialCore> emitting(const std::shared_ptr<Texture> &emission);
 
+    /// Whether a texture is used as a colour or as a number.
+    enum class TextureUse { colour, number };
+
     /// Returns the texture of a geometry whose texture coordinates follow `uv`.
-    std::shared_ptr<Texture> texture(const Element &element, UvConvention uv);
+    std::shared_ptr<Texture> texture(const Element &element, UvConvention uv,
+                                     TextureUse use = TextureUse::colour);
 
     TextureFiles &files() { return files_; }
 
@@ -107,9 +112,10 @@ class MaterialReader {
     void read_colour(Object &object, const char *property, const char *parameter, double initial,
                      Draft &draft);
     void read_roughness(Object &object, Draft &draft);
-    std::shared_ptr<Texture> texture(const Element &element, Draft &draft);
+    std::shared_ptr<Texture> texture(const Element &element, Draft &draft,
+                                     TextureUse use = TextureUse::colour);
     std::shared_ptr<Texture> bitmap(Object &object, UvConvention uv);
-    std::shared_ptr<Texture> checkerboard(Object &object, UvConvention uv);
+    std::shared_ptr<Texture> checkerboard(Object &object, UvConvention uv, TextureUse use);
     std::shared_ptr<Texture> mesh_attribute(Object &object);
 
     const Document &document_;
@@ -118,7 +124,7 @@ class MaterialReader {
     NameList material_names_;
     NameList texture_names_;
     std::map<size_t, std::vector<Material>> materials_;  ///< by hash of the element
-    std::map<std::pair<size_t, UvConvention>, std::shared_ptr<Texture>> textures_;
+    std::map<std::tuple<size_t, UvConvention, TextureUse>, std::shared_ptr<Texture>> textures_;
     std::shared_ptr<MaterialCore> standard_[2];
     int nesting_ = 0;  ///< depth of the BSDF that is being read
 };

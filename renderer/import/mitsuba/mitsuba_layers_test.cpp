@@ -197,6 +197,21 @@ TEST(MitsubaBsdfs, TexturesMixTheBsdfsOfABlend) {
     });
 }
 
+TEST(MitsubaBsdfs, CheckerboardsExchangeTheirColoursWhereTheyAreNumbers) {
+    const auto first_texel = [](const std::string &bsdf) {
+        const Scene scene = parse_elements(R"(<shape type="rectangle">)" + bsdf + "</shape>");
+        return scene.arrays().textures.image.at(0)->floats.at(0);
+    };
+    EXPECT_EQ(first_texel(R"(<bsdf type="diffuse">)" + checkers("reflectance") + "</bsdf>"), 0.4f);
+    EXPECT_EQ(first_texel(R"(<bsdf type="mask">)" + checkers("opacity") +
+                          R"(<bsdf type="diffuse"/></bsdf>)"),
+              0.2f);
+    EXPECT_EQ(first_texel(R"(<bsdf type="roughconductor">)" + checkers("alpha") + "</bsdf>"), 0.2f);
+    EXPECT_EQ(first_texel(R"(<bsdf type="blendbsdf">)" + checkers("weight") +
+                          R"(<bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf>)"),
+              0.2f);
+}
+
 TEST(MitsubaBsdfs, TexturesMixTheLobesOfPrincipled) {
     const auto principled = [](const std::string &properties) {
         return components_of(R"(<bsdf type="principled">)" + properties + "</bsdf>");

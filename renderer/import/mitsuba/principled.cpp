@@ -177,7 +177,7 @@ void MaterialReader::read_principled(Object &object, Draft &draft) {
     }
     if (const auto textures = object.objects("texture", "roughness"); !textures.empty()) {
         p.roughness = 1;
-        p.roughness_texture = texture(textures[0], draft);
+        p.roughness_texture = texture(textures[0], draft, TextureUse::number);
     } else {
         p.roughness = read_share(object, "roughness", 0.5, draft);
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "renderer/base/error.h"
+#include "renderer/base/notice.h"
 #include "renderer/import/mitsuba/bsdf.h"
 #include "renderer/scene/cores/transform.h"
 #include "renderer/scene/graph.h"
@@ -41,7 +42,8 @@ ParameterValues read_placement(Object &object, UvConvention uv) {
 
 }  // namespace
 
-std::shared_ptr<Texture> MaterialReader::texture(const Element &element, UvConvention uv) {
+std::shared_ptr<Texture> MaterialReader::texture(const Element &element, UvConvention uv,
+                                                 TextureUse use) {
     const bool is_attribute = element.attribute("type") == "mesh_attribute";
     if (uv == UvConvention::none && !is_attribute) {
         throw element.error(
@@ -49,7 +51,7 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, UvConve
             "with texture coordinates");
     }
     std::shared_ptr<Texture> &texture =
-        textures_[{element.hash(), is_attribute ? UvConvention::none : uv}];
+        textures_[{element.hash(), is_attribute ? UvConvention::none : uv, use}];
     if (texture != nullptr) {
         return texture;
     }
@@ -62,7 +64,7 @@ std::shared_ptr<Texture> MaterialReader::texture(const Element &element, UvConve
     texture = element.located([&] {
         return is_bitmap      ? bitmap(object, uv)
                : is_attribute ? mesh_attribute(object)
-                              : checkerboard(object, uv);
+                              : checkerboard(object, uv, use);
     });
     if (element.has("id")) {
         scene_.graph().share("textures." + texture->name(), texture);
@@ -92,10 +94,20 @@ std::shared_ptr<Texture> MaterialReader::bitmap(Object &object, UvConvention uv)
     return std::make_shared<Texture>(texture_names_.unique(wanted), image, values);
 }
 
-/// Returns an image of 2 x 2 texels without interpolation, which is the same pattern.
-std::shared_ptr<Texture> MaterialReader::checkerboard(Object &object, UvConvention uv) {
-    const Vector3d colours[] = {object.colour("color0").value_or(Vector3d::Constant(0.4)),
-                                object.colour("color1").value_or(Vector3d::Constant(0.2))};
+/// Returns an image of 2 x 2 texels without interpolation, which is the same pattern. As a number,
+/// Mitsuba 3.9 exchanges the two colours (Checkerboard::eval_1).
+std::shared_ptr<Texture> MaterialReader::checkerboard(Object &object, UvConvention uv,
+                                                      TextureUse use) {
+    Vector3d colours[] = {object.colour("color0").value_or(Vector3d::Constant(0.4)),
+                          object.colour("color1").value_or(Vector3d::Constant(0.2))};
+    if (use == TextureUse::number) {
+        std::swap(colours[0], colours[1]);
+        notice(
+            object.element()
+                .error("color0 and color1 are exchanged, as Mitsuba does where it needs a number "
+                       "instead of a colour")
+                .what());
+    }
     ParameterValues values = read_placement(object, uv);
     values["filter"] = std::string("nearest");
     values["wrap"] = std::string("repeat");
