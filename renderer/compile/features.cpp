@@ -62,6 +62,7 @@ constexpr std::pair<Feature, Feature> requirements[] = {
     {Feature::normal_maps, Feature::tangents},
     {Feature::bump_maps, Feature::normal_maps},
     {Feature::roulette, Feature::scattering},
+    {Feature::late_roulette, Feature::roulette},
     {Feature::adaptive, Feature::scattering},
     {Feature::depth_limit, Feature::scattering},
     {Feature::implicit_light, Feature::scattering},

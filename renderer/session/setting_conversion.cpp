@@ -54,6 +54,7 @@ IntegratorSettings integrator_settings(const RenderSettings &settings) {
     converted.beta = settings.beta;
     converted.max_continuation = settings.max_continuation;
     converted.roulette_start = settings.roulette_start;
+    converted.roulette_event = settings.roulette_event;
     converted.adaptive_threshold = settings.adaptive_threshold;
     const RenderSettings::Window &window = settings.window;
     converted.film_width = static_cast<uint32_t>(settings.width);
@@ -88,6 +89,8 @@ FeatureMask settings_features(const RenderSettings &settings) {
         .with(Feature::guided_emission, has_guided_emission(settings))
         .with(Feature::light_path_trials, settings.light_path_trials)
         .with(Feature::roulette, settings.termination == Termination::roulette)
+        .with(Feature::late_roulette,
+              settings.termination == Termination::roulette && settings.roulette_event > 1)
         .with(Feature::adaptive, settings.termination == Termination::adaptive)
         .with(Feature::sobol, settings.sampler != Sampler::independent)
         .with(Feature::depth_limit, settings.max_depth != 0)

@@ -70,6 +70,8 @@ struct RenderSettings {
     float max_continuation = 0x1.ffffep-1f;
     /// Throughput below which roulette may end a path at a delta, 1: always (thesis).
     float roulette_start = 1.0f;
+    /// First scattering event at which roulette may end a path, 1: the first (thesis).
+    uint32_t roulette_event = 1;
     /// Throughput below which adaptive termination ends a path.
     float adaptive_threshold = 0.01f;
     LightSelection light_selection = LightSelection::mixed;

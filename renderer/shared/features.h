@@ -23,6 +23,7 @@
     X(shadow_rays, "vertices are connected to lights, light vertices or the camera")          \
     X(branches, "paths return to vertices to follow several components")                      \
     X(roulette, "Russian roulette ends paths")                                                \
+    X(late_roulette, "roulette spares the first events of a path")                            \
     X(roulette_scale, "roulette divides the throughput by a scale stored per path")           \
     X(adaptive, "paths end below a throughput threshold (biased)")                            \
     X(depth_limit, "max_depth is finite")                                                     \

@@ -45,6 +45,7 @@ typedef struct IntegratorSettings {
     float beta;              ///< exponent of the power heuristic
     float max_continuation;  ///< largest continuation probability of roulette, below 1
     float roulette_start;    ///< throughput below which roulette may end a path at a delta
+    uint roulette_event;     ///< first scattering event at which roulette may end a path
     float adaptive_threshold;  ///< throughput below which adaptive termination ends a path
     uint light_paths;          ///< number of light paths per sample of the image
     /// Number of vertices stored per light path, if they are connected to camera paths.
@@ -64,5 +65,5 @@ DEVICE bool all_strategies(IntegratorSettings settings, uint events) {
 }
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(IntegratorSettings) == 56, "layout shared with the device");
+static_assert(sizeof(IntegratorSettings) == 60, "layout shared with the device");
 #endif

@@ -36,7 +36,8 @@ DEVICE bool is_last_hit(IntegratorSettings settings, uint depth) {
 ///
 /// At a delta, roulette gains nothing while the throughput is high: no other strategy follows the
 /// path there, and its next hit may be a light. It starts below `settings.roulette_start`. The
-/// thesis' mode is 1.
+/// thesis' mode is 1. No path ends before event `settings.roulette_event`; there, the probability
+/// is that of all events so far.
 DEVICE bool survives_roulette(Path path, IntegratorSettings settings, float largest,
                               float scale_change, bool is_delta, float u,
                               PRIVATE float3 *throughput) {
@@ -44,6 +45,9 @@ DEVICE bool survives_roulette(Path path, IntegratorSettings settings, float larg
     if (FEATURE_roulette_scale) {
         scale = get_roulette_scale(path) * scale_change;
         set_roulette_scale(path, scale);
+    }
+    if (FEATURE_late_roulette && get_depth(path) + 1u < settings.roulette_event) {
+        return true;
     }
     float continuation = min(largest / scale, settings.max_continuation);
     if (FEATURE_delta && is_delta && largest / scale >= settings.roulette_start) {
