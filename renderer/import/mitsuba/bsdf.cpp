@@ -242,12 +242,10 @@ void MaterialReader::read_blend(Object &object, Draft &draft) {
     const std::vector<Element> textures = object.objects("texture", "weight");
     const std::shared_ptr<Texture> mix =
         textures.empty() ? nullptr : mix_texture(textures[0], draft);
-    const std::optional<double> number = mix != nullptr ? std::nullopt : object.number("weight");
-    if (textures.size() > 1 ||
-        (mix == nullptr && (!number.has_value() || !(*number >= 0 && *number <= 1)))) {
+    const double weight = mix != nullptr ? 1.0 : object.number("weight").value_or(-1);
+    if (textures.size() > 1 || !(weight >= 0 && weight <= 1)) {
         throw object.element().error("expected a number from 0 to 1, or one texture, as weight");
     }
-    const double weight = number.value_or(1);
     std::vector<MaterialComponent> components;
     bool two_sided[2] = {};
     for (const size_t i : {0, 1}) {
