@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Settings of this renderer that take part. The first has what Mitsuba has at most: independent
+/// Settings of this renderer that take part. The first is comparable with Mitsuba: independent
 /// samples, and roulette from the first event.
 std::vector<RenderSettings> own_settings(int width, int height) {
     const Json sobol = {{"integrator.sampler", "sobol"}};
@@ -54,9 +54,10 @@ std::vector<uint32_t> roulettes_of(const std::string &kind) {
 }
 
 /// Contest of all renderers on one scene.
-class Scenery {
+class SceneContest {
   public:
-    Scenery(const std::string &name, const MeasurementSettings &settings, DeviceContext &device)
+    SceneContest(const std::string &name, const MeasurementSettings &settings,
+                 DeviceContext &device)
         : name_(name),
           settings_(settings),
           scene_(load_scene((resource_folder() / "scenes" / name / "scene.json").string())),
@@ -74,9 +75,9 @@ class Scenery {
             add_peer(kind);
         }
     }
-    Scenery(const Scenery &) = delete;
-    Scenery &operator=(const Scenery &) = delete;
-    ~Scenery() { fs::remove_all(folder_); }
+    SceneContest(const SceneContest &) = delete;
+    SceneContest &operator=(const SceneContest &) = delete;
+    ~SceneContest() { fs::remove_all(folder_); }
 
     Json row() {
         run_turns(contest_, settings_.repetitions);
@@ -163,8 +164,9 @@ class Scenery {
 MeasurementPlan plan_renderers(const MeasurementSettings &settings, DeviceContext &device) {
     MeasurementPlan plan;
     for (const std::string &scene : settings.references) {
-        plan.tasks.push_back(
-            {scene, [settings, scene, &device] { return Scenery(scene, settings, device).row(); }});
+        plan.tasks.push_back({scene, [settings, scene, &device] {
+                                  return SceneContest(scene, settings, device).row();
+                              }});
     }
     plan.summarise = [](const Json &) { return Json::object(); };
     return plan;
