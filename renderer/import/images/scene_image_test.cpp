@@ -213,7 +213,7 @@ TEST_F(ImageFiles, ErrorsNameFileAndKeyOfTheScene) {
     const std::string missing = testing::TempDir() + "nowhere.png: no such file";
     expect_input_error("in.json:2: /textures/wood/file: " + missing,
                        [&] { parse(R"({"file": "nowhere.png", "encoding": "srgb"})"); });
-    expect_input_error("/textures/wood: missing key 'encoding'",
+    expect_input_error("/textures/wood: a texture needs a file and its encoding",
                        [&] { parse(R"({"file": "nowhere.png"})"); });
     expect_input_error("\"gamma\" is not one of: srgb, linear",
                        [&] { parse(R"({"file": "nowhere.png", "encoding": "gamma"})"); });
